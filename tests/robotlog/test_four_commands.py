@@ -87,14 +87,25 @@ def test_the_network_s_error_is_below_the_observer_s(made):
     assert np.allclose(check["covered"][0], 0.68, atol=0.15)
 
 
-def test_thresholds_are_those_of_the_network_and_far_below_the_observer_s(made):
+def test_thresholds_are_those_of_the_network_and_the_signal_that_finds_the_smaller_torques(made, monkeypatch, caplog):
+    monkeypatch.chdir(made)
+    caplog.set_level(logging.INFO)
     found = read_thresholds(made / "arm_thresholds.yaml")
     assert (found.robot, found.limb, found.joints, found.watched) == ("two-link arm", "A", ("J1", "J2"), "always")
     assert found.network == json.loads((made / "arm_net" / "run.json").read_text())["fingerprint"]
     assert found.expected_per_h == pytest.approx(1.0)
     assert found.low_per_h <= 1.0 <= found.high_per_h
-    residual = np.abs(read_array(made / "free" / "estimate")[0]).max(axis=0)
-    assert (np.array(found.thresholds) < residual).all()
+    over = {}
+    for signal in ("mean", "ratio"):
+        assert (
+            run("calibrate", "free", *OWN, "--network", "arm_net", "--signal", signal, "--out", f"{signal}.yaml") == 0
+        )
+        (over[signal],) = re.findall(r"^the observer alone +(\d+)%$", "\n".join(caplog.messages), re.MULTILINE)
+        caplog.clear()
+    assert int(over[found.signal]) == min(map(int, over.values())) < 50
+    assert found.thresholds == read_thresholds(Path(f"{found.signal}.yaml")).thresholds
+    residual = np.abs(read_array(Path("free/estimate"))[0]).max(axis=0)
+    assert (np.array(read_thresholds(Path("mean.yaml")).thresholds) < residual).all()
 
 
 def test_flags_stand_at_the_pushes_and_nowhere_else(made):
@@ -243,6 +254,14 @@ def test_a_log_at_another_rate_is_resampled_by_a_map_and_refused_without_one(mad
     assert "half.csv: rate: 100.0 is not accepted; accepted: 200, that of the thresholds" in caplog.text
     assert run(*words, "--map", "map.yaml") == 0
     assert read_array(Path("half_detected/estimate"))[1]["rate_hz"] == RATE_HZ
+
+
+def test_a_map_whose_torques_are_others_than_those_of_the_thresholds_is_refused(made, monkeypatch, caplog):
+    monkeypatch.chdir(made)
+    Path("mean.yaml").write_text(Path("map.yaml").read_text() + "torque: mean\n")
+    words = ("--network", "arm_net", "--thresholds", "arm_thresholds.yaml", "--map", "mean.yaml")
+    assert run("detect", "new.csv", *OWN, *words) == 1
+    assert "mean.yaml: torque: 'mean' is not accepted; accepted: sample, that of arm_thresholds.yaml" in caplog.text
 
 
 def test_a_log_of_another_robot_is_one_line(made, monkeypatch, caplog):

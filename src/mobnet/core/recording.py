@@ -14,6 +14,9 @@ from mobnet.core.columns import recording_columns
 from mobnet.core.joints import JointLayout
 from mobnet.core.store import read_array, spans_and_rate, write_array
 
+ABSENT = "absent"  # in the note of a recording from a log: signals that the log does not have, and that are zero
+PLANNED = ("swing", "landing")  # signals that tell when a leg is in the air
+
 
 @dataclass(frozen=True)
 class Sensed:
@@ -104,6 +107,10 @@ class SensedRecording:
     def spans(self) -> list[slice]:
         """Return the segments as slices."""
         return [slice(start, end) for start, end in self.segments]
+
+    def unplanned(self) -> list[str]:
+        """Return which of the signals that tell when a leg is in the air are missing."""
+        return [name for name in PLANNED if name in self.meta.get(ABSENT, ())]
 
 
 @dataclass(frozen=True)

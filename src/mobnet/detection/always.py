@@ -29,11 +29,13 @@ NOISE = 2.0  # standard errors by which the correlation of independent numbers m
 TINY = 1e-12  # of a signal [N m]
 
 
-def setup_of(detection: Detection, robot: RobotDescription, limb: str, rate_hz: float) -> LimbSetup:
-    """Return the setup of a limb: with the gate of a leg where it is one that swings, else without."""
+def setup_of(
+    detection: Detection, robot: RobotDescription, limb: str, rate_hz: float, *, walks: bool = True
+) -> LimbSetup:
+    """Return the setup of a limb: with the gate of a leg where it is one and the robot walks, else without."""
     layout = robot.layout
-    swings = limb in layout.legs.values() and len(layout.limb(limb)) == LEG_JOINTS
-    if swings and len(robot.feet) > 1 and robot.sole is not None:
+    is_leg = limb in layout.legs.values() and len(layout.limb(limb)) == LEG_JOINTS
+    if walks and is_leg and len(robot.feet) > 1 and robot.sole is not None:
         return LegSetup.of(detection, robot, limb, rate_hz)
     layout.limb(limb)
     return LimbSetup(detection, robot, limb, rate_hz)

@@ -14,12 +14,13 @@ from pathlib import Path
 
 from mobnet.core.errors import DataError, not_accepted, refuse_lines
 from mobnet.detection.limb import OwnRecording, calibrate_limb
-from mobnet.detection.limb_report import report, thresholds_of
+from mobnet.detection.limb_report import beside, report, thresholds_of
+from mobnet.detection.signals import MEAN, RATIO, STD
 from mobnet.detection.threshold_file import write_thresholds
 from mobnet.detection.words import SIGNALS, calibrate_parser
 from mobnet.estimation.own import (
+    OwnLog,
     OwnNetwork,
-    Sampling,
     check_sampling,
     estimates_of,
     estimator_of,
@@ -37,10 +38,8 @@ log = logging.getLogger(__name__)
 LEAST_RATE = 1e-6  # wanted false alarms [1/h]
 
 
-def of_folders(
-    options: Namespace, robot: RobotDescription, limb: str, network: OwnNetwork | None, settings: Settings
-) -> tuple[list[OwnRecording], Sampling]:
-    """Return the recordings in folders of `./reproduce observe` with the estimate of a limb, and their sampling.
+def read_folders(options: Namespace, robot: RobotDescription, network: OwnNetwork | None) -> list[OwnLog]:
+    """Return the logs in folders of `./reproduce observe`.
 
     Raises:
         DataError: a folder is not one, its sampling is not that of the first one or of the network, or the network
@@ -56,9 +55,16 @@ def of_folders(
     sampling, of = (network.sampling, network.folder) if network else (logs[0].sampling, logs[0].folder)
     for one in logs:
         check_sampling(one.folder, one.sampling, sampling, of)
-    estimator = estimator_of(robot, settings.plant.gravity_m_s2, sampling, network)
+    return logs
+
+
+def estimated(
+    logs: Sequence[OwnLog], robot: RobotDescription, limb: str, network: OwnNetwork | None, settings: Settings
+) -> list[OwnRecording]:
+    """Return logs with the estimate of a limb: the observer's, or less what a network predicts."""
+    estimator = estimator_of(robot, settings.plant.gravity_m_s2, logs[0].sampling, network)
     estimates = estimates_of(logs, estimator, robot.layout.limb(limb))
-    return [OwnRecording(one.folder, one.recording, own) for one, own in zip(logs, estimates, strict=True)], sampling
+    return [OwnRecording(one.folder, one.recording, own) for one, own in zip(logs, estimates, strict=True)]
 
 
 def of_files(options: Namespace, robot: RobotDescription, limb: str) -> list[OwnRecording]:
@@ -75,20 +81,25 @@ def run(options: Namespace) -> list[str]:
     _check(options)
     settings = load_settings()
     robot = given_robot(options.robot, settings)
-    network = read_network_folder(options.network, robot.layout, settings) if options.network else None
-    if options.folders:
-        limb = limb_of(robot.layout, options.limb, network)
-        own, sampling = of_folders(options, robot, limb, network, settings)
-    else:
+    if not options.folders:
         limb = options.limb or next(iter(robot.layout.legs.values()), None) or limb_of(robot.layout, None)
-        own, sampling = of_files(options, robot, limb), None
-    found = calibrate_limb(own, robot, limb, options.signal, options.rate, settings)
-    if options.out and sampling:
-        write_thresholds(options.out, thresholds_of(found, options.rate, settings, sampling, network))
-    return [
-        *report(found, settings.detection.thresholds.confidence),
-        *([f"written: {options.out}"] if options.out else []),
-    ]
+        own = of_files(options, robot, limb)
+        found = calibrate_limb(own, robot, limb, options.signal or MEAN, options.rate, settings)
+        return list(report(found, settings.detection.thresholds.confidence))
+    network = read_network_folder(options.network, robot.layout, settings) if options.network else None
+    limb, logs = limb_of(robot.layout, options.limb, network), read_folders(options, robot, network)
+    own = estimated(logs, robot, limb, network, settings)
+    signals = (options.signal,) if options.signal else (MEAN, RATIO) if network else (MEAN,)
+    tried = [calibrate_limb(own, robot, limb, signal, options.rate, settings) for signal in signals]
+    found = min(tried, key=lambda one: one.over(tried[0]))
+    lines = list(report(found, settings.detection.thresholds.confidence))
+    if network and found.signal != STD:
+        alone = estimated(logs, robot, limb, None, settings)
+        lines += beside(found, tried, calibrate_limb(alone, robot, limb, MEAN, options.rate, settings))
+    if options.out:
+        write_thresholds(options.out, thresholds_of(found, options.rate, settings, logs[0].sampling, network))
+        lines.append(f"written: {options.out}")
+    return lines
 
 
 def _check(options: Namespace) -> None:
@@ -100,9 +111,9 @@ def _check(options: Namespace) -> None:
         word = "--out" if options.out else "--network"
         accepted = ["it with folders that `./reproduce observe` wrote"]
         raise DataError(not_accepted(word, str(options.out or options.network), accepted))
-    if options.signal not in SIGNALS:
+    if options.signal not in (None, *SIGNALS):
         raise DataError(not_accepted("--signal", options.signal, SIGNALS))
-    if options.folders and options.signal != "mean" and not options.network:
+    if options.folders and options.signal not in (None, MEAN) and not options.network:
         raise DataError(not_accepted("--signal", options.signal, ["mean; or it with --network"]))
     if not LEAST_RATE <= options.rate < math.inf:
         raise DataError(not_accepted("--rate", options.rate, [f"a number from {LEAST_RATE:g}, one in a century"]))

@@ -26,6 +26,7 @@ from mobnet.settings.detection import Detector, Signal
 from mobnet.settings.settings import Settings
 
 WANTED = "wanted"  # the only rule of thresholds
+CONTACT_SAMPLES = 2  # of the shortest collision that a rate of samples shows
 
 
 @dataclass(frozen=True)
@@ -65,6 +66,7 @@ class LimbCalibration:
         promise: rate of false alarms to expect, with its interval.
         count: number of swings or windows that they are made from.
         always: the windows; None of a leg that is watched in its swings.
+        felt: torque of each joint that its threshold stands for at the usual standard deviation (n,) [N m].
         forces: point -> the least force that is found there, along each axis of its body or from one side [N].
     """
 
@@ -74,7 +76,19 @@ class LimbCalibration:
     promise: Calibrated
     count: int
     always: AlwaysWatched | None
+    felt: Array
     forces: Mapping[str, Array]
+
+    @property
+    def least(self) -> Array:
+        """Return the least forces that are found at all points (k,) [N]; without points, torques (n,) [N m]."""
+        forces = np.concatenate([np.empty(0), *self.forces.values()])
+        return forces if np.isfinite(forces).any() else self.felt
+
+    def over(self, other: "LimbCalibration") -> float:
+        """Return the geometric mean of how many times the least forces are those of another detector of the limb."""
+        finite = np.isfinite(self.least) & np.isfinite(other.least)
+        return float(np.exp(np.mean(np.log(self.least[finite] / other.least[finite]))))
 
 
 def calibrate_limb(
@@ -88,12 +102,9 @@ def calibrate_limb(
             rate is above what the fitted tail holds.
         ConfigError: the limb is unknown.
     """
-    rate_hz = own[0].read.rate_hz
-    for one in own:
-        if one.read.rate_hz != rate_hz:
-            accepted = [f"{rate_hz}, that of the first"]
-            raise DataError(not_accepted(f"{one.path}: rate_hz", one.read.rate_hz, accepted))
-    setup = _wanting(setup_of(settings.detection, robot, limb, rate_hz), rate_per_h, settings)
+    _check_rates(own, settings.detection.sensitivity.contact_s)
+    rate_hz, walks = own[0].read.rate_hz, limb in robot.layout.legs.values() and _walks(own)
+    setup = _wanting(setup_of(settings.detection, robot, limb, rate_hz, walks=walks), rate_per_h, settings)
     watched = Watched(Detector(method=settings.detection.gate.method, signals=(signal,)))
     always, legs = _watched(setup, watched, own, settings)
     # Nothing is tried here on what is held out, so that all swings calibrate.
@@ -104,7 +115,29 @@ def calibrate_limb(
     poses = np.concatenate([one.read.sensed.q[leg.gate.watched] for one, leg in zip(own, legs, strict=True)])
     felt = thresholds if unit_of(f"{signal}.") == "N m" else thresholds * _usual_std(own)
     forces = {} if signal == STD else _forces(setup, poses, felt, settings)
-    return LimbCalibration(setup, signal, thresholds, promises[WANTED], walk.first, always, forces)
+    return LimbCalibration(setup, signal, thresholds, promises[WANTED], walk.first, always, felt, forces)
+
+
+def _check_rates(own: Sequence[OwnRecording], contact_s: float) -> None:
+    """Raise a DataError where recordings differ in their rate, or a collision of a length [s] is not seen at it."""
+    first, least = own[0], CONTACT_SAMPLES / contact_s
+    if first.read.rate_hz < least:
+        accepted = [f"{least:.0f} or more, as collisions last for {contact_s * 1e3:.0f} ms"]
+        raise DataError(not_accepted(f"{first.path}: rate_hz", first.read.rate_hz, accepted))
+    for one in own:
+        if one.read.rate_hz != first.read.rate_hz:
+            accepted = [f"{first.read.rate_hz}, that of the first"]
+            raise DataError(not_accepted(f"{one.path}: rate_hz", one.read.rate_hz, accepted))
+
+
+def _walks(own: Sequence[OwnRecording]) -> bool:
+    """Return whether recordings tell when a leg is in the air; a DataError says that some do and others do not."""
+    expected = own[0].read.unplanned()
+    for one in own:
+        if (missing := one.read.unplanned()) != expected:
+            accepted = [f"{', '.join(expected) or 'nothing'}, as in {own[0].path}"]
+            raise DataError(not_accepted(f"{one.path}: missing", ", ".join(missing) or "nothing", accepted))
+    return not expected
 
 
 def _wanting(setup: LimbSetup, rate_per_h: float, settings: Settings) -> LimbSetup:

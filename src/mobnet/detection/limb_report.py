@@ -1,6 +1,6 @@
 """What `./reproduce calibrate` prints of a limb's thresholds, and the section that it writes."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
@@ -20,6 +20,8 @@ def report(found: LimbCalibration, confidence: float) -> Iterator[str]:
     promise, unit = found.promise, unit_of(f"{found.signal}.")
     what = f"windows of {found.always.window_s:g} s" if found.always else "swings"
     width = max(map(len, ("joint", *found.setup.joints)))
+    if found.always and found.setup.limb in found.setup.robot.layout.legs.values():
+        yield f"{found.setup.limb} is watched all the time: the recordings do not tell when it is in the air"
     yield from (f"{found.count} {what}", "", f"{'joint':<{width}}  threshold of the {found.signal} [{unit}]")
     pairs = zip(found.setup.joints, found.thresholds, strict=True)
     yield from (f"{joint:<{width}} {value:14.2f}" for joint, value in pairs)
@@ -34,8 +36,30 @@ def report(found: LimbCalibration, confidence: float) -> Iterator[str]:
     if not found.forces:
         yield "smallest force that is found: not told, as the table has no `points` on this limb, or sigma is watched"
         return
-    along = f", along {', '.join(AXES)} of its body" if found.always else ""
-    yield f"smallest force that is found [N], by point of the limb{along}:"
+    yield f"smallest force that is found [N], by point of the limb{_along(found)}:"
+    yield from _forces(found)
+
+
+def beside(found: LimbCalibration, tried: Sequence[LimbCalibration], alone: LimbCalibration) -> Iterator[str]:
+    """Yield how a network's detector stands to those with its other signals and to that of the observer alone."""
+    if alone.forces:
+        yield from ("", f"smallest force that the observer alone finds [N]{_along(alone)}:", *_forces(alone))
+    what = "forces" if found.forces else "torques"
+    others = {f"the {other.signal} of this network": other for other in tried if other is not found}
+    shares = {name: found.over(other) for name, other in {**others, "the observer alone": alone}.items()}
+    yield from ("", f"smallest {what} of the {found.signal}, over those of (geometric mean):")
+    yield from (f"{name:<24} {share:8.0%}" for name, share in shares.items())
+    if found.over(alone) >= 1.0:
+        yield from ("", "the network does not help this detector: calibrate without --network, or learn from more logs")
+
+
+def _along(found: LimbCalibration) -> str:
+    """Return along what forces are told."""
+    return f", along {', '.join(AXES)} of its body" if found.always else ""
+
+
+def _forces(found: LimbCalibration) -> Iterator[str]:
+    """Yield the smallest forces of a limb, a line for each point."""
     for point, forces in found.forces.items():
         yield f"{point:<24} " + " ".join(f"{force:8.3g}" if np.isfinite(force) else f"{'-':>8}" for force in forces)
 

@@ -17,7 +17,8 @@ def calibrate_parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("folders", type=Path, nargs="*", metavar="FOLDER", help="what `./reproduce observe` wrote")
     parser.add_argument("--network", type=Path, metavar="NET", help="what `learn` wrote (default: the observer alone)")
-    parser.add_argument("--signal", default="mean", help=f"{', '.join(SIGNALS)} of the estimate (default: %(default)s)")
+    usual = "mean; with --network mean or ratio, by the smaller forces"
+    parser.add_argument("--signal", help=f"{', '.join(SIGNALS)} of the estimate (default: {usual})")
     parser.add_argument("--recording", type=Path, action="append", default=[], help="recording; may be given again")
     parser.add_argument("--estimate", type=Path, action="append", default=[], help="its estimate by any method")
     parser.add_argument("--limb", "--leg", help="limb of the robot (default: the network's, the only one, or a leg)")

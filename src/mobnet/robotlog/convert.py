@@ -13,7 +13,7 @@ from mobnet.core.columns import FEET, recording_columns
 from mobnet.core.errors import DataError, not_accepted
 from mobnet.core.joints import JointLayout
 from mobnet.core.motion import turned
-from mobnet.core.recording import Recording, Sensed, Truth
+from mobnet.core.recording import ABSENT, Recording, Sensed, Truth
 from mobnet.robotlog.clocks import Segments, Timed, at, common_ticks, rate_of, stamp_hints
 from mobnet.robotlog.columns import Column, Columns, near_names
 from mobnet.robotlog.meaning import given_signals, resolved
@@ -23,7 +23,6 @@ SI = {  # unit -> in SI units
     "deg": np.pi / 180, "deg/s": np.pi / 180, "rpm": 2 * np.pi / 60, "mN m": 1e-3, "kN m": 1e3, "mm": 1e-3,
     "g": 9.80665, "kN": 1e3, "ms": 1e-3, "us": 1e-6, "ns": 1e-9,
 }  # fmt: skip
-ABSENT = "absent"  # key of a recording's note: signals that its log does not have
 BLOCK_ROWS = 2048  # of columns that become rows
 
 

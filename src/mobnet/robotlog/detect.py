@@ -6,6 +6,7 @@ from argparse import Namespace
 from collections.abc import Iterator
 from pathlib import Path
 
+from mobnet.core.errors import DataError, not_accepted
 from mobnet.core.files import write_text
 from mobnet.core.rows import csv_text
 from mobnet.detection.threshold_file import read_thresholds
@@ -60,6 +61,9 @@ def run(options: Namespace) -> Iterator[str]:
     network = read_network_folder(options.network, robot.layout, settings) if options.network else None
     found = read_thresholds(options.thresholds)
     check_thresholds(options.thresholds, found, robot, network)
+    if meaning and "torque" in meaning.model_fields_set and meaning.torque != found.torque:
+        accepted = [f"{found.torque}, that of {options.thresholds}"]
+        raise DataError(not_accepted(f"{options.map}: torque", meaning.torque, accepted))
     if network:
         given = Sampling(found.rate_hz, found.gain_hz, found.torque)
         check_sampling(options.thresholds, given, network.sampling, network.folder)

@@ -25,8 +25,6 @@ from mobnet.settings.limb_thresholds import LimbThresholds
 from mobnet.settings.robotlog import LogMap
 from mobnet.settings.settings import Settings
 
-PLANNED = ("swing", "landing")  # signals of a log that tell when a leg swings
-
 
 @dataclass(frozen=True)
 class Detected:
@@ -72,7 +70,8 @@ def detect_log(
     own = OwnLog(path, read, observed.residual.astype(np.float32), sampling)
     (estimate,) = estimates_of([own], estimator_of(robot, gravity, sampling, network), found.joints)
     filters = {"low_pass_hz": found.low_pass_hz, "hold_s": found.hold_s}
-    setup = setup_of(settings.detection.model_copy(update=filters), robot, found.limb, sampling.rate_hz)
+    detection, walks = settings.detection.model_copy(update=filters), found.watched == "swing"
+    setup = setup_of(detection, robot, found.limb, sampling.rate_hz, walks=walks)
     gate = _gate(path, setup, observed, estimate, found)
     signals = Watched(Detector(method=found.method, signals=(found.signal,))).of(estimate, read.sensed.command)
     alarm = run_segments(setup.chain(np.array([found.thresholds])), signals, gate, read.segments)
@@ -89,7 +88,7 @@ def _gate(path: Path, setup: LimbSetup, observed: Observed, estimate: Estimate, 
         return always_on(len(read.sensed), read.segments, found.settle_s, read.rate_hz)
     if not isinstance(setup, LegSetup):
         raise DataError(not_accepted(f"thresholds of {found.limb}: watched", found.watched, ["always"]))
-    if missing := [name for name in PLANNED if name in observed.converted.absent]:
+    if missing := read.unplanned():
         # They would be zero, as of a foot on the ground: nothing would ever be watched.
         text = f"{', '.join(missing)}: missing in the log or its map"
         raise DataError(f"{path}: {text}; accepted: a log with them, as {found.limb} is watched in its swings")

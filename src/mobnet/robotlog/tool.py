@@ -5,10 +5,11 @@ from dataclasses import replace
 import numpy as np
 
 from mobnet.core.columns import EXTERNAL
+from mobnet.core.recording import ABSENT
 from mobnet.robot.frames import rotation
 from mobnet.robot.nominal import NominalModel
 from mobnet.robot.wrench import point_torque
-from mobnet.robotlog.convert import ABSENT, Converted
+from mobnet.robotlog.convert import Converted
 from mobnet.settings.robotlog import Tool
 
 
