@@ -55,9 +55,7 @@ def test_some_recordings_that_tell_it_and_some_that_do_not_are_refused(recorded,
 
 
 def test_a_rate_at_which_a_collision_has_no_two_samples_is_refused(recorded, calibrated):
-    with pytest.raises(
-        DataError, match=r"log: rate_hz: 5\.0 is not accepted; accepted: 26 or more, as collisions"
-    ):
+    with pytest.raises(DataError, match=r"log: rate_hz: 5\.0 is not accepted; accepted: 26 or more, as collisions"):
         calibrated(recorded(rate_hz=5.0))
 
 

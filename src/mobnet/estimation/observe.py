@@ -12,9 +12,10 @@ from mobnet.core.recording import SensedRecording, read_sensed
 from mobnet.core.store import check_rate, read_array, write_array
 from mobnet.estimation.label import foot_label
 from mobnet.estimation.low_pass import low_pass
-from mobnet.estimation.observer import MomentumObserver, TorqueKind
+from mobnet.estimation.observer import MomentumObserver
 from mobnet.robot.description import RobotDescription, describe
 from mobnet.robot.nominal import NominalModel
+from mobnet.settings.base import TorqueKind
 from mobnet.settings.methods import Observer
 from mobnet.settings.plant import Level
 from mobnet.settings.robot import RobotTable

@@ -5,7 +5,7 @@ The equations (O1) to (O5) are derived in docs/notes/0034-observer.md, p and bet
 
 import logging
 from dataclasses import dataclass
-from typing import Any, Literal, get_args
+from typing import Any, get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,8 +16,8 @@ from mobnet.core.recording import Sensed
 from mobnet.estimation.low_pass import exact_pole, filtered
 from mobnet.robot.dynamics import momentum_and_beta
 from mobnet.robot.nominal import NominalModel
+from mobnet.settings.base import TorqueKind
 
-TorqueKind = Literal["mean", "sample"]  # over the interval that ends at the tick, or at the tick
 LOGGED_ROWS = 100_000  # samples between two messages of progress
 log = logging.getLogger(__name__)
 

@@ -17,10 +17,11 @@ from mobnet.core.recording import SensedRecording, read_sensed
 from mobnet.core.store import NOTE, file_of, read_array
 from mobnet.estimation.estimate import Observed, only, run_segments
 from mobnet.estimation.kinds.residual import ResidualEstimator
-from mobnet.estimation.observer import MomentumObserver, TorqueKind
+from mobnet.estimation.observer import MomentumObserver
 from mobnet.learning.deployed.limbs import LimbNetworks, load_limb_networks
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.nominal import NominalModel
+from mobnet.settings.base import TorqueKind
 from mobnet.settings.methods import Target
 from mobnet.settings.settings import Settings
 

@@ -9,7 +9,7 @@ from typing import Any
 
 from mobnet.core.files import read_json
 from mobnet.core.notes import Count, Index, Note, Positive, Text, checked
-from mobnet.estimation.observer import TorqueKind
+from mobnet.settings.base import TorqueKind
 from mobnet.settings.limb_thresholds import LimbThresholds
 from mobnet.settings.methods import Target
 

@@ -18,7 +18,6 @@ import numpy as np
 from mobnet.core.errors import DataError, not_accepted
 from mobnet.core.files import atomic_path, write_json
 from mobnet.detection.threshold_file import read_thresholds
-from mobnet.estimation.observer import TorqueKind
 from mobnet.export.contract import CONTRACT, Contract, ObserverContract, read_contract
 from mobnet.export.graph import graph_of
 from mobnet.export.runtime import export_model
@@ -29,6 +28,7 @@ from mobnet.learning.deployed.networks import deployed
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.given import given_robot
 from mobnet.running.printed import printed
+from mobnet.settings.base import TorqueKind
 from mobnet.settings.limb_thresholds import LimbThresholds
 from mobnet.settings.load import load_settings
 

@@ -45,6 +45,7 @@ from mobnet.robotlog.plot import plot_residual
 from mobnet.robotlog.tool import with_tool
 from mobnet.robotlog.words import observe_parser
 from mobnet.running.printed import printed
+from mobnet.settings.base import TorqueKind
 from mobnet.settings.load import load_section, load_settings
 from mobnet.settings.robotlog import LogMap, RobotLog
 
@@ -63,7 +64,7 @@ class Observed:
 
 
 def observe_log(
-    path: Path, robot: RobotDescription, meaning: LogMap | None, torque: observer.TorqueKind, gain_hz: float,
+    path: Path, robot: RobotDescription, meaning: LogMap | None, torque: TorqueKind, gain_hz: float,
     gravity_m_s2: float, bounds: RobotLog,
 ) -> Observed:  # fmt: skip
     """Read a log, run the momentum observer on it, and look for what is wrong with it.

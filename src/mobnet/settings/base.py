@@ -7,12 +7,13 @@ not part of a rule's code hash, their values are parameters of every rule that t
 
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import Annotated, TypeVar
+from typing import Annotated, Literal, TypeVar
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, JsonValue
 
 Number = TypeVar("Number", int, float)
 Item = TypeVar("Item")
+TorqueKind = Literal["mean", "sample"]  # of a motor: over the interval that ends at the tick, or at the tick
 
 
 class Section(BaseModel):

@@ -4,7 +4,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from mobnet.settings.base import Distinct, NotNegative, PartName, Positive, Section, Share, Some, Text
+from mobnet.settings.base import Distinct, NotNegative, PartName, Positive, Section, Share, Some, Text, TorqueKind
 from mobnet.settings.detection import Signal
 
 
@@ -46,7 +46,7 @@ class LimbThresholds(Section):
     hold_s: Annotated[NotNegative, Field(le=1)]
     rate_hz: Positive
     gain_hz: Positive
-    torque: Literal["sample", "mean"]
+    torque: TorqueKind
     rate_per_h: Positive
     expected_per_h: NotNegative
     low_per_h: NotNegative

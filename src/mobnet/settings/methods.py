@@ -17,7 +17,7 @@ class Observer(Section):
     """The momentum observer (7), and what recordings hold of the motors' torque."""
 
     gain_hz: base.Real = Field(ge=0.1, le=5000)
-    torque: Literal["mean", "sample"]
+    torque: base.TorqueKind
 
 
 class Method(Section):

@@ -15,6 +15,7 @@ from mobnet.settings.base import (
     Share,
     Some,
     Text,
+    TorqueKind,
     Vector3,
 )
 
@@ -110,7 +111,7 @@ class LogMap(Section):
     clock: Clock = Clock()
     joints: Some[Text] | None = None
     rate_hz: Annotated[Positive, Field(ge=1, le=100_000)] | None = None
-    torque: Literal["sample", "mean"] = "sample"
+    torque: TorqueKind = "sample"
     q: Signal
     v: Signal
     tau_motor: Signal

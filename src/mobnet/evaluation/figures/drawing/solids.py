@@ -15,6 +15,7 @@ from matplotlib.collections import PolyCollection
 from matplotlib.colors import to_rgb
 
 from mobnet.core.arrays import Array
+from mobnet.detection.solids import across
 from mobnet.settings.parts import ShapeRow
 
 LIGHT = np.array([-0.5, 0.65, 0.57])  # towards the light: right, up and towards the eye of a picture
@@ -71,7 +72,8 @@ class Solid:
         size = self.shape.size
         if self.shape.type == "cylinder":
             start, end = self.ends
-            return size[0] * across((end - start) / np.linalg.norm(end - start))
+            along = (end - start) / np.linalg.norm(end - start)
+            return size[0] * np.concatenate(across(along[None])).T
         return self.rotation * (np.asarray(size) if len(size) == 3 else size[0])
 
     @property
@@ -80,13 +82,6 @@ class Solid:
         down = self.axes[2]
         reach = np.abs(down).sum() if self.shape.type == "box" else np.linalg.norm(down)
         return float(self.ends[:, 2].min() - reach)
-
-
-def across(axis: Array) -> Array:
-    """Return two unit vectors across a unit vector and each other, columns (3, 2)."""
-    first = np.cross(axis, np.eye(3)[np.argmin(np.abs(axis))])
-    first = np.asarray(first / np.linalg.norm(first), dtype=np.float64)
-    return np.stack([first, np.cross(axis, first)], axis=1)
 
 
 def draw_solids(axis: Axes, solids: Iterable[Solid], view: Array, zorder: float = 2.0) -> None:
