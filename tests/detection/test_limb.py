@@ -69,7 +69,7 @@ def test_detectors_are_compared_by_their_smallest_forces(recorded, calibrated):
     assert "the network does not help this detector" in list(beside(alone, [alone], small))[-1]
 
 
-def test_a_ratio_is_compared_by_the_torque_at_its_usual_standard_deviation(recorded, calibrated):
+def test_a_ratio_is_compared_by_the_torques_at_its_standard_deviations(recorded, calibrated):
     mean, ratio = (calibrated(recorded(std=0.5), signal=signal) for signal in ("mean", "ratio"))
     assert (ratio.thresholds == 2.0 * mean.thresholds).all()
     assert ratio.over(mean) == pytest.approx(1.0)

@@ -42,7 +42,7 @@ def test_torques_of_a_straight_arm_are_force_times_lever(pointed, model):
 
 def test_the_smallest_force_is_that_at_which_a_joint_crosses_and_none_where_no_joint_feels_it(settings, pointed, model):
     setup = setup_of(settings.detection, pointed, "A", 1000.0)
-    forces = axis_forces(setup, model, np.zeros((3, 2)), np.array([3.0, 3.0]))
+    forces = axis_forces(setup, model, np.zeros((3, 2)), np.full((3, 2), 3.0))
     assert forces["tip"][2] == pytest.approx(3.0 / 0.75 / 0.919, rel=0.01)
     assert forces["elbow"][2] == pytest.approx(3.0 / 0.45 / 0.919, rel=0.01)
     assert np.isinf(forces["tip"][:2]).all()

@@ -14,10 +14,10 @@ from mobnet.core.notes import note_differences, read_array_note
 from mobnet.core.recording import SensedRecording, read_sensed
 from mobnet.core.store import NOTE, check_finite, file_of
 from mobnet.detection.always import AlwaysWatched, always_watched, setup_of
-from mobnet.detection.calibration import QuietWalk, check_signals, rate_scales, unit_of
+from mobnet.detection.calibration import QuietWalk, check_signals, rate_scales
 from mobnet.detection.points import axis_forces
 from mobnet.detection.sensitivity import found_forces
-from mobnet.detection.signals import STD, Watched
+from mobnet.detection.signals import RATIO, STD, Watched
 from mobnet.detection.thresholds import Calibrated
 from mobnet.detection.watch import LegRecording, LegSetup, LimbSetup, read_estimate
 from mobnet.robot.description import RobotDescription
@@ -66,7 +66,7 @@ class LimbCalibration:
         promise: rate of false alarms to expect, with its interval.
         count: number of swings or windows that they are made from.
         always: the windows; None of a leg that is watched in its swings.
-        felt: torque of each joint that its threshold stands for at the usual standard deviation (n,) [N m].
+        felt: torque of each joint that reaches its threshold in most samples (n,) [N m].
         forces: point -> the least force that is found there, along each axis of its body or from one side [N].
     """
 
@@ -112,10 +112,13 @@ def calibrate_limb(
     check_signals(setup, watched.detector, walk)
     scales, promises = rate_scales(setup, watched, walk)
     thresholds = promises[WANTED].factor * scales[0]
-    poses = np.concatenate([one.read.sensed.q[leg.gate.watched] for one, leg in zip(own, legs, strict=True)])
-    felt = thresholds if unit_of(f"{signal}.") == "N m" else thresholds * _usual_std(own)
+    pairs = [(one, leg.gate.watched) for one, leg in zip(own, legs, strict=True)]
+    poses = np.concatenate([one.read.sensed.q[rows] for one, rows in pairs])
+    stds = [one.estimate.std[rows] for one, rows in pairs if signal == RATIO and one.estimate.std is not None]
+    felt = thresholds * (np.concatenate(stds) if stds else np.ones((len(poses), len(thresholds))))
     forces = {} if signal == STD else _forces(setup, poses, felt, settings)
-    return LimbCalibration(setup, signal, thresholds, promises[WANTED], walk.first, always, felt, forces)
+    usual = np.quantile(felt, setup.detection.sensitivity.share, axis=0)
+    return LimbCalibration(setup, signal, thresholds, promises[WANTED], walk.first, always, usual, forces)
 
 
 def _check_rates(own: Sequence[OwnRecording], contact_s: float) -> None:
@@ -158,11 +161,6 @@ def _watched(
     lengths = settings.reaction.window_s, settings.robotlog.settle_s
     always = always_watched(setup, watched, paths, read, estimates, *lengths)
     return always, always.limbs
-
-
-def _usual_std(own: Sequence[OwnRecording]) -> Array:
-    """Return the median of the standard deviations of the joints (n,) [N, N m]."""
-    return np.median(np.concatenate([one.estimate.std for one in own if one.estimate.std is not None]), axis=0)
 
 
 def _forces(setup: LimbSetup, poses: Array, thresholds: Array, settings: Settings) -> dict[str, Array]:

@@ -10,7 +10,7 @@ import numpy as np
 
 from mobnet.core.arrays import Array
 from mobnet.detection.isolation import name_push
-from mobnet.detection.sensitivity import attenuation, smallest_forces
+from mobnet.detection.sensitivity import attenuation, smallest_forces, some_rows
 from mobnet.detection.watch import LimbSetup
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.nominal import NominalModel
@@ -49,13 +49,13 @@ def axis_torques(nominal: NominalModel, joints: Sequence[str], points: Sequence[
 def axis_forces(setup: LimbSetup, nominal: NominalModel, poses: Array, thresholds: Array) -> dict[str, Array]:
     """Return point -> the least force along each axis of its body that is found in most poses (3,) [N].
 
-    Poses (T, nq) are those in which the limb is watched, thresholds (n,) [N m] those of its joints. What no joint
-    feels is infinite.
+    Poses (T, nq) are those in which the limb is watched, thresholds (T, n) [N m] those of its joints there. What no
+    joint feels is infinite.
     """
     numbers, points = setup.detection.sensitivity, points_of(setup.robot, setup.joints)
-    picked = poses[np.linspace(0, len(poses) - 1, min(numbers.poses, len(poses))).astype(int)]
-    units, left = axis_torques(nominal, setup.joints, points, np.asarray(picked, dtype=np.float64)), attenuation(setup)
-    forces = np.array([smallest_forces(unit, thresholds, left) for unit in units])
+    picked, left = some_rows(len(poses), numbers.poses), attenuation(setup)
+    units = axis_torques(nominal, setup.joints, points, np.asarray(poses[picked], dtype=np.float64))
+    forces = np.array([smallest_forces(*pair, left) for pair in zip(units, thresholds[picked], strict=True)])
     most = np.quantile(forces, numbers.share, axis=0).reshape(len(points), len(AXES))
     heard = np.abs(units).max(axis=(0, 2), initial=0.0).reshape(most.shape) > 1e-6
     return {row.name: np.where(own, force, np.inf) for row, own, force in zip(points, heard, most, strict=True)}

@@ -5,6 +5,7 @@ a push of 1 N follow from the pose, and what the filters leave of a short one fr
 """
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array
 from mobnet.detection.detector import GateSignal, run_over
@@ -15,16 +16,19 @@ from mobnet.detection.watch import LegSetup, LimbSetup
 def found_forces(setup: LegSetup, poses: Array, thresholds: Array) -> dict[str, float]:
     """Return point of the leg -> the force [N] that a short collision must have there, in most poses of a swing.
 
-    Poses (n, nq) [m, -, rad] are those in which the leg is watched, thresholds (6,) [N m] those of its joints.
+    Poses (T, nq) [m, -, rad] are those in which the leg is watched, thresholds (T, 6) [N m] those of its joints there.
     """
     numbers, robot = setup.detection.sensitivity, setup.robot
     points = [row.name for row in robot.points if row.name.startswith(f"{setup.side}_") and row.name.count("_") == 2]
-    # A swing has some hundred poses that differ little; a few hundred of all swings give the same quantile.
-    picked = poses[np.linspace(0, len(poses) - 1, min(numbers.poses, len(poses))).astype(int)]
-    left = attenuation(setup)
-    units = [unit_torques(robot, setup.gate.leg, q, points, setup.inward) for q in picked]
-    forces = [smallest_forces(unit, thresholds, left) for unit in units]
+    picked, left = some_rows(len(poses), numbers.poses), attenuation(setup)
+    units = [unit_torques(robot, setup.gate.leg, q, points, setup.inward) for q in poses[picked]]
+    forces = [smallest_forces(*pair, left) for pair in zip(units, thresholds[picked], strict=True)]
     return dict(zip(points, np.quantile(forces, numbers.share, axis=0).tolist(), strict=True))
+
+
+def some_rows(count: int, most: int) -> NDArray[np.intp]:
+    """Return rows of poses (k,), evenly apart: neighbours differ little, and a few hundred have the same quantile."""
+    return np.linspace(0, count - 1, min(most, count)).astype(np.intp)
 
 
 def smallest_forces(units: Array, thresholds: Array, attenuation: float) -> Array:
