@@ -89,13 +89,12 @@ def run(options: Namespace) -> list[str]:
     network = read_network_folder(options.network, robot.layout, settings) if options.network else None
     limb, logs = limb_of(robot.layout, options.limb, network), read_folders(options, robot, network)
     own = estimated(logs, robot, limb, network, settings)
-    signals = (options.signal,) if options.signal else (MEAN, RATIO) if network else (MEAN,)
-    tried = [calibrate_limb(own, robot, limb, signal, options.rate, settings) for signal in signals]
-    found = min(tried, key=lambda one: one.over(tried[0]))
+    signal = options.signal or (RATIO if network else MEAN)
+    found = calibrate_limb(own, robot, limb, signal, options.rate, settings)
     lines = list(report(found, settings.detection.thresholds.confidence))
     if network and found.signal != STD:
         alone = estimated(logs, robot, limb, None, settings)
-        lines += beside(found, tried, calibrate_limb(alone, robot, limb, MEAN, options.rate, settings))
+        lines += beside(found, calibrate_limb(alone, robot, limb, MEAN, options.rate, settings))
     if options.out:
         write_thresholds(options.out, thresholds_of(found, options.rate, settings, logs[0].sampling, network))
         lines.append(f"written: {options.out}")

@@ -1,6 +1,6 @@
 """What `./reproduce calibrate` prints of a limb's thresholds, and the section that it writes."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 
 import numpy as np
 
@@ -40,17 +40,14 @@ def report(found: LimbCalibration, confidence: float) -> Iterator[str]:
     yield from _forces(found)
 
 
-def beside(found: LimbCalibration, tried: Sequence[LimbCalibration], alone: LimbCalibration) -> Iterator[str]:
-    """Yield how a network's detector stands to those with its other signals and to that of the observer alone."""
+def beside(found: LimbCalibration, alone: LimbCalibration) -> Iterator[str]:
+    """Yield how a network's detector stands to that of the observer alone."""
     if alone.forces:
         yield from ("", f"smallest force that the observer alone finds [N]{_along(alone)}:", *_forces(alone))
-    what = "forces" if found.forces else "torques"
-    others = {f"the {other.signal} of this network": other for other in tried if other is not found}
-    shares = {name: found.over(other) for name, other in {**others, "the observer alone": alone}.items()}
-    yield from ("", f"smallest {what} of the {found.signal}, over those of (geometric mean):")
-    yield from (f"{name:<24} {share:8.0%}" for name, share in shares.items())
-    if found.over(alone) >= 1.0:
-        yield from ("", "the network does not help this detector: calibrate without --network, or learn from more logs")
+    what, share = "forces" if found.forces else "torques", found.over(alone)
+    yield from ("", f"smallest {what} with the network over those of the observer alone: {share:.0%}, geometric mean")
+    if share >= 1.0:
+        yield "the network does not help this detector: calibrate without --network, or learn from more logs"
 
 
 def _along(found: LimbCalibration) -> str:
