@@ -46,7 +46,7 @@ KEYS = (  # columns that name a row; the others are results
     "scenario", "level", "method", "joint", "metric", "claim",
     "set", "quantity", "part", "command", "bin_from", "measure", "limb", "test", "pushed", "share", "unit",
     "score", "outcome", "detector", "leg", "kind", "cell", "case", "wrench", "thresholds", "wait_s", "feed_forward",
-    "event", "robot", "label", "phase",
+    "event", "robot", "label", "phase", "row",
 )  # fmt: skip
 KEYS_OF = {"hourly": ("walks",)}  # a number in other tables
 Rows = dict[tuple[str, ...], dict[str, str]]
