@@ -34,15 +34,15 @@ def plot_residual(
     rows = np.arange(0, len(residual), step)
     ends = np.array([end for _, end in segments])
     breaks = np.searchsorted(ends, rows, side="right")
-    axes = figure.subplots(len(panels), 1, squeeze=False)[:, 0]
+    axes = figure.subplots(len(panels), 1, sharex=True, squeeze=False)[:, 0]
     for axis, (limb, unit, joints) in zip(axes, panels, strict=True):
         for joint in joints:
             values = residual[rows, layout.names.index(joint)].copy()
             values[1:][np.diff(breaks) > 0] = np.nan
             axis.plot(rows / rate_hz, values, label=joint, linewidth=0.7)
         axis.set_ylabel(f"{limb}: residual [{unit}]")
-        axis.set_xlim(0, len(residual) / rate_hz)
         axis.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False)
+    axes[-1].set_xlim(0, len(residual) / rate_hz)
     axes[-1].set_xlabel("time [s]")
     figure.suptitle("residual of the momentum observer: external torque and error of the model", fontsize=8)
     figure.savefig(stem.with_suffix(".png"), metadata={"Software": None})
