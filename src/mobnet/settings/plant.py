@@ -31,7 +31,7 @@ class Friction(Section):
 
 
 class Noise(Section):
-    """Table 3, as printed; a level says how its numbers are read."""
+    """Noise of the sensors, Table 3 as printed: standard deviations or variances, as `noise` of a level says."""
 
     joint_position_rad: NotNegative = Field(le=0.1)
     joint_velocity_rad_s: NotNegative = Field(le=1)
