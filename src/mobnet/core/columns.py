@@ -181,15 +181,25 @@ ERRORS = (*RUN, "joint", "metric", "value", "low", "high", *SPREAD, "unit", "pub
 METHODS = (*RUN, "limb", "joint", "metric", "value", "low", "high", *SPREAD, "unit")  # of any test, limb by limb
 KINDS = ("method", "quantity", "value", "low", "high", *SPREAD, "unit", "published")
 CLAIMS = (
-    "claim", "statement", "score", "printed", "says", "published", "value", "low", "high", *SPREAD, "unit",
-    "from", "to", "side_from", "side_to", "verdict", "cause",
+    "claim", "statement", "score", "printed", "says", "quantity", "published", "value", "low", "high", *SPREAD, "unit",
+    "from", "to", "sign_value", "sign_low", "sign_high", "sign_from", "sign_to", "size", "sign", "verdict",
+    "without", "without_low", "without_high", "cause",
 )  # fmt: skip
 HOURLY = ("event", "walks", "method", "hours", "count", "value", "low", "high", "unit")
-CLAIMED = ("score", "outcome", "statements", "claims")  # `outcome`: a verdict, all of them, or one of the next line
-UNEXPLAINED, PRINTED, INSIDE = "without a cause", "printed", "inside"  # of what fails, and of the paper's number
-VERDICTS = ("not reproduced", "inconclusive", "direction", "reproduced", "not measured")  # of a claim, also in order of
-# how they are shown: what counts against us first
-OBSERVER, LEARNED, SIGN_ONLY = SCORED = ("observer", "learned", "sign only")  # values of `score` of a claim
+CLAIMED = ("score", "outcome", "statements", "firsts", "claims")  # `firsts`: statements by their first claim alone
+# `outcome` of a count: a verdict, on both or on one of size and sign, all of them, or one of the next line, of what
+# fails and of what the paper prints a number of
+UNEXPLAINED, PRINTED, HELD, NEAR = "without a cause", "printed", "in our interval", "within a factor of 1.5"
+# Verdicts on the size and on the sign of a claim; both together, in the order in which they are shown: what counts
+# against us first
+INSIDE, OUTSIDE, OPEN = SIZES = ("inside", "outside", "open")
+SAME, OPPOSITE, _ = SIGNS = ("same", "opposite", OPEN)
+NOT_REPRODUCED, SIGN_ONLY, OPEN, SIGN_AT_LEAST, REPRODUCED, NOT_MEASURED = VERDICTS = (
+    "not reproduced", "sign only", "open", "sign at least", "reproduced", "not measured",
+)  # fmt: skip
+# Values of `score` of a claim; PAPER is that of all claims of the paper together
+OBSERVER, NETWORKS, NO_NUMBER, OURS = SCORED = ("observer", "networks", "no number", "ours")
+PAPER = "paper"
 TABLE_01 = (
     "limb", "inputs", "input_count", "target", "architecture", "parameters", "horizon_steps", "data",
     "architecture_published", "parameters_published", "horizon_published",

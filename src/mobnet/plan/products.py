@@ -154,7 +154,7 @@ class Products:
         folder = self.folders.tables
         if name == "claims_summary":
             return {"claims_csv": folder / "claims.csv"}
-        made = [number for claim in self.settings.claims.values() for number in (claim, *claim.numbers.values())]
+        made = [number for claim in self.settings.claims.values() for number in claim.made]
         used = dict.fromkeys(cell.table for number in made for cell in number.cells if cell.table)
         return {"tables": {table: folder / f"{table}.csv" for table in used}} if name == "claims" else {}
 

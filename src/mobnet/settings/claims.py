@@ -27,14 +27,16 @@ from mobnet.settings.runs import Metric
 
 SHORT_CELL = ("level", "method", "joint")
 Quantity = Literal[
-    "value", "ratio", "cut", "square cut", "difference", "gap ratio", "below", "above", "least ratio", "trend", "share"
-]
+    "value", "ratio", "cut", "square cut", "difference", "gap ratio", "gap difference", "below", "above", "least ratio",
+    "trend", "share",
+]  # fmt: skip
 TAKES: Mapping[Quantity, tuple[int, int]] = {  # how many cells: at least, and in steps of; a step of 0 is exactly
     "value": (1, 0), "ratio": (2, 0), "cut": (2, 0), "square cut": (2, 0), "difference": (2, 0), "gap ratio": (4, 0),
-    "below": (2, 1), "above": (2, 1), "least ratio": (2, 2), "trend": (3, 1), "share": (1, 0),
+    "gap difference": (4, 0), "below": (2, 1), "above": (2, 1), "least ratio": (2, 2), "trend": (3, 1), "share": (1, 0),
 }  # fmt: skip
-Rule = Literal["about", "larger", "similar", "little", "sign"]
-CAUSED = ("given", "without")  # numbers of a cause: where it is given, and where it is taken away
+Rule = Literal["about", "at most", "larger", "similar", "little", "share", "bar", "sign"]
+WITHOUT_NUMBER: tuple[Rule, ...] = ("similar", "bar", "sign")  # rules of claims for which the paper prints no number
+OURS = "not in the paper"  # where a claim is printed that this project makes itself
 TrainingMetric = Literal[
     "validation loss",
     "validation RMSE",
@@ -54,6 +56,7 @@ def _ordered(bounds: tuple[float | None, float | None]) -> tuple[float | None, f
     return bounds
 
 
+Day = Annotated[str, Field(pattern=r"^\d{4}-\d{2}-\d{2}$")]
 Bound = Annotated[Real, Field(ge=-1000, le=1000)]
 Bounds = Annotated[tuple[Bound | None, Bound | None], AfterValidator(_ordered)]
 Several = Annotated[Some[Item], AfterValidator(distinct)]
@@ -108,12 +111,14 @@ def _spelt_number(entry: Any) -> Any:
 
 
 def _spelt_claim(entry: Any) -> Any:
-    """Return a claim with its cells and those of its cause spelt out."""
-    spelt = _spelt_number(entry)
-    numbers = mapping(mapping(spelt).get("numbers"))
-    if not numbers:
-        return spelt
-    return {**mapping(spelt), "numbers": {name: _spelt_number(own) for name, own in numbers.items()}}
+    """Return a claim with its cells, those that its sign is of, and those of its cause spelt out."""
+    spelt = dict(mapping(_spelt_number(entry)))
+    if mapping(spelt.get("sign_of")):
+        spelt["sign_of"] = _spelt_number(spelt["sign_of"])
+    cause = mapping(spelt.get("cause"))
+    if mapping(cause.get("without")):
+        spelt["cause"] = {**cause, "without": _spelt_number(cause["without"])}
+    return spelt or entry
 
 
 def spelt_out(claims: Any) -> Any:
@@ -160,12 +165,24 @@ class MadeNumber(Section):
         return self
 
 
+class Cause(Section):
+    """What makes a claim's number what it is, and the number `without` it.
+
+    `since` is the day of the commit that named it, `seen` whether results of the claim had been seen by then.
+    """
+
+    says: Text
+    since: Day
+    seen: bool
+    without: MadeNumber
+
+
 class Claim(MadeNumber):
     """What the paper says, where it is printed, and what must hold here.
 
     Claims of one `statement`, which has the name of its first claim, count once. `by_joint` makes a claim of each
-    joint: its cells have this joint, and the paper prints this number. `numbers` are two like the claim's own: with the
-    `cause` given and without it.
+    joint: its cells have this joint, and the paper prints this number. `sign` is the range of the claimed sign, where
+    the rule does not make it, and `sign_of` the number that has it, where that is not the claim's own.
     """
 
     statement: ClaimName | None = None
@@ -176,17 +193,40 @@ class Claim(MadeNumber):
     by_joint: dict[JointName, Bound] = {}
     rule: Rule
     bar: Bounds | None = None
-    side: Bounds | None = None
-    cause: str = ""
-    numbers: dict[Literal["given", "without"], MadeNumber] = {}
+    sign: Bounds | None = None
+    sign_of: MadeNumber | None = None
+    cause: Cause | None = None
+
+    @property
+    def is_ours(self) -> bool:
+        """Whether this project makes the claim, and not the paper."""
+        return self.printed == OURS
+
+    @property
+    def made(self) -> list[MadeNumber]:
+        """The numbers that it needs: its own, that of its sign, and that without its cause."""
+        further = [self.sign_of, self.cause.without if self.cause else None]
+        return [self, *(number for number in further if number is not None)]
+
+    @model_validator(mode="after")
+    def _has_what_its_rule_needs(self) -> Claim:
+        """Check that a rule has the paper's number, a bar or a sign, as it needs, and no second one."""
+        wanted = {"bar": self.bar, "sign": self.sign}.get(self.rule, True)
+        if wanted is None:
+            raise ValueError(f"rule {self.rule!r} without `{self.rule}` is not accepted; accepted: with a range")
+        if self.published is None and self.rule not in WITHOUT_NUMBER:
+            raise ValueError(not_accepted("rule without a number of the paper", self.rule, WITHOUT_NUMBER))
+        if self.rule == "sign" and (self.bar or self.published is not None):
+            raise ValueError("rule 'sign' with a bar or a number of the paper is not accepted; accepted: `sign` alone")
+        if self.sign_of and not self.sign:
+            raise ValueError("`sign_of` without `sign` is not accepted; accepted: with the range of the sign")
+        if self.is_ours and self.published is not None:
+            raise ValueError(f"a number of the paper in a claim that is {OURS} is not accepted; accepted: null")
+        return self
 
     @model_validator(mode="after")
     def _takes_its_cause_away(self) -> Claim:
-        """Check that a cause has its two numbers, which are of the claim's quantity."""
-        if set(self.numbers) != set(CAUSED if self.cause else ()):
-            found = ", ".join(self.numbers) or "nothing"
-            raise ValueError(f"`numbers` with {found} is not accepted; accepted: {', '.join(CAUSED)} of a `cause`")
-        for number in self.numbers.values():
-            if number.quantity != self.quantity:
-                raise ValueError(not_accepted("quantity of a cause", number.quantity, [self.quantity]))
+        """Check that the number without a cause is of the claim's quantity."""
+        if self.cause and self.cause.without.quantity != self.quantity:
+            raise ValueError(not_accepted("quantity of a cause", self.cause.without.quantity, [self.quantity]))
         return self

@@ -39,12 +39,15 @@ class Reactions(Section):
 class Scale(Section):
     """One size of every test and of every training; the last five replace numbers of other sections.
 
+    `decides` says that the claims are judged by it: some outcome of its walks must then meet the bounds of each.
+
     `durations_s` gives the duration [s] of tests whose recordings are longer or shorter than the others; `robots` has
     the experiments that take another length on the robots of the fleet, each of which trains one network, `fleet`
     how many of these robots there are, the first ones, and `fleet_shards` how many recordings of each test each of
     them makes; all of them, and as many as elsewhere, without these.
     """
 
+    decides: bool
     test: TestRecordings
     durations_s: dict[ScenarioName, RecordingSeconds] = {}
     development: Recordings

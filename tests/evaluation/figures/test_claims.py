@@ -10,7 +10,7 @@ import pytest
 
 from mobnet.core.columns import FOREST, SIGN_ONLY, VERDICTS
 from mobnet.evaluation.figures.further.forest import ENDS, LOOKS, draw_forest, forest, text_of
-from mobnet.evaluation.measure.claims.bounds import ranges_of
+from mobnet.settings.claim_ranges import ranges_of
 from mobnet.evaluation.measure.claims.places import (
     BEYOND_BOUND,
     OVER_PAPER,

@@ -6,7 +6,7 @@ import pytest
 import yaml
 from csv_files import GOLDEN
 
-from mobnet.evaluation.measure.claims.bounds import apart, common, range_text, ranges_of, within
+from mobnet.settings.claim_ranges import apart, common, range_text, ranges_of, within
 from mobnet.evaluation.measure.claims.verdicts import rows_of
 from mobnet.settings.claims import Bounds, Claim
 from mobnet.settings.settings import Settings

@@ -7,7 +7,7 @@ import pytest
 from pydantic import ValidationError
 
 from mobnet.core.columns import SCORED, VERDICTS
-from mobnet.evaluation.measure.claims.bounds import Ranges
+from mobnet.settings.claim_ranges import Ranges
 from mobnet.evaluation.measure.claims.cells import Evidence
 from mobnet.evaluation.measure.claims.verdicts import cause_of, rows_of, score_of, verdict_of, worst
 from mobnet.evaluation.number.number import Number

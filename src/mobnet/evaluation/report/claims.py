@@ -27,7 +27,7 @@ def claims(
         DataError: a run that a claim needs is missing.
     """
     rows = list(rows_of(claims))
-    cells = [cell for row in rows for made in (row.claim, *row.claim.numbers.values()) for cell in made.cells]
+    cells = [cell for row in rows for made in row.claim.made for cell in made.cells]
     results = read_results(layout, scores, folders, cells, tables)
     judged = [judge(row, results, statistics, methods) for row in rows]
     claim_table(judged, statistics.confidence, table_dir)

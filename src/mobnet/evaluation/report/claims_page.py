@@ -12,16 +12,16 @@ from itertools import groupby
 from operator import itemgetter
 from pathlib import Path
 
-from mobnet.core.columns import CLAIMS, SCORED, VERDICTS
+from mobnet.core.columns import CLAIMS, OURS, SCORED, VERDICTS
 from mobnet.core.rows import read_texts
-from mobnet.evaluation.measure.claims.bounds import range_text
 from mobnet.evaluation.measure.claims.verdicts import worst
 from mobnet.evaluation.number.number import Number, number_text
 from mobnet.evaluation.report.html import rendered
+from mobnet.settings.claim_ranges import ANY, range_text
 from mobnet.settings.claims import Bounds
 
 WIDTH = 160.0  # of a picture
-BAND = (0.3, 0.7)  # where the picture has the range in which a claim is reproduced, shares of the width
+BAND = (0.3, 0.7)  # where the picture has the range that a claim names, shares of the width
 REACH = 0.45  # of the width, for what lies farthest from the bound of a range that is open on one side
 JOINT = re.compile("-([A-Z]+[0-9])$")  # names of claims are in lower case, but for their joint
 PLACE = re.compile(r"abstract|not in the paper|(?:Table|Figure) \d+|section \d(?:\.\d)?")  # where a claim is printed
@@ -32,11 +32,11 @@ KINDS_OF_PLACES = ("abstract", "section", "Table", "Figure", "not")  # in the or
 class Plot:
     """A picture of a claim: places across a width of WIDTH, clipped to it; None where a claim has none.
 
-    `band` is the range in which it is reproduced, `side` that of its direction.
+    `band` is the range of the claimed size, or of the sign where no size is claimed, `side` that of the sign beside it.
     """
 
     band: tuple[float, float]
-    side: tuple[float, float]
+    side: tuple[float, float] | None
     published: float | None
     interval: tuple[float, float] | None
     value: float
@@ -56,8 +56,10 @@ class ClaimRow:
     low: float | None
     high: float | None
     unit: str
-    reproduced: Bounds
-    side: Bounds
+    size: str
+    sign: str
+    claimed: Bounds
+    side: Bounds | None
 
     @property
     def joint(self) -> str:
@@ -83,8 +85,14 @@ class ClaimRow:
 
     @property
     def range_text(self) -> str:
-        """The range in which it is reproduced, with its unit."""
-        return range_text(self.reproduced) + ("" if self.unit == "-" else f" {self.unit}")
+        """The claimed range, with its unit."""
+        return range_text(self.claimed) + ("" if self.unit == "-" else f" {self.unit}")
+
+    @property
+    def words(self) -> str:
+        """The verdicts on its size and on its sign."""
+        named = (("size", self.size), ("sign", self.sign))
+        return ", ".join(f"{name} {word}" for name, word in named if word)
 
     @property
     def plot(self) -> Plot | None:
@@ -142,8 +150,9 @@ def claims_page(claims_csv: Path, confidence: float, title: str, text: str, temp
     places = {place for statement in statements for place in statement.places}
     return rendered(
         template, title=title, text=text, confidence=confidence, statements=statements, kinds=SCORED, linked=True,
-        counts=verdict_counts(statements), order={name: k for k, name in enumerate(VERDICTS)},
-        places=sorted(places, key=_order_of_place),
+        counts=verdict_counts([one for one in statements if one.kind != OURS]),
+        ours=verdict_counts([one for one in statements if one.kind == OURS]),
+        order={name: k for k, name in enumerate(VERDICTS)}, places=sorted(places, key=_order_of_place),
     )  # fmt: skip
 
 
@@ -171,11 +180,15 @@ def read_statements(claims_csv: Path) -> list[Statement]:
 
 def _claim(row: Mapping[str, str]) -> ClaimRow:
     """Return a row of claims.csv with its numbers."""
-    names = ("published", "value", "low", "high", "from", "to", "side_from", "side_to")
+    names = ("published", "value", "low", "high", "from", "to", "sign_from", "sign_to")
     published, value, low, high, *ends = (float(row[name]) if row[name] else None for name in names)
+    size, sign = (ends[0], ends[1]), (ends[2], ends[3])
+    has_own_sign = row["sign_value"] == row["value"]  # a sign of another number has another axis
+    is_sized = size != ANY
     return ClaimRow(
         row["claim"], row["says"], row["printed"], row["verdict"], row["cause"], published, value, low, high,
-        row["unit"], (ends[0], ends[1]), (ends[2], ends[3]),
+        row["unit"], row["size"], row["sign"], size if is_sized else sign,
+        sign if is_sized and sign != ANY and has_own_sign else None,
     )  # fmt: skip
 
 
@@ -191,8 +204,8 @@ def _order_of_place(place: str) -> tuple[int, float, str]:
 
 def plot_of(claim: ClaimRow) -> Plot:
     """Return the picture of a claim that has a number."""
-    low, high = claim.reproduced
-    known = [x for x in (claim.published, claim.value, claim.low, claim.high, *claim.side) if x is not None]
+    low, high = claim.claimed
+    known = [x for x in (claim.published, claim.value, claim.low, claim.high, *(claim.side or ())) if x is not None]
 
     def place(number: float) -> float:
         """Return the place of a number [unit of the claim]."""
@@ -208,7 +221,7 @@ def plot_of(claim: ClaimRow) -> Plot:
         return (0.0 if first is None else place(first), WIDTH if last is None else place(last))
 
     held = claim.low is not None and claim.high is not None
-    return Plot(
-        span(claim.reproduced), span(claim.side), None if claim.published is None else place(claim.published),
-        span((claim.low, claim.high)) if held else None, place(claim.value or 0.0),
-    )  # fmt: skip
+    side = span(claim.side) if claim.side else None
+    published = None if claim.published is None else place(claim.published)
+    interval = span((claim.low, claim.high)) if held else None
+    return Plot(span(claim.claimed), side, published, interval, place(claim.value or 0.0))

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from markdown_it import MarkdownIt
 
+from mobnet.core.columns import OURS
 from mobnet.core.errors import DataError
 from mobnet.core.files import read_text
 from mobnet.evaluation.report.claims_page import read_statements, verdict_counts
@@ -37,9 +38,10 @@ def first_page(
     Raises:
         DataError: a file is missing or damaged.
     """
+    papers = [one for one in read_statements(claims_csv) if one.kind != OURS]
     shown = MarkdownIt("js-default").render(headline(table_dir)).strip()
     return rendered(
-        template, title=title, text=text, counts=verdict_counts(read_statements(claims_csv)), linked=False,
+        template, title=title, text=text, counts=verdict_counts(papers), linked=False,
         headline=shown, pictures=[_picture(*pair) for pair in pictures], tables=tables,
     )  # fmt: skip
 

@@ -120,8 +120,7 @@ def write_snapshot(settings: Settings, tables: Path, figures: Path, further: Seq
             shutil.copyfile(source, temporary)
     drawn = sorted(figures.glob("*.csv"))
     for source in drawn:
-        with atomic_path(out / DRAWN / f"{source.name}.gz") as temporary:
-            temporary.write_bytes(gzip.compress(source.read_bytes(), mtime=0))
+        store_drawn(source, out)
     kept = {out / source.name for source in numbers} | {out / DRAWN / f"{source.name}.gz" for source in drawn}
     for path in {*out.glob("*.csv"), *(out / DRAWN).glob("*.csv.gz")} - kept:
         shown = [".md"] if path.parent == out else PICTURES
@@ -129,6 +128,20 @@ def write_snapshot(settings: Settings, tables: Path, figures: Path, further: Seq
             gone.unlink(missing_ok=True)
     write_json(out / "provenance.json", {"scale": settings.scale, **provenance()})
     log.info("%s: %d files", out, len(found))
+
+
+def store_drawn(source: Path, out: Path) -> None:
+    """Store the CSV of a figure in a snapshot, compressed."""
+    with atomic_path(out / DRAWN / f"{source.name}.gz") as temporary:
+        temporary.write_bytes(gzip.compress(source.read_bytes(), mtime=0))
+
+
+def tell_readme(results: Path, readme: Path = README) -> None:
+    """Write into the README what it shows of published results."""
+    page = read_text(readme)
+    for name, text in blocks(results).items():
+        page = with_block(page, name, text, readme)
+    write_text(readme, page)
 
 
 def tell_demo(push: StoredPush, page: Path) -> None:
@@ -212,10 +225,7 @@ def store(manifest: Path) -> None:
     plan = make_plan(settings, with_pdf=not missing_packages())
     jobs = map(read_account, sorted((RESULTS / LOGS).rglob("*.json")))
     write_json(RATES, measured(plan, jobs).model_dump())
-    page = read_text(README)
-    for name, text in blocks(SNAPSHOT).items():
-        page = with_block(page, name, text)
-    write_text(README, page)
+    tell_readme(SNAPSHOT)
 
 
 def main(words: list[str]) -> int:

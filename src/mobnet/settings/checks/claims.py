@@ -3,21 +3,24 @@
 Units, bounds and quoted numbers, which only who words a claim can get wrong, are checked by tests/settings.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import get_args
 
 from mobnet.core.errors import misfit, not_accepted
 from mobnet.settings.checks.results import Results
 from mobnet.settings.claims import Cell, TrainingMetric
-from mobnet.settings.reading import Problem
+from mobnet.settings.reading import Place, Problem
 
 
 def claim_problems(results: Results) -> Iterator[Problem]:
     """Yield claims about what is not measured."""
     claims = results.settings.claims
-    numbers = {("claims", name): claim.cells for name, claim in claims.items()}
+    numbers: dict[Place, Sequence[Cell]] = {("claims", name): claim.cells for name, claim in claims.items()}
     for name, claim in claims.items():
-        numbers |= {("claims", name, "numbers", key): number.cells for key, number in claim.numbers.items()}
+        if claim.sign_of:
+            numbers["claims", name, "sign_of"] = claim.sign_of.cells
+        if claim.cause:
+            numbers["claims", name, "cause", "without"] = claim.cause.without.cells
     for place, cells in numbers.items():
         for index, cell in enumerate(cells):
             yield from (((*place, "cells", index, *key), text) for key, text in _cell_problems(results, cell))

@@ -6,6 +6,7 @@ from itertools import chain
 from mobnet.core.errors import misfit
 from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.checks.limits import at_most, below
+from mobnet.settings.checks.outcomes import outcome_problems
 from mobnet.settings.checks.walking import is_whole
 from mobnet.settings.figures import Figure05, GaitFigure, HandFigure
 from mobnet.settings.fleet import FIRST_SEED
@@ -37,6 +38,8 @@ def size_problems(catalogue: Catalogue) -> Iterator[Problem]:
         yield from _length_problems(scaled.settings, scale)
         yield from _time_problems(scaled, scale)
         yield from _training_problems(scaled)
+        if scale.decides:
+            yield from outcome_problems(scaled)
         results = _result_count(scaled)
         if results > RESULTS_MAX:
             accepted = f"{RESULTS_MAX} of them, by fewer shards or seeds"

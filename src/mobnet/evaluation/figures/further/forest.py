@@ -15,10 +15,10 @@ from matplotlib.figure import Figure
 
 from mobnet.core.columns import FOREST, SCORED, VERDICTS
 from mobnet.evaluation.figures.style import PAGE_INCH, STYLE, save_figure
-from mobnet.evaluation.measure.claims.bounds import range_text
 from mobnet.evaluation.measure.claims.places import BEYOND_BOUND, OVER_PAPER, Place, Statement, statements_of
 from mobnet.evaluation.measure.claims.verdicts import Judged
 from mobnet.evaluation.number.number import Number
+from mobnet.settings.claim_ranges import range_text
 
 STEMS = {OVER_PAPER: "claims", BEYOND_BOUND: "claims_own"}  # of the two figures
 ENDS: Mapping[str, tuple[float, float]] = {OVER_PAPER: (1 / 8, 8.0), BEYOND_BOUND: (-1.15, 1.15)}  # of the axes
@@ -28,10 +28,12 @@ TICKS: Mapping[str, Mapping[float, str]] = {
     BEYOND_BOUND: {-1.0: "against", 0.0: "bound", 1.0: "for"},
 }
 HEADS: Mapping[str, str] = dict(
-    zip(SCORED, ("about the observer", "about networks", "without a number of the paper"), strict=True)
-)
-MARKS = (("#D55E00", "X", "\N{BALLOT X}"), ("#9A6700", "s", "?"), ("#0072B2", "^", "\N{NORTH EAST ARROW}"),
-         ("#00795A", "o", "\N{CHECK MARK}"), ("0.45", "", "\N{EN DASH}"))  # fmt: skip
+    zip(SCORED, ("Statements of the paper about the observer", "Statements of the paper about networks",
+                 "Statements of the paper without a number", "Our own statements"), strict=True)
+)  # fmt: skip
+MARKS = (("#D55E00", "X", "\N{BALLOT X}"), ("#9A6700", "v", "\N{SOUTH EAST ARROW}"), ("0.35", "s", "?"),
+         ("#0072B2", "^", "\N{NORTH EAST ARROW}"), ("#00795A", "o", "\N{CHECK MARK}"),
+         ("0.45", "", "\N{EN DASH}"))  # fmt: skip
 # verdict -> colour, dark enough for text, marker, and sign before a text
 LOOKS: Mapping[str, tuple[str, str, str]] = dict(zip(VERDICTS, MARKS, strict=True))
 POINTS, ROW_INCH, HEAD_INCH, KEY_INCH = 6.5, 0.13, 0.2, 0.38  # size of text; heights of a row, a head and the legend
@@ -67,7 +69,7 @@ def draw_forest(statements: Sequence[Statement], axis_name: str, interval: str) 
             for each in own:
                 _row(axis, top + ROW_INCH / 2.0, each)
                 top += ROW_INCH
-        _key(figure, statements, f"reproduced if the {interval} lies here")
+        _key(figure, statements, f"{interval} claimed here")
     return figure
 
 
@@ -94,7 +96,7 @@ def _text(axis: Axes, inch: float, row: float, text: str, **look: Any) -> None:
 def _head(axis: Axes, top: float, own: Sequence[Statement], name: str) -> None:
     """Write the head of a section at its top [inch]."""
     middle = top + HEAD_INCH / 2.0
-    says = f"Statements {HEADS[own[0].worst.judged.score]} ({len(own)})"
+    says = f"{HEADS[own[0].worst.judged.score]} ({len(own)})"
     _text(axis, TEXT_INCH, middle, says, weight="bold")
     _text(axis, COLUMN_INCH["ours"], middle, "ours, with interval", weight="bold")
     _text(axis, COLUMN_INCH["other"], middle, "paper" if name == OVER_PAPER else "holds if", weight="bold", ha="right")
@@ -115,7 +117,7 @@ def _row(axis: Axes, row: float, statement: Statement) -> None:
     ours = "not measured" if judged.ours.value is None else f"{value} {interval}{unit}"
     _text(axis, COLUMN_INCH["ours"], row, ours, color=colour)
     printed = Number(claim.published, unit=judged.ours.unit).texts()[0]
-    other = range_text(judged.ranges.reproduced) if place.axis == BEYOND_BOUND else printed
+    other = range_text(judged.ranges.shown) if place.axis == BEYOND_BOUND else printed
     _text(axis, COLUMN_INCH["other"], row, other, ha="right")
     _place(axis, row, place)
 

@@ -8,7 +8,7 @@ of its interval.
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from mobnet.core.columns import SIGN_ONLY, VERDICTS
+from mobnet.core.columns import VERDICTS
 from mobnet.evaluation.measure.claims.verdicts import WORST_FIRST, Judged
 from mobnet.settings.claims import Bounds
 
@@ -17,7 +17,7 @@ OVER_PAPER, BEYOND_BOUND = "ours over the paper's", "beyond the bound"  # what a
 
 @dataclass(frozen=True)
 class Place:
-    """Where a claim stands on its axis [-]: our number with its interval, and the range where it is reproduced."""
+    """Where a claim stands on its axis [-]: our number with its interval, and the range of the claimed size or sign."""
 
     judged: Judged
     axis: str
@@ -53,7 +53,7 @@ def statements_of(judged: Sequence[Judged]) -> list[Statement]:
 
 def place_of(judged: Judged) -> Place:
     """Return where a claim stands."""
-    return beyond_bound(judged) if judged.score == SIGN_ONLY else over_paper(judged)
+    return beyond_bound(judged) if judged.row.claim.published is None else over_paper(judged)
 
 
 def over_paper(judged: Judged) -> Place:
@@ -65,7 +65,7 @@ def over_paper(judged: Judged) -> Place:
             return None
         return (1.0 - number) / (1.0 - published) if is_cut else number / published
 
-    (value, low, high), (first, last) = map(over, judged.ours.with_ends), map(over, judged.ranges.reproduced)
+    (value, low, high), (first, last) = map(over, judged.ours.with_ends), map(over, judged.ranges.shown)
     return Place(judged, OVER_PAPER, (value, *in_order(low, high, is_cut)), in_order(first, last, is_cut))
 
 
@@ -76,7 +76,7 @@ def in_order(low: float | None, high: float | None, turned: bool) -> tuple[float
 
 def beyond_bound(judged: Judged) -> Place:
     """Return how far our number lies on the claimed side of its bound, as a share of the farthest end [-]."""
-    found = [None if number is None else margin(number, judged.ranges.reproduced) for number in judged.ours.with_ends]
+    found = [None if number is None else margin(number, judged.ranges.shown) for number in judged.ours.with_ends]
     held = [each for each in found if each is not None]
     scale = max(map(abs, held), default=0.0) or 1.0
     value, low, high = (None if each is None else each / scale for each in found)

@@ -1,4 +1,4 @@
-// #verdict=not+reproduced&kind=learned&place=Table+5&filter=knee&sort=-ours&open=noise-floor; open=all for all.
+// #verdict=not+reproduced&kind=networks&place=Table+5&filter=knee&sort=-ours&open=noise-floor; open=all for all.
 const table = document.querySelector("#statements");
 const heads = [...table.tHead.rows[0].cells].filter((head) => head.dataset.key);
 const statements = [...table.tBodies];

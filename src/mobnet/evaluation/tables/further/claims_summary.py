@@ -1,69 +1,116 @@
-"""How many statements of the paper have each verdict, by score: what counts against us stands first."""
+"""How many statements have each verdict, by score: what counts against us stands first.
+
+The paper's statements and our own are counted apart.
+"""
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from mobnet.core.columns import CLAIMED, INSIDE, PRINTED, SCORED, UNEXPLAINED, VERDICTS
+from mobnet.core.columns import (
+    CLAIMED,
+    HELD,
+    NEAR,
+    NOT_REPRODUCED,
+    OURS,
+    PAPER,
+    PRINTED,
+    SCORED,
+    SIGN_ONLY,
+    SIGNS,
+    SIZES,
+    UNEXPLAINED,
+    VERDICTS,
+)
 from mobnet.core.rows import read_texts
-from mobnet.evaluation.measure.claims.bounds import within
-from mobnet.evaluation.measure.claims.verdicts import NOT_REPRODUCED, worst
+from mobnet.evaluation.measure.claims.verdicts import worst
 from mobnet.evaluation.tables.layout import RULE, Line, Table, write_table
+from mobnet.settings.claim_ranges import within
 
-ALL = "all"  # verdicts or scores together
-USED = ("statement", "score", "verdict", "published", "low", "high", "cause")  # columns of claims.csv
-Rows = Sequence[Mapping[str, str]]
-Counts = Mapping[tuple[str, str], tuple[int, int]]  # score, outcome -> statements, claims
+ALL = "all"  # verdicts together
+NEAR_FACTOR = 1.5
+USED = ("statement", "score", "quantity", "size", "sign", "verdict", "published", "value", "low", "high", "cause")
+SHOWN = {"observer": "of the paper: observer", "networks": "of the paper: networks",
+         "no number": "of the paper: no number", PAPER: "of the paper, all", OURS: "our own"}  # fmt: skip
+Row = Mapping[str, str]
+Counts = Mapping[tuple[str, str], tuple[int, int, int]]  # score, outcome -> statements, by their first claim, claims
 
 
 def claims_summary(claims_csv: Path, table_dir: Path) -> None:
     """Write claims_summary.csv, .tex and .md: statements, and in the CSV file also claims, by score and verdict.
 
     A statement is one or several claims; its verdict is the worst of theirs. Beside the verdicts stands how many
-    statements fail without a cause, and in how many claims the paper's number lies in our interval.
+    statements fail without a cause, and in how many claims the paper's number lies in our interval or near ours.
     """
     rows = read_texts(claims_csv, USED)
-    counts = {(score, name): found for score in (*SCORED, ALL) for name, found in outcomes_of(rows, score).items()}
+    counts = {(score, name): found for score in (*SCORED, PAPER) for name, found in outcomes_of(rows, score).items()}
     records = [(*place, *numbers) for place, numbers in counts.items()]
-    first, *others = (*VERDICTS, ALL)
-    shown = (first, UNEXPLAINED, *others)
-    lines: list[Line] = [
-        [score, *(str(counts[score, name][0]) for name in shown),
-         f"{counts[score, INSIDE][1]} of {counts[score, PRINTED][1]}"]
-        for score in (*SCORED, ALL)
-    ]  # fmt: skip
-    lines.insert(len(SCORED), RULE)
-    header = ["Statements about", first, f"of these {UNEXPLAINED}", *others, "claims with the paper's number inside"]
+    lines: list[Line] = [line_of(counts, score) for score in SHOWN]
+    lines.insert(len(SHOWN) - 1, RULE)
+    shown = [f"{name} (first claim)" for name in VERDICTS]
+    shown.insert(2, f"fail {UNEXPLAINED}")
+    header = ["Statements", *shown, ALL, f"claims {HELD}", f"claims {NEAR}"]
     write_table(table_dir / "claims_summary", Table(CLAIMED, records, header, lines))
 
 
-def outcomes_of(rows: Rows, score: str) -> dict[str, tuple[int, int]]:
-    """Return outcome -> how many statements and claims of a score have it, of rows of columns `CLAIMS`.
+def line_of(counts: Counts, score: str) -> list[str]:
+    """Return the line of a score: statements by verdict, by that of their first claim in parentheses."""
+    texts = [f"{statements} ({firsts})" for statements, firsts, _ in (counts[score, name] for name in VERDICTS)]
+    texts.insert(2, str(counts[score, UNEXPLAINED][0]))
+    near = [f"{counts[score, name][2]} of {counts[score, PRINTED][2]}" for name in (HELD, NEAR)]
+    return [SHOWN[score], *texts, str(counts[score, ALL][0]), *near]
 
-    The outcomes are the verdicts, all of them, and those claims that fail without a cause in their statement, that the
-    paper prints a number of beside an interval of ours, and whose interval holds this number.
+
+def outcomes_of(rows: Sequence[Row], score: str) -> dict[str, tuple[int, int, int]]:
+    """Return outcome -> how many statements of a score have it, how many by their first claim, and how many claims.
+
+    `rows` have columns `CLAIMS`. The outcomes are the verdicts, those on the size and on the sign ("size inside"), all
+    of them, the claims that fail without a cause, those that the paper prints a number of beside an interval of ours,
+    and those whose interval holds this number or whose own number is near it. A statement fails with a cause if each of
+    its claims that fail has one.
     """
-    own = [row for row in rows if score in (row["score"], ALL)]
-    by_statement: dict[str, list[Mapping[str, str]]] = {}
+    own = [row for row in rows if is_of(row, score)]
+    by_statement: dict[str, list[Row]] = {}
     for row in own:
         by_statement.setdefault(row["statement"], []).append(row)
-    statements = Counter(worst([row["verdict"] for row in held]) for held in by_statement.values())
+    held = list(by_statement.values())
+    statements = Counter(worst([row["verdict"] for row in claims]) for claims in held)
+    firsts = Counter(claims[0]["verdict"] for claims in held)
     claims = Counter(row["verdict"] for row in own)
-    caused = {row["statement"] for row in own if row["cause"]}
+    found = {verdict: (statements[verdict], firsts[verdict], claims[verdict]) for verdict in VERDICTS}
+    found[ALL] = (len(held), len(held), len(own))
     printed = [row for row in own if row["published"] and row["low"] and row["high"]]
     selected = {
-        UNEXPLAINED: [row for row in own if row["verdict"] == NOT_REPRODUCED and row["statement"] not in caused],
+        **{f"size {word}": [row for row in own if row["size"] == word] for word in SIZES},
+        **{f"sign {word}": [row for row in own if row["sign"] == word] for word in SIGNS},
+        UNEXPLAINED: [row for row in own if row["verdict"] in (NOT_REPRODUCED, SIGN_ONLY) and not row["cause"]],
         PRINTED: printed,
-        INSIDE: [row for row in printed if is_inside(row)],
+        HELD: [row for row in printed if is_held(row)],
+        NEAR: [row for row in printed if is_near(row)],
     }
-    return {
-        **{verdict: (statements[verdict], claims[verdict]) for verdict in VERDICTS},
-        ALL: (len(by_statement), len(own)),
-        **{name: (len({row["statement"] for row in held}), len(held)) for name, held in selected.items()},
-    }
+    first = {claims[0]["statement"]: claims[0] for claims in held}
+    for name, some in selected.items():
+        begun = [row for row in some if first[row["statement"]] is row]
+        found[name] = (len({row["statement"] for row in some}), len(begun), len(some))
+    return found
 
 
-def is_inside(row: Mapping[str, str]) -> bool:
+def is_of(row: Row, score: str) -> bool:
+    """Return whether a claim counts in a score; all but our own are the paper's."""
+    return row["score"] != OURS if score == PAPER else row["score"] == score
+
+
+def is_held(row: Row) -> bool:
     """Return whether the interval of a claim, a row of columns `CLAIMS`, holds the number that the paper prints."""
     published, low, high = (float(row[name]) for name in ("published", "low", "high"))
     return within((published, published), (low, high))
+
+
+def is_near(row: Row) -> bool:
+    """Return whether our number lies within a factor `NEAR_FACTOR` of the paper's; of a cut, what remains does."""
+    published, value = float(row["published"]), float(row["value"])
+    if row["quantity"] in ("cut", "square cut"):
+        published, value = 1.0 - published, 1.0 - value
+    if published == 0.0:
+        return value == 0.0
+    return 1.0 / NEAR_FACTOR <= value / published <= NEAR_FACTOR

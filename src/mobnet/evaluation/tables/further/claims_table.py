@@ -4,15 +4,15 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from mobnet.core.columns import CLAIMS
-from mobnet.evaluation.measure.claims.bounds import range_text
 from mobnet.evaluation.measure.claims.verdicts import Judged
 from mobnet.evaluation.number.files import Field
 from mobnet.evaluation.number.number import number_text
 from mobnet.evaluation.tables.layout import GAP, Line, Table, long_table, tex_escape, write_table
+from mobnet.settings.claim_ranges import ANY, range_text
 
-HEADER = ("Claim", "Printed in", "Paper", "Ours", "{:.0%}", "Reproduced if", "Verdict")
+HEADER = ("Claim", "Printed in", "Paper", "Ours", "{:.0%}", "Claimed", "Size", "Sign", "Verdict")
 CAPTION = r"\claimscaption"  # the paper's
-COLUMNS = r">{\raggedright\arraybackslash}p{.42\linewidth}>{\raggedright\arraybackslash}p{.13\linewidth}rrrll"
+COLUMNS = r">{\raggedright\arraybackslash}p{.42\linewidth}>{\raggedright\arraybackslash}p{.13\linewidth}rrrllll"
 
 
 def claim_table(judged: Sequence[Judged], confidence: float, table_dir: Path) -> None:
@@ -30,9 +30,12 @@ def claim_table(judged: Sequence[Judged], confidence: float, table_dir: Path) ->
 def record_of(each: Judged) -> tuple[Field, ...]:
     """Return the row of a claim in claims.csv."""
     row, claim, ours = each.row, each.row.claim, each.ours
+    signed = each.found.signed.with_ends if each.ranges.sign else (None, None, None)
+    without = each.found.without.with_ends if each.found.without else (None, None, None)
     return (
-        row.name, row.statement, each.score, claim.printed, says(each), ours.published, *ours.with_ends, *ours.spread,
-        ours.unit, *each.ranges.reproduced, *each.ranges.side, each.verdict, each.cause,
+        row.name, row.statement, each.score, claim.printed, says(each), claim.quantity, ours.published, *ours.with_ends,
+        *ours.spread, ours.unit, *(each.ranges.size or ANY), *signed, *(each.ranges.sign or ANY), each.size, each.sign,
+        each.verdict, *without, each.cause,
     )  # fmt: skip
 
 
@@ -46,7 +49,7 @@ def line_of(each: Judged) -> list[str]:
     """Return the texts of a row of the table."""
     claim, unit = each.row.claim, "" if each.ours.unit == "-" else f" {each.ours.unit}"
     ours = [number_text(claim.published), *each.ours.texts()]
-    return [says(each), claim.printed, *ours, range_text(each.ranges.reproduced) + unit, each.verdict]
+    return [says(each), claim.printed, *ours, range_text(each.ranges.shown) + unit, each.size, each.sign, each.verdict]
 
 
 def with_causes(judged: Sequence[Judged]) -> Iterator[Line]:

@@ -1,7 +1,7 @@
 """The bounds of a claim, which follow from the number that the paper prints by one rule of each kind.
 
-The rules are those that the header of configs/claims.yaml states. A claim's `bar` narrows the range in which it is
-reproduced, its `side` that of its direction; with the rule `sign` they are these ranges.
+The rules are those that the header of configs/claims.yaml states. A claim's `bar` narrows the range of its size, its
+`sign` replaces that of its sign.
 """
 
 from dataclasses import dataclass
@@ -9,40 +9,50 @@ from dataclasses import dataclass
 from mobnet.settings.claims import Bounds, Claim
 
 ANY: Bounds = (None, None)
-TWICE, FIVE_TIMES = 2.0, 5.0
-LEAST_ALIKE, ALIKE, RATHER_ALIKE = 1.1, 1.5, 2.0
-LEAST_SHARE, MOST_SHARE = 0.5, 1.5  # of an effect
+TWICE = 2.0
+LEAST_ALIKE, ALIKE = 1.1, 1.5
+LEAST_EFFECT, MOST_EFFECT = 0.5, 1.5  # shares of an effect
+FIFTH = 0.2  # of all collisions
 
 
 @dataclass(frozen=True)
 class Ranges:
-    """Closed ranges of a number [its unit]: where it is reproduced, and where it agrees in direction."""
+    """Closed ranges of a number [its unit]: of the size and of the sign that are claimed; None where one is not."""
 
-    reproduced: Bounds
-    side: Bounds
+    size: Bounds | None
+    sign: Bounds | None
+
+    @property
+    def shown(self) -> Bounds:
+        """The range that pictures and tables show: that of the size, or else that of the sign."""
+        return self.size or self.sign or ANY
 
 
 def ranges_of(claim: Claim) -> Ranges:
     """Return the ranges of a claim [its unit]."""
-    bar, side = claim.bar or ANY, claim.side or ANY
     if claim.rule == "sign":
-        return Ranges(bar, side if claim.side else bar)
-    reproduced, wider = _ruled(claim)
-    wider = common(wider, side)
-    return Ranges(common(common(reproduced, bar), wider), wider)
+        return Ranges(None, claim.sign)
+    if claim.rule == "bar":
+        return Ranges(claim.bar, claim.sign)
+    size, sign = _ruled(claim)
+    return Ranges(common(size, claim.bar or ANY), claim.sign or sign)
 
 
-def _ruled(claim: Claim) -> tuple[Bounds, Bounds]:
-    """Return the ranges that a claim's rule makes of the number that the paper prints [its unit]."""
+def _ruled(claim: Claim) -> tuple[Bounds, Bounds | None]:
+    """Return the ranges of size and sign that a claim's rule makes of the number that the paper prints [its unit]."""
     if claim.rule == "similar":
         alike = _alike(claim.published)
-        return (1.0 / alike, alike), (1.0 / RATHER_ALIKE, RATHER_ALIKE)
+        return (1.0 / alike, alike), None
     x = claim.published or 0.0
     if claim.rule == "about":
         factor = ALIKE if claim.quantity == "ratio" else TWICE
-        return (x / factor, x * factor), (x / FIVE_TIMES, x * FIVE_TIMES)
+        return (x / factor, x * factor), None
+    if claim.rule == "at most":
+        return (None, x * TWICE), None
+    if claim.rule == "share":
+        return (max(x - FIFTH, 0.0), min(x + FIFTH, 1.0)), None
     if claim.rule == "little":
-        return (x / TWICE, x * TWICE), (None, x * FIVE_TIMES)
+        return (x / TWICE, x * TWICE), (0.0, None)
     return _effect(claim.quantity, x)
 
 
@@ -58,15 +68,15 @@ def _effect(quantity: str, x: float) -> tuple[Bounds, Bounds]:
     """
     if quantity == "cut":
         low, high = _ratio_effect(1.0 - x)
-        return (1.0 - high, 1.0 - low), (0.0, 1.0)
+        return (1.0 - high, 1.0 - low), (0.0, None)
     if quantity in ("ratio", "least ratio"):
         return _ratio_effect(x), (1.0, None) if x >= 1.0 else (None, 1.0)
-    return (LEAST_SHARE * x, MOST_SHARE * x), (0.0, None)
+    return (LEAST_EFFECT * x, MOST_EFFECT * x), (0.0, None)
 
 
 def _ratio_effect(x: float) -> tuple[float, float]:
     """Return from half the effect of a ratio x to one and a half of it, at most a factor of two from x [-]."""
-    low, high = sorted((x**LEAST_SHARE, x**MOST_SHARE))
+    low, high = sorted((x**LEAST_EFFECT, x**MOST_EFFECT))
     return max(low, x / TWICE), min(high, x * TWICE)
 
 

@@ -1,0 +1,116 @@
+"""What must hold for claims about counts: at a scale that decides them, some outcome of the run meets their bounds.
+
+A share of few walks has a long interval, so that a bound may be out of reach whatever happens in them.
+"""
+
+from collections.abc import Iterator
+from math import log, sqrt
+from statistics import NormalDist
+
+from mobnet.core.errors import misfit
+from mobnet.settings.catalogue import Catalogue
+from mobnet.settings.claim_ranges import ranges_of, within
+from mobnet.settings.claims import Bounds, Cell, Claim
+from mobnet.settings.reading import Problem
+from mobnet.settings.settings import Settings
+
+HOUR_S = 3600.0
+DIVERGED = "diverged"  # metric of trainings of which a share is claimed
+
+
+def outcome_problems(catalogue: Catalogue) -> Iterator[Problem]:
+    """Yield claims that no outcome of the chosen scale can meet."""
+    settings = catalogue.settings
+    for name, claim in settings.claims.items():
+        bounds = ranges_of(claim).size
+        if bounds is None or claim.quantity not in ("value", "share") or len(claim.cells) > 1:
+            continue
+        (cell,) = claim.cells
+        trials, hours = trials_of(catalogue, cell), hours_of(settings, cell)
+        if trials is not None and not is_met_by_a_share(bounds, trials, settings.evaluation.statistics.confidence):
+            text = f"a range that no share of {trials} reaches with Wilson's interval"
+            yield _place(name, claim), misfit(text, f"a wider range, or more of them at scale {settings.scale}")
+        if hours is not None and not is_met_by_a_rate(bounds, hours, settings.evaluation.statistics.confidence):
+            text = f"a range that no count in {hours:.2f} h reaches with Garwood's interval"
+            yield _place(name, claim), misfit(text, f"a wider range, or longer walks at scale {settings.scale}")
+
+
+def _place(name: str, claim: Claim) -> tuple[str, ...]:
+    return ("claims", name, "bar" if claim.bar else "rule")
+
+
+def is_met_by_a_share(bounds: Bounds, trials: int, confidence: float) -> bool:
+    """Return whether some share of so many trials has its interval within bounds [-]."""
+    return any(within(wilson(count, trials, confidence), bounds) for count in range(trials + 1))
+
+
+def wilson(count: int, trials: int, confidence: float) -> tuple[float, float]:
+    """Return the ends of the interval of a share [-] (Wilson 1927)."""
+    z = NormalDist().inv_cdf((1.0 + confidence) / 2.0)
+    share = count / trials
+    middle = share + z**2 / (2.0 * trials)
+    reach = z * sqrt(share * (1.0 - share) / trials + z**2 / (4.0 * trials**2))
+    scale = 1.0 + z**2 / trials
+    low = 0.0 if count == 0 else (middle - reach) / scale
+    high = 1.0 if count == trials else (middle + reach) / scale
+    return low, high
+
+
+def is_met_by_a_rate(bounds: Bounds, hours: float, confidence: float) -> bool:
+    """Return whether a count of events may have the interval of its rate within bounds [1/h], of which the lower is 0.
+
+    The best outcome is no event; its interval has a closed form (Garwood 1936).
+    """
+    return within((0.0, -log((1.0 - confidence) / 2.0) / hours), bounds)
+
+
+def trials_of(catalogue: Catalogue, cell: Cell) -> int | None:
+    """Return of how many trials a cell is a share at the chosen scale; None where it is no share of a known number."""
+    settings, where = catalogue.settings, cell.where
+    if cell.metric == DIVERGED:
+        limbs = catalogue.all_methods[str(cell.method)].limbs
+        return len(catalogue.experiment(str(cell.method), limbs[0]).seeds)
+    if cell.table == "latency":
+        return settings.evaluation.latency.stretches
+    if cell.table in ("table_09", "found_by_rate") and where.get("quantity") == "found":
+        return robots_of(settings) * shards_of(settings) * hits_of(settings, where["leg"], where["cell"])
+    if cell.table == "safety" and where.get("measure") == "falls":
+        ours, sizes = settings.reaction.ours, settings.sizes.reactions.pushed
+        is_ours = (where["detector"], where["thresholds"]) == (ours.detector, ours.rule)
+        return robots_of(settings) * (sizes.runs if is_ours else min(sizes.compared, sizes.runs))
+    return None
+
+
+def hours_of(settings: Settings, cell: Cell) -> float | None:
+    """Return in how much walking a cell counts events at most, at the chosen scale [h]; None where it counts none."""
+    if cell.table == "sensorless" and cell.where.get("event") == "falls":
+        sizes = settings.sizes.reactions.free
+        return robots_of(settings) * sizes.runs * sizes.longest_s / HOUR_S
+    if cell.table == "hourly":
+        tests = [settings.evaluation.changed.tests[title] for title in settings.evaluation.hourly.known]
+        walked_s = sum(settings.test_s(test.scenario) * len(test.limbs) for test in tests)
+        return robots_of(settings) * shards_of(settings) * walked_s / HOUR_S
+    return None
+
+
+def robots_of(settings: Settings) -> int:
+    """Return how many surrogate robots the chosen scale has."""
+    return settings.sizes.fleet or len(settings.fleet.robots)
+
+
+def shards_of(settings: Settings) -> int:
+    """Return how many recordings of a test a surrogate robot makes at the chosen scale."""
+    return settings.sizes.fleet_shards or settings.sizes.test.shards
+
+
+def hits_of(settings: Settings, leg: str, cell: str) -> int:
+    """Return how many collisions of a leg one recording has, in a cell, `<link> <direction>`, or in all of them."""
+    detection = settings.detection
+    side = next(side for side, limb in settings.layout.legs.items() if limb == leg)
+    names = settings.scenarios[detection.collisions].pushes
+    pushes = [settings.pushes[name] for name in names]
+    points = None if cell == "all" else {f"{side}_{cell.replace(' ', '_')}"}
+    own = [push for push in pushes if (push.point or "").startswith(f"{side}_")]
+    struck = [push for push in own if points is None or push.point in points]
+    walked_s = settings.test_s(detection.collisions)
+    return sum(moment < walked_s for push in struck for moment in push.at_s or ())
