@@ -8,7 +8,7 @@ from mobnet.core.columns import Score
 from mobnet.core.joints import JointLayout
 from mobnet.core.metrics import unit_of_metric
 from mobnet.evaluation.measure.claims.cells import listed
-from mobnet.settings.claims import Cell, Claim
+from mobnet.settings.claims import Cell, Claim, numbers_of
 from mobnet.settings.tables import ErrorRow
 
 JOINTS = [f"LL{i}" for i in range(1, 7)]
@@ -91,7 +91,7 @@ def measured_scores(layout: JointLayout, tests: Iterable[Any], metrics: Mapping[
 
 def cells_of(claims: list[Claim]) -> list[Cell]:
     """Return all cells of claims and of their causes."""
-    return [cell for claim in claims for made in (claim, *claim.numbers.values()) for cell in made.cells]
+    return [cell for claim in claims for made in numbers_of(claim) for cell in made.cells]
 
 
 def claimed_scores(layout: JointLayout, claims: list[Claim], means: dict[str, float], pushes: bool) -> list[Score]:

@@ -19,7 +19,9 @@ SECTIONS = Path(evaluation.__file__).parent
 # with properties that follow from the values and are never called by a job, or without sections
 RESOLVED = {"settings.py", "catalogue.py", "surrogate.py", "robot.py", "results.py", "reading.py", "load.py"}
 CLAIM = {"printed": "Table 5", "says": "It errs.", "quantity": "ratio", "unit": "-", "published": None}
-BOUNDS = {"rule": "sign", "bar": [1.0, 2.0], "side": [1.0, None]}
+BOUNDS = {"rule": "bar", "bar": [1.0, 2.0], "sign": [1.0, None]}
+WITHOUT = {"quantity": "value", "cells": ["MOB"]}
+CAUSE = {"says": "Cold", "since": "2026-11-25", "seen": True, "without": WITHOUT}
 
 
 def test_a_sweep_stands_for_one_method_for_each_value(settings: Settings) -> None:
@@ -145,6 +147,14 @@ def test_sections_hold_values_and_checks_and_compute_nothing() -> None:
         ({"cells": [{"colour": "red"}, "MOB"]}, "colour"),
         ({"bar": [2.0, 1.0]}, "low <= high"),
         ({"claim": "x"}, "claim"),
+        ({"bar": None}, "rule 'bar' without `bar` is not accepted"),
+        ({"rule": "sign"}, "rule 'sign' with a bar or a number of the paper is not accepted"),
+        ({"rule": "sign", "bar": None, "sign": None}, "rule 'sign' without `sign` is not accepted"),
+        ({"rule": "about"}, "rule without a number of the paper: 'about' is not accepted"),
+        ({"sign": None, "sign_of": WITHOUT}, "`sign_of` without `sign` is not accepted"),
+        ({"printed": "not in the paper", "published": 1.5}, "in a claim that is not in the paper is not accepted"),
+        ({"cause": CAUSE}, "quantity of a cause: 'value'"),
+        ({"cause": {**CAUSE, "since": "yesterday"}}, "since"),
         ({"quantity": "below", "cells": ["MOB"]}, "1 cells are not accepted; accepted: 2, 3, ... of 'below'"),
         ({"quantity": "least ratio", "cells": ["A", "B", "C"]}, "3 cells are not accepted; accepted: 2, 4, ... of"),
     ],

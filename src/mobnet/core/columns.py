@@ -192,14 +192,15 @@ CLAIMED = ("score", "outcome", "statements", "firsts", "claims")  # `firsts`: st
 UNEXPLAINED, PRINTED, HELD, NEAR = "without a cause", "printed", "in our interval", "within a factor of 1.5"
 # Verdicts on the size and on the sign of a claim; both together, in the order in which they are shown: what counts
 # against us first
-INSIDE, OUTSIDE, OPEN = SIZES = ("inside", "outside", "open")
-SAME, OPPOSITE, _ = SIGNS = ("same", "opposite", OPEN)
+INSIDE, OUTSIDE, OPEN = SIZE_VERDICTS = ("inside", "outside", "open")
+SAME, OPPOSITE, _ = SIGN_VERDICTS = ("same", "opposite", OPEN)
 NOT_REPRODUCED, SIGN_ONLY, OPEN, SIGN_AT_LEAST, REPRODUCED, NOT_MEASURED = VERDICTS = (
     "not reproduced", "sign only", "open", "sign at least", "reproduced", "not measured",
 )  # fmt: skip
 # Values of `score` of a claim; PAPER is that of all claims of the paper together
 OBSERVER, NETWORKS, NO_NUMBER, OURS = SCORED = ("observer", "networks", "no number", "ours")
 PAPER = "paper"
+NOT_PRINTED = "not in the paper"  # where a claim of our own is printed
 TABLE_01 = (
     "limb", "inputs", "input_count", "target", "architecture", "parameters", "horizon_steps", "data",
     "architecture_published", "parameters_published", "horizon_published",

@@ -13,6 +13,7 @@ from mobnet.plan.detection import all_detections
 from mobnet.plan.files import Files, files_in
 from mobnet.plan.needs import needs_of
 from mobnet.plan.pages import explore_needs
+from mobnet.settings.claims import numbers_of
 from mobnet.settings.evaluation import Evaluation
 from mobnet.settings.runs import Runs
 from mobnet.settings.settings import Settings
@@ -154,7 +155,7 @@ class Products:
         folder = self.folders.tables
         if name == "claims_summary":
             return {"claims_csv": folder / "claims.csv"}
-        made = [number for claim in self.settings.claims.values() for number in claim.made]
+        made = [number for claim in self.settings.claims.values() for number in numbers_of(claim)]
         used = dict.fromkeys(cell.table for number in made for cell in number.cells if cell.table)
         return {"tables": {table: folder / f"{table}.csv" for table in used}} if name == "claims" else {}
 

@@ -7,6 +7,7 @@ from typing import Annotated, Any, Literal, cast
 
 from pydantic import AfterValidator, Field, model_validator
 
+from mobnet.core.columns import NOT_PRINTED
 from mobnet.core.errors import not_accepted
 from mobnet.settings.base import (
     Item,
@@ -36,7 +37,6 @@ TAKES: Mapping[Quantity, tuple[int, int]] = {  # how many cells: at least, and i
 }  # fmt: skip
 Rule = Literal["about", "at most", "larger", "similar", "little", "share", "bar", "sign"]
 WITHOUT_NUMBER: tuple[Rule, ...] = ("similar", "bar", "sign")  # rules of claims for which the paper prints no number
-OURS = "not in the paper"  # where a claim is printed that this project makes itself
 TrainingMetric = Literal[
     "validation loss",
     "validation RMSE",
@@ -197,17 +197,6 @@ class Claim(MadeNumber):
     sign_of: MadeNumber | None = None
     cause: Cause | None = None
 
-    @property
-    def is_ours(self) -> bool:
-        """Whether this project makes the claim, and not the paper."""
-        return self.printed == OURS
-
-    @property
-    def made(self) -> list[MadeNumber]:
-        """The numbers that it needs: its own, that of its sign, and that without its cause."""
-        further = [self.sign_of, self.cause.without if self.cause else None]
-        return [self, *(number for number in further if number is not None)]
-
     @model_validator(mode="after")
     def _has_what_its_rule_needs(self) -> Claim:
         """Check that a rule has the paper's number, a bar or a sign, as it needs, and no second one."""
@@ -220,8 +209,8 @@ class Claim(MadeNumber):
             raise ValueError("rule 'sign' with a bar or a number of the paper is not accepted; accepted: `sign` alone")
         if self.sign_of and not self.sign:
             raise ValueError("`sign_of` without `sign` is not accepted; accepted: with the range of the sign")
-        if self.is_ours and self.published is not None:
-            raise ValueError(f"a number of the paper in a claim that is {OURS} is not accepted; accepted: null")
+        if self.printed == NOT_PRINTED and self.published is not None:
+            raise ValueError(f"a number of the paper in a claim that is {NOT_PRINTED} is not accepted; accepted: null")
         return self
 
     @model_validator(mode="after")
@@ -230,3 +219,9 @@ class Claim(MadeNumber):
         if self.cause and self.cause.without.quantity != self.quantity:
             raise ValueError(not_accepted("quantity of a cause", self.cause.without.quantity, [self.quantity]))
         return self
+
+
+def numbers_of(claim: Claim) -> list[MadeNumber]:
+    """Return the numbers that a claim needs: its own, that of its sign, and that without its cause."""
+    further = [claim.sign_of, claim.cause.without if claim.cause else None]
+    return [claim, *(number for number in further if number is not None)]

@@ -8,9 +8,8 @@ from typing import Any
 
 import pytest
 
-from mobnet.core.columns import FOREST, SIGN_ONLY, VERDICTS
+from mobnet.core.columns import FOREST, NO_NUMBER, OURS, VERDICTS
 from mobnet.evaluation.figures.further.forest import ENDS, LOOKS, draw_forest, forest, text_of
-from mobnet.settings.claim_ranges import ranges_of
 from mobnet.evaluation.measure.claims.places import (
     BEYOND_BOUND,
     OVER_PAPER,
@@ -20,19 +19,18 @@ from mobnet.evaluation.measure.claims.places import (
     over_paper,
     statements_of,
 )
-from mobnet.evaluation.measure.claims.verdicts import Judged, rows_of, score_of, verdict_of, worst
+from mobnet.evaluation.measure.claims.verdicts import Found, Judged, rows_of, score_of, worst
+from mobnet.evaluation.measure.claims.verdicts import judged as judged_on
 from mobnet.evaluation.number.number import Number
 from mobnet.settings.settings import Settings
 
 LONGEST_LABEL = 64  # characters of what a claim says
 
 
-def judged(settings: Settings, name: str, ours: Number, **changes: Any) -> Judged:
+def judged(settings: Settings, name: str, ours: Number) -> Judged:
     """Return a claim of the configuration, judged on a number."""
     row = next(row for row in rows_of(settings.claims) if row.name == name)
-    ranges = ranges_of(row.claim)
-    score = score_of(row.claim, settings.methods)
-    return Judged(row, changes.get("score", score), ours, ranges, verdict_of(ours, ranges), "")
+    return judged_on(row, Found(ours, ours), score_of(row.claim, settings.methods))
 
 
 def test_a_number_is_over_that_of_the_paper(settings: Settings) -> None:
@@ -53,7 +51,7 @@ def test_of_a_cut_what_remains_is_over_what_remains_in_the_paper(settings: Setti
     [
         ("swing-best", Number(0.5, 0.25, 1.0), (0.5, 0.25, 1.0)),
         ("swing-best", Number(-0.5, -1.0, 0.25), (-0.5, -1.0, 0.25)),
-        ("support-gap", Number(0.5, 0.0, 1.5), (0.5, -0.5, 1.0)),
+        ("rnn-like-mlp", Number(0.125, 0.0, 0.375), (0.5, -0.5, 1.0)),
         ("double-motion", Number(1.0, 0.95, 1.05), (1.0, 0.5, 1.0)),
         ("swing-best", Number(None), (None, None, None)),
     ],
@@ -97,7 +95,7 @@ def test_every_statement_is_in_one_of_the_two_figures(settings: Settings, tmp_pa
         assert tuple(rows[0]) == FOREST
         assert {path.suffix for path in tmp_path.glob(f"{stem}.*")} == {".csv", ".pdf", ".svg", ".png"}
         found[stem] = Counter(row["statement"] for row in rows)
-        assert {row["score"] == SIGN_ONLY for row in rows} == {stem == "claims_own"}
+        assert {row["score"] in (NO_NUMBER, OURS) for row in rows} == {stem == "claims_own"}
     assert found["claims"] + found["claims_own"] == Counter({each.row.statement: 1 for each in every})
 
 

@@ -11,7 +11,7 @@ import pytest
 from made_detections import on_both_plants
 from made_notes import training_note
 
-from mobnet.core.columns import VERDICTS
+from mobnet.core.columns import NOT_PRINTED, VERDICTS
 from mobnet.evaluation.tables.further.claims_summary import claims_summary
 from mobnet.settings.load import load_settings
 from mobnet.settings.settings import Settings
@@ -48,7 +48,14 @@ def claims_csv(tmp_path: Path, settings: Settings) -> Path:
         writer = csv.DictWriter(file, next(csv.reader(golden)), extrasaction="ignore")
         writer.writeheader()
         for (name, claim), verdict in zip(settings.claims.items(), cycle(VERDICTS), strict=False):
-            made = {"value": 1.0, "low": 0.9, "high": 1.1, "networks": 3, "walks": 2, "score": "learned"}
+            made = {
+                "value": 1.0,
+                "low": 0.9,
+                "high": 1.1,
+                "networks": 3,
+                "walks": 2,
+                "score": "ours" if claim.printed == NOT_PRINTED else "networks",
+            }
             writer.writerow({**vars(claim), **made, "claim": name, "statement": name, "verdict": verdict})
     return tmp_path / "claims.csv"
 

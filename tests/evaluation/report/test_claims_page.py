@@ -30,7 +30,9 @@ REPO = Path(__file__).parents[3]
 GOLDEN = REPO / "tests" / "golden" / "claims.csv"
 SHOWN = "[...document.querySelectorAll('#statements > tbody:not([hidden])')].map((body) => body.dataset.name)"
 OPEN = "[...document.querySelectorAll('details[open]')].map((one) => one.closest('tbody[data-name]').dataset.name)"
-CLAIM = ClaimRow("a", "A.", "Table 5", "reproduced", "", 1.0, 1.5, 1.25, 1.75, "N m", (0.5, 2.0), (0.2, 5.0))
+CLAIM = ClaimRow(
+    "a", "A.", "Table 5", "reproduced", "", 1.0, 1.5, 1.25, 1.75, "N m", "inside", "same", (0.5, 2.0), (0.2, 5.0)
+)
 
 
 @pytest.fixture(scope="module")
@@ -74,11 +76,12 @@ def test_the_range_has_the_same_place_in_every_picture_and_numbers_lie_as_they_c
     for factor in (1.0, 1000.0):
         names = ("published", "value", "low", "high")
         numbers = {name: factor * getattr(CLAIM, name) for name in names}
-        ranges = {"reproduced": (0.5 * factor, 2.0 * factor), "side": (0.2, None)}
+        ranges = {"claimed": (0.5 * factor, 2.0 * factor), "side": (0.2, None)}
         plot = plot_of(replace(CLAIM, **numbers, **ranges))
         assert plot.band == pytest.approx([share * WIDTH for share in BAND])
         assert plot.interval is not None
         assert plot.published is not None
+        assert plot.side is not None
         places = [plot.side[0], plot.band[0], plot.published, plot.interval[0], plot.value, plot.interval[1]]
         assert places == sorted(places)
         assert plot.side[1] == WIDTH
@@ -91,7 +94,7 @@ def test_what_lies_far_out_stands_at_the_edge() -> None:
 
 @pytest.mark.parametrize("bounds", [(1.0, None), (None, 1.0)])
 def test_a_range_that_is_open_on_one_side_ends_in_the_middle(bounds: tuple[float | None, float | None]) -> None:
-    plot = plot_of(replace(CLAIM, reproduced=bounds, side=bounds, published=None))
+    plot = plot_of(replace(CLAIM, claimed=bounds, side=None, published=None))
     assert plot.band == ((WIDTH / 2, WIDTH) if bounds[0] else (0.0, WIDTH / 2))
     assert WIDTH / 2 < plot.value < WIDTH
 
@@ -121,11 +124,11 @@ def test_every_verdict_is_a_word_with_a_mark(browse: Callable[[str], Browser]) -
 @with_browser
 def test_the_address_says_what_is_shown(browse: Callable[[str], Browser]) -> None:
     statements = read_statements(GOLDEN)
-    browser = browse("#verdict=direction&kind=learned&sort=-ours")
-    wanted = [one for one in statements if (one.verdict, one.kind) == ("direction", "learned")]
+    browser = browse("#verdict=open&kind=networks&sort=-ours")
+    wanted = [one for one in statements if (one.verdict, one.kind) == ("open", "networks")]
     assert browser.value(SHOWN) == [one.name for one in sorted(wanted, key=lambda one: -(one.first.value or 0.0))]
     assert browser.value("document.querySelector('[aria-sort=descending]').dataset.key") == "ours"
-    assert browser.value("document.forms[0].elements.verdict.value") == "direction"
+    assert browser.value("document.forms[0].elements.verdict.value") == "open"
     said = browser.value("document.querySelector('#shown').value")
     assert said == f"{len(wanted)} of {len(statements)} statements"
     browser = browse("#place=Table+6")

@@ -57,9 +57,14 @@ def test_a_mean_over_metrics_has_a_short_name_and_a_missing_number_a_dash(
 
 
 def test_verdicts_add_up(texts: dict[str, str], settings: Settings) -> None:
-    counts = [int(texts[f"scored@all@{name}"]) for name in VERDICTS]
-    assert min(counts) > 0
-    assert sum(counts) == int(texts["scored@all@all"]) == len(settings.claims)
+    total = 0
+    for score in ("paper", "ours"):
+        counts = [int(texts[f"scored@{score}@{name}"]) for name in VERDICTS]
+        firsts = [int(texts[f"firsts@{score}@{name}"]) for name in VERDICTS]
+        assert min(counts) > 0
+        assert sum(counts) == sum(firsts) == int(texts[f"scored@{score}@all"])
+        total += sum(counts)
+    assert total == len(settings.claims)
 
 
 def test_every_number_the_paper_asks_for_exists(texts: dict[str, str], settings: Settings) -> None:

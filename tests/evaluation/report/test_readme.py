@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pytest
 
+from mobnet.core.columns import CLAIMED, HELD, NEAR, OURS, PAPER, PRINTED, UNEXPLAINED, VERDICTS
 from mobnet.core.errors import DataError
 from mobnet.evaluation.number.files import write_csv
 from mobnet.evaluation.report.readme import COLUMNS, FINDINGS, blocks
@@ -17,9 +18,9 @@ CLAIMS = sorted({name for text in FINDINGS for name in re.findall(r"c\[([^]]*)\]
 @pytest.fixture
 def results(tmp_path: Path) -> Path:
     """Published results: the error of a method is its place in the list, and that of MOB is printed."""
-    for _, table, place, best in COLUMNS:
+    for _, table, place in COLUMNS:
         cells = [place.get(name, "robots") for name in PLACE[:4]]
-        methods = ["zero", "MOB", best, "MOB-Net"]
+        methods = ["zero", "MOB", "MOB-fric-dahl", "MOB-Net"]
         rows = [(*cells, method, float(k), 9.0 if method == "MOB" else None) for k, method in enumerate(methods)]
         write_csv(tmp_path / f"{table}.csv", PLACE, [("other", *rows[0][1:]), *rows])
     write_csv(tmp_path / "claims.csv", ("claim", "value", "published"), [(name, 0.5, None) for name in CLAIMS])
@@ -29,7 +30,11 @@ def results(tmp_path: Path) -> Path:
         for detector, wait_s, share in (("MOB-Net-ratio", 0.0, 0.05), ("MOB-Net-ratio", 0.4, 0.9), ("none", 0.0, 1.0))
     ]
     write_csv(tmp_path / "safety.csv", ("case", "detector", "wait_s", "measure", "value", "walks"), falls)
-    (tmp_path / "claims_summary.md").write_text("| 1 |\n")
+    outcomes = [*VERDICTS, "all", UNEXPLAINED, PRINTED, HELD, NEAR]
+    counts = [
+        (score, name, 10 * k + j, k, 2 * k) for j, score in enumerate((PAPER, OURS)) for k, name in enumerate(outcomes)
+    ]
+    write_csv(tmp_path / "claims_summary.csv", CLAIMED, counts)
     return tmp_path
 
 
@@ -37,8 +42,16 @@ def test_errors_stand_beside_those_of_the_paper_and_a_dash_where_no_method_ran(r
     lines = blocks(results)["headline"].splitlines()
     assert lines[2] == "| estimate nothing | 0.0 | 0.0 | 0.0 |"
     assert lines[3] == "| momentum observer (MOB) | 1.0 (9.0) | 1.0 (9.0) | 1.0 (9.0) |"
-    assert lines[4].endswith("| 2.0 | 2.0 | 2.0 |")
-    assert lines[5].endswith("| - | - | - |")
+    assert lines[4].endswith("| - | - | - |")
+    assert lines[6].endswith("| 2.0 | 2.0 | 2.0 |")
+
+
+def test_statements_of_the_paper_and_our_own_are_counted_apart(results: Path) -> None:
+    text = blocks(results)["claims_summary"]
+    assert "| not reproduced | 0 | 0 | 1 |" in text
+    assert "| reproduced | 40 | 4 | 41 |" in text
+    assert "Of the 10 statements of the paper whose size or sign is refuted, 70 have" in text
+    assert "Of 16 claims with a printed number this number lies in our interval in 18" in text
 
 
 def test_findings_have_the_numbers_of_claims_and_the_falls_of_reactions_that_do_not_wait(results: Path) -> None:

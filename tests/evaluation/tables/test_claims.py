@@ -20,7 +20,7 @@ from mobnet.evaluation.number.number import published_row
 from mobnet.evaluation.number.quantities import QUANTITIES
 from mobnet.evaluation.tables.further.hourly import ALL, FLAG
 from mobnet.evaluation.tables.further.latency import MET
-from mobnet.settings.claims import Cell, Claim, MadeNumber
+from mobnet.settings.claims import Cause, Cell, Claim, MadeNumber
 from mobnet.settings.published import Published, PublishedTable
 from mobnet.settings.runs import Statistics
 from mobnet.settings.settings import Settings
@@ -141,20 +141,23 @@ def test_every_claim_is_judged_by_its_interval_and_is_a_row_of_every_file(
         "3+1",
         2,
     )
-    assert judged["step-fts-e2e"].verdict == "direction"
+    assert (judged["step-fts-e2e"].size, judged["step-fts-e2e"].sign) == ("outside", "same")
+    assert judged["step-fts-e2e"].verdict == "sign only"
     assert judged["step-mob"].verdict == "reproduced"
-    assert judged["mlp-500"].verdict == "inconclusive"  # two trainings decide nothing
+    assert judged["mlp-500"].verdict == "open"  # two trainings decide nothing
     assert judged["rte-coverage"].verdict == "reproduced"
     assert (judged["rte-widens"].walks, judged["rte-widens"].verdict) == (2, "reproduced")
     assert judged["noise-floor-LL1"].statement == "noise-floor"
 
 
 def test_only_a_claim_that_fails_shows_its_cause(judge: Judge, tmp_path: Path, settings: Settings) -> None:
-    claims = settings.claims
-    numbers = {name: MadeNumber(quantity="ratio", cells=claims[name].cells) for name in ("step-fts-e2e", "step-mob")}
-    caused = dict(zip(("given", "without"), numbers.values(), strict=True))
-    judged = judge(("step-fts-e2e", "step-mob"), cause="The cold", numbers=caused)
-    assert (judged["step-fts-e2e"].cause or "").startswith("The cold: 1.33 [")
+    without = MadeNumber(quantity="ratio", cells=settings.claims["step-mob"].cells)  # 12.67
+    cause = Cause(says="The cold", since="2026-11-25", seen=False, without=without)
+    judged = judge(("step-fts-e2e", "step-mob"), cause=cause)
+    assert judged["step-fts-e2e"].cause is None  # without it the number lies beyond the paper's on the other side
+    judged = judge(("step-fts-e2e", "step-mob"), cause=cause, published=10.5)
+    assert (judged["step-fts-e2e"].cause or "").startswith("The cold: 12.67 [")
+    assert (judged["step-fts-e2e"].cause or "").endswith("without it (named 2026-11-25, before results had been seen).")
     assert judged["step-mob"].cause is None
     for table in ("claims.md", "claims.tex"):
         assert (tmp_path / table).read_text().count("The cold: ") == 1
@@ -174,6 +177,6 @@ def test_claims_are_the_golden_ones(
     entries = yaml.safe_load((GOLDEN / "claims.yaml").read_text())
     claims = {name: Claim.model_validate(entry) for name, entry in entries.items()}
     tables = {"coverage": tmp_path / "coverage.csv"}
-    write_csv(tables["coverage"], ["joint", "ratio", "low", "high"], [("LL1", 0.9, 0.8, 1.1)])
+    write_csv(tables["coverage"], ["joint", "ratio", "low", "high"], [("LL1", 0.9, 0.8, 1.1), ("LL2", 0.5, 0.4, 0.6)])
     scores = [GOLDEN / "scores.csv"]
     check_golden(make_table("claims", claims=claims, scores=scores, folders=folders, tables=tables))

@@ -9,56 +9,91 @@ from csv_files import read_table
 from mobnet.evaluation.number.files import write_csv
 from mobnet.evaluation.tables.further.claims_summary import USED
 
-Made = Callable[..., dict[tuple[str, str], tuple[float, float]]]
+Counted = dict[tuple[str, str], tuple[float, float, float]]
+Made = Callable[..., Counted]
+COLUMNS = ("statement", "score", "verdict", "published", "value", "low", "high", "cause", "quantity", "size", "sign")
 
 
 @pytest.fixture
 def made(make_table: Callable[..., Path], tmp_path: Path) -> Made:
-    """Write the summary of claims, which have the first columns or all of `USED`: made(*claims) -> counts."""
+    """Write the summary of claims, which have the first of `COLUMNS` or all of them: made(*claims) -> counts."""
 
-    def write(*claims: tuple[str, ...]) -> dict[tuple[str, str], tuple[float, float]]:
-        write_csv(tmp_path / "all.csv", USED, [(*row, *[""] * (len(USED) - len(row))) for row in claims])
-        rows = read_table(make_table("claims_summary", claims_csv=tmp_path / "all.csv"))
-        return {(row.score, row.outcome): (row.statements, row.claims) for row in rows}
+    def write(*claims: tuple[str, ...]) -> Counted:
+        rows = [dict(zip(COLUMNS, (*row, *[""] * (len(COLUMNS) - len(row))), strict=True)) for row in claims]
+        write_csv(tmp_path / "all.csv", USED, [[row[name] for name in USED] for row in rows])
+        found = read_table(make_table("claims_summary", claims_csv=tmp_path / "all.csv"))
+        return {(row.score, row.outcome): (row.statements, row.firsts, row.claims) for row in found}
 
     return write
 
 
 def test_a_statement_counts_once_with_the_worst_of_its_verdicts(made: Made) -> None:
     counts = made(
-        ("a", "observer", "reproduced"), ("a", "observer", "direction"), ("b", "observer", "reproduced"),
-        ("c", "learned", "inconclusive"), ("c", "learned", "not reproduced"), ("d", "sign only", "not measured"),
+        ("a", "observer", "reproduced"), ("a", "observer", "sign only"), ("b", "observer", "reproduced"),
+        ("c", "networks", "open"), ("c", "networks", "not reproduced"), ("d", "no number", "not measured"),
     )  # fmt: skip
-    assert counts["observer", "direction"] == (1, 1)
-    assert counts["observer", "reproduced"] == (1, 2)
-    assert counts["learned", "not reproduced"] == (1, 1)
-    assert counts["learned", "inconclusive"] == (0, 1)
-    assert counts["all", "reproduced"] == (1, 2)
-    assert counts["all", "all"] == (4, 6)
+    assert counts["observer", "sign only"] == (1, 0, 1)
+    assert counts["observer", "reproduced"] == (1, 2, 2)
+    assert counts["networks", "not reproduced"] == (1, 0, 1)
+    assert counts["networks", "open"] == (0, 1, 1)
+    assert counts["paper", "reproduced"] == (1, 2, 2)
+    assert counts["paper", "all"] == (4, 4, 6)
+
+
+def test_our_own_statements_are_none_of_the_papers(made: Made) -> None:
+    counts = made(("a", "observer", "reproduced"), ("b", "ours", "reproduced"), ("c", "ours", "open"))
+    assert counts["paper", "all"] == (1, 1, 1)
+    assert counts["ours", "all"] == (2, 2, 2)
+    assert ("all", "all") not in counts
 
 
 def test_what_counts_against_us_stands_first(made: Made, tmp_path: Path) -> None:
     made(("a", "observer", "reproduced"))
     header, _, *lines = (tmp_path / "claims_summary.md").read_text().splitlines()
-    assert header.split(" | ")[1:5] == ["not reproduced", "of these without a cause", "inconclusive", "direction"]
-    assert [line.split(" | ")[0].strip("| ") for line in lines] == ["observer", "learned", "sign only", "all"]
+    shown = [title.removesuffix(" (first claim)") for title in header.split(" | ")[1:5]]
+    assert shown == ["not reproduced", "sign only", "fail without a cause", "open"]
+    titles = [line.split(" | ")[0].strip("| ") for line in lines]
+    assert titles[-2:] == ["of the paper, all", "our own"]
 
 
-def test_a_statement_that_fails_has_a_cause_if_one_of_its_claims_has_one(made: Made) -> None:
+def test_a_statement_fails_with_a_cause_if_each_of_its_claims_that_fail_has_one(made: Made) -> None:
+    cause = ("", "", "", "", "It was cold")
     counts = made(
-        ("a", "learned", "not reproduced"), ("a", "learned", "not reproduced", "", "", "", "It was cold"),
-        ("b", "learned", "not reproduced"), ("b", "learned", "direction"), ("c", "learned", "direction"),
+        ("a", "networks", "not reproduced", *cause), ("a", "networks", "sign only", *cause),
+        ("b", "networks", "not reproduced", *cause), ("b", "networks", "not reproduced"), ("c", "networks", "open"),
     )  # fmt: skip
-    assert counts["learned", "not reproduced"] == (2, 3)
-    assert counts["learned", "without a cause"] == (1, 1)
+    assert counts["networks", "not reproduced"] == (2, 2, 3)
+    assert counts["networks", "without a cause"] == (1, 0, 1)
 
 
-def test_the_papers_number_is_counted_where_it_lies_in_an_interval(made: Made, tmp_path: Path) -> None:
+def test_sizes_and_signs_are_counted(made: Made) -> None:
+    rest = ("", "", "", "", "", "ratio")
     counts = made(
-        ("a", "observer", "reproduced", "1.0", "0.9", "1.1"), ("a", "observer", "direction", "1.0", "1.1", "1.2"),
-        ("b", "learned", "reproduced", "2.0", "2.0", "3.0"), ("b", "learned", "inconclusive", "2.0"),
-        ("c", "sign only", "reproduced", "", "0.0", "1.0"),
+        ("a", "networks", "reproduced", *rest, "inside", "same"),
+        ("b", "networks", "sign only", *rest, "outside", "same"),
+        ("b", "networks", "not reproduced", *rest, "open", "opposite"),
     )  # fmt: skip
-    assert [counts[score, "inside"][1] for score in ("observer", "learned", "sign only", "all")] == [1, 1, 0, 2]
-    assert counts["all", "printed"] == (2, 3)
-    assert "| 2 of 3 |" in (tmp_path / "claims_summary.md").read_text().splitlines()[-1]
+    assert [counts["paper", f"size {word}"][2] for word in ("inside", "outside", "open")] == [1, 1, 1]
+    assert [counts["paper", f"sign {word}"][2] for word in ("same", "opposite", "open")] == [2, 1, 0]
+
+
+def test_the_papers_number_is_counted_where_it_lies_in_an_interval_and_where_ours_is_near(
+    made: Made, tmp_path: Path
+) -> None:
+    counts = made(
+        ("a", "observer", "reproduced", "1.0", "1.0", "0.9", "1.1"),
+        ("a", "observer", "open", "1.0", "1.6", "1.1", "1.7"),
+        ("b", "networks", "reproduced", "2.0", "2.5", "2.0", "3.0"), ("b", "networks", "open", "2.0", "2.0"),
+        ("c", "networks", "reproduced", "0.9", "0.8", "0.7", "0.85", "", "cut"),
+        ("d", "no number", "reproduced", "", "0.5", "0.0", "1.0"),
+    )  # fmt: skip
+    assert [counts[score, "in our interval"][2] for score in ("observer", "networks", "no number", "paper")] == [
+        1,
+        1,
+        0,
+        2,
+    ]
+    assert [counts[score, "within a factor of 1.5"][2] for score in ("observer", "networks", "paper")] == [1, 1, 2]
+    assert counts["paper", "printed"] == (3, 3, 4)
+    last = (tmp_path / "claims_summary.md").read_text().splitlines()[-2]
+    assert last.endswith("| 2 of 4 | 2 of 4 |")

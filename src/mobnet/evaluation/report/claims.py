@@ -9,7 +9,7 @@ from mobnet.evaluation.figures.further.forest import forest
 from mobnet.evaluation.measure.claims.cells import read_results
 from mobnet.evaluation.measure.claims.verdicts import judge, rows_of
 from mobnet.evaluation.tables.further.claims_table import claim_table
-from mobnet.settings.claims import Claim
+from mobnet.settings.claims import Claim, numbers_of
 from mobnet.settings.methods import Method
 from mobnet.settings.runs import Statistics
 
@@ -27,7 +27,7 @@ def claims(
         DataError: a run that a claim needs is missing.
     """
     rows = list(rows_of(claims))
-    cells = [cell for row in rows for made in row.claim.made for cell in made.cells]
+    cells = [cell for row in rows for made in numbers_of(row.claim) for cell in made.cells]
     results = read_results(layout, scores, folders, cells, tables)
     judged = [judge(row, results, statistics, methods) for row in rows]
     claim_table(judged, statistics.confidence, table_dir)

@@ -12,13 +12,12 @@ from itertools import groupby
 from operator import itemgetter
 from pathlib import Path
 
+from mobnet.core.claim_ranges import ANY, Bounds, range_text
 from mobnet.core.columns import CLAIMS, OURS, SCORED, VERDICTS
 from mobnet.core.rows import read_texts
 from mobnet.evaluation.measure.claims.verdicts import worst
 from mobnet.evaluation.number.number import Number, number_text
 from mobnet.evaluation.report.html import rendered
-from mobnet.settings.claim_ranges import ANY, range_text
-from mobnet.settings.claims import Bounds
 
 WIDTH = 160.0  # of a picture
 BAND = (0.3, 0.7)  # where the picture has the range that a claim names, shares of the width

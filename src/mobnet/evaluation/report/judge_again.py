@@ -23,7 +23,7 @@ from mobnet.evaluation.number.number import Number
 from mobnet.evaluation.report.snapshot import PICTURES, SNAPSHOT, store_drawn, tell_readme
 from mobnet.evaluation.tables.further.claims_summary import claims_summary
 from mobnet.evaluation.tables.further.claims_table import claim_table
-from mobnet.settings.claims import Claim
+from mobnet.settings.claims import Claim, numbers_of
 from mobnet.settings.load import load_settings
 from mobnet.settings.settings import Settings
 
@@ -45,7 +45,7 @@ def judged_again(settings: Settings, published: Path) -> list[Judged]:
     """
     before = {row["claim"]: row for row in read_texts(published / "claims.csv")}
     rows = list(rows_of(settings.claims))
-    made = [number for row in rows for number in row.claim.made]
+    made = [number for row in rows for number in numbers_of(row.claim)]
     names = {cell.table for number in made for cell in number.cells if cell.table}
     tables = {name: read_texts(published / f"{name}.csv") for name in sorted(names)}
     evidence = Evidence(settings.layout, {}, {}, {}, tables)
@@ -55,7 +55,7 @@ def judged_again(settings: Settings, published: Path) -> list[Judged]:
 
 
 def _found(row: Row, before: Text, evidence: Evidence, settings: Settings) -> Found:
-    """Return the numbers of a claim: made of published tables where all its cells are fields of them, or as published."""
+    """Return the numbers of a claim, made of published tables where all its cells are fields of them."""
     claim = row.claim
     if is_of_tables(claim):
         return found_of(claim, evidence, settings.evaluation.statistics)
@@ -71,7 +71,7 @@ def _found(row: Row, before: Text, evidence: Evidence, settings: Settings) -> Fo
 
 def is_of_tables(claim: Claim) -> bool:
     """Return whether all numbers of a claim are made of fields of tables."""
-    return all(cell.table for number in claim.made for cell in number.cells)
+    return all(cell.table for number in numbers_of(claim) for cell in number.cells)
 
 
 def _number(row: Text, names: Sequence[str], claim: Claim) -> Number:

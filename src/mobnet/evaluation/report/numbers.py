@@ -37,6 +37,7 @@ LOOKUP = r"""% Written by mobnet.evaluation.report.numbers; do not edit.
 \newcommand{\verdict}[1]{\lookup{verdict@#1}}
 \newcommand{\cause}[1]{\lookup{cause@#1}}
 \newcommand{\scored}[2]{\lookup{scored@#1@#2}}
+\newcommand{\firsts}[2]{\lookup{firsts@#1@#2}}
 \newcommand{\counted}[2]{\lookup{counted@#1@#2}}
 \newcommand{\size}[1]{\lookup{size@#1}}
 \newcommand{\turned}{\textsuperscript{$\dagger$}}
@@ -64,8 +65,8 @@ def numbers(
     number of any other table, by its columns before the number, \cellspan its interval, \cellshare and \cellsharespan
     those of a share [-] in %. \claimed{claim} gives the paper's number of a claim, \found and \foundspan ours and its
     interval, \claimedshare and \foundshare both in %, \verdict and \cause the judgement. \scored{score}{outcome} gives
-    how many statements of a score have a verdict or another outcome of `claims_summary`, \counted how many claims;
-    \size{name} gives sizes of the scale.
+    how many statements of a score have a verdict or another outcome of `claims_summary`, \firsts how many by their
+    first claim alone, \counted how many claims; \size{name} gives sizes of the scale.
 
     Two guards stand behind sentences whose wording depends on results, and print a dagger where that turned:
     \holds{claim}{verdict,...} and \below{cell}{cell}, of \cell; `mobnet.evaluation.report.guards` has more of them.
@@ -95,7 +96,7 @@ def numbers(
     for of, number in read_numbers(claims_csv):
         values |= claim_texts(of, number)
     for row in read_texts(summary_csv, CLAIMED):
-        for name, of in (("scored", "statements"), ("counted", "claims")):
+        for name, of in (("scored", "statements"), ("firsts", "firsts"), ("counted", "claims")):
             values[f"{name}@{row['score']}@{row['outcome']}"] = row[of]
     # a TeX line defines one name, which may hold any character, as a text
     lines = (rf"\expandafter\def\csname {name}\endcsname{{{text}}}" + "\n" for name, text in values.items())

@@ -7,10 +7,10 @@ from collections.abc import Iterator
 from math import log, sqrt
 from statistics import NormalDist
 
+from mobnet.core.claim_ranges import Bounds, ranges_of, within
 from mobnet.core.errors import misfit
 from mobnet.settings.catalogue import Catalogue
-from mobnet.settings.claim_ranges import ranges_of, within
-from mobnet.settings.claims import Bounds, Cell, Claim
+from mobnet.settings.claims import Cell, Claim
 from mobnet.settings.reading import Problem
 from mobnet.settings.settings import Settings
 

@@ -13,12 +13,12 @@ import matplotlib as mpl
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from mobnet.core.claim_ranges import range_text
 from mobnet.core.columns import FOREST, SCORED, VERDICTS
 from mobnet.evaluation.figures.style import PAGE_INCH, STYLE, save_figure
 from mobnet.evaluation.measure.claims.places import BEYOND_BOUND, OVER_PAPER, Place, Statement, statements_of
 from mobnet.evaluation.measure.claims.verdicts import Judged
 from mobnet.evaluation.number.number import Number
-from mobnet.settings.claim_ranges import range_text
 
 STEMS = {OVER_PAPER: "claims", BEYOND_BOUND: "claims_own"}  # of the two figures
 ENDS: Mapping[str, tuple[float, float]] = {OVER_PAPER: (1 / 8, 8.0), BEYOND_BOUND: (-1.15, 1.15)}  # of the axes

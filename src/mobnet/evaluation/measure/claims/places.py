@@ -8,9 +8,9 @@ of its interval.
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from mobnet.core.claim_ranges import Bounds
 from mobnet.core.columns import VERDICTS
 from mobnet.evaluation.measure.claims.verdicts import WORST_FIRST, Judged
-from mobnet.settings.claims import Bounds
 
 OVER_PAPER, BEYOND_BOUND = "ours over the paper's", "beyond the bound"  # what an axis has
 

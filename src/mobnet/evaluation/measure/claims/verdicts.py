@@ -10,11 +10,13 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import get_args
 
+from mobnet.core.claim_ranges import Bounds, Ranges, apart, ranges_of, within
 from mobnet.core.columns import (
     INSIDE,
     NETWORKS,
     NO_NUMBER,
     NOT_MEASURED,
+    NOT_PRINTED,
     NOT_REPRODUCED,
     OBSERVER,
     OPEN,
@@ -29,8 +31,7 @@ from mobnet.core.columns import (
 from mobnet.evaluation.measure.claims.cells import Evidence, listed
 from mobnet.evaluation.number.number import Number
 from mobnet.evaluation.number.quantities import QUANTITIES, difference_of
-from mobnet.settings.claim_ranges import Ranges, apart, ranges_of, within
-from mobnet.settings.claims import Bounds, Claim, MadeNumber, TrainingMetric
+from mobnet.settings.claims import Claim, MadeNumber, TrainingMetric
 from mobnet.settings.methods import Method
 from mobnet.settings.runs import Statistics
 
@@ -69,8 +70,8 @@ class Judged:
     Attributes:
         score: one of `SCORED`: about the observer alone, about networks, without a number of the paper, or ours.
         found: our numbers; none where the tests are too short to hold what it is about, or all trainings diverged.
-        size: one of `SIZES`, or empty where no size is claimed.
-        sign: one of `SIGNS`, or empty where no sign is claimed.
+        size: one of `SIZE_VERDICTS`, or empty where no size is claimed.
+        sign: one of `SIGN_VERDICTS`, or empty where no sign is claimed.
         verdict: both together, one of `VERDICTS`.
         is_explained: whether the claim fails and would not without its cause.
     """
@@ -195,7 +196,7 @@ def made_number(made: MadeNumber, results: Evidence, statistics: Statistics, uni
 
 def score_of(claim: Claim, methods: Mapping[str, Method]) -> str:
     """Return in which score a claim counts, one of `SCORED`."""
-    if claim.is_ours:
+    if claim.printed == NOT_PRINTED:
         return OURS
     if claim.published is None:
         return NO_NUMBER

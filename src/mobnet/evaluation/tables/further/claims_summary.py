@@ -7,6 +7,7 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
+from mobnet.core.claim_ranges import within
 from mobnet.core.columns import (
     CLAIMED,
     HELD,
@@ -17,15 +18,14 @@ from mobnet.core.columns import (
     PRINTED,
     SCORED,
     SIGN_ONLY,
-    SIGNS,
-    SIZES,
+    SIGN_VERDICTS,
+    SIZE_VERDICTS,
     UNEXPLAINED,
     VERDICTS,
 )
 from mobnet.core.rows import read_texts
 from mobnet.evaluation.measure.claims.verdicts import worst
 from mobnet.evaluation.tables.layout import RULE, Line, Table, write_table
-from mobnet.settings.claim_ranges import within
 
 ALL = "all"  # verdicts together
 NEAR_FACTOR = 1.5
@@ -81,13 +81,14 @@ def outcomes_of(rows: Sequence[Row], score: str) -> dict[str, tuple[int, int, in
     found[ALL] = (len(held), len(held), len(own))
     printed = [row for row in own if row["published"] and row["low"] and row["high"]]
     selected = {
-        **{f"size {word}": [row for row in own if row["size"] == word] for word in SIZES},
-        **{f"sign {word}": [row for row in own if row["sign"] == word] for word in SIGNS},
         UNEXPLAINED: [row for row in own if row["verdict"] in (NOT_REPRODUCED, SIGN_ONLY) and not row["cause"]],
         PRINTED: printed,
         HELD: [row for row in printed if is_held(row)],
         NEAR: [row for row in printed if is_near(row)],
     }
+    for kind, words in (("size", SIZE_VERDICTS), ("sign", SIGN_VERDICTS)):
+        for word in words:
+            selected[f"{kind} {word}"] = [row for row in own if row[kind] == word]
     first = {claims[0]["statement"]: claims[0] for claims in held}
     for name, some in selected.items():
         begun = [row for row in some if first[row["statement"]] is row]

@@ -3,12 +3,12 @@
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
+from mobnet.core.claim_ranges import ANY, range_text
 from mobnet.core.columns import CLAIMS
 from mobnet.evaluation.measure.claims.verdicts import Judged
 from mobnet.evaluation.number.files import Field
 from mobnet.evaluation.number.number import number_text
 from mobnet.evaluation.tables.layout import GAP, Line, Table, long_table, tex_escape, write_table
-from mobnet.settings.claim_ranges import ANY, range_text
 
 HEADER = ("Claim", "Printed in", "Paper", "Ours", "{:.0%}", "Claimed", "Size", "Sign", "Verdict")
 CAPTION = r"\claimscaption"  # the paper's
