@@ -78,9 +78,9 @@ def verdicts(results: Path) -> str:
     unexplained = counts[PAPER, UNEXPLAINED]["statements"]
     printed, held, near = (counts[PAPER, name]["claims"] for name in (PRINTED, HELD, NEAR))
     said = (
-        f"Of the {failed} statements of the paper whose size or sign is refuted, {unexplained} have a refuted claim without "
-        f"a cause. Of {printed} claims with a printed number this number lies in our interval in {held}, and ours within a "
-        f"factor of 1.5 of it in {near}.\n"
+        f"Of the {failed} statements of the paper whose size or sign is refuted, {unexplained} have a refuted claim\n"
+        f"without a cause. Of {printed} claims with a printed number this number lies in our interval in {held}, and\n"
+        f"ours within a factor of 1.5 of it in {near}.\n"
     )
     return "".join([*lines, "\n", said])
 
