@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from itertools import chain
 
-from mobnet.core.errors import misfit
+from mobnet.core.errors import misfit, not_accepted
 from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.checks.limits import at_most, below
 from mobnet.settings.checks.walking import is_whole
@@ -33,8 +33,10 @@ def size_problems(catalogue: Catalogue) -> Iterator[Problem]:
         scaled = catalogue.at_scale(name)
         for part, rows in (("experiments", scale.experiments), ("robots", scale.robots)):
             for experiment, row in rows.items():
-                place = ("scales", name, part, experiment, "seeds")
-                yield from below(place, max(row.seeds or [0]), FIRST_SEED, "the seeds of robots")
+                place = ("scales", name, part, experiment)
+                if experiment not in names:
+                    yield place, not_accepted("experiment", experiment, sorted(names))
+                yield from below((*place, "seeds"), max(row.seeds or [0]), FIRST_SEED, "the seeds of robots")
         yield from _length_problems(scaled.settings, scale)
         yield from _time_problems(scaled, scale)
         yield from _training_problems(scaled)

@@ -82,7 +82,7 @@ def counts(trainings: Sequence[TrainedNetwork], rank: int | None, kind: str, pub
 
 
 def kind_lines(traits: Mapping[str, Traits], firsts: Sequence[str], confidence: float) -> list[Line]:
-    """Return the rows of text, two a kind where there are intervals, a rule above the first methods of further parts."""
+    """Return the rows of text, two a kind where there are intervals, a rule above `firsts`, where a part begins."""
     lines: list[Line] = []
     for method, own in traits.items():
         if lines:
