@@ -131,7 +131,7 @@ def test_printed_sizes_of_networks_and_sets_are_those_of_their_parts() -> None:
     assert kinds.parameters["GRU"] in sizes
     assert max(alike) <= 1.1 * min(alike)
     assert sorted(kinds.order.values()) == list(range(1, len(kinds.order) + 1))
-    assert {*kinds.order, *kinds.parameters} <= {*SETTINGS.evaluation.figure_17.methods}
+    assert {*kinds.order, *kinds.parameters} <= {*SETTINGS.evaluation.figure_17.best}
     for said in PUBLISHED.data.sets.values():
         assert 0.0 <= said.get("time standing", 0.0) <= 1.0
         if "duration" in said and "samples" in said:

@@ -135,6 +135,13 @@ MEANINGLESS: list[tuple[str, Any, str]] = [
     ("scales.default.experiments.kinds.epoch_samples", 100, "a batch"),
     ("scales.paper.experiments.sweep.seeds", [1, 1], "each value once"),
     ("scales.paper.experiments.sweep.seeds", [101], "below 101, the seeds of robots"),
+    ("scales.default.robots.printed.seeds", [101], "below 101, the seeds of robots"),
+    ("scales.default.robots.magic", {"epochs": 1}, "experiment: 'magic' is not accepted; accepted: .*printed"),
+    (
+        "scales.default.reactions.cases.wall",
+        {"runs": 1, "compared": 1, "longest_s": 9.0},
+        "case: 'wall' is not acc.*door",
+    ),
     ("scales.default.experiments.left_leg.epochs", 18_000, "to 1000"),
     # networks, learning, methods and sweeps
     ("networks.LL.hidden", 150.0, "a whole number"),
@@ -188,6 +195,9 @@ MEANINGLESS: list[tuple[str, Any, str]] = [
     ("evaluation.figure_09.table", "table_05", "place of a row: 'rmse_nm'"),
     ("evaluation.figure_09.drawn", ["RA2"], "joint of a leg: 'RA2'"),
     ("evaluation.figure_17.limb", "RL", "that trains RL"),
+    ("evaluation.figure_17.best", ["GRU"], "6, one for each of `methods`"),
+    ("evaluation.figure_17.best.0", "MOB-Net", "a method with the network of GRU-adam"),
+    ("evaluation.figure_17.best.0", "GRU-adam", "a method apart from `methods`"),
     ("evaluation.table_01.method", "MOB", "a row of Table 1"),
     ("evaluation.figure_20.samples", "hidden", "section learning"),
     ("evaluation.tables.table_05.header", ["Level", "Test"], "2, one for each text of header"),

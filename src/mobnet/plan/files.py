@@ -150,6 +150,8 @@ class Files(Seeds):
         kinds, sizes, timed = evaluation.figure_17, evaluation.figure_20, evaluation.latency.method
         if self.has(kinds.level):
             pairs += [(method, kinds.limb) for method in kinds.methods]
+        if self.has(kinds.best_level):
+            pairs += [(method, kinds.limb) for method in kinds.best]
         if self.has(evaluation.kinds.level):
             pairs += [(method, kinds.limb) for method in evaluation.kinds.variants]
         if self.has(sizes.level):

@@ -82,13 +82,19 @@ def _coverage(files: Files, _: Any) -> Needs:
     }
 
 
-def _folders_of_kinds(files: Files) -> tuple[Path, ...]:
-    """Return the trained networks of Figure 17, then those of its variants."""
-    figure, table = files.settings.evaluation.figure_17, files.settings.evaluation.kinds
+def _folders_of_figure_17(files: Files) -> tuple[Path, ...]:
+    """Return the trained networks of Figure 17, those that learned by one recipe first."""
+    figure = files.settings.evaluation.figure_17
     return (
         *files.network_folders(figure.methods, figure.limb, figure.level),
-        *files.network_folders(table.variants, figure.limb, table.level),
+        *files.network_folders(figure.best, figure.limb, figure.best_level),
     )
+
+
+def _folders_of_kinds(files: Files) -> tuple[Path, ...]:
+    """Return the trained networks of Figure 17, then those of the variants that the table of kinds shows."""
+    figure, table = files.settings.evaluation.figure_17, files.settings.evaluation.kinds
+    return *_folders_of_figure_17(files), *files.network_folders(table.variants, figure.limb, table.level)
 
 
 def _claims(files: Files, _: Any) -> Needs:
@@ -176,6 +182,7 @@ NEEDS: Mapping[str, Callable[[Files, Any], Needs]] = {  # products in which para
     "coverage": _coverage,
     "uncertainty": _uncertainty,
     "label_error": _label_error,
+    "figure_17": lambda files, _: {"folders": _folders_of_figure_17(files)},
     "kinds": lambda files, _: {"folders": _folders_of_kinds(files), "figure_17": files.settings.evaluation.figure_17},
     "calibration": _calibration,
     "safety": lambda files, _: {"published": files.settings.published.section_5_4},

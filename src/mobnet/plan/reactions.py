@@ -31,7 +31,7 @@ def methods_of(files: Files, cases: Iterable[str]) -> tuple[str, ...]:
 def sizes_of(files: Files, case: str) -> ReactionSizes:
     """Return how many walks a robot makes of a case, and of what length."""
     sizes = files.settings.sizes.reactions
-    return sizes.pushed if is_pushed(files, case) else sizes.free
+    return sizes.cases.get(case) or (sizes.pushed if is_pushed(files, case) else sizes.free)
 
 
 def is_pushed(files: Files, case: str) -> bool:

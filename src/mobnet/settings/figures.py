@@ -1,5 +1,6 @@
 """What figures show, those of detection and of reactions apart: one section for each."""
 
+from collections.abc import Mapping
 from typing import Annotated
 
 from pydantic import Field
@@ -83,11 +84,21 @@ class Figure10(PushWindow):
 
 
 class Figure17(Section):
-    """Figure 17: losses by kind of network, trained at a level."""
+    """Figure 17: losses by kind of network, trained at a level.
+
+    `methods` learn by one recipe, `best`, the same kinds in the same order, each by its own, at a level of theirs.
+    """
 
     limb: base.NetworkName
     level: base.LevelName
     methods: base.MethodNames
+    best_level: base.LevelName
+    best: base.MethodNames
+
+    @property
+    def kinds(self) -> Mapping[str, str]:
+        """Each of all methods -> its kind, which has the name of the method that is best of it."""
+        return {**dict(zip(self.methods, self.best, strict=True)), **dict(zip(self.best, self.best, strict=True))}
 
 
 class Figure18(Section):

@@ -23,8 +23,9 @@ def as_robot(catalogue: Catalogue, robot: str) -> Catalogue:
     rows = {name: settings.training_sets[other] for name, other in fleet.sets.items()}
     sets = {name: row.model_copy(update={"level": fleet.level_of(robot, row.level)}) for name, row in rows.items()}
     lengths = {**settings.sizes.experiments, **settings.sizes.robots}
-    # What is tried has as many networks on a robot as on the plant, all others one.
+    # What is tried has as many networks on a robot as on the plant, all others one where the scale says no more.
     seeds = {name: settings.sizes.experiments[name].seeds for name in experiments_of(settings.trials)}
+    seeds |= {name: row.seeds for name, row in settings.sizes.robots.items() if row.seeds}
     experiments = {
         name: Experiment(
             epochs=row.epochs, epoch_samples=row.epoch_samples, seeds=seeds.get(name, (FIRST_SEED + index,))

@@ -21,6 +21,12 @@ class Experiment(Length):
     seeds: Seeds
 
 
+class RobotLength(Length):
+    """The same on a robot of the fleet, which trains one network with a seed of its own, or one with each of these."""
+
+    seeds: Seeds | None = None
+
+
 class ReactionSizes(Section):
     """Walks of a robot with our detector, and with each other one; their longest duration."""
 
@@ -30,10 +36,14 @@ class ReactionSizes(Section):
 
 
 class Reactions(Section):
-    """Walks into something or with a push, in each case, and walks that nothing stands in the way of."""
+    """Walks into something or with a push, in each case, and walks that nothing stands in the way of.
+
+    `cases` has other sizes of single cases, by name.
+    """
 
     pushed: ReactionSizes
     free: ReactionSizes
+    cases: dict[LowerName, ReactionSizes] = {}
 
 
 class Scale(Section):
@@ -42,9 +52,9 @@ class Scale(Section):
     `decides` says that the claims are judged by it: some outcome of its walks must then meet the bounds of each.
 
     `durations_s` gives the duration [s] of tests whose recordings are longer or shorter than the others; `robots` has
-    the experiments that take another length on the robots of the fleet, each of which trains one network, `fleet`
-    how many of these robots there are, the first ones, and `fleet_shards` how many recordings of each test each of
-    them makes; all of them, and as many as elsewhere, without these.
+    the experiments that take another length on the robots of the fleet or more than one network of each, `fleet` how
+    many of these robots there are, the first ones, and `fleet_shards` how many recordings of each test each of them
+    makes; all of them, and as many as elsewhere, without these.
     """
 
     decides: bool
@@ -52,7 +62,7 @@ class Scale(Section):
     durations_s: dict[ScenarioName, RecordingSeconds] = {}
     development: Recordings
     experiments: dict[LowerName, Experiment] = Field(min_length=1)
-    robots: dict[LowerName, Length] = {}
+    robots: dict[LowerName, RobotLength] = {}
     fleet: Annotated[Count, Field(le=100)] | None = None
     fleet_shards: Annotated[Count, Field(le=100)] | None = None
     reactions: Reactions

@@ -48,7 +48,7 @@ def test_methods_of_one_figure_differ_in_colour_and_without_it(settings: Setting
         *whole.figure_05.panels.values(),
         *(figure.methods for figure in (whole.figure_06, whole.figure_07, whole.figure_08, whole.figure_09)),
         *(test.methods for test in (*whole.figure_10.tests.values(), *whole.drift.tests.values(), whole.bode)),
-        *(whole.figure_17.methods, whole.figure_18.methods, *(settings.sweeps[key].of for key in varied)),
+        *(whole.figure_17.best, whole.figure_18.methods, *(settings.sweeps[key].of for key in varied)),
     ]
     assert unlike(list(PALETTE))
     for methods in figures:

@@ -7,8 +7,10 @@ import pytest
 
 from mobnet.core.columns import CLAIMED, HELD, NEAR, OURS, PAPER, PRINTED, UNEXPLAINED, VERDICTS
 from mobnet.core.errors import DataError
+from mobnet.core.files import write_json
 from mobnet.evaluation.number.files import write_csv
 from mobnet.evaluation.report.readme import COLUMNS, FINDINGS, blocks
+from mobnet.settings.load import load_settings
 
 README = Path(__file__).parents[3] / "README.md"
 PLACE = ("scenario", "level", "joint", "metric", "method", "value", "published")
@@ -35,7 +37,33 @@ def results(tmp_path: Path) -> Path:
         (score, name, 10 * k + j, k, 2 * k) for j, score in enumerate((PAPER, OURS)) for k, name in enumerate(outcomes)
     ]
     write_csv(tmp_path / "claims_summary.csv", CLAIMED, counts)
+    (tmp_path / "compute.md").write_text(
+        "| all jobs | 2 | 6.00 | 8.00 | 75 | 9 |\n| elapsed (cores: 2) |  |  | 4.12 | 73 |  |\n"
+    )
+    note = {"processor": "made-up", "scale": "default", "core_h": 6.04, "peak_mib": 9.0, "kinds": {}}
+    write_json(tmp_path / "rates.json", note)
     return tmp_path
+
+
+def test_the_row_of_the_published_scale_has_what_its_run_took(results: Path) -> None:
+    rows = {line.split("`")[1]: line for line in blocks(results)["scales"].splitlines()[2:]}
+    assert list(rows) == list(load_settings().scales)
+    assert "| 3.0 h if idle; the published run, with 73 % of their time, took 4.1 h | 6.0 |" in rows["default"]
+    assert all("published run" not in row for scale, row in rows.items() if scale != "default")
+
+
+def test_an_account_without_the_time_of_the_run_is_told(results: Path) -> None:
+    (results / "compute.md").write_text("| all jobs | 2 | 6.00 | 8.00 | 75 | 9 |\n")
+    with pytest.raises(DataError, match=r"compute\.md: the time of the run is missing"):
+        blocks(results)
+
+
+def test_no_other_document_says_what_the_published_run_took() -> None:
+    """One place says it, and is made of the run's own account."""
+    told = r"\d core-hours|took \d[\d.]* h"
+    assert re.findall(told, (README.parent / "docs/guide.md").read_text()) == []
+    text = re.sub(r"<!-- (\w+) -->.*?<!-- /\1 -->", "", README.read_text(), flags=re.DOTALL)
+    assert re.findall(told, text) == []
 
 
 def test_errors_stand_beside_those_of_the_paper_and_a_dash_where_no_method_ran(results: Path) -> None:

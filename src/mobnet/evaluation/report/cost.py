@@ -81,7 +81,7 @@ def out_of_date(targets: Sequence[str], config: Sequence[str]) -> frozenset[str]
 
 
 def check(rates: RatesNote, with_pdf: bool) -> str:
-    """Return how the rates price the run to which they are fitted."""
+    """Return how the rates price the scale of the run to which they are fitted, as its sizes are now."""
     plan = make_plan(load_settings(overrides={"scale": rates.scale}), with_pdf=with_pdf)
     _, cpu_s, peak_mib = costs(plan.work, rates.kinds)[WHOLE]
     gone = sorted({*rates.kinds} - {work.kind for work in plan.work})
@@ -90,7 +90,7 @@ def check(rates: RatesNote, with_pdf: bool) -> str:
         f"{priced:.{digits}f} {unit} where it took {took:.{digits}f} ({PERCENT * (priced / took - 1):+.0f} %)"
         for unit, (priced, took, digits) in pairs.items()
     ]
-    lines = [f"the published run of scale {rates.scale}, to which the rates are fitted: {', '.join(told)}"]
+    lines = [f"scale {rates.scale} now, beside the published run, to which the rates are fitted: {', '.join(told)}"]
     lines += [f"its jobs were cut in another way, so that prices are rough: {', '.join(gone)}"] if gone else []
     return "\n".join(lines)
 

@@ -1,5 +1,6 @@
 """What the README shows of the published results: made from their CSVs, so that none of their numbers is typed."""
 
+import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from types import SimpleNamespace
@@ -17,7 +18,10 @@ from mobnet.core.columns import (
     VERDICTS,
 )
 from mobnet.core.errors import DataError
+from mobnet.core.files import read_text
+from mobnet.core.notes import read_note
 from mobnet.core.rows import read_texts
+from mobnet.evaluation.report.rates import RATES, RatesNote
 
 AVERAGE = {"metric": "rmse", "joint": "avg"}
 FORWARD = {"scenario": "forward_walk", "level": "all_uncertainty", **AVERAGE}
@@ -37,6 +41,24 @@ METHODS = {
     "FTS-e2e, trained end to end": "FTS-e2e",
     "MOB-Net": "MOB-Net",
 }
+# What each scale takes: scale, what it is, time on two cores, core-hours, memory, disk. The published run says what its
+# own took.
+SCALES = (
+    (
+        "smoke",
+        "the whole workflow on seconds of walking; its numbers mean nothing",
+        "10 min",
+        "0.3",
+        "0.5 GiB",
+        "1.1 GiB",
+    ),
+    ("quick", "every item once: one robot, one network of each kind, shorter walks", "1 h", "1.5", "4.4 GiB", "13 GiB"),
+    ("default", "the published sizes: three robots, three networks of the left leg", "", "", "4.4 GiB", "60 GiB"),
+    ("paper", "the sizes of the paper: 3.6 million samples, 200 epochs", "6 days", "280", "14 GiB", "125 GiB"),
+)
+CORES = 2
+# Wall time [h] of the whole run in compute.md, and the share of the cores' time that it had [%].
+ELAPSED = re.compile(r"^\| elapsed [^|]*\|[^|]*\|[^|]*\| (?P<hours>[\d.]+) \| (?P<load>\d+) \|", re.MULTILINE)
 # Sentences with numbers of claims.csv (c) and falls of safety.csv (s, by case and detector).
 FINDINGS = (
     "Training without random torques multiplies MOB-Net's error by {c[rte-walk].value:.2f} in random walking (paper "
@@ -62,7 +84,8 @@ def blocks(results: Path) -> dict[str, str]:
     Raises:
         DataError: a table or a row is missing.
     """
-    return {"headline": headline(results), "claims_summary": verdicts(results), "findings": findings(results)}
+    made = {"headline": headline(results), "scales": scales(results)}
+    return {**made, "claims_summary": verdicts(results), "findings": findings(results)}
 
 
 def verdicts(results: Path) -> str:
@@ -93,6 +116,25 @@ def headline(results: Path) -> str:
     for shown, method in METHODS.items():
         cells = [_cell(tables[table], {**place, "method": method}) for _, table, place in COLUMNS]
         lines.append([shown, *cells])
+    return "".join(f"| {' | '.join(line)} |\n" for line in lines)
+
+
+def scales(results: Path) -> str:
+    """Return the table of what each scale takes; that of the published run has its core-hours, and how long it took.
+
+    Raises:
+        DataError: the account of the run, or the note of its rates, is missing or damaged.
+    """
+    rates, account = read_note(results / RATES.name, RatesNote), results / "compute.md"
+    elapsed = ELAPSED.search(read_text(account))
+    if elapsed is None:
+        raise DataError(f"{account}: the time of the run is missing, of which the README tells")
+    lines = [["scale", "what it is", "two cores", "core-hours", "memory", "disk"], ["---"] * 2 + ["---:"] * 4]
+    for scale, text, time, core_hours, memory, disk in SCALES:
+        if scale == rates.scale:
+            took = f"the published run, with {elapsed['load']} % of their time, took {float(elapsed['hours']):.1f} h"
+            time, core_hours = f"{rates.core_h / CORES:.1f} h if idle; {took}", f"{rates.core_h:.1f}"
+        lines.append([f"`{scale}`", text, time, core_hours, memory, disk])
     return "".join(f"| {' | '.join(line)} |\n" for line in lines)
 
 

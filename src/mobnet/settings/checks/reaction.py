@@ -1,8 +1,8 @@
-"""What must hold for reactions: cases that results show, and a closed loop where wrenches are estimated."""
+"""What must hold for reactions: cases that results and sizes name, and a closed loop where wrenches are estimated."""
 
 from collections.abc import Iterator
 
-from mobnet.core.errors import misfit
+from mobnet.core.errors import misfit, not_accepted
 from mobnet.settings.checks.results import Results
 from mobnet.settings.reading import Place, Problem
 
@@ -20,6 +20,10 @@ def reaction_problems(results: Results) -> Iterator[Problem]:
         for name in getattr(settings.evaluation, product).cases:
             if name not in fitting:
                 yield ("evaluation", product, "cases"), misfit(name, ", ".join(fitting))
+    for scale, sizes in settings.scales.items():
+        for name in sizes.reactions.cases:
+            if name not in reaction.cases:
+                yield ("scales", scale, "reactions", "cases", name), not_accepted("case", name, reaction.cases)
     limbs, legs = settings.methods[reaction.estimator].limbs, settings.detection.legs
     if not {"V", *legs} <= {*limbs}:
         text = misfit(reaction.estimator, f"a method with networks of V, {', '.join(legs)}: the base and all legs")

@@ -105,7 +105,8 @@ class Results:
         evaluation, sweeps = self.settings.evaluation, self.settings.sweeps
         keys = (evaluation.figure_20.parameters, evaluation.figure_20.samples)
         swept = [name for key in keys for name in swept_names(key, sweeps[key])]
-        return [*evaluation.figure_17.methods, *evaluation.kinds.variants, *swept]
+        figure = evaluation.figure_17
+        return [*figure.methods, *figure.best, *evaluation.kinds.variants, *swept]
 
     def claimed_tables(self) -> dict[str, tuple[str, ...]]:
         """Return the tables whose fields claims may name -> their columns."""

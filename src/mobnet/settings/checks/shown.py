@@ -140,14 +140,32 @@ def _trained_problems(results: Results) -> Iterator[Problem]:
     """Yield methods and limbs that are not trained where networks are shown."""
     evaluation = results.settings.evaluation
     trained = results.trained(evaluation.figure_17.limb)
-    for name, key in (("figure_17", "methods"), ("kinds", "variants")):
+    for name, key in (("figure_17", "methods"), ("figure_17", "best"), ("kinds", "variants")):
         for k, method in enumerate(getattr(getattr(evaluation, name), key)):
             if method not in trained:
                 text = not_accepted(f"method that trains {evaluation.figure_17.limb}", method, trained)
                 yield (*ROOT, name, key, k), text
     for k, method in enumerate(evaluation.kinds.variants):
-        if method in evaluation.figure_17.methods:
+        if method in (*evaluation.figure_17.methods, *evaluation.figure_17.best):
             yield (*ROOT, "kinds", "variants", k), misfit(method, "methods that Figure 17 does not show")
+    yield from _kind_problems(results)
+
+
+def _kind_problems(results: Results) -> Iterator[Problem]:
+    """Yield pairs of methods in Figure 17 that are not of one kind: those of a pair differ in how they learn alone."""
+    figure, catalogue = results.settings.evaluation.figure_17, results.catalogue
+    place: Place = (*ROOT, "figure_17", "best")
+    if len(figure.best) != len(figure.methods):
+        yield place, misfit(f"{len(figure.best)} methods", f"{len(figure.methods)}, one for each of `methods`")
+        return
+    trained = results.trained(figure.limb)
+    for k, (method, best) in enumerate(zip(figure.methods, figure.best, strict=True)):
+        if best in figure.methods:
+            yield (*place, k), misfit(best, "a method apart from `methods`")
+        elif {method, best} <= {*trained}:
+            networks = [catalogue.network(name, figure.limb) for name in (method, best)]
+            if networks[0] != networks[1]:
+                yield (*place, k), misfit(best, f"a method with the network of {method}")
 
 
 def _sweep_problems(results: Results) -> Iterator[Problem]:

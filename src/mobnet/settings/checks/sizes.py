@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from itertools import chain
 
-from mobnet.core.errors import misfit
+from mobnet.core.errors import misfit, not_accepted
 from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.checks.limits import at_most, below
 from mobnet.settings.checks.outcomes import outcome_problems
@@ -32,9 +32,12 @@ def size_problems(catalogue: Catalogue) -> Iterator[Problem]:
             return
     for name, scale in settings.scales.items():
         scaled = catalogue.at_scale(name)
-        for experiment, row in scale.experiments.items():
-            place = ("scales", name, "experiments", experiment, "seeds")
-            yield from below(place, max(row.seeds), FIRST_SEED, "the seeds of robots")
+        for part, rows in (("experiments", scale.experiments), ("robots", scale.robots)):
+            for experiment, row in rows.items():
+                place = ("scales", name, part, experiment)
+                if experiment not in names:
+                    yield place, not_accepted("experiment", experiment, sorted(names))
+                yield from below((*place, "seeds"), max(row.seeds or [0]), FIRST_SEED, "the seeds of robots")
         yield from _length_problems(scaled.settings, scale)
         yield from _time_problems(scaled, scale)
         yield from _training_problems(scaled)

@@ -1,4 +1,4 @@
-"""Losses of kinds of networks: epoch by epoch, and where a training ends, with intervals over its runs."""
+"""Losses and errors of kinds of networks: epoch by epoch, and where a training ends, with intervals over its runs."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -11,17 +11,25 @@ from mobnet.evaluation.number.intervals import RunGrid, summarise
 from mobnet.evaluation.number.number import Number
 from mobnet.settings.runs import Statistics
 
-COURSES = {"train_loss": "training loss", "validation_loss": "validation loss"}  # fields of `columns.Epoch`
-ENDS = {"training loss at the end": "training loss", "validation loss": "validation loss"}  # of MEASURES -> its course
+COURSES = {  # fields of `columns.Epoch` -> measure
+    "train_loss": "training loss",
+    "validation_loss": "validation loss",
+    "validation_rmse": "validation RMSE",
+}
+ENDS = {  # of MEASURES -> its course
+    "training loss at the end": "training loss",
+    "validation loss": "validation loss",
+    "validation RMSE": "validation RMSE",
+}
 
 
 @dataclass(frozen=True)
 class Loss:
-    """A loss (22) of a kind of network [-], the mean over its runs: of an epoch, or None for that of the end.
+    """A loss (22) [-] or an RMSE [N m] of a kind of network, the mean over its runs: of an epoch, or None for the end.
 
-    At the end it is the training loss of the last epoch, or the validation loss of the epoch kept. `stride` is the
+    At the end it is the training loss of the last epoch, or that in validation of the epoch kept. `stride` is the
     distance between two time steps of the epoch [samples]: losses at unlike strides are those of unlike tasks. `runs`
-    are the losses of the single runs.
+    are the numbers of the single runs, `unit` is theirs.
     """
 
     measure: str
@@ -33,11 +41,12 @@ class Loss:
 
     def record(self) -> tuple[str | float | None, ...]:
         """Return the row of figure_17.csv."""
-        return self.measure, self.method, len(self.runs), self.epoch, self.stride, *self.number.with_ends
+        own = self.measure, self.method, len(self.runs), self.epoch, self.stride
+        return *own, *self.number.with_ends, self.number.unit
 
 
 def losses_of(method: str, trainings: Sequence[TrainedNetwork], statistics: Statistics) -> Iterator[Loss]:
-    """Yield the losses of every epoch of a kind's runs, which did not diverge, and those of their end.
+    """Yield the losses and errors of every epoch of a kind's runs, which did not diverge, and those of their end.
 
     Raises:
         DataError: the runs have different numbers of epochs.
@@ -57,6 +66,7 @@ def losses_of(method: str, trainings: Sequence[TrainedNetwork], statistics: Stat
 def _loss(
     measure: str, method: str, epoch: int | None, stride: int, values: Sequence[float], statistics: Statistics
 ) -> Loss:
-    """Return a loss of some runs (n,) [-]."""
-    number = summarise([RunGrid(np.array(values)[:, None])], statistics)
+    """Return a loss [-] or an error [N m] of some runs (n,)."""
+    unit = {ENDS[name]: unit for name, (_, unit) in MEASURES.items() if name in ENDS}[measure]
+    number = summarise([RunGrid(np.array(values)[:, None])], statistics, unit=unit)
     return Loss(measure, method, epoch, stride, number, tuple(values))

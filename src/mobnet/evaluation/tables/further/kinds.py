@@ -32,24 +32,34 @@ def kinds(
 ) -> None:  # fmt: skip
     """Write kinds.csv, .tex and .md: mean over runs of loss (22) [-] and RMSE [N m], best kind first.
 
-    Our own variants stand below the kinds of Figure 17, which are the paper's.
+    The kinds of Figure 17, which are the paper's, stand in an order of their own by each of its recipes; below them
+    stand our own variants.
     """
-    found, papers, variants = read_trainings(folders), figure_17.methods, settings.variants
-    measured = {method: measures_of(found[method], statistics) for method in (*papers, *variants)}
-    losses = {method: measured[method][ORDERED_BY].value for method in papers}
-    shown = sorted(papers, key=lambda method: (losses[method] is None, losses[method] or 0.0))  # always diverged: last
-    ranks = {name: k for k, name in enumerate([name for name in shown if name in published.order], start=1)}
+    found, variants, kinds = read_trainings(folders), settings.variants, figure_17.kinds
+    measured = {method: measures_of(found[method], statistics) for method in (*kinds, *variants)}
+    parts = [by_loss(methods, measured) for methods in (figure_17.methods, figure_17.best)]
+    ranks: dict[str, int] = {}
+    for part in parts:
+        ordered = [method for method in part if kinds[method] in published.order]
+        ranks |= {method: k for k, method in enumerate(ordered, start=1)}
     traits = {
-        method: {**counts(found[method], ranks.get(method), method, published), **measured[method]}
-        for method in (*shown, *variants)
+        method: {**counts(found[method], ranks.get(method), kinds.get(method, method), published), **measured[method]}
+        for method in (*parts[0], *parts[1], *variants)
     }
     records = [
         (method, quantity, *number.with_ends, *number.spread, number.unit, number.published)
         for method, own in traits.items() for quantity, number in own.items()
     ]  # fmt: skip
-    lines = kind_lines(traits, variants, statistics.confidence)
+    firsts = [methods[0] for methods in (parts[1], variants) if methods]
+    lines = kind_lines(traits, firsts, statistics.confidence)
     align = "rrl" + "r" * (len(HEADER) - LEFT)
     write_table(table_dir / "kinds", Table(KINDS, records, HEADER, lines, LEFT, align))
+
+
+def by_loss(methods: Sequence[str], measured: Mapping[str, Traits]) -> list[str]:
+    """Return methods in the order of their losses, lowest first; those that always diverged come last."""
+    losses = {method: measured[method][ORDERED_BY].value for method in methods}
+    return sorted(methods, key=lambda method: (losses[method] is None, losses[method] or 0.0))
 
 
 def measures_of(trainings: Sequence[TrainedNetwork], statistics: Statistics) -> Traits:
@@ -61,22 +71,22 @@ def measures_of(trainings: Sequence[TrainedNetwork], statistics: Statistics) -> 
     return {name: summarise([grid], statistics, unit=MEASURES[name][1]) for name, grid in grids.items()}
 
 
-def counts(trainings: Sequence[TrainedNetwork], rank: int | None, method: str, published: PublishedKinds) -> Traits:
+def counts(trainings: Sequence[TrainedNetwork], rank: int | None, kind: str, published: PublishedKinds) -> Traits:
     """Return what is counted of a kind; `rank` is its place among the kinds that the paper orders, None for others."""
     return {
-        "order": Number(rank, published=published.order.get(method)),
-        "parameters": Number(trainings[0].parameters, published=published.parameters.get(method)),
+        "order": Number(rank, published=published.order.get(kind)),
+        "parameters": Number(trainings[0].parameters, published=published.parameters.get(kind)),
         "runs": Number(len(trainings)),
         "diverged": Number(len(trainings) - len(sound(trainings))),
     }
 
 
-def kind_lines(traits: Mapping[str, Traits], variants: Sequence[str], confidence: float) -> list[Line]:
-    """Return the rows of text, two a kind where there are intervals, a rule above our own variants."""
+def kind_lines(traits: Mapping[str, Traits], firsts: Sequence[str], confidence: float) -> list[Line]:
+    """Return the rows of text, two a kind where there are intervals, a rule above `firsts`, where a part begins."""
     lines: list[Line] = []
     for method, own in traits.items():
         if lines:
-            lines.append(RULE if method in variants[:1] else GAP)
+            lines.append(RULE if method in firsts else GAP)
         order, size, runs, diverged = (own[name] for name in ("order", "parameters", "runs", "diverged"))
         ranks = [order.text(0), number_text(order.published, 0)]
         sizes = [size.text(0), number_text(size.published, 0)]
