@@ -106,6 +106,27 @@ def test_the_newest_version_is_that_of_the_published_results_and_of_the_citation
     assert commit[:7] in text
 
 
+def test_readme_citation_and_references_name_the_original_by_one_doi_and_the_version_that_is_reproduced():
+    """The entry of the original is the one that the paper cites; keys of BibTeX are no placeholders."""
+    readme = (ROOT / "README.md").read_text().split("\n## Cite\n")[1]
+    entry = re.search(
+        r"@article\{lim2023mobnet,.*?^\}", (ROOT / "paper/refs.bib").read_text(), re.MULTILINE | re.DOTALL
+    )
+    assert entry
+    (original,) = yaml.safe_load((ROOT / "CITATION.cff").read_text())["references"]
+    doi, version = original["doi"], "2402.11221v1"
+    assert re.findall(r"doi\s*= \{(.*?)\}", entry[0]) == [doi]
+    assert re.findall(r"doi\s*= \{(.*?)\}", readme) == [doi]
+    assert original["url"] == f"https://doi.org/{doi}"
+    assert f"https://doi.org/{doi}" in (ROOT / "README.md").read_text()
+    assert doi in (ROOT / "docs" / "deviations.md").read_text()
+    for text in (entry[0], readme, original["identifiers"][0]["value"]):
+        assert version in text
+    keys = re.findall(r"@\w+\{(\w+),", readme)
+    assert keys == ["lim2024mobnet", "mobnet2026reproduction"]
+    assert f"version = {{{PROJECT['project']['version']}}}" in readme
+
+
 def test_the_guide_draws_the_packages_as_the_import_linter_checks_them():
     """Its arrows are the layers of the first contract, and its table names every package once."""
     layers = PROJECT["tool"]["importlinter"]["contracts"][0]["layers"]

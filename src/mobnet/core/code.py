@@ -68,6 +68,17 @@ def code_hash(*starts: Path | str) -> str:
     return hashlib.sha256(b"".join(digests) + "\n".join(pinned).encode()).hexdigest()[:SHORT]
 
 
+@functools.cache
+def source_hash(*starts: Path | str) -> str:
+    """Return a short hash of the code behind files or names as `code_hash` does, without the versions of packages.
+
+    Raises:
+        ConfigError: there is no such file or module.
+    """
+    digests = sorted(source.digest for source in reached(start_of(start) for start in starts))
+    return hashlib.sha256(b"".join(digests)).hexdigest()[:SHORT]
+
+
 def start_of(start: Path | str) -> Path:
     """Return the file of a path or of a dotted name such as `mobnet.learning.train:train`."""
     is_dotted = isinstance(start, str) and start.split(".")[0] == PACKAGE

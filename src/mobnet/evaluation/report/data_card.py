@@ -58,8 +58,9 @@ Seeds of tests count from {test},
 those of the walks on which methods are chosen from {development}, those of training recordings from {first}. A
 recording's random numbers come from the configuration's seed ({seed}), its scenario (or the one that its key `draws`
 names) and its own seed, with separate streams for commands, noise, random torque, place, pushes and terrain: the three
-share no draw, and a file does not depend on the number of cores. Tests are sealed: their seeds were not walked before
-the published results were made.
+share no draw, and a file does not depend on the number of cores. Tests are sealed: `docs/results/seeds.json` lists the
+seeds that published runs walked, and a run with other methods that walks one of them again is not published. The runs
+of versions 0.3.0 and 0.5.0 were published before this was checked, and walked seeds again.
 
 The last {share:.0%} of the samples of every segment, one contiguous block, are for validation and the others for
 training (9:1, section 4.3); single samples of a stream are never shuffled into both. Of the motion of the upper body,

@@ -22,6 +22,7 @@ from mobnet.evaluation.report.manifest import differences, file_hash
 from mobnet.evaluation.report.paper import missing_packages
 from mobnet.evaluation.report.rates import RATES, measured
 from mobnet.evaluation.report.readme import blocks
+from mobnet.evaluation.report.walked import SEEDS, check_seeds, read_history, walked, write_history
 from mobnet.plan.demo import FOLDER
 from mobnet.plan.plan import make_plan
 from mobnet.running.accounts import read_account
@@ -214,15 +215,19 @@ def store(manifest: Path) -> None:
     """Store the run's results as the published ones, and renew what the documents say of them.
 
     Raises:
-        DataError: the results are not those of the present commit, or a file is missing or damaged.
+        DataError: the results are not those of the present commit, a published run with other methods walked their
+            seeds, or a file is missing or damaged.
     """
     settings = load_settings()
     check_run(RESULTS, manifest)
     check_fingerprints("all")
+    plan, published = make_plan(settings, with_pdf=not missing_packages()), read_history(SEEDS)
+    run = walked(plan.files, commit())
+    check_seeds(run, published)
     write_snapshot(settings, TABLES, FIGURES, FURTHER, SNAPSHOT)
     copy_demo(RESULTS / FOLDER, DEMO)
     tell_demo(StoredPush(DEMO, settings), DEMO_PAGE)
-    plan = make_plan(settings, with_pdf=not missing_packages())
+    write_history(SEEDS, [*published, run])
     jobs = map(read_account, sorted((RESULTS / LOGS).rglob("*.json")))
     write_json(RATES, measured(plan, jobs).model_dump())
     tell_readme(SNAPSHOT)
