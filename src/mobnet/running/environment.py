@@ -34,6 +34,7 @@ FIXED = {
     "WANDB_SILENT": "true",
     "WANDB_ERROR_REPORTING": "false",
     "DO_NOT_TRACK": "1",
+    "ORT_DISABLE_TELEMETRY": "1",  # ONNX Runtime reports to its maker unless it finds this when it is imported
 }
 
 
