@@ -52,7 +52,7 @@ options.intra_op_num_threads = 1
 watched = [one for one in contract["detectors"] if (one["method"], one["watched"]) == ("MOB-Net", "always")]
 for detector in watched:  # others need no network, or the gate of a swinging leg, which is in the C library
     network, rate_hz = next(one for one in contract["networks"] if one["limb"] == detector["limb"]), contract["rate_hz"]
-    session = ort.InferenceSession(export / network["file"], options, providers=["CPUExecutionProvider"])
+    session = ort.InferenceSession(export / Path(network["file"]).name, options, providers=["CPUExecutionProvider"])
     x = inputs_of(network, contract["quaternion"], columns)
     for start, end in json.loads(Path(f"{stem}.json").read_text())["segments"]:
         for k, joint in alarms_of(detector, rate_hz, estimates_of(network, session, x[start:end], mob[start:end])):

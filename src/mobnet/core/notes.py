@@ -26,6 +26,8 @@ Index = Annotated[int, Field(ge=0)]
 Positive = Annotated[float, Field(gt=0)]
 NotNegative = Annotated[float, Field(ge=0)]
 Text = Annotated[str, Field(min_length=1)]
+# What becomes the name of a file or a folder: never another place, whoever wrote the note.
+FileName = Annotated[str, Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9_.-]*$", max_length=100)]
 
 
 def _distinct(names: list[Item]) -> list[Item]:
@@ -121,6 +123,8 @@ def fault_of(found: Mapping[str, Any], kind: type[Note]) -> str:
         return not_accepted(place, found["input"], [f"no such key, but {', '.join(kind.model_fields)}"])
     if found["type"] == "value_error":
         return f"{place}: {found['ctx']['error']}"
+    if found["type"] == "string_pattern_mismatch":
+        return not_accepted(place, found["input"], [f"text of the form {found['ctx']['pattern']}"])
     what = re.sub(r"^\w+ should (be|have) ", "", found["msg"])
     what = re.sub(r"a valid dictionary( or instance of \w+)?", "a JSON object", what)
     return not_accepted(place, found["input"], [what[:1].lower() + what[1:]])

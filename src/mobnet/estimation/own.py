@@ -23,6 +23,7 @@ from mobnet.robot.description import RobotDescription
 from mobnet.robot.nominal import NominalModel
 from mobnet.settings.base import TorqueKind
 from mobnet.settings.methods import Target
+from mobnet.settings.robot import GroupName
 from mobnet.settings.settings import Settings
 
 RECORDING, ESTIMATE = "recording", "estimate"  # arrays in the folder of a log
@@ -33,7 +34,7 @@ UNCERTAINTY: Target = "uncertainty"  # what such a network learns
 class LearnedNote(Note):
     """What `run.json` of a network says of what it learned, at which rate; one of the workflow leaves numbers out."""
 
-    limb: Text
+    limb: GroupName
     target: Target
     fingerprint: Text
     rate_hz: Positive | None = None
