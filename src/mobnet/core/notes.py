@@ -53,7 +53,8 @@ class ArrayNote(Note):
     """The note of an array, of which `rows`, `segments`, `rate_hz` and `columns` must be there.
 
     Segments (start, end) are contiguous in time, in order and disjoint. The other keys are those that the simulator,
-    the observer and estimators add; `terrains` has one for each segment, `std_scale` is joint -> factor.
+    the observer and estimators add; `terrains` has one for each segment, `std_scale` is joint -> factor, `recording` is
+    the hash of the footer of the recording that an estimate was made of.
     """
 
     rows: Count
@@ -74,6 +75,7 @@ class ArrayNote(Note):
     networks: dict[str, Text] = {}
     std_scale: dict[str, Positive] = {}
     footer: Text = "-"
+    recording: Text = "-"
 
 
 def read_array_note(path: Path) -> dict[str, Any]:
@@ -157,3 +159,16 @@ def note_differences(note: Mapping[str, Any], other: Mapping[str, Any], name: st
     for key in ("rows", "segments", "rate_hz", "scenario", "level", "seed"):
         if note.get(key) != other.get(key) and key in note and key in other:
             yield not_accepted(key, note[key], [f"{SHOWN.repr(other[key])}, as in {name}"])
+
+
+def pair_differences(note: Mapping[str, Any], recording: Mapping[str, Any], name: str) -> Iterator[str]:
+    """Yield in what the note of an array differs from that of its recording, which has a name.
+
+    Another recording of the same length is noticed where the note says which one it belongs to.
+    """
+    yield from note_differences(note, recording, name)
+    if "recording" in note and note["recording"] != recording.get("footer", note["recording"]):
+        accepted = (
+            f"{recording['footer']}, the footer in {name}: the recording that it was made of; observe the log anew"
+        )
+        yield not_accepted("recording", note["recording"], [accepted])
