@@ -12,7 +12,8 @@ from mobnet.settings.reading import read_yaml
 
 TEXTS = [
     "a, b", "a: b", "{b", "[", "#", "a #b", "- a", "yes", "No", "null", "12", "1e5", "inf", "", " a", "a ", "a\nb", '"',
-    "'", "&a", "*a", "!!python/object:os.system", "%", "@", "`", "ü", "\U0001f600", "\x00", "\x1b[2J", "|", ">", "~", "a:",
+    "'", "&a", "*a", "!!python/object:os.system", "%", "@", "`", "ü", "\U0001f600", "\x00", "\x1b[2J", "|", ">", "~",
+    "a:",
 ]  # fmt: skip
 
 

@@ -23,6 +23,7 @@ CACHES = {
     "WANDB_CONFIG_DIR": "wandb/config",
     "WANDB_DATA_DIR": "wandb/data",
     "TEXMFVAR": "texmf",
+    "TORCHINDUCTOR_CACHE_DIR": "inductor",  # a folder that torch makes even where it compiles nothing
     "RUSTUP_HOME": "rustup",  # pip asks `rustc` for its version, which then makes its home
     "TMPDIR": "tmp",
 }
