@@ -5,9 +5,11 @@ Prints when alarms begin and end. To copy: it needs numpy, onnxruntime, pandas a
 """
 
 import json
+import os
 import sys
 from pathlib import Path
 
+os.environ.setdefault("ORT_DISABLE_TELEMETRY", "1")  # before the import, else ONNX Runtime reports to its maker
 import numpy as np
 import onnxruntime as ort
 import pandas as pd
@@ -23,10 +25,10 @@ def inputs_of(network, quaternion, columns):
     return columns[[one["name"] for one in network["inputs"]]].to_numpy(np.float32)
 
 
-def estimates_of(network, session, inputs, residual):
+def estimates_of(network, session, inputs, mob):
     """Yield the external torque and its standard deviation (n,) [N m], sample by sample; the first state is zero."""
     state = np.zeros(network["state"], np.float32)
-    for x, r in zip(inputs, residual, strict=True):
+    for x, r in zip(inputs, mob[[f"tau_ext.{one['joint']}" for one in network["outputs"]]].to_numpy(), strict=True):
         mean, std, state = session.run(["mean", "std", "state_out"], {"x": x, "state": state})
         yield (r - mean if network["estimates"] == "uncertainty" else mean), std
 
@@ -38,8 +40,7 @@ def alarms_of(detector, rate_hz, estimates):
     for k, (tau, std) in enumerate(estimates):
         low = pole * low + (1 - pole) * {"mean": tau, "std": std, "ratio": tau / std}[detector["signal"]]
         above = np.where((np.abs(low) > limits) & (k >= round(detector["settle_s"] * rate_hz)), above + 1, 0)
-        if (above.max() >= hold) != alarm:
-            alarm = not alarm
+        if alarm != (alarm := above.max() >= hold):
             yield k, detector["joints"][above.argmax()] if alarm else None
 
 
@@ -51,9 +52,8 @@ options.intra_op_num_threads = 1
 watched = [one for one in contract["detectors"] if (one["method"], one["watched"]) == ("MOB-Net", "always")]
 for detector in watched:  # others need no network, or the gate of a swinging leg, which is in the C library
     network, rate_hz = next(one for one in contract["networks"] if one["limb"] == detector["limb"]), contract["rate_hz"]
-    session = ort.InferenceSession(export / network["file"], options, providers=["CPUExecutionProvider"])
+    session = ort.InferenceSession(export / Path(network["file"]).name, options, providers=["CPUExecutionProvider"])
     x = inputs_of(network, contract["quaternion"], columns)
-    r = mob[[f"tau_ext.{one['joint']}" for one in network["outputs"]]].to_numpy()
     for start, end in json.loads(Path(f"{stem}.json").read_text())["segments"]:
-        for k, joint in alarms_of(detector, rate_hz, estimates_of(network, session, x[start:end], r[start:end])):
+        for k, joint in alarms_of(detector, rate_hz, estimates_of(network, session, x[start:end], mob[start:end])):
             print(f"{(start + k) / rate_hz:.3f} s: {detector['limb']}, {f'first {joint}' if joint else 'over'}")

@@ -6,11 +6,14 @@ import re
 from pathlib import Path
 
 import pytest
+from safetensors import safe_open
+from safetensors.numpy import save_file
 
 from mobnet.core.errors import DataError
 from mobnet.detection.threshold_file import write_thresholds
 from mobnet.export.export import agreed, export, main
 from mobnet.export.trained import read_trained
+from mobnet.learning.deployed.weights import NOTE
 from mobnet.settings.networks import NetworkCell
 
 
@@ -89,6 +92,50 @@ def test_a_network_of_another_robot_is_refused(called, save, tmp_path):
     status, (line,) = called(save(tmp_path / "a"), "--robot", arm, "--out", tmp_path / "out")
     assert status == 1
     assert re.search(r"a: input: 'q.LL1' is not accepted; accepted: q.J1", line)
+
+
+@pytest.fixture
+def renamed(save, tmp_path):
+    """Return a function of limbs that writes a network whose weights, and whose note of the training, say these."""
+
+    def write(limb, told):
+        folder = save(tmp_path / "net")
+        with safe_open(folder / "weights.safetensors", framework="numpy") as file:
+            note = {**json.loads(file.metadata()[NOTE]), "limb": limb}
+            tensors = {name: file.get_tensor(name) for name in file.keys()}  # noqa: SIM118, not a dict
+        save_file(tensors, folder / "weights.safetensors", {NOTE: json.dumps(note)})
+        run = json.loads((folder / "run.json").read_text())
+        (folder / "run.json").write_text(json.dumps({**run, "limb": told}))
+        return folder
+
+    return write
+
+
+FORM = r"is not accepted; accepted: text of the form \^\[A-Za-z\]\[A-Za-z0-9\]\*\$"
+
+
+@pytest.mark.parametrize(("limb", "told", "text"), [
+    ("/evil", "LL", rf"weights.safetensors: limb: '/evil' {FORM}"),
+    ("../../evil", "LL", rf"weights.safetensors: limb: '../../evil' {FORM}"),
+    ("{here}/precious", "LL", "weights.safetensors: limb: .*/precious. is not accepted; accepted: at most 20 char"),
+    ("LL", "../LL", rf"run.json: limb: '../LL' {FORM}"),
+    ("LL", "ZZ", "run.json: limb: 'ZZ' is not accepted; accepted: LL, as weights.safetensors says"),
+    ("evil", "evil", "run.json: limb: 'evil' is not accepted; accepted: LL"),
+    ("A" * 21, "LL", "weights.safetensors: limb: 'A+' is not accepted; accepted: at most 20 characters"),
+])  # fmt: skip
+def test_a_limb_of_a_stranger_s_network_writes_nothing_elsewhere(called, renamed, tmp_path, limb, told, text):
+    folder, out = renamed(limb.format(here=tmp_path), told), tmp_path / "some" / "out"
+    (tmp_path / "precious.onnx").write_bytes(b"precious")
+    before = {path: path.stat().st_mtime_ns for path in tmp_path.rglob("*")}
+    status, (line,) = called(folder, "--out", out)
+    assert status == 1
+    assert re.search(rf"net/{text}", line), line
+    assert {path: path.stat().st_mtime_ns for path in tmp_path.rglob("*")} == before
+
+
+def test_a_network_over_several_limbs_is_exported_under_its_own_name(called, save, tmp_path):
+    assert called(save(tmp_path / "net", "WB"), "--out", tmp_path / "out")[0] == 0
+    assert (tmp_path / "out" / "WB.onnx").exists()
 
 
 def test_what_an_earlier_export_wrote_and_this_one_lacks_is_removed(called, save, tmp_path):

@@ -1,5 +1,7 @@
 """Exported networks in ONNX Runtime: on the recording of docs/demo they are the project's own, and so are the flags."""
 
+import json
+
 import numpy as np
 import onnx
 import pytest
@@ -97,6 +99,15 @@ def test_a_graph_with_other_metadata_is_refused(metadata, text, demo, tmp_path):
     onnx.save(model, tmp_path / "LL.onnx")
     with pytest.raises(DataError, match=text):
         OnnxNetwork(tmp_path / "LL.onnx")
+
+
+@pytest.mark.parametrize("file", ["/etc/passwd", "../LL.onnx", "a/LL.onnx", "", ".LL.onnx"])
+def test_a_contract_names_no_file_elsewhere(file, demo, tmp_path, layout):
+    contract = json.loads((demo / "contract.json").read_text())
+    contract["networks"][0]["file"] = file
+    (tmp_path / "contract.json").write_text(json.dumps(contract))
+    with pytest.raises(DataError, match=rf"networks.0.file: '{file}' is not accepted; accepted: text of the form"):
+        load_exported(tmp_path, layout)
 
 
 def test_a_folder_without_a_contract_is_refused(tmp_path, layout):

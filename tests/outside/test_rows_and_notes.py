@@ -23,6 +23,8 @@ RUNS = {
         {
             "seed": ("1", -1),
             "method": (1,),
+            "name": ("../x", "/x", "a/b"),
+            "limb": ("../LL",),
             "parameters": (0, 1.5),
             "samples": (True,),
             "diverged": ("no", 0),

@@ -184,3 +184,26 @@ def test_a_file_that_is_not_there_is_one_line(say, tmp_path):
     status, lines = say(path, "--base", "fixed", "--out", tmp_path / "table.yaml")
     assert status == 1
     assert lines == [f"{path}: cannot be read: No such file or directory; accepted: a URDF or MJCF file"]
+
+
+def test_a_table_that_is_refused_replaces_none(saying, tmp_path):
+    (tmp_path / "bad.urdf").write_text(ARM.read_text().replace('effort="60"', 'effort="-5"'))
+    old, words = tmp_path / "good.yaml", (tmp_path / "bad.urdf", "--out")
+    assert saying(main, ARM, "--out", old)[0] == 0
+    before = old.read_bytes()
+    for out in (old, tmp_path / "new.yaml"):
+        status, (line,) = saying(main, *words, out, "--force")
+        assert status == 1
+        assert f"{tmp_path / 'bad.urdf'}, as a table" in line
+        assert "joints.0.torque_limit: -5.0 is not accepted; accepted: a number from 0.1 to 5000" in line
+    assert old.read_bytes() == before
+    assert {path.name for path in tmp_path.iterdir()} == {"bad.urdf", "good.yaml"}
+    assert saying(main, ARM, "--out", tmp_path / "new.yaml")[0] == 0
+
+
+@pytest.mark.parametrize("name", ["a, b", "{b", "a: b", "a#b", "[", "&quot;a&quot;", "line&#10;name: other", "yes"])
+def test_names_that_yaml_would_take_apart_are_quoted(name, tmp_path):
+    (tmp_path / "odd.urdf").write_text(ARM.read_text().replace('"J2"', f'"{name}"'))
+    found, robot = table_of(tmp_path / "odd.urdf", tmp_path)
+    assert robot.name == "two-link arm"
+    assert robot.joints[1].name == found.joints[1]["name"] != "J2"

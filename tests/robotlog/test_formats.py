@@ -137,3 +137,32 @@ def test_an_unknown_format_and_a_missing_file_name_what_is_accepted(tmp_path):
         read_log(tmp_path / "log.mat")
     with pytest.raises(DataError, match=r"none\.csv: file is missing; accepted: a log, \.csv, \.parquet"):
         read_log(tmp_path / "none.csv")
+
+
+def external(file, path):
+    """Add a dataset whose numbers are the bytes of another file."""
+    file.create_dataset("arm/x", (2,), "f8", external=[(str(path), 0, 16)])
+
+
+def virtual(file, path):
+    """Add a dataset whose numbers are those of another HDF5 file."""
+    h5py = importlib.import_module("h5py")
+    source = h5py.VirtualSource(str(path), "x", (2,), "f8")
+    layout = h5py.VirtualLayout((2,), "f8")
+    layout[:] = source
+    file.create_virtual_dataset("arm/x", layout)
+
+
+@pytest.mark.parametrize("add", [external, virtual], ids=lambda add: add.__name__)
+def test_an_hdf5_file_that_takes_numbers_from_other_files_is_refused(add, clean, tmp_path):
+    h5py, secret = importlib.import_module("h5py"), tmp_path / "secret"
+    with h5py.File(secret, "w") as file:
+        file["x"] = np.arange(2.0)
+    log = as_hdf5(clean[:ROWS], tmp_path)
+    with h5py.File(log, "a") as file:
+        add(file, secret)
+    for read in (column_names, read_log):
+        with pytest.raises(
+            DataError, match=r"log.h5: 'arm/x' takes its numbers from other files; accepted: a file that"
+        ):
+            read(log)

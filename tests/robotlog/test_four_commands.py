@@ -4,6 +4,7 @@ import csv
 import json
 import logging
 import re
+import shutil
 import sys
 from pathlib import Path
 
@@ -225,7 +226,8 @@ def test_the_same_words_train_nothing_anew_and_others_are_refused(made, monkeypa
     (("learn", "train", "--epochs", "0"), "--epochs: 0 is not accepted; accepted: a whole number from 1"),
     (("learn", "nowhere"), "nowhere: recording.json is missing; accepted: a folder that `./reproduce observe` wrote"),
     (("calibrate", "train"), "seconds of free motion, in windows of 1 s: 99.0 is not accepted; accepted: 200 or more"),
-    (("learn", "train", "../{here}/train"), "FOLDER: '.*/train' is not accepted; accepted: each folder once"),
+    (("learn", "train", "../{here}/train"), "FOLDER: '.*/train' is not accepted; accepted: each log once"),
+    (("calibrate", "free", "../{here}/free"), "FOLDER: '.*/free' is not accepted; accepted: each log once"),
     (("calibrate", "free", "train", "--network", "arm_net"), "train: the network learned from it, where its error is"),
     (("calibrate", "free", "--network", "x"), "x: run.json is missing; accepted: a folder that `./reproduce learn` w"),
     (("detect", "train", "--network", "arm_net", "--thresholds", "arm_thresholds.yaml"), "a folder without metadata"),
@@ -242,6 +244,26 @@ def test_what_is_wrong_is_one_line(words, message, made, monkeypatch, caplog):
     (line,) = [record.message for record in caplog.records if record.levelno >= logging.ERROR]
     assert "\n" not in line
     assert re.search(message, line), line
+
+
+def test_a_log_that_the_network_learned_from_is_known_wherever_it_stands(made, monkeypatch, caplog):
+    monkeypatch.chdir(made)
+    shutil.copytree("train", "moved")
+    assert run("calibrate", "free", "moved", *OWN, "--network", "arm_net") == 1
+    assert caplog.messages[-1].startswith("moved: the network learned from it, where its error is smaller; accepted:")
+    assert run("learn", "train", "moved", *OWN, *SHORT, "--out", "twice_net") == 1
+    assert caplog.messages[-1].startswith("FOLDER: 'moved' is not accepted; accepted: each log once")
+    assert not Path("twice_net").exists()
+
+
+def test_a_network_of_an_earlier_version_knows_its_logs_by_their_folders(made, monkeypatch, caplog):
+    monkeypatch.chdir(made)
+    shutil.copytree("arm_net", "old_net")
+    note = json.loads(Path("old_net/run.json").read_text())
+    del note["recordings"]
+    Path("old_net/run.json").write_text(json.dumps(note))
+    assert run("calibrate", "free", "train", *OWN, "--network", "old_net") == 1
+    assert caplog.messages[-1].startswith("train: the network learned from it")
 
 
 def test_a_log_at_another_rate_is_resampled_by_a_map_and_refused_without_one(made, monkeypatch, caplog):

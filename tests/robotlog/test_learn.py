@@ -8,7 +8,9 @@ import pytest
 
 from mobnet.core.errors import ConfigError, DataError
 from mobnet.core.recording import read_sensed, write_recording
+from mobnet.core.store import footer_hash
 from mobnet.demo import DATA
+from mobnet.detection.limb import OwnRecording
 from mobnet.estimation.label import foot_label
 from mobnet.estimation.low_pass import low_pass
 from mobnet.estimation.observe import read_wrenches
@@ -64,6 +66,35 @@ def test_a_tool_on_a_body_that_is_not_there_is_told(tool_log, arm, tmp_path, cap
     words = [str(tmp_path / "log.csv"), "--robot", "tests/data/arm.yaml", "--map", str(tmp_path / "map.yaml")]
     assert observe([*words, "--out", str(tmp_path / "other")]) == 1
     assert "body: 'hand' is not accepted; accepted: lower, upper, wall" in caplog.text
+
+
+@pytest.fixture
+def two_logs(arm_log, tmp_path):
+    """The folders of two logs of equal length, each observed by the command."""
+    for seed, name in enumerate(("one", "other")):
+        arm_log(seed, seconds=2.0).to_csv(tmp_path / f"{name}.csv", index=False)
+        words = [str(tmp_path / f"{name}.csv"), "--robot", "tests/data/arm.yaml", "--out", str(tmp_path / name)]
+        assert observe(words) == 0
+    return tmp_path / "one", tmp_path / "other"
+
+
+def test_a_folder_with_the_recording_of_another_log_is_refused(two_logs, arm):
+    one, other = two_logs
+    for name in ("recording.json", "recording.parquet"):
+        shutil.copy(one / name, other / name)
+    accepted = rf"accepted: {footer_hash(one / 'recording.parquet')}, the footer in .*; observe the log anew$"
+    with pytest.raises(DataError, match=rf"estimate.json: recording: '\w+' is not accepted; {accepted}"):
+        read_log_folder(other, arm.layout)
+    with pytest.raises(DataError, match=rf"estimate.json: recording: '\w+' is not accepted; {accepted}"):
+        OwnRecording.read_files(one / "recording", other / "estimate", arm, "A")
+
+
+def test_an_estimate_of_an_earlier_version_does_not_say_of_which_recording_it_is(two_logs, arm):
+    one, _ = two_logs
+    note = json.loads((one / "estimate.json").read_text())
+    assert note.pop("recording") == read_log_folder(one, arm.layout).footer
+    (one / "estimate.json").write_text(json.dumps(note))
+    assert read_log_folder(one, arm.layout).sampling.gain_hz == GAIN_HZ
 
 
 def test_the_label_of_feet_is_that_of_the_workflow(made_up, nominal, layout, tmp_path):

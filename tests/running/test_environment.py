@@ -92,9 +92,10 @@ def home(tmp_path):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", CALLED)
-def test_a_command_that_is_called_directly_writes_nothing_at_home(name, home):
-    subprocess.run([sys.executable, *CALLED[name]], cwd=ROOT, env=home, check=False, capture_output=True)
-    assert os.listdir(home["HOME"]) == []
+def test_a_command_that_is_called_directly_writes_nothing_elsewhere_and_sends_nothing(name, watched):
+    kept = {key: value for key, value in os.environ.items() if key not in CACHES}
+    _, written, called = watched(sys.executable, *CALLED[name], folder=ROOT, **kept)
+    assert (written, called) == ([], [])
 
 
 def test_a_set_up_writes_nothing_at_home_where_rust_is_installed(home, tmp_path):

@@ -26,6 +26,8 @@ Index = Annotated[int, Field(ge=0)]
 Positive = Annotated[float, Field(gt=0)]
 NotNegative = Annotated[float, Field(ge=0)]
 Text = Annotated[str, Field(min_length=1)]
+# What becomes the name of a file or a folder: never another place, whoever wrote the note.
+FileName = Annotated[str, Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9_.-]*$", max_length=100)]
 
 
 def _distinct(names: list[Item]) -> list[Item]:
@@ -51,7 +53,8 @@ class ArrayNote(Note):
     """The note of an array, of which `rows`, `segments`, `rate_hz` and `columns` must be there.
 
     Segments (start, end) are contiguous in time, in order and disjoint. The other keys are those that the simulator,
-    the observer and estimators add; `terrains` has one for each segment, `std_scale` is joint -> factor.
+    the observer and estimators add; `terrains` has one for each segment, `std_scale` is joint -> factor, `recording` is
+    the hash of the footer of the recording that an estimate was made of.
     """
 
     rows: Count
@@ -72,6 +75,7 @@ class ArrayNote(Note):
     networks: dict[str, Text] = {}
     std_scale: dict[str, Positive] = {}
     footer: Text = "-"
+    recording: Text = "-"
 
 
 def read_array_note(path: Path) -> dict[str, Any]:
@@ -121,6 +125,8 @@ def fault_of(found: Mapping[str, Any], kind: type[Note]) -> str:
         return not_accepted(place, found["input"], [f"no such key, but {', '.join(kind.model_fields)}"])
     if found["type"] == "value_error":
         return f"{place}: {found['ctx']['error']}"
+    if found["type"] == "string_pattern_mismatch":
+        return not_accepted(place, found["input"], [f"text of the form {found['ctx']['pattern']}"])
     what = re.sub(r"^\w+ should (be|have) ", "", found["msg"])
     what = re.sub(r"a valid dictionary( or instance of \w+)?", "a JSON object", what)
     return not_accepted(place, found["input"], [what[:1].lower() + what[1:]])
@@ -153,3 +159,16 @@ def note_differences(note: Mapping[str, Any], other: Mapping[str, Any], name: st
     for key in ("rows", "segments", "rate_hz", "scenario", "level", "seed"):
         if note.get(key) != other.get(key) and key in note and key in other:
             yield not_accepted(key, note[key], [f"{SHOWN.repr(other[key])}, as in {name}"])
+
+
+def pair_differences(note: Mapping[str, Any], recording: Mapping[str, Any], name: str) -> Iterator[str]:
+    """Yield in what the note of an array differs from that of its recording, which has a name.
+
+    Another recording of the same length is noticed where the note says which one it belongs to.
+    """
+    yield from note_differences(note, recording, name)
+    if "recording" in note and note["recording"] != recording.get("footer", note["recording"]):
+        accepted = (
+            f"{recording['footer']}, the footer in {name}: the recording that it was made of; observe the log anew"
+        )
+        yield not_accepted("recording", note["recording"], [accepted])

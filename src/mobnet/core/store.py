@@ -24,7 +24,7 @@ from mobnet.core.errors import DataError, not_accepted, refuse, refuse_lines
 from mobnet.core.files import atomic_path, check_regular, write_json
 from mobnet.core.joints import JointLayout
 from mobnet.core.motion import MotionCheck
-from mobnet.core.notes import check_array_note, note_differences, read_array_note
+from mobnet.core.notes import check_array_note, pair_differences, read_array_note
 
 ARRAY, NOTE = ".parquet", ".json"
 # Note 0010 has the measurements behind these numbers.
@@ -312,7 +312,7 @@ def label_of(residual: Path) -> str:
 def check_pair(recording: Path, residual: Path) -> None:
     """Raise a DataError that says in what a residual is not of its recording, one line for each difference."""
     note, other = (read_array_note(file_of(stem, NOTE)) for stem in (residual, recording))
-    refuse(f"{residual}{NOTE}", note_differences(note, other, f"{recording}{NOTE}, its recording"))
+    refuse(f"{residual}{NOTE}", pair_differences(note, other, f"{recording}{NOTE}, its recording"))
 
 
 def check_rate(stem: Path, rate_hz: float | None) -> None:

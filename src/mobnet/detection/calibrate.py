@@ -27,6 +27,7 @@ from mobnet.estimation.own import (
     limb_of,
     read_log_folder,
     read_network_folder,
+    refuse_twice,
 )
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.given import given_robot
@@ -42,16 +43,16 @@ def read_folders(options: Namespace, robot: RobotDescription, network: OwnNetwor
     """Return the logs in folders of `./reproduce observe`.
 
     Raises:
-        DataError: a folder is not one, its sampling is not that of the first one or of the network, or the network
-            learned from it.
+        DataError: a folder is not one, its sampling is not that of the first one or of the network, the network learned
+            from it, or it is given twice.
     """
-    known = {folder.resolve() for folder in network.logs} if network else set()
-    refuse_lines(
-        f"{folder}: the network learned from it, where its error is smaller; accepted: another log"
-        for folder in options.folders
-        if folder.resolve() in known
-    )
     logs = [read_log_folder(folder, robot.layout) for folder in options.folders]
+    refuse_lines(
+        f"{one.folder}: the network learned from it, where its error is smaller; accepted: another log"
+        for one in logs
+        if network and network.has_learned_from(one)
+    )
+    refuse_twice(logs, "else its alarms count twice")
     sampling, of = (network.sampling, network.folder) if network else (logs[0].sampling, logs[0].folder)
     for one in logs:
         check_sampling(one.folder, one.sampling, sampling, of)

@@ -10,7 +10,7 @@ from mobnet.core.arrays import Array
 from mobnet.core.columns import EXTERNAL, named
 from mobnet.core.errors import DataError, not_accepted, refuse
 from mobnet.core.estimator import Estimate
-from mobnet.core.notes import note_differences, read_array_note
+from mobnet.core.notes import pair_differences, read_array_note
 from mobnet.core.recording import SensedRecording, read_sensed
 from mobnet.core.store import NOTE, check_finite, file_of
 from mobnet.detection.always import AlwaysWatched, always_watched, setup_of
@@ -45,7 +45,7 @@ class OwnRecording:
             DataError: a file is missing or damaged, a number is not finite, or the notes of the two differ.
         """
         note, other = (read_array_note(file_of(stem, NOTE)) for stem in (estimate, recording))
-        refuse(f"{estimate}{NOTE}", note_differences(note, other, f"{recording}{NOTE}"))
+        refuse(f"{estimate}{NOTE}", pair_differences(note, other, f"{recording}{NOTE}"))
         joints = robot.layout.limb(limb)
         found = read_estimate(estimate, joints)
         if found is None:

@@ -1,6 +1,5 @@
 """The file of a limb's thresholds: written by `./reproduce calibrate`, read by `detect` and `export`."""
 
-import json
 from pathlib import Path
 
 from mobnet.core.errors import ConfigError, not_accepted
@@ -15,7 +14,7 @@ HEADER = "# Thresholds of a limb, by ./reproduce calibrate (docs/detection.md). 
 def write_thresholds(path: Path, found: LimbThresholds) -> None:
     """Write the thresholds of a limb as YAML, a line for each key."""
     rows = found.model_dump(mode="json", exclude_none=True).items()
-    write_text(path, "\n".join([HEADER, *(f"{key}: {flow(value, json.dumps)}" for key, value in rows)]) + "\n")
+    write_text(path, "\n".join([HEADER, *(f"{key}: {flow(value)}" for key, value in rows)]) + "\n")
 
 
 def read_thresholds(path: Path) -> LimbThresholds:

@@ -12,9 +12,9 @@ from mobnet.core.errors import ConfigError, DataError, not_accepted, refuse
 from mobnet.core.estimator import Estimate
 from mobnet.core.files import RUN
 from mobnet.core.joints import JointLayout
-from mobnet.core.notes import Note, Positive, Text, note_differences, read_array_note, read_note
+from mobnet.core.notes import Note, Positive, Text, pair_differences, read_array_note, read_note
 from mobnet.core.recording import SensedRecording, read_sensed
-from mobnet.core.store import NOTE, file_of, read_array
+from mobnet.core.store import ARRAY, NOTE, file_of, footer_hash, read_array
 from mobnet.estimation.estimate import Observed, only, run_segments
 from mobnet.estimation.kinds.residual import ResidualEstimator
 from mobnet.estimation.observer import MomentumObserver
@@ -23,6 +23,7 @@ from mobnet.robot.description import RobotDescription
 from mobnet.robot.nominal import NominalModel
 from mobnet.settings.base import TorqueKind
 from mobnet.settings.methods import Target
+from mobnet.settings.robot import GroupName
 from mobnet.settings.settings import Settings
 
 RECORDING, ESTIMATE = "recording", "estimate"  # arrays in the folder of a log
@@ -31,15 +32,19 @@ UNCERTAINTY: Target = "uncertainty"  # what such a network learns
 
 
 class LearnedNote(Note):
-    """What `run.json` of a network says of what it learned, at which rate; one of the workflow leaves numbers out."""
+    """What `run.json` of a network says of what it learned, at which rate; one of the workflow leaves numbers out.
 
-    limb: Text
+    It learned from the recordings with these hashes of their footers, which stood in these folders.
+    """
+
+    limb: GroupName
     target: Target
     fingerprint: Text
     rate_hz: Positive | None = None
     gain_hz: Positive | None = None
     torque: TorqueKind | None = None
     folders: list[Text] | None = None
+    recordings: list[Text] | None = None
 
 
 @dataclass(frozen=True)
@@ -53,17 +58,24 @@ class Sampling:
 
 @dataclass(frozen=True)
 class OwnLog:
-    """A log: what the robot sensed, and the residual r of (9), (T, nv) [N] and [N m]."""
+    """A log: what the robot sensed, and the residual r of (9), (T, nv) [N] and [N m].
+
+    Its recording has a hash, that of its footer, by which a copy of it in another folder is known.
+    """
 
     folder: Path
     recording: SensedRecording
     residual: NDArray[np.float32]
     sampling: Sampling
+    footer: str = ""
 
 
 @dataclass(frozen=True)
 class OwnNetwork:
-    """A network of a limb, the hash of all that its weights depend on, its sampling, and the logs it learned from."""
+    """A network of a limb, the hash of all that its weights depend on, its sampling, and the logs it learned from.
+
+    The logs are folders, and hashes of their recordings' footers; an earlier version noted the folders alone.
+    """
 
     folder: Path
     limb: str
@@ -71,6 +83,24 @@ class OwnNetwork:
     networks: LimbNetworks
     sampling: Sampling
     logs: tuple[Path, ...] = ()
+    recordings: tuple[str, ...] | None = None
+
+    def has_learned_from(self, log: OwnLog) -> bool:
+        """Return whether it learned from a log, wherever this stands now."""
+        if self.recordings is None:
+            return log.folder.resolve() in {folder.resolve() for folder in self.logs}
+        return log.footer in self.recordings
+
+
+def refuse_twice(logs: Sequence[OwnLog], why: str) -> None:
+    """Raise a DataError with the reason where a log is given twice, be it as a copy in another folder."""
+    seen = dict[str, Path]()
+    for one in logs:
+        if one.footer in seen:
+            raise DataError(
+                not_accepted("FOLDER", str(one.folder), [f"each log once, {why}; {seen[one.footer]} is it"])
+            )
+        seen[one.footer] = one.folder
 
 
 def read_log_folder(folder: Path, layout: JointLayout) -> OwnLog:
@@ -84,7 +114,7 @@ def read_log_folder(folder: Path, layout: JointLayout) -> OwnLog:
         accepted = "a folder that `./reproduce observe` wrote"
         raise DataError(f"{folder}: {missing[0]}{NOTE} is missing; accepted: {accepted}")
     note, other = (read_array_note(file_of(stem, NOTE)) for stem in reversed(stems))
-    refuse(f"{stems[1]}{NOTE}", note_differences(note, other, f"{stems[0]}{NOTE}"))
+    refuse(f"{stems[1]}{NOTE}", pair_differences(note, other, f"{stems[0]}{NOTE}"))
     if note.get("method") != OBSERVER or not {"gain_hz", "torque"} <= note.keys():
         raise DataError(not_accepted(f"{stems[1]}{NOTE}: method", note.get("method"), [f"{OBSERVER}, by observe"]))
     held = [column["name"].removeprefix(f"{EXTERNAL}.") for column in note["columns"]]
@@ -92,7 +122,8 @@ def read_log_folder(folder: Path, layout: JointLayout) -> OwnLog:
         raise DataError(f"{not_accepted(f'{folder}: joint', others[0], layout.names)}, those of --robot")
     recording = read_sensed(stems[0], layout)
     residual = read_array(stems[1], named(EXTERNAL, layout.names))[0]
-    return OwnLog(folder, recording, residual, Sampling(recording.rate_hz, float(note["gain_hz"]), note["torque"]))
+    sampling = Sampling(recording.rate_hz, float(note["gain_hz"]), note["torque"])
+    return OwnLog(folder, recording, residual, sampling, footer_hash(file_of(stems[0], ARRAY)))
 
 
 def read_network_folder(folder: Path, layout: JointLayout, settings: Settings) -> OwnNetwork:
@@ -110,7 +141,9 @@ def read_network_folder(folder: Path, layout: JointLayout, settings: Settings) -
     rate_hz, gain_hz = note.rate_hz or settings.rates.data_hz, note.gain_hz or observer.gain_hz
     networks = load_limb_networks({note.limb: folder}, layout)
     sampling = Sampling(rate_hz, gain_hz, note.torque or observer.torque)
-    return OwnNetwork(folder, note.limb, note.fingerprint, networks, sampling, tuple(map(Path, note.folders or ())))
+    folders, recordings = tuple(map(Path, note.folders or ())), note.recordings
+    known = None if recordings is None else tuple(recordings)
+    return OwnNetwork(folder, note.limb, note.fingerprint, networks, sampling, folders, known)
 
 
 def limb_of(layout: JointLayout, given: str | None, network: OwnNetwork | None = None) -> str:

@@ -8,10 +8,11 @@ from pathlib import Path
 from typing import Any
 
 from mobnet.core.files import read_json
-from mobnet.core.notes import Count, Index, Note, Positive, Text, checked
+from mobnet.core.notes import Count, FileName, Index, Note, Positive, Text, checked
 from mobnet.settings.base import TorqueKind
 from mobnet.settings.limb_thresholds import LimbThresholds
 from mobnet.settings.methods import Target
+from mobnet.settings.robot import GroupName
 
 FORMAT = 1  # of the contract; another one has other keys
 OPSET, IR_VERSION = 17, 8  # of July 2022: run times of that age and newer ones read the files
@@ -46,9 +47,9 @@ class NetworkContract(Note):
     It estimates the external torque, or the uncertainty torque that is subtracted from the observer's residual (15).
     """
 
-    file: Text
+    file: FileName
     name: Text
-    limb: Text
+    limb: GroupName
     estimates: Target
     cell: Text
     state: Index

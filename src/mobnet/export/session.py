@@ -4,13 +4,16 @@ A step copies its inputs into buffers that are bound once, so that ONNX Runtime 
 """
 
 import json
+import os
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-import onnxruntime as ort
 from numpy.typing import NDArray
+
+os.environ.setdefault("ORT_DISABLE_TELEMETRY", "1")  # it writes to the home and reports unless this is there before it
+import onnxruntime as ort
 
 from mobnet.core.errors import DataError
 from mobnet.core.files import parse_json

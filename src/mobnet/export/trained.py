@@ -8,7 +8,7 @@ from pathlib import Path
 
 from mobnet.core.code import ROOT
 from mobnet.core.columns import Column, recording_columns, torque_columns
-from mobnet.core.errors import DataError
+from mobnet.core.errors import DataError, not_accepted, refuse
 from mobnet.core.files import RUN, WEIGHTS
 from mobnet.core.joints import JointLayout
 from mobnet.core.notes import read_note
@@ -57,9 +57,19 @@ def read_trained(folder: Path, layout: JointLayout) -> Trained:
         raise DataError(f"{folder}: {missing[0]} is missing; accepted: a folder of a trained network")
     weights = folder / WEIGHTS
     tensors, note = read_weights(weights)
-    check_limb(deployed(tensors, note), note.limb, folder, layout)
     run = read_note(folder / RUN, LearnedNote)
+    refuse(folder / RUN, _limb_faults(run.limb, note, layout))
+    check_limb(deployed(tensors, note), note.limb, folder, layout)
     return Trained(folder, tensors, note, run, hashlib.sha256(weights.read_bytes()).hexdigest())
+
+
+def _limb_faults(limb: str, note: WeightsNote, layout: JointLayout) -> Iterator[str]:
+    """Yield what is wrong with the limb of a training, which becomes the name of a file."""
+    if limb != note.limb:
+        yield not_accepted("limb", limb, [f"{note.limb}, as {WEIGHTS} says"])
+    own = [name for name, joints in layout.groups.items() if set(note.joints) <= set(joints)]
+    if limb not in layout.groups and own:  # one over several limbs has a name of its own
+        yield not_accepted("limb", limb, own)
 
 
 def check_apart(networks: Sequence[Trained]) -> None:

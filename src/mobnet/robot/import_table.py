@@ -12,7 +12,7 @@ import numpy as np
 import pinocchio as pin
 
 from mobnet.core.errors import ConfigError
-from mobnet.core.files import write_text
+from mobnet.core.files import atomic_path
 from mobnet.core.flow import flow
 from mobnet.core.joints import N_VIRTUAL
 from mobnet.robot.description import RobotDescription, describe
@@ -37,10 +37,10 @@ def table_text(found: Imported, source: str) -> str:
     order = {**({"virtual": VIRTUAL} if found.floating else {}), "actuated": [row["id"] for row in found.joints]}
     networks = {name: {"joints": [name], "Q": [name], "T": []} for name in found.groups}
     lines = [
-        f"# {found.name}: from {source}, by ./reproduce robot. SI units; quaternions w x y z.",
+        f"# {found.name}: from {_line(source)}, by ./reproduce robot. SI units; quaternions w x y z.",
         "# inertia: [xx, yy, zz, xy, xz, yz] about the centre of mass, in body axes.",
-        *(f"# {note}" for note in found.notes),
-        f"name: {found.name}",
+        *(f"# {_line(note)}" for note in found.notes),
+        f"name: {flow(found.name)}",
         f"base: {'floating' if found.floating else 'fixed'}",
         *([f"imu: {flow(found.imu)}"] if found.imu else []),
         "order:", *(f"  {key}: {flow(value)}" for key, value in order.items()),
@@ -50,6 +50,11 @@ def table_text(found: Imported, source: str) -> str:
         "bodies:", *(f"  - {flow(row)}" for row in found.bodies),
     ]  # fmt: skip
     return "\n".join(lines) + "\n"
+
+
+def _line(text: str) -> str:
+    """Return a text on one line: names in a file may hold line breaks, which would end a comment."""
+    return " ".join(text.split())
 
 
 def differences(robot: RobotDescription, found: Imported, path: Path) -> Iterator[tuple[str, float, float]]:
@@ -129,9 +134,20 @@ def run(options: Namespace) -> Iterator[str]:
         raise ConfigError(f"{out}: exists already; accepted: another --out, or --force")
     taken = options.torque_limit, options.speed_limit, options.armature
     found = import_robot(options.file, check_base(options.base), *taken)
-    write_text(out, table_text(found, options.file.name))
-    yield from told(describe(load_section(out, RobotTable)), found, options.file)
+    text = table_text(found, options.file.name).encode()
+    with atomic_path(out, len(text)) as temporary:  # what is refused leaves an older table as it is
+        temporary.write_bytes(text)
+        lines = list(told(_read(temporary, options.file), found, options.file))
+    yield from lines
     yield f"written: {out}"
+
+
+def _read(table: Path, source: Path) -> RobotDescription:
+    """Return the robot of a table; what is not accepted in it is told of its source."""
+    try:
+        return describe(load_section(table, RobotTable))
+    except ConfigError as error:
+        raise ConfigError(str(error).replace(str(table), f"{source}, as a table")) from None
 
 
 def main(words: list[str]) -> int:

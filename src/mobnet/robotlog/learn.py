@@ -15,7 +15,7 @@ import numpy as np
 from mobnet.core.code import ROOT
 from mobnet.core.errors import DataError, not_accepted
 from mobnet.core.files import RUN, read_json, write_json
-from mobnet.estimation.own import OwnLog, limb_of, read_log_folder
+from mobnet.estimation.own import OwnLog, limb_of, read_log_folder, refuse_twice
 from mobnet.learning.deployed.networks import load_network
 from mobnet.learning.device import own_device
 from mobnet.learning.job import TrainingJob
@@ -63,7 +63,8 @@ def learn(
     label = np.concatenate(known)[:, columns]
     numbers = settings.robotlog.learn
     found = free_check(load_network(out), data, label, cut, units, numbers.margin)
-    told = {"folders": [str(one.folder) for one in logs], "labels": labels, **vars(first), "check": found.note()}
+    learned = {"folders": [str(one.folder) for one in logs], "recordings": [one.footer for one in logs]}
+    told = {**learned, "labels": labels, **vars(first), "check": found.note()}
     write_json(out / RUN, {**read_json(out / RUN), **told})
     return [*lines_of(found, labels, numbers), f"written: {out}"]
 
@@ -82,11 +83,6 @@ def _is_new(fingerprint: str, out: Path, *, force: bool) -> bool:
     return True
 
 
-def _places(folders: Sequence[Path]) -> set[Path]:
-    """Return where folders are, however they were typed."""
-    return {folder.resolve() for folder in folders}
-
-
 def run(options: Namespace) -> list[str]:
     """Train a network as the command's options say, and return what is printed."""
     check_labels(options.labels)
@@ -94,11 +90,10 @@ def run(options: Namespace) -> list[str]:
     epochs = settings.robotlog.learn.epochs if options.epochs is None else options.epochs
     if epochs < 1:
         raise DataError(not_accepted("--epochs", epochs, ["a whole number from 1"]))
-    if twice := [one for k, one in enumerate(options.folders) if one.resolve() in _places(options.folders[:k])]:
-        raise DataError(not_accepted("FOLDER", str(twice[0]), ["each folder once, else what is held out trains too"]))
     table = given_table(options.robot, settings)
     limb = limb_of(table.layout, options.limb)
     logs = [read_log_folder(folder, table.layout) for folder in options.folders]
+    refuse_twice(logs, "else what is held out trains too")
     out = options.out or Path(f"{limb}_net")
     return learn(settings, table, logs, limb, options.labels, epochs, out, force=options.force)
 

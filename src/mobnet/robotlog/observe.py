@@ -18,8 +18,9 @@ from mobnet.core.arrays import Array
 from mobnet.core.columns import EXTERNAL, recording_columns, torque_columns
 from mobnet.core.errors import DataError, not_accepted
 from mobnet.core.joints import JointLayout
+from mobnet.core.notes import read_array_note
 from mobnet.core.recording import Recording
-from mobnet.core.store import GROUP_ROWS, array_writer, write_array
+from mobnet.core.store import GROUP_ROWS, NOTE, array_writer, file_of, write_array
 from mobnet.estimation import observer
 from mobnet.estimation.own import ESTIMATE, OBSERVER, RECORDING
 from mobnet.robot.description import RobotDescription
@@ -149,7 +150,8 @@ def write_observed(found: Observed, robot: RobotDescription, gain_hz: float, tor
     meta = {**read.meta, "gain_hz": gain_hz, "torque": torque}
     _write_recording(out / RECORDING, replace(read, meta=meta), robot.layout)
     columns = torque_columns(robot.layout, [EXTERNAL], robot.layout.names)
-    note = {"rate_hz": read.rate_hz, **meta, "method": OBSERVER}
+    recorded = read_array_note(file_of(out / RECORDING, NOTE))["footer"]
+    note = {"rate_hz": read.rate_hz, **meta, "method": OBSERVER, "recording": recorded}
     write_array(out / ESTIMATE, found.residual, columns, note, read.segments)
     plot_residual(read.rate_hz, read.segments, found.residual, robot.layout, out / PLOT)
 

@@ -121,6 +121,8 @@ def _hdf5_parts(path: Path) -> list[tuple[str, tuple[str, int]]]:
 
     def visit(name: str, item: Any) -> None:
         if isinstance(item, h5py.Dataset) and item.dtype.kind in "fiub" and item.ndim in (1, 2):
+            if item.external or item.is_virtual:  # any file of this machine could become a column of the recording
+                raise DataError(f"{path}: {name!r} takes its numbers from other files; accepted: a file that holds all")
             columns = [name] if item.ndim == 1 else [f"{name}.{k}" for k in range(item.shape[1])]
             found.extend((column, (name, k)) for k, column in enumerate(columns))
 

@@ -23,6 +23,7 @@ CACHES = {
     "WANDB_CONFIG_DIR": "wandb/config",
     "WANDB_DATA_DIR": "wandb/data",
     "TEXMFVAR": "texmf",
+    "TORCHINDUCTOR_CACHE_DIR": "inductor",  # a folder that torch makes even where it compiles nothing
     "RUSTUP_HOME": "rustup",  # pip asks `rustc` for its version, which then makes its home
     "TMPDIR": "tmp",
 }
@@ -34,6 +35,7 @@ FIXED = {
     "WANDB_SILENT": "true",
     "WANDB_ERROR_REPORTING": "false",
     "DO_NOT_TRACK": "1",
+    "ORT_DISABLE_TELEMETRY": "1",  # ONNX Runtime reports to its maker unless it finds this when it is imported
 }
 
 

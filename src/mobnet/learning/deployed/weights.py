@@ -14,6 +14,7 @@ from mobnet.core.errors import DataError, not_accepted, refuse
 from mobnet.core.files import parse_json
 from mobnet.core.notes import Names, Note, Positive, Text, checked, fault_of
 from mobnet.settings.networks import NetworkCell
+from mobnet.settings.robot import GroupName
 
 NOTE = "note"  # the only entry of the file's metadata: several would be written in an order that changes
 GRU_TENSORS = (
@@ -34,7 +35,7 @@ class WeightsNote(Note):
     model_config = ConfigDict(extra="forbid")
 
     name: Text
-    limb: Text
+    limb: GroupName
     joints: Names
     inputs: Names
     std_min: Positive

@@ -15,9 +15,10 @@ from pydantic import Field
 from mobnet.core.columns import Epoch
 from mobnet.core.errors import not_accepted, refuse
 from mobnet.core.files import METRICS, RUN, TIME, read_json
-from mobnet.core.notes import Count, Index, Names, Note, NotNegative, Positive, Text, read_note
+from mobnet.core.notes import Count, FileName, Index, Names, Note, NotNegative, Positive, Text, read_note
 from mobnet.evaluation.number.rows import read_epochs
 from mobnet.settings.networks import CellKind
+from mobnet.settings.robot import GroupName
 
 MEASURES: Mapping[str, tuple[Callable[[TrainedNetwork], float], str]] = {  # name -> (of a training, unit)
     "validation loss": (lambda training: training.kept.validation_loss, "-"),
@@ -86,9 +87,9 @@ class NotedCalibration(Note):
 class TrainingNote(Note):
     """The note of a training, `run.json`; one that diverged in its first epoch has no best one."""
 
-    name: Text
+    name: FileName
     method: Text
-    limb: Text
+    limb: GroupName
     seed: Index
     target: Literal["uncertainty", "external"]
     settings: NotedSettings
