@@ -69,7 +69,10 @@ def trials_of(catalogue: Catalogue, cell: Cell) -> int | None:
     settings, where = catalogue.settings, cell.where
     if cell.metric == DIVERGED:
         limbs = catalogue.all_methods[str(cell.method)].limbs
-        return len(catalogue.experiment(str(cell.method), limbs[0]).seeds)
+        experiment = catalogue.network(str(cell.method), limbs[0]).experiment
+        on_robot = settings.sizes.robots.get(experiment)
+        seeds = on_robot.seeds if on_robot else None
+        return len(seeds or settings.sizes.experiments[experiment].seeds)
     if cell.table == "latency":
         return settings.evaluation.latency.stretches
     if cell.table in ("table_09", "found_by_rate") and where.get("quantity") == "found":
