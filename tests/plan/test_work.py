@@ -33,7 +33,7 @@ def test_every_job_is_there_once(plan: Plan, works: dict[str, Work]) -> None:
         ("collect/robot_1/robot_walk-robot_1-s1000", {"surrogate s": 1200.0, "walk": 4}),
         ("collect/forward_walk-ideal-s260", {"s": 15 * 30.0, "walk": 15}),
         ("collect/robot_2/changed_walk-robot_2-s260", {"surrogate s": 6 * 15.0, "walk": 6}),
-        ("motion/random_motion-s1000", {"s": 2400.0, "motion": 16}),
+        ("motion/random_motion-s1000", {"s": 3600.0, "motion": 24}),
         ("estimate/forward_walk-ideal", {"s": 450.0, "run": 1.0, "residual s": 450.0, "residual step": 0.0}),
         ("score/leg_sines-all_uncertainty", {"s": 15 * 60.0 * (3 + 3 * 3)}),
         ("table_05", {}),

@@ -21,7 +21,7 @@ from mobnet.plan.reactions import cases_of_jobs, course_file, is_pushed, reactio
 from mobnet.plan.seeds import FIRST_TRAINING_SEED
 from mobnet.plan.work import SECONDS, Work, detected, estimated, fitted, steps_of, trained, walked
 
-PART_S = 2400.0  # recordings that one step makes [s]: some four minutes
+PART_S = 3600.0  # recordings that one step makes [s]: some six minutes
 PART_STEPS = 30e6  # time steps that the trainings of one step go through: some four minutes of a leg's network
 Item = TypeVar("Item")
 
