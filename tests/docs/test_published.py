@@ -1,0 +1,112 @@
+"""What is published agrees with itself: verdicts with their intervals and the claims of today, words with numbers."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+from mobnet.core.claim_ranges import apart, within
+from mobnet.core.columns import NOT_PRINTED, OURS
+from mobnet.core.rows import read_texts
+from mobnet.evaluation.report.judge_again import judged_again
+from mobnet.evaluation.tables.further.claims_table import record_of
+from mobnet.settings.load import load_settings
+
+ROOT = Path(__file__).parents[2]
+RESULTS = ROOT / "docs" / "results"
+MAIN = (ROOT / "paper" / "main.tex").read_text()
+README = (ROOT / "README.md").read_text()
+BLOCK = re.compile(r"<!-- (\w+) -->.*?<!-- /\1 -->", re.DOTALL)
+# Numbers that the README's own sentences may have: no results. Years, versions and names are none either.
+SAID = {
+    "100": "kg, the robot's mass", "3.11": "Python", "3.13": "Python", "12": "Debian", "95": "% of an interval",
+    "2024": "year", "2026": "year", "0.5.0": "version", "10.1177/02783649241260428": "DOI", "2402.11221v1": "preprint",
+}  # fmt: skip
+PARTS = {
+    "abstract": (r"\begin{abstract}", r"\end{abstract}"),
+    "conclusion": (r"\section{Conclusion}", r"\section*{Availability}"),
+}
+REFUTED = (  # sentences of 0.5.0 that were not true, and places that they stood in (CHANGELOG, 0.6.0)
+    ("can be left out", MAIN), ("bring no measurable", MAIN), ("at equal\nfalse alarms", MAIN),
+    ("does what its paper says", MAIN), ("this is why the networks gain nothing", MAIN),
+    ("Nothing was tuned on the seeds of the tests", MAIN),
+    ("first version; `./reproduce all` makes a newer one", README), ("a friction formula (not in the paper)", README),
+    ("within a factor of five", README),
+)  # fmt: skip
+
+
+def test_published_verdicts_are_those_of_the_claims_of_today() -> None:
+    settings = load_settings(ROOT / "configs")
+    published = {row["claim"]: row for row in read_texts(RESULTS / "claims.csv")}
+    again = judged_again(settings, RESULTS)
+    assert list(published) == [each.row.name for each in again]
+    for each in again:
+        row = published[each.row.name]
+        assert (row["size"], row["sign"], row["verdict"]) == (each.size, each.sign, each.verdict), each.row.name
+        assert row["score"] == each.score
+        assert row["cause"] == each.cause
+        assert row["quantity"] == record_of(each)[5]
+
+
+def bounds(row: dict[str, str], low: str, high: str) -> tuple[float | None, float | None]:
+    """Return a range or an interval of a row of claims.csv; None is no end."""
+    first, last = (float(row[name]) if row[name] else None for name in (low, high))
+    return first, last
+
+
+@pytest.mark.parametrize("row", read_texts(RESULTS / "claims.csv"), ids=lambda row: row["claim"])
+def test_a_published_verdict_is_on_the_side_of_its_interval(row: dict[str, str]) -> None:
+    """No `same` with an interval on the other side, no `open` with one wholly outside, no own claim as the paper's."""
+    for verdict, ends, value, good, bad in (
+        ("size", ("from", "to"), ("low", "high"), "inside", "outside"),
+        ("sign", ("sign_from", "sign_to"), ("sign_low", "sign_high"), "same", "opposite"),
+    ):
+        held, (low, high) = bounds(row, *ends), bounds(row, *value)
+        if row[verdict] and low is not None and high is not None:
+            is_within, is_apart = within((low, high), held), apart((low, high), held)
+            assert row[verdict] == (good if is_within else bad if is_apart else "open")
+    assert (row["score"] == OURS) == (row["printed"] == NOT_PRINTED)
+    assert row["score"] != OURS or not row["published"]
+
+
+@pytest.mark.parametrize(("words", "text"), REFUTED, ids=[words for words, _ in REFUTED])
+def test_a_sentence_that_results_refute_is_gone(words: str, text: str) -> None:
+    assert " ".join(words.split()) not in " ".join(text.split())
+
+
+def test_the_readme_types_no_number_of_a_result() -> None:
+    prose = BLOCK.sub("", README)
+    lines = [line for line in prose.splitlines() if not line.startswith("    ")]
+    text = re.sub(r"`[^`]*`|\[note \d+\]|\([^)]*\.md[^)]*\)|\(http[^)]*\)", "", "\n".join(lines))
+    found = set(re.findall(r"(?<![\w.-])\d[\w./-]*\w|(?<![\w.-])\d", text))
+    assert {number for number in found if number not in SAID} == set()
+
+
+@pytest.mark.parametrize("part", PARTS)
+def test_abstract_and_conclusion_type_no_number(part: str) -> None:
+    """Every number there is a macro; names such as a unit's power hold none."""
+    start, end = PARTS[part]
+    text = MAIN[MAIN.index(start) : MAIN.index(end)]
+    text = re.sub(r"\\[a-z]+(?:\{[^{}]*\})+|\\[a-zA-Z]+", " ", text)
+    assert re.findall(r"\d+", text) == []
+
+
+def test_the_walk_that_figure_22_shows_falling_is_counted() -> None:
+    """The caption says that a walk may end in a fall, and the text quotes the share: of the door one walk does."""
+    shares = {row["case"]: float(row["value"]) for row in read_texts(RESULTS / "safety.csv")
+              if (row["detector"], row["thresholds"], row["wait_s"], row["measure"])
+              == ("MOB-Net-ratio", "reaction", "0", "falls")}  # fmt: skip
+    assert shares["door"] > 0.0
+    assert r"\cellshare{safety@door@MOB-Net-ratio@reaction@0@falls}" in MAIN
+    assert "end in a fall, the one shown among them" in " ".join(MAIN.split())
+
+
+def test_pushes_of_the_foot_come_in_nearly_every_swing_of_both_training_sets() -> None:
+    """Of which captions and the text tell: a pause is shorter than two steps, with and without random torques."""
+    settings = load_settings(ROOT / "configs")
+    longest_s = max(settings.commands.duration_s)
+    sets = [settings.scenarios[name].pushes for name in ("robot_walk", "robot_walk_plain")]
+    assert sets[0] == sets[1]
+    often = [settings.pushes[name] for name in sets[0] if (settings.pushes[name].during or "").endswith("swing")]
+    pauses = [push.pause_s[1] for push in often if push.pause_s]
+    assert min(pauses) < 2.0 * longest_s
