@@ -36,7 +36,7 @@ MARKS = (("#D55E00", "X", "\N{BALLOT X}"), ("#9A6700", "v", "\N{SOUTH EAST ARROW
          ("0.45", "", "\N{EN DASH}"))  # fmt: skip
 # verdict -> colour, dark enough for text, marker, and sign before a text
 LOOKS: Mapping[str, tuple[str, str, str]] = dict(zip(VERDICTS, MARKS, strict=True))
-POINTS, ROW_INCH, HEAD_INCH, KEY_INCH = 6.5, 0.13, 0.2, 0.38  # size of text; heights of a row, a head and the legend
+POINTS, ROW_INCH, HEAD_INCH, KEY_INCH = 6.5, 0.13, 0.2, 0.5  # size of text; heights of a row, a head and the legend
 KEY_COLUMNS = 3
 AXIS_INCH = 0.33  # height below the last row, of an axis
 TEXT_INCH, LEFT_INCH, WIDTH_INCH = 0.12, 3.84, 1.36  # where texts begin; where the axis does, and its width
@@ -69,7 +69,7 @@ def draw_forest(statements: Sequence[Statement], axis_name: str, interval: str) 
             for each in own:
                 _row(axis, top + ROW_INCH / 2.0, each)
                 top += ROW_INCH
-        _key(figure, statements, f"{interval} claimed here")
+        _key(figure, statements, f"claimed range, for the {interval}")
     return figure
 
 
