@@ -30,8 +30,8 @@ from mobnet.evaluation.tables.layout import RULE, Line, Table, write_table
 ALL = "all"  # verdicts together
 NEAR_FACTOR = 1.5
 USED = ("statement", "score", "quantity", "size", "sign", "verdict", "published", "value", "low", "high", "cause")
-SHOWN = {"observer": "of the paper: observer", "networks": "of the paper: networks",
-         "no number": "of the paper: no number", PAPER: "of the paper, all", OURS: "our own"}  # fmt: skip
+SHOWN = {"observer": "observer", "networks": "networks", "no number": "no number", PAPER: "the paper's, all",
+         OURS: "our own"}  # fmt: skip
 Row = Mapping[str, str]
 Counts = Mapping[tuple[str, str], tuple[int, int, int]]  # score, outcome -> statements, by their first claim, claims
 
@@ -45,20 +45,27 @@ def claims_summary(claims_csv: Path, table_dir: Path) -> None:
     rows = read_texts(claims_csv, USED)
     counts = {(score, name): found for score in (*SCORED, PAPER) for name, found in outcomes_of(rows, score).items()}
     records = [(*place, *numbers) for place, numbers in counts.items()]
-    lines: list[Line] = [line_of(counts, score) for score in SHOWN]
-    lines.insert(len(SHOWN) - 1, RULE)
-    shown = [f"{name} (first claim)" for name in VERDICTS]
-    shown.insert(2, f"fail {UNEXPLAINED}")
-    header = ["Statements", *shown, ALL, f"claims {HELD}", f"claims {NEAR}"]
+    lines: list[Line] = [[name, *(_begun(counts[score, name]) for score in SHOWN)] for name in VERDICTS]
+    lines += [
+        RULE,
+        [ALL, *(str(counts[score, ALL][0]) for score in SHOWN)],
+        [f"fail {UNEXPLAINED}", *(str(counts[score, UNEXPLAINED][0]) for score in SHOWN)],
+        *([f"claims {name}", *(_share(counts, score, name) for score in SHOWN)] for name in (HELD, NEAR)),
+    ]
+    header = ["Statements (by first claim)", *SHOWN.values()]
     write_table(table_dir / "claims_summary", Table(CLAIMED, records, header, lines))
 
 
-def line_of(counts: Counts, score: str) -> list[str]:
-    """Return the line of a score: statements by verdict, by that of their first claim in parentheses."""
-    texts = [f"{statements} ({firsts})" for statements, firsts, _ in (counts[score, name] for name in VERDICTS)]
-    texts.insert(2, str(counts[score, UNEXPLAINED][0]))
-    near = [f"{counts[score, name][2]} of {counts[score, PRINTED][2]}" for name in (HELD, NEAR)]
-    return [SHOWN[score], *texts, str(counts[score, ALL][0]), *near]
+def _begun(count: tuple[int, int, int]) -> str:
+    """Return how many statements there are, by their first claim in parentheses."""
+    statements, firsts, _ = count
+    return f"{statements} ({firsts})"
+
+
+def _share(counts: Counts, score: str, name: str) -> str:
+    """Return how many claims with a printed number have an outcome; a dash where the paper prints none."""
+    printed = counts[score, PRINTED][2]
+    return f"{counts[score, name][2]} of {printed}" if printed else "-"
 
 
 def outcomes_of(rows: Sequence[Row], score: str) -> dict[str, tuple[int, int, int]]:

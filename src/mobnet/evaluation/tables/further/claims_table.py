@@ -12,7 +12,7 @@ from mobnet.evaluation.tables.layout import GAP, Line, Table, long_table, tex_es
 
 HEADER = ("Claim", "Printed in", "Paper", "Ours", "{:.0%}", "Claimed", "Size", "Sign", "Verdict")
 CAPTION = r"\claimscaption"  # the paper's
-COLUMNS = r">{\raggedright\arraybackslash}p{.42\linewidth}>{\raggedright\arraybackslash}p{.13\linewidth}rrrllll"
+COLUMNS = r">{\raggedright\arraybackslash}p{.36\linewidth}>{\raggedright\arraybackslash}p{.13\linewidth}rrrllll"
 
 
 def claim_table(judged: Sequence[Judged], confidence: float, table_dir: Path) -> None:
