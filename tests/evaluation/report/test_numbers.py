@@ -86,7 +86,7 @@ def test_a_number_of_any_table_is_named_by_table_row_and_column(texts: dict[str,
     assert (texts[f"cellshare@{where}@push_share"], texts[f"cellsharespan@{where}@push_share"]) == ("80", "[42, 151]")
     assert (texts[f"cell@{where}@rise_delay"], texts[f"value@{where}@rise_delay"]) == ("$-$10.0", "-10.0000")
     assert f"cellshare@{where}@rise_delay" not in texts
-    assert texts["cell@kinds@LSTM@order"] == "1.00"
+    assert texts["cell@kinds@LSTM-adam@order"] == "1.00"
 
 
 def test_captions_stand_beside_the_numbers(texts: dict[str, str], claims_csv: Path) -> None:
