@@ -168,8 +168,8 @@ def test_the_contract_names_the_weights(robot, run, gate, save, tmp_path):
 
 
 @pytest.mark.parametrize(("changes", "text"), [
-    ({"thresholds": [1e300] * 6}, "thresholds.0: 1e+300 is not accepted; accepted: a number from 1e-09 to 1000000.0"),
-    ({"thresholds": [1e-300] * 6}, "thresholds.0: 1e-300 is not accepted"),
+    ({"thresholds": (1e300,) * 6}, "thresholds.0: 1e+300 is not accepted; accepted: a number from 1e-09 to 1000000.0"),
+    ({"thresholds": (1e-300,) * 6}, "thresholds.0: 1e-300 is not accepted"),
     ({"low_pass_hz": 1e-9}, "low_pass_hz: 1e-09 is not accepted; accepted: a number from 0.01 to 100000.0"),
     ({"low_pass_hz": 1e9}, "low_pass_hz: 1000000000.0 is not accepted"),
     ({"rate_hz": 1e308}, "rate_hz: 1e+308 is not accepted"),
