@@ -37,7 +37,8 @@ def exported_networks(settings: Settings, folder: Path) -> LimbNetworks:
     observer, robot = settings.observer, describe(settings.robot)
     known = {"gain_hz": observer.gain_hz, "torque": observer.torque, "gravity_m_s2": settings.plant.gravity_m_s2}
     run = RunTime(settings.rates.data_hz, ObserverContract.model_validate(known))
-    export([_trained(one, settings) for one in six_trainings(settings).values()], robot, run, [], folder)
+    networks = [_trained(one, settings) for one in six_trainings(settings).values()]
+    export(networks, robot, run, [], settings.detection.gate, folder)
     return load_exported(folder, robot.layout)
 
 

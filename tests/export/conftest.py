@@ -28,6 +28,11 @@ def run():
 
 
 @pytest.fixture(scope="session")
+def gate(settings):
+    return settings.detection.gate
+
+
+@pytest.fixture(scope="session")
 def save(settings):
     """Return a function that writes a network of a limb with random weights into a folder, and returns the folder."""
 
@@ -53,10 +58,10 @@ def save(settings):
 
 
 @pytest.fixture(scope="session")
-def demo(robot, run, tmp_path_factory):
+def demo(robot, run, gate, tmp_path_factory):
     """The network of docs/demo, exported: the folder."""
     out = tmp_path_factory.mktemp("demo")
-    export([read_trained(NETWORK, robot.layout)], robot, run, [], out)
+    export([read_trained(NETWORK, robot.layout)], robot, run, [], gate, out)
     return out
 
 

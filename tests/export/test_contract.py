@@ -73,12 +73,12 @@ def test_the_contract_says_all_that_a_program_needs(contract):
     assert {one["unit"] for one in network["outputs"]} == {"N m"}
 
 
-def test_a_fixed_base_has_no_orientation(arm, run, tmp_path):
+def test_a_fixed_base_has_no_orientation(arm, run, gate, tmp_path):
     names = ["q.J1", "q.J2", "v.J1", "v.J2"]
     tensors, note = weights(NetworkCell(cell="GRU", hidden=4), len(names), 2, 0)
     note = note.model_copy(update={"joints": ["J1", "J2"], "inputs": names})
     one = Trained(tmp_path, tensors, note, LearnedNote(limb="A", target="external", fingerprint="f"), "0")
-    export([one], arm, run, [], tmp_path)
+    export([one], arm, run, [], gate, tmp_path)
     contract = json.loads((tmp_path / "contract.json").read_text())
     assert contract["quaternion"] == {}
     (network,) = contract["networks"]
@@ -88,10 +88,10 @@ def test_a_fixed_base_has_no_orientation(arm, run, tmp_path):
     assert network["estimates"] == "external"
 
 
-def test_each_file_has_its_own_part_as_metadata(robot, run, save, tmp_path, thresholds):
+def test_each_file_has_its_own_part_as_metadata(robot, run, gate, save, tmp_path, thresholds):
     folders = [save(tmp_path / limb, limb) for limb in ("LL", "RL")]
     networks = [read_trained(folder, robot.layout) for folder in folders]
-    export(networks, robot, run, [thresholds("LL"), thresholds("RL")], tmp_path / "out")
+    export(networks, robot, run, [thresholds("LL"), thresholds("RL")], gate, tmp_path / "out")
     whole = json.loads((tmp_path / "out" / "contract.json").read_text())
     for network in whole["networks"]:
         model = onnx.load(tmp_path / "out" / network["file"])
@@ -107,9 +107,9 @@ def test_each_file_has_its_own_part_as_metadata(robot, run, save, tmp_path, thre
 
 
 @pytest.mark.parametrize("limb", ["LL", "V"])
-def test_networks_side_by_side_take_their_inputs_from_the_same_sample(limb, robot, run, save, tmp_path, made_up):
+def test_networks_side_by_side_take_their_inputs_from_the_same_sample(limb, robot, run, gate, save, tmp_path, made_up):
     folder, sensed = save(tmp_path / "net", limb), made_up(1, STEPS / 1000).sensed
-    export([read_trained(folder, robot.layout)], robot, run, [], tmp_path / "out")
+    export([read_trained(folder, robot.layout)], robot, run, [], gate, tmp_path / "out")
     found = load_exported(tmp_path / "out", robot.layout).run_all([sensed])[0]
     wanted = load_limb_networks({limb: folder}, robot.layout).run_all([sensed])[0]
     np.testing.assert_allclose(found.mean, wanted.mean, rtol=1e-5, atol=1e-4)

@@ -52,10 +52,10 @@ def edges(estimate, signal, limits, settle):
 
 
 @pytest.mark.parametrize("signal", ["mean", "ratio"])
-def test_alarms_begin_and_end_at_the_samples_of_the_project(signal, estimates, robot, run, tmp_path, thresholds):
+def test_alarms_begin_and_end_at_the_samples_of_the_project(signal, estimates, robot, run, gate, tmp_path, thresholds):
     network = read_trained(NETWORK, robot.layout)
     limits = {"settle_s": 0.2, "signal": signal, "thresholds": LIMITS[signal], "network": network.run.fingerprint}
-    export([network], robot, run, [thresholds("LL", **limits)], tmp_path / "out")
+    export([network], robot, run, [thresholds("LL", **limits)], gate, tmp_path / "out")
     for name in ("recording.json", "recording.parquet"):
         shutil.copy(DATA / name, tmp_path)
     note = json.loads((tmp_path / "recording.json").read_text())

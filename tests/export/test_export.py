@@ -14,6 +14,7 @@ from mobnet.detection.threshold_file import write_thresholds
 from mobnet.export.export import agreed, export, main
 from mobnet.export.trained import read_trained
 from mobnet.learning.deployed.weights import NOTE
+from mobnet.settings.limb_thresholds import LimbThresholds
 from mobnet.settings.networks import NetworkCell
 
 
@@ -43,10 +44,10 @@ def test_the_command_writes_a_file_for_each_limb_and_says_how_close_it_is(called
     assert lines[3] == "detector of LL: mean of LL1, LL2, LL3, LL4, LL5, LL6, always"
 
 
-def test_equal_networks_give_equal_bytes(robot, run, save, tmp_path):
+def test_equal_networks_give_equal_bytes(robot, run, gate, save, tmp_path):
     networks = [read_trained(save(tmp_path / "a"), robot.layout)]
     for out in ("one", "two"):
-        export(networks, robot, run, [], tmp_path / out)
+        export(networks, robot, run, [], gate, tmp_path / out)
     for name in ("LL.onnx", "contract.json"):
         assert (tmp_path / "one" / name).read_bytes() == (tmp_path / "two" / name).read_bytes()
 
@@ -82,7 +83,7 @@ def test_what_does_not_fit_is_refused_in_one_line(called, save, tmp_path, thresh
         write_thresholds(tmp_path / "t.yaml", thresholds("LL", **changes))
         assert called(left, "--thresholds", tmp_path / "t.yaml", *out) == (1, [text])
     assert not (tmp_path / "out").exists()
-    assert called(left, "--rate", 0, *out) == (1, ["--rate: 0.0 is not accepted; accepted: a number above 0"])
+    assert called(left, "--rate", 0, *out) == (1, ["--rate: 0.0 is not accepted; accepted: a number from 1 to 100000"])
     (left / "run.json").unlink()
     assert called(left, *out) == (1, [f"{left}: run.json is missing; accepted: a folder of a trained network"])
 
@@ -159,8 +160,61 @@ def test_a_folder_whose_contract_cannot_be_read_is_left_as_it_is(called, save, t
     assert [path.name for path in (tmp_path / "out").iterdir()] == ["contract.json"]
 
 
-def test_the_contract_names_the_weights(robot, run, save, tmp_path):
+def test_the_contract_names_the_weights(robot, run, gate, save, tmp_path):
     folder = save(tmp_path / "a")
-    export([read_trained(folder, robot.layout)], robot, run, [], tmp_path / "out")
+    export([read_trained(folder, robot.layout)], robot, run, [], gate, tmp_path / "out")
     (network,) = json.loads((tmp_path / "out" / "contract.json").read_text())["networks"]
     assert network["weights_sha256"] == hashlib.sha256((folder / "weights.safetensors").read_bytes()).hexdigest()
+
+
+@pytest.mark.parametrize(("changes", "text"), [
+    ({"thresholds": (1e300,) * 6}, "thresholds.0: 1e+300 is not accepted; accepted: a number from 1e-09 to 1000000.0"),
+    ({"thresholds": (1e-300,) * 6}, "thresholds.0: 1e-300 is not accepted"),
+    ({"low_pass_hz": 1e-9}, "low_pass_hz: 1e-09 is not accepted; accepted: a number from 0.01 to 100000.0"),
+    ({"low_pass_hz": 1e9}, "low_pass_hz: 1000000000.0 is not accepted"),
+    ({"rate_hz": 1e308}, "rate_hz: 1e+308 is not accepted"),
+    ({"gain_hz": 1e-300}, "gain_hz: 1e-300 is not accepted"),
+    ({"method": "MOB", "signal": "ratio"}, "thresholds of LL: signal: 'ratio' is not accepted; accepted: mean of MOB"),
+])  # fmt: skip
+def test_thresholds_that_the_c_library_would_refuse_are_refused(called, save, tmp_path, thresholds, changes, text):
+    sound = thresholds("LL").model_dump(exclude_none=True)
+    write_thresholds(tmp_path / "t.yaml", LimbThresholds.model_construct(**sound | changes))
+    status, lines = called(save(tmp_path / "a"), "--thresholds", tmp_path / "t.yaml", "--out", tmp_path / "out")
+    assert status == 1
+    assert text in "\n".join(lines)
+    assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize(("key", "value"), [("rate_hz", 1e308), ("gain_hz", 1e-300)])
+def test_a_training_at_an_impossible_rate_is_refused(called, save, tmp_path, key, value):
+    status, (line,) = called(save(tmp_path / "a", **{key: value}), "--out", tmp_path / "out")
+    assert status == 1
+    assert f"run.json: {key}: {value} is not accepted; accepted: " in line
+
+
+def test_a_deviation_that_vanishes_in_the_c_library_is_refused_before_anything_is_written(called, save, tmp_path):
+    folder = save(tmp_path / "a")
+    with safe_open(folder / "weights.safetensors", framework="numpy") as file:
+        note = file.metadata()
+        tensors = {name: file.get_tensor(name) for name in file.keys()}  # noqa: SIM118, not a dict
+    tensors["target.std"][0] = 1e-40
+    save_file(tensors, folder / "weights.safetensors", note)
+    status, (line, *_) = called(folder, "--out", tmp_path / "out")
+    assert status == 1
+    assert line.startswith("network of LL: target.std: ")
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_folder_with_a_contract_is_of_one_export(robot, run, gate, save, tmp_path, monkeypatch):
+    """An export that is stopped after any of its files leaves no older contract beside newer files."""
+    networks, out = [read_trained(save(tmp_path / "a"), robot.layout)], tmp_path / "out"
+    export(networks, robot, run, [], gate, out)
+    assert (out / "contract.json").exists()
+
+    def stopped(*_):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("mobnet.export.export.write_json", stopped)
+    with pytest.raises(KeyboardInterrupt):
+        export(networks, robot, run, [], gate, out)
+    assert {path.name for path in out.iterdir()} == {"LL.onnx", "model.bin"}

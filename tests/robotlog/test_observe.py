@@ -76,7 +76,10 @@ def test_a_map_file_is_read_and_its_faults_have_places(clean, stored, say, tmp_p
 
 @pytest.mark.parametrize(
     ("words", "message"),
-    [(("--gain", "0"), "--gain: 0.0 is not accepted; accepted: a number above 0"), (("none.csv",), "file is missing")],
+    [
+        (("--gain", "0"), "--gain: 0.0 is not accepted; accepted: a number from 0.1 to 5000"),
+        (("none.csv",), "file is missing"),
+    ],
 )
 def test_a_bad_word_is_one_line(words, message, clean, stored, say):
     log = words if words[0] == "none.csv" else (stored(clean[:100]), *words)

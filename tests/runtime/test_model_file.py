@@ -1,12 +1,13 @@
 """The model file: what is written is what the format says, and no damaged file is accepted."""
 
+import re
 import struct
 import zlib
 from dataclasses import replace
 
 import numpy as np
 import pytest
-from c_library import CHECKSUM, MAGIC, OK, SECTION, TRUNCATED, VALUE, VERSION, Runtime
+from c_library import CHECKSUM, MAGIC, OK, SECTION, SOURCES, TRUNCATED, VALUE, VERSION, Runtime
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
@@ -15,14 +16,16 @@ from mobnet.core.errors import ConfigError, DataError
 from mobnet.core.files import RUN, WEIGHTS
 from mobnet.detection.detector import LegGate
 from mobnet.detection.leg import make_leg
+from mobnet.estimation.observer import MomentumObserver
 from mobnet.export import model_file
 from mobnet.export.contract import ObserverContract
 from mobnet.export.export import main
 from mobnet.export.model_file import RuntimeDetector, write_model_file
-from mobnet.export.runtime import MODEL, runs_in_c, write_model
+from mobnet.export.runtime import MODEL, model_of
 from mobnet.export.soles import leg_record
 from mobnet.export.trained import contract_of, read_trained
 from mobnet.robot.description import describe
+from mobnet.settings import base
 from mobnet.settings.limb_thresholds import LimbThresholds
 
 from .conftest import GRAVITY, RATE_HZ, chain_of, moving, network_of, watching
@@ -211,7 +214,7 @@ def _thresholds(robot, limb, method, signal, watched):
     return LimbThresholds(**told, thresholds=(3.0,) * len(joints), **made, **rates)
 
 
-def test_from_exported_networks_and_their_contract(library, push, settings, tmp_path):
+def test_from_exported_networks_and_their_contract(library, push, settings):
     """What `./reproduce export` passes on, for a leg in its swing and for arms that are always watched."""
     robot, folder = describe(push.settings.robot), push.folder / "networks" / "MOB-Net-LL"
     trained, gate = read_trained(folder, robot.layout), settings.detection.gate
@@ -219,9 +222,9 @@ def test_from_exported_networks_and_their_contract(library, push, settings, tmp_
     thresholds = [_thresholds(robot, limb, *row) for limb, row in rows.items()]
     observing = ObserverContract(gain_hz=100.0, torque="mean", gravity_m_s2=GRAVITY)
     contract = contract_of(robot.name, robot.layout, [trained], RATE_HZ, observing, thresholds)
-    assert runs_in_c([trained])
-    write_model(tmp_path / "model.bin", robot, contract, [trained], gate)
-    found = Runtime(library, (tmp_path / "model.bin").read_bytes())
+    model = model_of(robot, contract, [trained], gate)
+    assert model is not None
+    found = Runtime(library, model)
     assert found.status == OK
     assert [found.name("detector_name", k) for k in range(3)] == list(rows)
     assert [found.name("signal_kind", k, 0) for k in range(3)] == ["ratio", "mean", "mean"]
@@ -252,3 +255,28 @@ def test_soles_stay_where_the_robot_has_them(robot, settings, observer_of):
         points = leg.pose.position[body] + np.reshape(numbers, (5, 3)) @ leg.pose.rotation[body].T
         corners = leg.pose.position[foot] + leg.corners @ leg.pose.rotation[foot].T
         np.testing.assert_allclose(points, [leg.pose.position[foot], *corners], atol=1e-12)
+
+
+def test_bounds_are_those_of_the_library(library, observer_of, tmp_path):
+    """Each number as low and as high as files of thresholds and notes may have it makes a model that runs."""
+    sources = "".join((SOURCES / name).read_text() for name in ("cursor.h", "parts.c"))
+    told = {name: float(value) for name, value in re.findall(r"\b([A-Z_]+) = ([0-9.e-]+)", sources)}
+    assert (told["LEAST"], told["MOST"]) == model_file.BOUNDS
+    assert (told["MOST_SAMPLES"], told["MOST_UNITS"]) == (model_file.MOST_SAMPLES, model_file.MOST_UNITS)
+    nominal = observer_of("arm").nominal
+    layout, path = nominal.robot.layout, tmp_path / "m.bin"
+    for rate, gain, threshold in zip(base.RATE_HZ, base.GAIN_HZ, base.THRESHOLD, strict=True):
+        write_model_file(path, MomentumObserver(nominal, gain, rate), [], [watching(layout, "A", threshold=threshold)])
+        assert status_of(library, path.read_bytes()) == OK
+
+
+@pytest.mark.parametrize(("change", "text"), [
+    ({"thresholds": np.full((1, 2), 1e300)}, r"detector of A: threshold: 1e\+300 is not accepted; accepted: a num"),
+    ({"hold": 10_001}, "detector of A: samples of its hold: 10001 is not accepted; accepted: a number from 1 to 10000"),
+])  # fmt: skip
+def test_a_number_that_the_library_refuses_is_not_written(change, text, library, observer_of, tmp_path):
+    observer = observer_of("arm")
+    good = watching(observer.nominal.robot.layout, "A")
+    with pytest.raises(DataError, match=text):
+        write_model_file(tmp_path / "m.bin", observer, [], [replace(good, chain=good.chain._replace(**change))])
+    assert not (tmp_path / "m.bin").exists()

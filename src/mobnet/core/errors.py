@@ -1,6 +1,6 @@
 """Errors a user can act on: one line that names the bad value and what is accepted."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from difflib import get_close_matches
 from reprlib import Repr
 
@@ -46,6 +46,13 @@ def not_accepted(what: str, value: object, accepted: Iterable[object]) -> str:
     shown = SHOWN.repr(value)
     shown = shown if len(shown) <= LONGEST else f"{shown[:LONGEST]}..."
     return f"{what}: {shown} is not accepted; accepted: {', '.join(ordered) or 'none'}"
+
+
+def beyond(what: str, value: float, bounds: tuple[float, float]) -> Iterator[str]:
+    """Yield the message about a number outside of its bounds, if it is."""
+    low, high = bounds
+    if not low <= value <= high:
+        yield not_accepted(what, value, [f"a number from {low:g} to {high:g}"])
 
 
 def misfit(value: object, accepted: object) -> str:

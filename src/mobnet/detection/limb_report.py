@@ -4,11 +4,12 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from mobnet.core.errors import DataError
+from mobnet.core.errors import beyond, refuse_lines
 from mobnet.detection.calibration import unit_of
 from mobnet.detection.limb import LimbCalibration
 from mobnet.detection.points import AXES
 from mobnet.estimation.own import LEARNED, OBSERVER, OwnNetwork, Sampling
+from mobnet.settings.base import THRESHOLD
 from mobnet.settings.limb_thresholds import LimbThresholds
 from mobnet.settings.settings import Settings
 
@@ -67,11 +68,11 @@ def thresholds_of(
     """Return the section of a limb's thresholds, made for a rate of false alarms [1/h].
 
     Raises:
-        DataError: a threshold is zero, which an estimate gives that never changes.
+        DataError: a threshold is not accepted; it is zero of an estimate that never changes.
     """
     setup, promise, values = found.setup, found.promise, tuple(found.thresholds.tolist())
-    if min(values) <= 0.0:
-        raise DataError(f"threshold of {setup.joints[int(np.argmin(values))]}: 0.0 is not accepted; accepted: above 0")
+    for joint, value in zip(setup.joints, values, strict=True):
+        refuse_lines(beyond(f"threshold of {joint}", value, THRESHOLD))
     return LimbThresholds(
         robot=setup.robot.name, limb=setup.limb, joints=setup.joints, method=LEARNED if network else OBSERVER,
         network=network.fingerprint if network else None, signal=found.signal, thresholds=values,

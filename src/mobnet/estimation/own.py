@@ -8,11 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mobnet.core.columns import EXTERNAL, named
-from mobnet.core.errors import ConfigError, DataError, not_accepted, refuse
+from mobnet.core.errors import ConfigError, DataError, beyond, not_accepted, refuse
 from mobnet.core.estimator import Estimate
 from mobnet.core.files import RUN
 from mobnet.core.joints import JointLayout
-from mobnet.core.notes import Note, Positive, Text, pair_differences, read_array_note, read_note
+from mobnet.core.notes import Note, Text, pair_differences, read_array_note, read_note
 from mobnet.core.recording import SensedRecording, read_sensed
 from mobnet.core.store import ARRAY, NOTE, file_of, footer_hash, read_array
 from mobnet.estimation.estimate import Observed, only, run_segments
@@ -21,7 +21,7 @@ from mobnet.estimation.observer import MomentumObserver
 from mobnet.learning.deployed.limbs import LimbNetworks, load_limb_networks
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.nominal import NominalModel
-from mobnet.settings.base import TorqueKind
+from mobnet.settings.base import GAIN_HZ, RATE_HZ, GainHz, RateHz, TorqueKind
 from mobnet.settings.methods import Target
 from mobnet.settings.robot import GroupName
 from mobnet.settings.settings import Settings
@@ -40,8 +40,8 @@ class LearnedNote(Note):
     limb: GroupName
     target: Target
     fingerprint: Text
-    rate_hz: Positive | None = None
-    gain_hz: Positive | None = None
+    rate_hz: RateHz | None = None
+    gain_hz: GainHz | None = None
     torque: TorqueKind | None = None
     folders: list[Text] | None = None
     recordings: list[Text] | None = None
@@ -117,6 +117,8 @@ def read_log_folder(folder: Path, layout: JointLayout) -> OwnLog:
     refuse(f"{stems[1]}{NOTE}", pair_differences(note, other, f"{stems[0]}{NOTE}"))
     if note.get("method") != OBSERVER or not {"gain_hz", "torque"} <= note.keys():
         raise DataError(not_accepted(f"{stems[1]}{NOTE}: method", note.get("method"), [f"{OBSERVER}, by observe"]))
+    faults = [*beyond("rate_hz", note["rate_hz"], RATE_HZ), *beyond("gain_hz", note["gain_hz"], GAIN_HZ)]
+    refuse(f"{stems[1]}{NOTE}", faults)
     held = [column["name"].removeprefix(f"{EXTERNAL}.") for column in note["columns"]]
     if others := [name for name in held if name not in layout.names]:
         raise DataError(f"{not_accepted(f'{folder}: joint', others[0], layout.names)}, those of --robot")

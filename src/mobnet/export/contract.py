@@ -9,7 +9,7 @@ from typing import Any
 
 from mobnet.core.files import read_json
 from mobnet.core.notes import Count, FileName, Index, Note, Positive, Text, checked
-from mobnet.settings.base import TorqueKind
+from mobnet.settings.base import GainHz, RateHz, TorqueKind
 from mobnet.settings.limb_thresholds import LimbThresholds
 from mobnet.settings.methods import Target
 from mobnet.settings.robot import GroupName
@@ -67,7 +67,7 @@ class NetworkContract(Note):
 class ObserverContract(Note):
     """The momentum observer: K_0 of (7) [1/s], and whether torques are means over intervals or samples at ticks."""
 
-    gain_hz: Positive
+    gain_hz: GainHz
     torque: TorqueKind
     gravity_m_s2: Positive
 
@@ -82,7 +82,7 @@ class Contract(Note):
     version: Text
     opset: Count
     robot: Text
-    rate_hz: Positive
+    rate_hz: RateHz
     observer: ObserverContract
     quaternion: dict[str, Text]
     networks: list[NetworkContract]

@@ -5,7 +5,6 @@ network on random inputs, and prints by how much they differ.
 """
 
 import logging
-import math
 import sys
 from argparse import Namespace
 from collections.abc import Iterator, Sequence
@@ -15,20 +14,23 @@ from typing import TypeVar
 
 import numpy as np
 
-from mobnet.core.errors import DataError, not_accepted
+from mobnet.core.errors import DataError, beyond, not_accepted, refuse_lines
 from mobnet.core.files import atomic_path, write_json
+from mobnet.detection.signals import MEAN
 from mobnet.detection.threshold_file import read_thresholds
+from mobnet.estimation.own import OBSERVER
 from mobnet.export.contract import CONTRACT, Contract, ObserverContract, read_contract
 from mobnet.export.graph import graph_of
-from mobnet.export.runtime import export_model
+from mobnet.export.runtime import MODEL, model_of
 from mobnet.export.session import OnnxNetwork
 from mobnet.export.trained import Trained, check_apart, contract_of, read_trained
 from mobnet.export.words import export_parser
-from mobnet.learning.deployed.networks import deployed
+from mobnet.learning.deployed.networks import WITHOUT_TORCH, deployed
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.given import given_robot
 from mobnet.running.printed import printed
-from mobnet.settings.base import TorqueKind
+from mobnet.settings.base import GAIN_HZ, RATE_HZ, TorqueKind
+from mobnet.settings.detection import SwingGate
 from mobnet.settings.limb_thresholds import LimbThresholds
 from mobnet.settings.load import load_settings
 
@@ -46,32 +48,44 @@ class RunTime:
 
 
 def export(
-    networks: Sequence[Trained], robot: RobotDescription, run: RunTime, thresholds: Sequence[LimbThresholds], out: Path
-) -> Contract:
-    """Write networks and their contract into a folder; return the contract.
+    networks: Sequence[Trained], robot: RobotDescription, run: RunTime, thresholds: Sequence[LimbThresholds],
+    gate: SwingGate, out: Path,
+) -> Contract:  # fmt: skip
+    """Write networks, the model of the C library and their contract into a folder; return the contract.
 
-    Networks of an earlier export into the folder, which the contract no longer lists, are removed.
+    All is made before anything is written. The contract is removed first and written last, so that a folder that has
+    one is of one export. Files of an earlier export into the folder, which this one lacks, are removed.
 
     Raises:
-        DataError: two networks estimate one joint, thresholds belong to something else, a file cannot be written, or
-            the folder has a contract that cannot be read.
+        DataError: two networks estimate one joint, thresholds belong to something else, a number is not accepted, a
+            file cannot be written, or the folder has a contract that cannot be read.
+        ConfigError: a limb that is watched in swing is no leg.
     """
     check_apart(networks)
     check_thresholds(thresholds, networks, robot, run)
     before = {own.file for own in read_contract(out).networks} if (out / CONTRACT).exists() else set()
     contract = contract_of(robot.name, robot.layout, networks, run.rate_hz, run.observer, thresholds)
+    model = model_of(robot, contract, networks, gate)
+    files = {} if model is None else {MODEL: model}
     for one, own in zip(networks, contract.networks, strict=True):
-        model = graph_of(one.tensors, one.note)
-        for key, value in contract.of(own).metadata().items():
-            model.metadata_props.add(key=key, value=value)
-        content = model.SerializeToString(deterministic=True)
-        with atomic_path(out / own.file, len(content)) as temporary:
+        files[own.file] = _onnx_of(one, contract.of(own))
+    for name, content in files.items():
+        with atomic_path(out / name, len(content)) as temporary:
             temporary.write_bytes(content)
+            (out / CONTRACT).unlink(missing_ok=True)
     write_json(out / CONTRACT, contract.as_json())
-    for path in out.glob("*.onnx"):
-        if path.name in before - {own.file for own in contract.networks}:
-            path.unlink()
+    for path in (out / MODEL, *out.glob("*.onnx")):
+        if path.name in {MODEL, *before} - files.keys():
+            path.unlink(missing_ok=True)
     return contract
+
+
+def _onnx_of(network: Trained, contract: Contract) -> bytes:
+    """Return the ONNX file of a network with its part of the contract."""
+    model = graph_of(network.tensors, network.note)
+    for key, value in contract.metadata().items():
+        model.metadata_props.add(key=key, value=value)
+    return model.SerializeToString(deterministic=True)
 
 
 def check_thresholds(
@@ -79,7 +93,13 @@ def check_thresholds(
 ) -> None:
     """Raise a DataError unless thresholds belong to the robot, its run time and, where they name it, the network."""
     fingerprints = {one.note.limb: one.run.fingerprint for one in networks}
+    predicted = {joint for one in networks for joint in one.note.joints}
     for one in thresholds:
+        if one.method == OBSERVER and one.signal != MEAN:
+            raise DataError(not_accepted(f"thresholds of {one.limb}: signal", one.signal, [f"{MEAN} of {OBSERVER}"]))
+        if one.method != OBSERVER and not set(one.joints) <= predicted:
+            accepted = [f"{OBSERVER}, or a network of {', '.join(one.joints)}"]
+            raise DataError(not_accepted(f"thresholds of {one.limb}: method", one.method, accepted))
         expected = {
             "robot": robot.name, "rate_hz": run.rate_hz, "gain_hz": run.observer.gain_hz, "torque": run.observer.torque,
             "joints": robot.layout.limb(one.limb),
@@ -127,6 +147,10 @@ def told(contract: Contract, networks: Sequence[Trained], out: Path) -> Iterator
     for detector in contract.detectors:
         yield f"detector of {detector.limb}: {detector.signal} of {', '.join(detector.joints)}, {detector.watched}"
     yield f"{out / CONTRACT}"
+    if (out / MODEL).exists():
+        yield f"{out / MODEL}: for the C library in src/runtime"
+    else:
+        yield f"{out / MODEL}: not written, as the C library has no other cells than {' and '.join(WITHOUT_TORCH)}"
 
 
 def run(options: Namespace) -> Iterator[str]:
@@ -135,10 +159,9 @@ def run(options: Namespace) -> Iterator[str]:
     robot = given_robot(options.robot, settings)
     networks = [read_trained(folder, robot.layout) for folder in options.network]
     notes, own = [one.run for one in networks], settings.observer
-    for word in ("rate", "gain"):
-        value = getattr(options, word)
-        if value is not None and not 0.0 < value < math.inf:
-            raise DataError(not_accepted(f"--{word}", value, ["a number above 0"]))
+    for word, bounds in {"rate": RATE_HZ, "gain": GAIN_HZ}.items():
+        if (value := getattr(options, word)) is not None:
+            refuse_lines(beyond(f"--{word}", value, bounds))
     run_time = RunTime(
         agreed("rate", options.rate, [note.rate_hz for note in notes], settings.rates.data_hz),
         ObserverContract(
@@ -147,10 +170,9 @@ def run(options: Namespace) -> Iterator[str]:
             gravity_m_s2=settings.plant.gravity_m_s2,
         ),
     )
-    contract = export(networks, robot, run_time, [read_thresholds(path) for path in options.thresholds], options.out)
-    model = export_model(options.out, robot, contract, networks, settings.detection.gate)
+    thresholds = [read_thresholds(path) for path in options.thresholds]
+    contract = export(networks, robot, run_time, thresholds, settings.detection.gate, options.out)
     yield from told(contract, networks, options.out)
-    yield model
 
 
 def main(words: list[str]) -> int:

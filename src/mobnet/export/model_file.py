@@ -5,7 +5,7 @@
 
 import struct
 import zlib
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from mobnet.core.columns import recording_columns
 from mobnet.core.contract import rule_of
-from mobnet.core.errors import ConfigError, DataError, not_accepted
+from mobnet.core.errors import ConfigError, DataError, beyond, not_accepted, refuse_lines
 from mobnet.core.files import atomic_path
 from mobnet.core.joints import JointLayout
 from mobnet.detection.chain import Chain
@@ -39,6 +39,10 @@ JOINT_SOURCES = ("q", "v", "tau_des")  # inputs of a network from a joint, in th
 BASE_SOURCES = (ROTATION_NAMES, tuple(f"v.omega_{a}" for a in "xyz"), tuple(f"acc.{a}" for a in "xyz"))
 KINDS: tuple[Signal, ...] = ("mean", "std", "ratio")
 LONGEST = NAME - 1  # of a name, one byte of which is zero
+BOUNDS = 1e-12, 1e9  # of numbers that are not weights, as in cursor.h; those of files that people pass on are narrower
+MOST_SAMPLES, MOST_UNITS = 10_000, 8192  # of a hold, and of hidden units or inputs, as in parts.c
+SMALLEST = float(np.finfo(np.float32).tiny)  # a standard deviation must be a normal number: detectors divide by it
+LARGEST = float(np.finfo(np.float32).max)
 
 
 @dataclass(frozen=True)
@@ -85,8 +89,23 @@ def write_model_file(
         DataError: a network has a cell that the library does not run, or two predict the same joint.
         ConfigError: a detector has a norm, thresholds of another number than its signals, or unknown joints.
     """
+    content = model_content(observer, networks, detectors)
+    with atomic_path(path, len(content)) as temporary:
+        temporary.write_bytes(content)
+
+
+def model_content(
+    observer: MomentumObserver, networks: Sequence[RuntimeNetwork], detectors: Sequence[RuntimeDetector]
+) -> bytes:  # fmt: skip
+    """Return the bytes of such a file.
+
+    Raises:
+        DataError: as `write_model_file`, or a number is one that the library does not accept.
+        ConfigError: as `write_model_file`.
+    """
     layout = observer.nominal.robot.layout
     _check_networks(networks)
+    refuse_lines(_number_faults(observer, networks, detectors))
     sections = [
         (ROBOT, _robot(observer)),
         (JOINTS, b"".join(_name(joint) for joint in layout.names)),
@@ -95,9 +114,38 @@ def write_model_file(
         *((NETWORK, _network(network, layout)) for network in networks),
         *((DETECTOR, _detector(detector, observer)) for detector in detectors),
     ]
-    content = file_of(sections)
-    with atomic_path(path, len(content)) as temporary:
-        temporary.write_bytes(content)
+    return file_of(sections)
+
+
+def _number_faults(
+    observer: MomentumObserver, networks: Sequence[RuntimeNetwork], detectors: Sequence[RuntimeDetector]
+) -> Iterator[str]:
+    """Yield the numbers of files from outside that the library would not accept."""
+    yield from beyond("rate_hz", observer.rate_hz, BOUNDS)
+    for network in networks:
+        tensors, note, place = network.tensors, network.note, f"network of {network.note.limb}"
+        yield from beyond(f"{place}: inputs", len(note.inputs), (0, MOST_UNITS))
+        yield from beyond(f"{place}: hidden units", note.cell.hidden or 0, (0, MOST_UNITS))
+        least_std = float(np.float32(note.std_min))
+        yield from beyond(f"{place}: std_min", least_std, (SMALLEST, LARGEST))
+        scaled = tensors["target.std"] * std_scale_of(tensors)
+        smallest = {
+            "input.std": SMALLEST,
+            "target.std": SMALLEST,
+            "target.std x std.scale": SMALLEST / min(least_std, 1.0),
+        }
+        values = {
+            "input.std": tensors["input.std"],
+            "target.std": tensors["target.std"],
+            "target.std x std.scale": scaled,
+        }
+        for name, least in smallest.items():
+            for value in (values[name].min(initial=1.0), values[name].max(initial=1.0)):
+                yield from beyond(f"{place}: {name}", float(value), (least, LARGEST))
+    for detector in detectors:
+        yield from beyond(f"detector of {detector.name}: samples of its hold", detector.chain.hold, (1, MOST_SAMPLES))
+        for value in detector.chain.thresholds.ravel().tolist():
+            yield from beyond(f"detector of {detector.name}: threshold", value, BOUNDS)
 
 
 def file_of(sections: Sequence[tuple[int, bytes]]) -> bytes:

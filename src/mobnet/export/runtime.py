@@ -1,7 +1,6 @@
 """From exported networks and their contract to the model file of the C library in `src/runtime` (docs/runtime.md)."""
 
 from collections.abc import Sequence
-from pathlib import Path
 
 import numpy as np
 
@@ -10,7 +9,7 @@ from mobnet.detection.detector import LegGate
 from mobnet.estimation.observer import MomentumObserver
 from mobnet.estimation.own import OBSERVER
 from mobnet.export.contract import Contract
-from mobnet.export.model_file import RuntimeDetector, RuntimeNetwork, write_model_file
+from mobnet.export.model_file import RuntimeDetector, RuntimeNetwork, model_content
 from mobnet.export.trained import Trained
 from mobnet.learning.deployed.networks import WITHOUT_TORCH
 from mobnet.robot.description import RobotDescription
@@ -21,49 +20,31 @@ from mobnet.settings.limb_thresholds import LimbThresholds
 MODEL = "model.bin"
 
 
-def runs_in_c(networks: Sequence[Trained]) -> bool:
-    """Return whether the library has the cells of all networks: GRU and `constant`."""
-    return all(one.note.cell.cell in WITHOUT_TORCH for one in networks)
+def model_of(
+    robot: RobotDescription, contract: Contract, networks: Sequence[Trained], gate: SwingGate
+) -> bytes | None:  # fmt: skip
+    """Return the model file of a robot, whose table is what the observer knows, with networks and their contract.
 
-
-def export_model(
-    out: Path, robot: RobotDescription, contract: Contract, networks: Sequence[Trained], gate: SwingGate
-) -> str:  # fmt: skip
-    """Write the model file beside a contract, or remove an older one where the library lacks a cell; say which.
-
-    Raises:
-        ConfigError: a limb that is watched in swing is no leg.
-    """
-    path = out / MODEL
-    if not runs_in_c(networks):
-        path.unlink(missing_ok=True)
-        return f"{path}: not written, as the C library has no other cells than {' and '.join(WITHOUT_TORCH)}"
-    write_model(path, robot, contract, networks, gate)
-    return f"{path}: for the C library in src/runtime"
-
-
-def write_model(
-    path: Path, robot: RobotDescription, contract: Contract, networks: Sequence[Trained], gate: SwingGate
-) -> None:  # fmt: skip
-    """Write the model file of a robot, whose table is what the observer knows, with networks and their contract.
+    Where the library lacks the cell of a network there is none.
 
     Args:
-        path: of the file.
         robot: the robot.
         contract: rate, observer, what networks estimate, and thresholds.
         networks: the networks in the contract's order.
         gate: numbers of the gate, for limbs that are watched in swing.
 
     Raises:
-        DataError: a network has another cell than GRU and `constant`.
+        DataError: a number is one that the library does not accept.
         ConfigError: a limb that is watched in swing is no leg.
     """
+    if not all(one.note.cell.cell in WITHOUT_TORCH for one in networks):
+        return None
     observing = contract.observer
     nominal = NominalModel(robot, gravity_m_s2=observing.gravity_m_s2)
     observer = MomentumObserver(nominal, observing.gain_hz, contract.rate_hz, observing.torque)
     pairs = zip(networks, contract.networks, strict=True)
     parts = [RuntimeNetwork(one.tensors, one.note, told.estimates) for one, told in pairs]
-    write_model_file(path, observer, parts, [_detector(one, robot, gate) for one in contract.detectors])
+    return model_content(observer, parts, [_detector(one, robot, gate) for one in contract.detectors])
 
 
 def _detector(one: LimbThresholds, robot: RobotDescription, gate: SwingGate) -> RuntimeDetector:

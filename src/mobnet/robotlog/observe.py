@@ -5,7 +5,6 @@ what was made of the log and what looks wrong with it.
 """
 
 import logging
-import math
 import sys
 from argparse import Namespace
 from collections.abc import Iterator, Mapping
@@ -16,7 +15,7 @@ import numpy as np
 
 from mobnet.core.arrays import Array
 from mobnet.core.columns import EXTERNAL, recording_columns, torque_columns
-from mobnet.core.errors import DataError, not_accepted
+from mobnet.core.errors import beyond, refuse_lines
 from mobnet.core.joints import JointLayout
 from mobnet.core.notes import read_array_note
 from mobnet.core.recording import Recording
@@ -46,7 +45,7 @@ from mobnet.robotlog.plot import plot_residual
 from mobnet.robotlog.tool import with_tool
 from mobnet.robotlog.words import observe_parser
 from mobnet.running.printed import printed
-from mobnet.settings.base import TorqueKind
+from mobnet.settings.base import GAIN_HZ, TorqueKind
 from mobnet.settings.load import load_section, load_settings
 from mobnet.settings.robotlog import LogMap, RobotLog
 
@@ -205,8 +204,7 @@ def run(options: Namespace) -> Iterator[str]:
     robot = given_robot(options.robot, settings)
     meaning = load_section(options.map, LogMap) if options.map else None
     gain_hz = settings.observer.gain_hz if options.gain is None else options.gain
-    if not 0.0 < gain_hz < math.inf:
-        raise DataError(not_accepted("--gain", gain_hz, ["a number above 0"]))
+    refuse_lines(beyond("--gain", gain_hz, GAIN_HZ))
     torque = options.torque or (meaning.torque if meaning else "sample")
     bounds, gravity = settings.robotlog, settings.plant.gravity_m_s2
     found = observe_log(options.log, robot, meaning, torque, gain_hz, gravity, bounds)

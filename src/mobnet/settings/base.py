@@ -76,6 +76,14 @@ LowerName = Annotated[str, Field(pattern="^[a-z][a-z0-9_]*$", max_length=50)]
 RowName = Annotated[str, Field(pattern="^[A-Za-z0-9][A-Za-z0-9-]*$", max_length=50)]
 PartName = Annotated[str, Field(pattern="^[A-Za-z][A-Za-z0-9_]*$", max_length=50)]
 
+# Of files that people pass on, too: what the C library accepts (src/runtime/cursor.h) lies further out.
+RATE_HZ, GAIN_HZ, LOW_PASS_HZ = (1.0, 100_000.0), (0.1, 5000.0), (0.01, 100_000.0)
+THRESHOLD = 1e-9, 1e6  # [N m], of a ratio [-]
+RateHz = Annotated[Real, Field(ge=RATE_HZ[0], le=RATE_HZ[1])]
+GainHz = Annotated[Real, Field(ge=GAIN_HZ[0], le=GAIN_HZ[1])]
+LowPassHz = Annotated[Real, Field(ge=LOW_PASS_HZ[0], le=LOW_PASS_HZ[1])]
+Threshold = Annotated[Real, Field(ge=THRESHOLD[0], le=THRESHOLD[1])]
+
 Metres = Annotated[Real, Field(ge=-1.5, le=1.5)]  # between neighbouring parts of a robot
 Length = Annotated[Positive, Field(ge=0.001, le=10)]
 Radians = Annotated[Real, Field(ge=-12.6, le=12.6)]  # two turns

@@ -67,7 +67,7 @@ class Detector(Section):
 class Detection(Section):
     """Detectors, how they are calibrated, and the walks on which they are tried."""
 
-    low_pass_hz: base.Positive
+    low_pass_hz: base.LowPassHz
     hold_s: base.Real = Field(ge=0.001, le=1)
     gate: SwingGate
     thresholds: Thresholds

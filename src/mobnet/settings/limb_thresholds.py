@@ -4,7 +4,21 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from mobnet.settings.base import Distinct, NotNegative, PartName, Positive, Section, Share, Some, Text, TorqueKind
+from mobnet.settings.base import (
+    Distinct,
+    GainHz,
+    LowPassHz,
+    NotNegative,
+    PartName,
+    Positive,
+    RateHz,
+    Section,
+    Share,
+    Some,
+    Text,
+    Threshold,
+    TorqueKind,
+)
 from mobnet.settings.detection import Signal
 
 
@@ -39,13 +53,13 @@ class LimbThresholds(Section):
     method: Literal["MOB", "MOB-Net"]
     network: Text | None = None
     signal: Signal
-    thresholds: Some[Positive]
+    thresholds: Some[Threshold]
     watched: Literal["always", "swing"]
     settle_s: Annotated[NotNegative, Field(le=60)] = 0.0
-    low_pass_hz: Positive
+    low_pass_hz: LowPassHz
     hold_s: Annotated[NotNegative, Field(le=1)]
-    rate_hz: Positive
-    gain_hz: Positive
+    rate_hz: RateHz
+    gain_hz: GainHz
     torque: TorqueKind
     rate_per_h: Positive
     expected_per_h: NotNegative

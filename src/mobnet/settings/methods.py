@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from pydantic import AfterValidator, Field, JsonValue
+from pydantic import AfterValidator, JsonValue
 
 from mobnet.settings import base
 from mobnet.settings.base import Section
@@ -16,7 +16,7 @@ Target = Literal["uncertainty", "external"]
 class Observer(Section):
     """The momentum observer (7), and what recordings hold of the motors' torque."""
 
-    gain_hz: base.Real = Field(ge=0.1, le=5000)
+    gain_hz: base.GainHz
     torque: base.TorqueKind
 
 

@@ -9,6 +9,7 @@ from mobnet.settings.base import (
     InnerShare,
     NetworkName,
     Positive,
+    RateHz,
     Real,
     Seconds,
     Section,
@@ -110,7 +111,7 @@ class LogMap(Section):
 
     clock: Clock = Clock()
     joints: Some[Text] | None = None
-    rate_hz: Annotated[Positive, Field(ge=1, le=100_000)] | None = None
+    rate_hz: RateHz | None = None
     torque: TorqueKind = "sample"
     q: Signal
     v: Signal
