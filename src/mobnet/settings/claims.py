@@ -17,6 +17,7 @@ from mobnet.settings.base import (
     LowerName,
     MethodName,
     Real,
+    ScaleName,
     ScenarioName,
     Section,
     Some,
@@ -182,7 +183,8 @@ class Claim(MadeNumber):
 
     Claims of one `statement`, which has the name of its first claim, count once. `by_joint` makes a claim of each
     joint: its cells have this joint, and the paper prints this number. `sign` is the range of the claimed sign, where
-    the rule does not make it, and `sign_of` the number that has it, where that is not the claim's own.
+    the rule does not make it, and `sign_of` the number that has it, where that is not the claim's own. `decided_at` are
+    the scales whose walks decide it, where not all do that decide claims; elsewhere it stays open.
     """
 
     statement: ClaimName | None = None
@@ -195,6 +197,7 @@ class Claim(MadeNumber):
     bar: Bounds | None = None
     sign: Bounds | None = None
     sign_of: MadeNumber | None = None
+    decided_at: tuple[ScaleName, ...] = ()
     cause: Cause | None = None
 
     @model_validator(mode="after")

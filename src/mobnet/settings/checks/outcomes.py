@@ -23,7 +23,8 @@ def outcome_problems(catalogue: Catalogue) -> Iterator[Problem]:
     settings = catalogue.settings
     for name, claim in settings.claims.items():
         bounds = ranges_of(claim).size
-        if bounds is None or claim.quantity not in ("value", "share") or len(claim.cells) > 1:
+        is_decided = not claim.decided_at or settings.scale in claim.decided_at
+        if not is_decided or bounds is None or claim.quantity not in ("value", "share") or len(claim.cells) > 1:
             continue
         (cell,) = claim.cells
         trials, hours = trials_of(catalogue, cell), hours_of(settings, cell)
