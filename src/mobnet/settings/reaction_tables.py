@@ -9,10 +9,11 @@ from mobnet.settings.base import Section
 
 
 class Safety(Section):
-    """What reactions are worth; a direction is right within an angle."""
+    """What reactions are worth; a direction is right within an angle, an impulse is heavy above a bound."""
 
     cases: base.Distinct[base.CaseName]
     within_deg: Annotated[base.Positive, Field(le=180)]
+    heavy_ns: Annotated[base.Positive, Field(le=1000)]
 
 
 class Sensorless(Section):

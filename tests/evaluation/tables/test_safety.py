@@ -93,7 +93,7 @@ def test_early_is_what_comes_before_the_contact():
 
 
 def test_an_outcome_counts_walks_and_contacts():
-    outcome = outcome_of(ROWS[:3], 30.0, SETTINGS.evaluation.statistics)
+    outcome = outcome_of(ROWS[:3], SETTINGS.evaluation.safety, SETTINGS.evaluation.statistics)
     assert (outcome.walks, outcome.touched) == (3, 2)
 
 

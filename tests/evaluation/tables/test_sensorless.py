@@ -36,17 +36,17 @@ def test_events_are_counted_over_the_time_that_robots_walk_as_told(cells):
     assert (falls["events"], reactions["events"], falls["walks"]) == ("1", "1", "3")
     assert float(falls["hours"]) == pytest.approx(0.05)
     assert float(falls["value"]) == pytest.approx(20.0)
-    assert float(falls["low"]) == pytest.approx(0.0253 / 0.05, rel=0.01)  # of one event, Garwood 1936
-    assert float(falls["high"]) == pytest.approx(5.572 / 0.05, rel=0.001)
+    assert float(falls["low"]) < 0.0253 / 0.05  # of one event in independent walks, Garwood 1936; here of two robots
+    assert float(falls["high"]) > 5.572 / 0.05
 
 
 def test_the_table_is_the_golden_one(cells, tmp_path):
     check_golden(tmp_path / "sensorless.csv")
 
 
-def test_without_an_event_the_interval_begins_at_zero(cells):
+def test_a_single_walk_has_no_interval(cells):
     falls = cells["sensed", "0", "falls"]
-    assert (falls["events"], falls["value"], falls["low"]) == ("0", "0", "0")
+    assert (falls["events"], falls["value"], falls["low"], falls["high"]) == ("0", "0", "", "")
 
 
 def test_the_velocity_s_error_is_the_mean_of_the_walks(cells, tmp_path):

@@ -22,9 +22,12 @@ from mobnet.evaluation.report.manifest import differences, file_hash
 from mobnet.evaluation.report.paper import missing_packages
 from mobnet.evaluation.report.rates import RATES, measured
 from mobnet.evaluation.report.readme import blocks
+from mobnet.evaluation.report.single_rows import write_single_rows
 from mobnet.evaluation.report.walked import SEEDS, check_seeds, read_history, walked, write_history
 from mobnet.plan.demo import FOLDER
+from mobnet.plan.detection import all_detections
 from mobnet.plan.plan import make_plan
+from mobnet.plan.reactions import all_reactions
 from mobnet.running.accounts import read_account
 from mobnet.running.logs import LOGS
 from mobnet.running.provenance import CHANGED, UNKNOWN, commit, provenance
@@ -225,6 +228,8 @@ def store(manifest: Path) -> None:
     run = walked(plan.files, commit())
     check_seeds(run, published)
     write_snapshot(settings, TABLES, FIGURES, FURTHER, SNAPSHOT)
+    detections, reactions = all_detections(plan.files), all_reactions(plan.files)
+    write_single_rows(detections, reactions, tuple(settings.reaction.cases), SNAPSHOT)
     copy_demo(RESULTS / FOLDER, DEMO)
     tell_demo(StoredPush(DEMO, settings), DEMO_PAGE)
     write_history(SEEDS, [*published, run])

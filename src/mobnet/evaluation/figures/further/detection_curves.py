@@ -1,7 +1,7 @@
 """What lower and higher thresholds do: collisions and delays over false alarms; and found shares over the force."""
 
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -19,12 +19,11 @@ from mobnet.evaluation.measure.detection.results import (
     alarms_in,
     found_share,
     hours_per_swing,
-    mean_of,
     owners,
     rows_of,
-    share_of,
     tries_of,
 )  # fmt: skip
+from mobnet.evaluation.number.clusters import Place, share_in
 from mobnet.evaluation.number.number import Number
 from mobnet.settings.detection import Detection
 from mobnet.settings.detection_tables import DetectionCurves
@@ -69,7 +68,7 @@ def detection_curves(
     the interval of Hanley and McNeil (1982, Radiology 143).
     """
     names, leg = owners(detections, settings.level, detection.levels), settings.leg
-    points = rows_of(detections, names, "curves", CurvePoint, leg=leg)
+    points = {robot: rows_of(detections, [robot], "curves", CurvePoint, leg=leg) for robot in names}
     promises = rows_of(detections, names, "promises", Promise, leg=leg)
     swings = rows_of(detections, names, "swings", FreeSwing, leg=leg, scenario=detection.random, part=HELD_OUT)
     hits = tries_of(detections, names, detection.collisions, leg, COLLISION)
@@ -78,7 +77,7 @@ def detection_curves(
     for name in (name for name in settings.detectors if name in hits):
         quiet = [row for row in swings if row.detector == name]
         hours = len(quiet) * hours_per_swing([row for row in promises if row.detector == name])
-        own = [row for row in points if row.detector == name]
+        own = {robot: [row for row in rows if row.detector == name] for robot, rows in points.items()}
         courses += [*_over_rates(name, own, quiet, hours, statistics),
                     _over_force(name, sweep[name], settings.force_bins, statistics)]  # fmt: skip
         hit = np.array([one.detected.ratio for one in hits[name]])
@@ -92,20 +91,26 @@ def detection_curves(
 
 
 def _over_rates(
-    name: str, points: Sequence[CurvePoint], quiet: Sequence[FreeSwing], hours: float, statistics: Statistics
+    name: str, points: Mapping[str, Sequence[CurvePoint]], quiet: Sequence[FreeSwing], hours: float,
+    statistics: Statistics,
 ) -> list[DetectorLine]:  # fmt: skip
-    """Return the found share and the mean delay [ms] at multiples of the thresholds, over the false alarms [1/h]."""
-    factors = sorted({row.factor for row in points})
+    """Return the found share and the mean delay [ms] at multiples of the thresholds, over the false alarms [1/h].
+
+    The points are those of each robot.
+    """
+    factors = sorted({row.factor for rows in points.values() for row in rows})
     factors = [factor for factor in factors if alarms_in(quiet, factor) <= RATE_MOST * hours]
     quiet_at = next((k for k, factor in enumerate(factors) if not alarms_in(quiet, factor)), len(factors))
     factors = factors[: quiet_at + 1]  # higher thresholds only find less
     rates, shares, delays, counts = list[float](), list[Number](), list[Number](), list[int]()
     for factor in factors:
-        own = [row for row in points if row.factor == factor]
-        found, count = sum(row.found for row in own), sum(row.collisions for row in own)
+        own = [(robot, row) for robot, rows in points.items() for row in rows if row.factor == factor]
+        found, count = sum(row.found for _, row in own), sum(row.collisions for _, row in own)
+        flags = [hit for _, row in own for hit in [True] * row.found + [False] * (row.collisions - row.found)]
+        places = [Place(robot, 0) for robot, row in own for _ in range(row.collisions)]
         rates.append(alarms_in(quiet, factor) / hours if hours else 0.0)
-        shares.append(share_of([True] * found + [False] * (count - found), statistics))
-        late = MS * sum(row.delay_sum_s for row in own) / found if found else None
+        shares.append(share_in(flags, places, statistics))
+        late = MS * sum(row.delay_sum_s for _, row in own) / found if found else None
         delays.append(Number(late, unit="ms"))
         counts.append(count)
     return [DetectorLine(FOUND, name, rates, shares, counts), DetectorLine(DELAY, name, rates, delays, counts)]
@@ -115,7 +120,7 @@ def _over_force(name: str, tries: Sequence[Try], bins: int, statistics: Statisti
     """Return the found share in bins of the largest force with as many collisions each, over their mean force [N]."""
     ordered = sorted(tries, key=lambda one: one.collision.force_n)
     parts = [list(part) for part in np.array_split(np.array(ordered, dtype=object), bins) if len(part)]
-    x = [mean_of([one.collision.force_n for one in part], statistics, "N").value or 0.0 for part in parts]
+    x = [float(np.mean([one.collision.force_n for one in part])) for part in parts]
     shares = [found_share(part, statistics) for part in parts]
     return DetectorLine(FORCE, name, x, shares, [len(part) for part in parts])
 

@@ -49,7 +49,7 @@ def figure_16(
     trials, rows = read_trials(reactions, settings.cases), list[Sequence[Field]]()
     forces, numbers = dict[str, tuple[Array, Array, Mapping[str, float | None]]](), dict[str, dict[str, Number]]()
     for case in settings.cases:
-        outcome = outcome_of(trials_of(trials, case, reaction.ours), settings.within_deg, statistics)
+        outcome = outcome_of(trials_of(trials, case, reaction.ours), settings, statistics)
         numbers[case] = {name: outcome.numbers[name] for name in LABELS}
         forces[case] = force_of(courses[case], settings)
         rows += [
@@ -74,7 +74,7 @@ def late_falls(
     for watch in sorted(watches_of(reaction, case), key=lambda watch: watch.wait_s):
         own = trials_of(trials, case, watch)
         if own and (watch.detector, watch.rule) == (reaction.ours.detector, reaction.ours.rule):
-            found[watch.wait_s] = outcome_of(own, settings.within_deg, statistics).numbers[FALLS]
+            found[watch.wait_s] = outcome_of(own, settings, statistics).numbers[FALLS]
     return found
 
 

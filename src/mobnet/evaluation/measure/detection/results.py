@@ -1,18 +1,16 @@
 """What detectors found, read from the files of robots: the robots of a level are taken together."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import TypeVar
 
 import numpy as np
 
-from mobnet.core.arrays import Array
 from mobnet.core.detections import Collision, Detected, FreeSwing, Promise
 from mobnet.core.errors import DataError, not_accepted
 from mobnet.core.rows import read_rows
-from mobnet.evaluation.number.intervals import RunGrid
+from mobnet.evaluation.number.clusters import Place, mean_in, share_in
 from mobnet.evaluation.number.number import Number
-from mobnet.evaluation.number.single import share
 from mobnet.plan.detection import Detections
 from mobnet.settings.detection_tables import AlarmTable
 from mobnet.settings.runs import Statistics
@@ -26,10 +24,16 @@ ALL = "all"  # cells together
 
 @dataclass(frozen=True)
 class Try:
-    """A collision and what a detector said of it."""
+    """A collision of a robot and what a detector said of it."""
 
+    robot: str
     collision: Collision
     detected: Detected
+
+    @property
+    def place(self) -> Place:
+        """The robot and the walk, which collisions have in common."""
+        return Place(self.robot, self.collision.seed)
 
     @property
     def cell(self) -> str:
@@ -72,7 +76,7 @@ def tries_of(detections: Detections, names: Sequence[str], scenario: str, leg: s
         rows = rows_of(detections, [name], "collisions", Collision, scenario=scenario, leg=leg)
         collisions = {(row.seed, row.number): row for row in rows}
         for row in rows_of(detections, [name], "detected", Detected, scenario=scenario, leg=leg, kind=kind):
-            found.setdefault(row.detector, []).append(Try(collisions[row.seed, row.number], row))
+            found.setdefault(row.detector, []).append(Try(name, collisions[row.seed, row.number], row))
     return found
 
 
@@ -87,25 +91,23 @@ def shown_tries(
 
 def found_share(tries: Sequence[Try], statistics: Statistics) -> Number:
     """Return the share of collisions that a detector finds [-], with its interval."""
-    return share_of([one.is_found for one in tries], statistics)
+    return share_of(tries, lambda one: one.is_found, statistics)
 
 
-def share_of(flags: Sequence[bool], statistics: Statistics) -> Number:
-    """Return the share of flags that are set [-], with Wilson's interval."""
-    if not flags:
-        return Number(None)
-    return share([RunGrid(np.array([flags], dtype=np.float64))], statistics)
+def share_of(tries: Sequence[Try], is_so: Callable[[Try], bool], statistics: Statistics) -> Number:
+    """Return the share of collisions of which something holds [-], with its interval over robots and walks."""
+    return share_in([is_so(one) for one in tries], [one.place for one in tries], statistics)
 
 
-def mean_of(values: Sequence[float], statistics: Statistics, unit: str) -> Number:
-    """Return the mean of values of collisions, with the interval of Student's law [unit]."""
-    if len(values) < 2:
-        return Number(values[0] if values else None, unit=unit)
-    from scipy.stats import t  # here, as it takes a second to import
+def mean_of(tries: Sequence[Try], value_of: Callable[[Try], float | None], statistics: Statistics) -> Number:
+    """Return the mean of times of collisions [ms] that have one [s], with its interval over robots and walks."""
+    found = [(MS * value, one.place) for one in tries if (value := value_of(one)) is not None]
+    return mean_in([value for value, _ in found], [place for _, place in found], statistics, "ms")
 
-    found: Array = np.array(values)
-    reach = t.ppf((1.0 + statistics.confidence) / 2.0, len(found) - 1) * found.std(ddof=1) / np.sqrt(len(found))
-    return Number(float(found.mean()), float(found.mean() - reach), float(found.mean() + reach), unit=unit)
+
+def delay_of(one: Try) -> float | None:
+    """Return the delay of a collision that was found [s]."""
+    return one.detected.delay_s
 
 
 def median_of(values: Sequence[float], statistics: Statistics, unit: str) -> Number:

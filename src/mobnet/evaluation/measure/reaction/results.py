@@ -1,21 +1,25 @@
 """Trials of reactions, read and summarised: falls, forces, delays, directions, and reactions to nothing."""
 
-from collections.abc import Iterator, Mapping, Sequence
+import statistics as statistics_of
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from mobnet.core.reactions import NONE, Trial
 from mobnet.core.rows import read_rows, refuse_rows
-from mobnet.evaluation.measure.detection.results import MS, mean_of, share_of
+from mobnet.evaluation.measure.detection.results import MS
 from mobnet.evaluation.measure.estimates.changed import HOUR_S
+from mobnet.evaluation.number.clusters import Place, mean_in, rate_in, share_in
 from mobnet.evaluation.number.number import Number
 from mobnet.plan.reactions import Reactions
 from mobnet.settings.published import PublishedContacts
 from mobnet.settings.reaction import Watch
+from mobnet.settings.reaction_tables import Safety
 from mobnet.settings.runs import Statistics
 
-FALLS, PEAK, FIRST, IMPULSE, ALARM, WITHIN, BASE_WITHIN, EARLY = (
-    "falls", "first_peak", "first_impulse", "impulse", "alarm", "within", "base_within", "early",
+FALLS, PEAK, FIRST, IMPULSE, MEDIAN, HEAVY, ALARM, WITHIN, BASE_WITHIN, EARLY = (
+    "falls", "first_peak", "first_impulse", "impulse", "median_impulse", "heavy", "alarm", "within", "base_within",
+    "early",
 )  # fmt: skip
 # case, detector, rule, time that a reaction waits [s], wrench of the feet, share of feed-forward
 Group = tuple[str, str, str, float, str, float]
@@ -46,12 +50,14 @@ class Walked:
     Attributes:
         hours: that the robots walked as they were told [h].
         events: falls, and reactions to nothing, by name.
+        rates: how many of them there are in an hour [1/h], by name.
         means: of the walks: error of the base's velocity [mm/s], error of the joints of the leg that swings from their
             references [mrad], mechanical power of the motors [W], by name.
     """
 
     hours: float
     events: Mapping[str, int]
+    rates: Mapping[str, Number]
     means: Mapping[str, Number]
 
 
@@ -101,47 +107,80 @@ def is_early(row: Trial) -> bool:
     return row.reacted_s is not None and (row.contact_s is None or row.reacted_s < row.contact_s)
 
 
-def outcome_of(trials: Sequence[Trial], within_deg: float, statistics: Statistics) -> Outcome:
-    """Return what came of trials; directions are right within an angle [deg]."""
+def place_of(row: Trial) -> Place:
+    """Return the robot and the seed of a walk."""
+    return Place(row.level, row.seed)
+
+
+def outcome_of(trials: Sequence[Trial], settings: Safety, statistics: Statistics) -> Outcome:
+    """Return what came of trials; intervals are over robots and walks.
+
+    Impulses lie around two values, those of short contacts and those of a robot that leans on the obstacle, so that
+    their mean has the median and the share of large ones beside it. The median has no interval: a few walks of three
+    robots do not bound it.
+    """
     struck = [row for row in trials if row.contact_s is not None and not is_early(row)]
-    delays = [
-        MS * (row.alarm_s - row.contact_s) for row in struck if row.alarm_s is not None and row.contact_s is not None
-    ]
-    forces = {PEAK: "first_peak_n", FIRST: "first_impulse_ns", IMPULSE: "impulse_ns"}
-    units = {PEAK: "N", FIRST: "N s", IMPULSE: "N s"}
-    means = {
-        name: mean_of([getattr(row, column) for row in struck], statistics, units[name])
-        for name, column in forces.items()
-    }
+    asked = [row for row in trials if row.detector != NONE]
+    impulses = [row.impulse_ns for row in struck if row.impulse_ns is not None]
+    median = statistics_of.median(impulses) if impulses else None
     numbers = {
-        FALLS: share_of([row.fell_s is not None for row in trials], statistics),
-        **means,
-        ALARM: mean_of(delays, statistics, "ms"),
-        WITHIN: share_of(_within([row.angle_deg for row in struck], within_deg), statistics),
-        BASE_WITHIN: share_of(_within([row.base_angle_deg for row in struck], within_deg), statistics),
-        EARLY: share_of([is_early(row) for row in trials if row.detector != NONE], statistics),
+        FALLS: _share(trials, lambda row: row.fell_s is not None, statistics),
+        PEAK: _mean(struck, lambda row: row.first_peak_n, statistics, "N"),
+        FIRST: _mean(struck, lambda row: row.first_impulse_ns, statistics, "N s"),
+        IMPULSE: _mean(struck, lambda row: row.impulse_ns, statistics, "N s"),
+        MEDIAN: Number(median, unit="N s"),
+        HEAVY: _share(struck, lambda row: _is_over(row.impulse_ns, settings.heavy_ns), statistics),
+        ALARM: _mean(struck, _delay_ms, statistics, "ms"),
+        WITHIN: _share(struck, lambda row: _is_within(row.angle_deg, settings.within_deg), statistics),
+        BASE_WITHIN: _share(struck, lambda row: _is_within(row.base_angle_deg, settings.within_deg), statistics),
+        EARLY: _share(asked, is_early, statistics),
     }
     return Outcome(len(trials), len(struck), numbers)
 
 
 def walked_of(trials: Sequence[Trial], statistics: Statistics) -> Walked:
-    """Return what happened in free walks."""
-    events = {
-        FALLEN: sum(row.fell_s is not None for row in trials),
-        REACTED: sum(row.reacted_s is not None for row in trials),
+    """Return what happened in free walks; intervals are over robots and walks."""
+    flags = {
+        FALLEN: [row.fell_s is not None for row in trials],
+        REACTED: [row.reacted_s is not None for row in trials],
     }
-    values = {
-        VELOCITY: ([MILLI * row.velocity_rmse_m_s for row in trials], "mm/s"),
-        TRACKING: ([MILLI * row.tracking_rmse_rad for row in trials], "mrad"),
-        POWER: ([row.power_w for row in trials], "W"),
+    hours, places = [row.walked_s / HOUR_S for row in trials], [place_of(row) for row in trials]
+    rates = {name: rate_in([int(flag) for flag in own], hours, places, statistics) for name, own in flags.items()}
+    means = {
+        VELOCITY: _mean(trials, lambda row: MILLI * row.velocity_rmse_m_s, statistics, "mm/s"),
+        TRACKING: _mean(trials, lambda row: MILLI * row.tracking_rmse_rad, statistics, "mrad"),
+        POWER: _mean(trials, lambda row: row.power_w, statistics, "W"),
     }
-    means = {name: mean_of(own, statistics, unit) for name, (own, unit) in values.items()}
-    return Walked(sum(row.walked_s for row in trials) / HOUR_S, events, means)
+    return Walked(sum(hours), {name: sum(own) for name, own in flags.items()}, rates, means)
 
 
-def _within(angles: Sequence[float | None], most: float) -> list[bool]:
-    """Return of each angle that there is whether it is at most so large [deg]."""
-    return [angle <= most for angle in angles if angle is not None]
+def _mean(
+    trials: Sequence[Trial], value_of: Callable[[Trial], float | None], statistics: Statistics, unit: str
+) -> Number:
+    """Return the mean over the walks that have a value [unit]."""
+    found = [(value, place_of(row)) for row in trials if (value := value_of(row)) is not None]
+    return mean_in([value for value, _ in found], [place for _, place in found], statistics, unit)
+
+
+def _share(trials: Sequence[Trial], is_so: Callable[[Trial], bool | None], statistics: Statistics) -> Number:
+    """Return the share of walks of which something holds [-], among those of which it is known."""
+    found = [(flag, place_of(row)) for row in trials if (flag := is_so(row)) is not None]
+    return share_in([flag for flag, _ in found], [place for _, place in found], statistics)
+
+
+def _delay_ms(row: Trial) -> float | None:
+    """Return the time from the contact to the alarm [ms]."""
+    return None if row.alarm_s is None or row.contact_s is None else MS * (row.alarm_s - row.contact_s)
+
+
+def _is_over(impulse_ns: float | None, most_ns: float) -> bool | None:
+    """Return whether an impulse is larger than this [N s]; None where there is none."""
+    return None if impulse_ns is None else impulse_ns > most_ns
+
+
+def _is_within(angle_deg: float | None, most_deg: float) -> bool | None:
+    """Return whether an angle is at most so large [deg]; None where there is none."""
+    return None if angle_deg is None else angle_deg <= most_deg
 
 
 def printed_of(published: PublishedContacts, case: str, measure: str) -> float | None:

@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from mobnet.core.columns import DETECTION
-from mobnet.evaluation.measure.detection.results import ALL, MS, Detections, found_share, mean_of, shown_tries
+from mobnet.evaluation.measure.detection.results import ALL, Detections, delay_of, found_share, mean_of, shown_tries
 from mobnet.evaluation.number.files import Field
 from mobnet.evaluation.number.number import Number
 from mobnet.evaluation.tables.layout import Table, in_blocks, percent, write_table
@@ -36,11 +36,10 @@ def found_by_rate(
             for kind, _ in rates:
                 own = tries[kind][level][name]
                 found = found_share(own, statistics)
-                delays = [MS * delay for one in own if (delay := one.detected.delay_s) is not None]
-                late = mean_of(delays, statistics, "ms")
+                late = mean_of(own, delay_of, statistics)
                 place = level, name, settings.leg, kind, ALL
                 rows.append((*place, FOUND, *found.with_ends, len(own), "-", None))
-                rows.append((*place, DELAY, *late.with_ends, len(delays), "ms", None))
+                rows.append((*place, DELAY, *late.with_ends, sum(one.is_found for one in own), "ms", None))
                 lines[-1] += [found.text(), found.interval(), late.text(1)]
                 shares.setdefault(name, []).append(found)
         shown = level.replace("_", " ")

@@ -30,8 +30,8 @@ def links(
                 own = [one for one in whole if cell in (one.cell, ALL) and one.is_found]
                 counts = [sum(one.named == other for one in own) for other in CELLS]
                 right = {
-                    RIGHT_LINK: share_of([one.detected.link == one.collision.link for one in own], statistics),
-                    RIGHT_CELL: share_of([one.named == one.cell for one in own], statistics),
+                    RIGHT_LINK: share_of(own, lambda one: one.detected.link == one.collision.link, statistics),
+                    RIGHT_CELL: share_of(own, lambda one: one.named == one.cell, statistics),
                 }
                 place = level, name, settings.leg, settings.kind, cell
                 rows += [(*place, f"{NAMED} {other}", count, None, None, len(own), "-", None)

@@ -11,7 +11,9 @@ from mobnet.evaluation.measure.reaction.results import (
     EARLY,
     FALLS,
     FIRST,
+    HEAVY,
     IMPULSE,
+    MEDIAN,
     PEAK,
     WITHIN,
     groups_of,
@@ -27,7 +29,7 @@ from mobnet.settings.published import PublishedContacts
 from mobnet.settings.reaction_tables import Safety
 from mobnet.settings.runs import Statistics
 
-DIGITS = {FALLS: 2, PEAK: 0, FIRST: 1, IMPULSE: 1, ALARM: 0, WITHIN: 2, BASE_WITHIN: 2, EARLY: 2}
+DIGITS = {FALLS: 2, PEAK: 0, FIRST: 1, IMPULSE: 1, MEDIAN: 1, HEAVY: 2, ALARM: 0, WITHIN: 2, BASE_WITHIN: 2, EARLY: 2}
 
 
 def safety(
@@ -35,14 +37,15 @@ def safety(
 ) -> None:
     """Write safety.csv, .tex and .md: what comes of walks into obstacles, by case and detector.
 
-    Falls and reactions to nothing are shares of all walks with Wilson's interval; forces [N], impulses [N s], times
-    from the first contact to the alarm [ms] and directions are of walks that met the obstacle before any reaction.
+    Falls and reactions to nothing are shares of all walks; forces [N], impulses [N s], times from the first contact to
+    the alarm [ms] and directions are of walks that met the obstacle before any reaction. Intervals are over robots and
+    walks.
     """
     rows: list[Sequence[Field]] = []
     lines: list[Line] = []
     before = ""
     for (case, detector, rule, wait_s, *_), trials in groups_of(read_trials(reactions, settings.cases)).items():
-        outcome = outcome_of(trials, settings.within_deg, statistics)
+        outcome = outcome_of(trials, settings, statistics)
         for measure, number in outcome.numbers.items():
             printed = printed_of(published, case, measure)
             counts = outcome.walks, outcome.touched
@@ -55,7 +58,8 @@ def safety(
     share = f"{statistics.confidence:.0%}"
     header = [
         "Case", "Detector", "thresholds", "touched", "falls", share, "first peak [N]", share, "its impulse [N s]",
-        "all contacts [N s]", share, "alarm [ms]", f"within {settings.within_deg:g} deg", "by (24)", "before contact",
+        "all contacts [N s]", share, "median", f"above {settings.heavy_ns:g} N s", "alarm [ms]",
+        f"within {settings.within_deg:g} deg", "by (24)", "before contact",
     ]  # fmt: skip
     write_table(table_dir / "safety", Table(SAFETY, rows, header, lines, left=3))
 

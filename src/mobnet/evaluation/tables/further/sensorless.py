@@ -4,7 +4,6 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from mobnet.core.columns import SENSORLESS
-from mobnet.evaluation.measure.detection.results import rate_of
 from mobnet.evaluation.measure.reaction.results import groups_of, read_trials, walked_of
 from mobnet.evaluation.number.files import Field
 from mobnet.evaluation.tables.layout import Line, Table, write_table
@@ -18,9 +17,9 @@ MINUTES = 60.0  # in an hour
 def sensorless(settings: Sensorless, statistics: Statistics, reactions: Reactions, table_dir: Path) -> None:
     """Write sensorless.csv, .tex and .md: what happens in walks that nothing stands in the way of.
 
-    Falls and reactions are counted, and in an hour of walking [1/h] with the exact interval of Poisson's law. The rest
-    are means of the walks with the interval of Student's law: the errors of the base's velocity [mm/s] and of the
-    joints of the leg that swings [mrad], and the power of the motors [W].
+    Falls and reactions are counted, and in an hour of walking [1/h]. The rest are means of the walks: the errors of the
+    base's velocity [mm/s] and of the joints of the leg that swings [mrad], and the power of the motors [W]. Intervals
+    are over robots and walks.
     """
     rows: list[Sequence[Field]] = []
     lines: list[Line] = []
@@ -28,7 +27,7 @@ def sensorless(settings: Sensorless, statistics: Statistics, reactions: Reaction
         walked, place = walked_of(trials, statistics), (case, wrench, detector, rule, fed)
         line = [wrench, detector, rule, f"{fed:g}", f"{MINUTES * walked.hours:.1f}"]
         for event, count in walked.events.items():
-            found = rate_of(count, walked.hours, statistics)
+            found = walked.rates[event]
             rows.append((*place, event, walked.hours, count, *found.with_ends, len(trials), found.unit))
             line += [str(count), found.text(1), found.interval(1)]
         for name, mean in walked.means.items():

@@ -10,6 +10,7 @@ from mobnet.evaluation.measure.detection.results import (
     MS,
     Detections,
     Try,
+    delay_of,
     found_share,
     mean_of,
     shown_tries,
@@ -32,7 +33,7 @@ def table_09(
     settings: DetectorTable, detection: Detection, statistics: Statistics, published: PublishedTable,
     detections: Detections, table_dir: Path,
 ) -> None:  # fmt: skip
-    """Write table_09.csv, .tex and .md: found collisions with Wilson's interval, and delays [ms].
+    """Write table_09.csv, .tex and .md: found collisions, and delays [ms], with intervals over robots.
 
     A delay is the mean of a cell over the collisions that are found; of all together it is that of the cells, as the
     paper's, and beside it that over all found collisions. `perfect` is the delay of an estimate without error at the
@@ -86,7 +87,7 @@ def _onset_delay(one: Try) -> float | None:
 
 
 DELAYS: Mapping[str, Callable[[Try], float | None]] = {  # of a collision that was found [s]
-    DELAY: lambda one: one.detected.delay_s, ONSET: _onset_delay, PERFECT: lambda one: one.detected.perfect_s,
+    DELAY: delay_of, ONSET: _onset_delay, PERFECT: lambda one: one.detected.perfect_s,
 }  # fmt: skip
 
 
@@ -108,12 +109,11 @@ def _rows(
         found = found_share(own, statistics)
         share = None if of_paper is None else of_paper / count
         yield (*place, FOUND, *found.with_ends, len(own), "-", share)
-        for quantity in DELAYS:
-            values = _delays(own, quantity)
-            number = mean_of(values, statistics, "ms")
+        for quantity, delay in DELAYS.items():
+            values, number = _delays(own, quantity), mean_of([one for one in own if one.is_found], delay, statistics)
             paper = printed[DELAY_MS].get(cell) if quantity == DELAY and cell != ALL else None
             yield (*place, quantity, *number.with_ends, len(values), "ms", paper)
-    cells = [mean for own in _in_cells(tries).values() if (mean := mean_of(_delays(own), statistics, "ms").value)]
+    cells = [mean for own in _in_cells(tries).values() if (mean := _mean(_delays(own)))]
     average = sum(cells) / len(cells) if cells else None
     yield (level, name, settings.leg, settings.kind, "cells", DELAY, average, None, None, len(cells), "ms",
            printed[DELAY_MS].get(ALL))  # fmt: skip
