@@ -5,10 +5,12 @@ from pathlib import Path
 import pytest
 from csv_files import read_table
 
-from mobnet.evaluation.measure.detection.results import rate_of, share_of
+from mobnet.evaluation.number.clusters import Place, rate_in, share_in
 from mobnet.plan.files import Files
 from mobnet.plan.reactions import sizes_of
 from mobnet.settings.catalogue import Catalogue
+from mobnet.settings.checks.outcomes import independent_part, is_met_by_a_rate, wilson
+from mobnet.settings.claims import Cell
 from mobnet.settings.load import load_settings
 from mobnet.settings.settings import Settings
 
@@ -18,38 +20,62 @@ FALLS_SHARE, FALLS_PER_H, DIVERGED_SHARE = 0.1, 4.0, 0.5  # at most, of walks, i
 HOUR_S = 3600.0
 
 
-@pytest.fixture(scope="module", params=["default", "paper"])
-def sized(request: pytest.FixtureRequest) -> Settings:
-    """The configuration at a scale whose results are judged."""
-    return load_settings(overrides={"scale": request.param})
+@pytest.fixture(scope="module")
+def paper() -> Settings:
+    """The configuration at the scale whose walks decide the claims about falls."""
+    return load_settings(overrides={"scale": "paper"})
 
 
-def test_robots_that_never_fall_can_show_a_small_share_of_falls(sized: Settings) -> None:
-    files = Files(Catalogue(sized), Path("results"))
+def places_of(robots: int, walks: int) -> list[Place]:
+    """Return the places of walks of several robots, which share the seeds."""
+    return [Place(f"robot_{robot}", seed) for robot in range(robots) for seed in range(walks)]
+
+
+def test_robots_that_never_fall_can_show_a_small_share_of_falls(paper: Settings) -> None:
+    files = Files(Catalogue(paper), Path("results"))
     for case in JUDGED:
-        walks = len(files.robots) * sizes_of(files, case).runs
-        high = share_of([False] * walks, sized.evaluation.statistics).high
+        places = places_of(len(files.robots), sizes_of(files, case).runs)
+        high = share_in([False] * len(places), places, paper.evaluation.statistics).high
         assert high is not None
-        assert high < FALLS_SHARE, f"{case}: {walks} walks"
+        assert high < FALLS_SHARE, f"{case}: {len(places)} walks"
 
 
-def test_free_walks_can_show_a_small_rate_of_falls_at_the_scale_of_the_paper() -> None:
-    """The scale `default` has a quarter of the hour, and says so in scales.yaml."""
-    settings = load_settings(overrides={"scale": "paper"})
-    files = Files(Catalogue(settings), Path("results"))
+def test_free_walks_can_show_a_small_rate_of_falls(paper: Settings) -> None:
+    files = Files(Catalogue(paper), Path("results"))
     sizes = sizes_of(files, "free")
-    hours = len(files.robots) * sizes.runs * sizes.longest_s / HOUR_S
-    high = rate_of(0, hours, settings.evaluation.statistics).high
+    places = places_of(len(files.robots), sizes.runs)
+    hours = [sizes.longest_s / HOUR_S] * len(places)
+    high = rate_in([0] * len(places), hours, places, paper.evaluation.statistics).high
     assert high is not None
     assert high < FALLS_PER_H
 
 
-def test_trainings_that_never_diverge_can_show_that_most_do_not(sized: Settings) -> None:
+@pytest.mark.parametrize(("robots", "walks"), [(3, 6), (3, 57), (5, 12), (8, 7)])
+def test_what_no_outcome_can_reach_is_told_by_the_interval_that_the_tables_have(robots: int, walks: int) -> None:
+    """`settings` computes the best outcome without the code of results: of robots that are alike."""
+    settings = load_settings()
+    statistics = settings.evaluation.statistics
+    fleet = settings.fleet.model_copy(update={"robots": tuple(f"robot_{k}" for k in range(robots))})
+    sizes = settings.sizes.model_copy(update={"fleet": None})
+    scaled = settings.model_copy(update={"fleet": fleet, "scales": {settings.scale: sizes}})
+    part = independent_part(scaled, Cell(table="safety"), statistics.confidence)
+    places = places_of(robots, walks)
+    found = share_in([False] * len(places), places, statistics)
+    assert wilson(0.0, part * len(places), statistics.confidence) == pytest.approx((found.low, found.high))
+    rate = rate_in([0] * len(places), [0.1] * len(places), places, statistics)
+    assert rate.high is not None
+    for factor, is_met in ((1.001, True), (0.999, False)):
+        bounds = (None, factor * rate.high)
+        assert is_met_by_a_rate(bounds, part * 0.1 * len(places), statistics.confidence) == is_met
+
+
+@pytest.mark.parametrize("scale", ["default", "paper"])
+def test_trainings_that_never_diverge_can_show_that_most_do_not(scale: str) -> None:
+    sized = load_settings(overrides={"scale": scale})
     files = Files(Catalogue(sized), Path("results"))
     kinds, figure = sized.evaluation.kinds, sized.evaluation.figure_17
     trained = files.network_folders(["GRU-printed-rate"], figure.limb, kinds.level)
-    high = share_of([False] * len(trained), sized.evaluation.statistics).high
-    assert high is not None
+    _, high = wilson(0.0, len(trained), sized.evaluation.statistics.confidence)
     assert high < DIVERGED_SHARE
 
 

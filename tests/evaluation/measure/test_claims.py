@@ -188,7 +188,7 @@ def test_a_difference_of_shares_holds_what_it_says() -> None:
 def share_number(hits: np.ndarray, share: float) -> Number:
     """Return the share of hits below a probability [-], with Wilson's interval."""
     count = int((hits < share).sum())
-    return Number(count / len(hits), *wilson(count, len(hits), 0.95))
+    return Number(count / len(hits), *wilson(count / len(hits), len(hits), 0.95))
 
 
 def test_a_difference_of_numbers_without_intervals_has_none() -> None:

@@ -48,7 +48,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     (folder / "claims.csv").write_bytes(GOLDEN.read_bytes())
     for name in HEADLINE:
         columns = ("scenario", "level", "metric", "joint", "method", "value", "published")
-        places = [place for _, table, place, _ in COLUMNS if table == name]
+        places = [place for _, table, place in COLUMNS if table == name]
         rows = [{**place, "method": "MOB-Net", "value": 1.25, "published": 1.5} for place in places]
         (folder / f"{name}.csv").write_text(csv_text(columns, [[row.get(key) for key in columns] for row in rows]))
     for name in ("one", "two", "claims", "index", "picture"):

@@ -1,6 +1,8 @@
 """What must hold for claims about counts: at a scale that decides them, some outcome of the run meets their bounds.
 
-A share of few walks has a long interval, so that a bound may be out of reach whatever happens in them.
+A share of few walks, or of the walks of few robots, has a long interval, so that a bound may be out of reach whatever
+happens in them. The best outcome is that of alike robots: their walks then count as so many independent ones as have an
+interval as wide (`mobnet.evaluation.number.clusters`, docs/notes/0022).
 """
 
 from collections.abc import Iterator
@@ -15,6 +17,7 @@ from mobnet.settings.reading import Problem
 from mobnet.settings.settings import Settings
 
 HOUR_S = 3600.0
+CLUSTERED = ("table_09", "found_by_rate", "safety", "sensorless")  # tables whose intervals are over robots
 DIVERGED = "diverged"  # metric of trainings of which a share is claimed
 
 
@@ -26,13 +29,15 @@ def outcome_problems(catalogue: Catalogue) -> Iterator[Problem]:
         is_decided = not claim.decided_at or settings.scale in claim.decided_at
         if not is_decided or bounds is None or claim.quantity not in ("value", "share") or len(claim.cells) > 1:
             continue
-        (cell,) = claim.cells
+        cell = next(iter(claim.cells))
         trials, hours = trials_of(catalogue, cell), hours_of(settings, cell)
-        if trials is not None and not is_met_by_a_share(bounds, trials, settings.evaluation.statistics.confidence):
-            text = f"a range that no share of {trials} reaches with Wilson's interval"
+        confidence = settings.evaluation.statistics.confidence
+        part = independent_part(settings, cell, confidence)
+        if trials is not None and not is_met_by_a_share(bounds, trials, part, confidence):
+            text = f"a range that no share of {trials} reaches with its interval"
             yield _place(name, claim), misfit(text, f"a wider range, or more of them at scale {settings.scale}")
-        if hours is not None and not is_met_by_a_rate(bounds, hours, settings.evaluation.statistics.confidence):
-            text = f"a range that no count in {hours:.2f} h reaches with Garwood's interval"
+        if hours is not None and not is_met_by_a_rate(bounds, part * hours, confidence):
+            text = f"a range that no count in {hours:.2f} h reaches with its interval"
             yield _place(name, claim), misfit(text, f"a wider range, or longer walks at scale {settings.scale}")
 
 
@@ -40,20 +45,32 @@ def _place(name: str, claim: Claim) -> tuple[str, ...]:
     return ("claims", name, "bar" if claim.bar else "rule")
 
 
-def is_met_by_a_share(bounds: Bounds, trials: int, confidence: float) -> bool:
-    """Return whether some share of so many trials has its interval within bounds [-]."""
-    return any(within(wilson(count, trials, confidence), bounds) for count in range(trials + 1))
+def independent_part(settings: Settings, cell: Cell, confidence: float) -> float:
+    """Return which part of the trials of a cell is independent at best [-]; 1 where they are no walks of robots."""
+    if cell.table not in CLUSTERED:
+        return 1.0
+    from scipy.special import stdtrit  # pyright: ignore[reportMissingTypeStubs]  # here, as it takes a while to import
+
+    robots = robots_of(settings)
+    if robots == 1:
+        return 1.0
+    tail = (1.0 + confidence) / 2.0
+    return (NormalDist().inv_cdf(tail) / float(stdtrit(robots - 1, tail))) ** 2
 
 
-def wilson(count: int, trials: int, confidence: float) -> tuple[float, float]:
-    """Return the ends of the interval of a share [-] (Wilson 1927)."""
+def is_met_by_a_share(bounds: Bounds, trials: int, part: float, confidence: float) -> bool:
+    """Return whether some share of so many trials has its interval within bounds [-]; a part of them is independent."""
+    return any(within(wilson(count / trials, part * trials, confidence), bounds) for count in range(trials + 1))
+
+
+def wilson(share: float, trials: float, confidence: float) -> tuple[float, float]:
+    """Return the ends of the interval of a share [-] of independent trials (Wilson 1927)."""
     z = NormalDist().inv_cdf((1.0 + confidence) / 2.0)
-    share = count / trials
     middle = share + z**2 / (2.0 * trials)
     reach = z * sqrt(share * (1.0 - share) / trials + z**2 / (4.0 * trials**2))
     scale = 1.0 + z**2 / trials
-    low = 0.0 if count == 0 else (middle - reach) / scale
-    high = 1.0 if count == trials else (middle + reach) / scale
+    low = 0.0 if share == 0.0 else (middle - reach) / scale
+    high = 1.0 if share == 1.0 else (middle + reach) / scale
     return low, high
 
 
@@ -79,7 +96,8 @@ def trials_of(catalogue: Catalogue, cell: Cell) -> int | None:
     if cell.table in ("table_09", "found_by_rate") and where.get("quantity") == "found":
         return robots_of(settings) * shards_of(settings) * hits_of(settings, where["leg"], where["cell"])
     if cell.table == "safety" and where.get("measure") == "falls":
-        ours, sizes = settings.reaction.ours, settings.sizes.reactions.pushed
+        ours, reactions = settings.reaction.ours, settings.sizes.reactions
+        sizes = reactions.cases.get(where["case"], reactions.pushed)
         is_ours = (where["detector"], where["thresholds"]) == (ours.detector, ours.rule)
         return robots_of(settings) * (sizes.runs if is_ours else min(sizes.compared, sizes.runs))
     return None
