@@ -76,9 +76,11 @@ LowerName = Annotated[str, Field(pattern="^[a-z][a-z0-9_]*$", max_length=50)]
 RowName = Annotated[str, Field(pattern="^[A-Za-z0-9][A-Za-z0-9-]*$", max_length=50)]
 PartName = Annotated[str, Field(pattern="^[A-Za-z][A-Za-z0-9_]*$", max_length=50)]
 
-Metres = Annotated[Real, Field(ge=-1.5, le=1.5)]  # between neighbouring parts of a robot
+MOST_M = 5.0  # between neighbouring parts of a robot; the arm of an excavator or of the largest robots has 3 m
+Metres = Annotated[Real, Field(ge=-MOST_M, le=MOST_M)]
 Length = Annotated[Positive, Field(ge=0.001, le=10)]
-Radians = Annotated[Real, Field(ge=-12.6, le=12.6)]  # two turns
+MOST_RAD = 12.6  # two turns
+Radians = Annotated[Real, Field(ge=-MOST_RAD, le=MOST_RAD)]
 Degrees = Annotated[Real, Field(ge=-180, le=180)]
 Seconds = Annotated[Positive, Field(ge=0.001, le=600)]
 Pause = Annotated[NotNegative, Field(le=600)]
