@@ -50,6 +50,9 @@ def robot_of(tree: Tree, floating: bool | None, locked: Sequence[str]) -> Robot:
     others -= sum(hinges[k] for k in robots)
     if floating or (floating is None and robots and max(hinges[k] for k in robots) >= others):
         base = _base(tree, robots, hinges)
+        moved = [_shown(joint) for joint in tree.links[base].joints if joint.kind != FREE]
+        if moved:
+            raise DataError(f"joints that move the base, {', '.join(moved)}, are not accepted; accepted: --base fixed")
         kept = tree.below(base)
     else:
         base = WORLD

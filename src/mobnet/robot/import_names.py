@@ -44,10 +44,13 @@ def _free(word: str, used: Collection[str]) -> str:
 
 def renamed(names: Iterable[str], words: Iterable[str], kind: str) -> Iterator[str]:
     """Yield which names a table has in other words than their own letters give."""
-    changed = [f"{word} is {name or 'without a name'!r}" for name, word in zip(names, words, strict=True)
-               if word != re.sub(r"\W", "_", name, flags=re.ASCII)]  # fmt: skip
+    changed = [
+        f"{word} is {f'{name!r}' if name else 'without a name'}"
+        for name, word in zip(names, words, strict=True)
+        if word != re.sub(r"\W", "_", name, flags=re.ASCII)
+    ]
     if changed:
-        yield f"names of {kind}: {', '.join(changed)} in the file"
+        yield f"names of {kind}: in the file {', '.join(changed)}"
 
 
 def title_of(name: str, otherwise: str) -> str:

@@ -25,7 +25,7 @@ from mobnet.settings.robot import RobotTable
 log = logging.getLogger(__name__)
 PLAIN = re.compile(r"[A-Za-z0-9][A-Za-z0-9_ .-]*(?<! )")  # texts without marks of YAML
 EQUAL = 1e-6  # by which a table may differ from another reading of its file
-SECONDS = 120.0  # that reading a file may take; that of 1 MB takes 2 s
+SECONDS = 60.0  # that reading a file may take; that of 1 MB takes 2 s
 
 
 def table_text(found: Imported, source: str) -> str:

@@ -31,7 +31,7 @@ def read_urdf(root: ET.Element, path: Path) -> Tree:
     links = {_named(link): link for link in _once("link", root.findall("link"))}
     rows = _once("joint", root.findall("joint"))
     if not links:
-        raise DataError(f"no link is not accepted; accepted: a URDF with links; of xacro, made by: {_expanding(path)}")
+        raise DataError(f"no link is not accepted; accepted: a URDF with links; of xacro, made by: {expanding(path)}")
     joints = [_Row(row, index, links) for index, row in enumerate(rows)]
     numbers = {row.name: row.index for row in joints}
     found = [_link(links[name], row, numbers) for name, row in _depth_first(links, joints)]
@@ -73,10 +73,10 @@ def _check_expanded(root: ET.Element, path: Path) -> None:
     values = [value for part in root.iter() for value in part.attrib.values() if MACRO.search(value)]
     if macros or values:
         what = repr(values[0]) if values else "a macro"
-        raise DataError(f"{what} of xacro is not accepted; accepted: a URDF, made by: {_expanding(path)}")
+        raise DataError(f"{what} of xacro is not accepted; accepted: a URDF, made by: {expanding(path)}")
 
 
-def _expanding(path: Path) -> str:
+def expanding(path: Path) -> str:
     """Return the command that makes a URDF from xacro."""
     plain = path.name.removesuffix(".xacro").removesuffix(".urdf")
     made = plain if path.suffix == ".xacro" else f"{plain}_expanded"

@@ -23,7 +23,7 @@ from mobnet.robot.import_mjcf import read_mjcf
 from mobnet.robot.import_names import limbs, renamed, title_of, words_of
 from mobnet.robot.import_sensors import feet_of, sensors_of
 from mobnet.robot.import_tree import Body, Joint, Tree, bodies_of
-from mobnet.robot.import_urdf import read_urdf
+from mobnet.robot.import_urdf import expanding, read_urdf
 from mobnet.settings.base import MOST_M, MOST_RAD
 from mobnet.settings.parts import SPEED_RAD_S, TORQUE_NM
 
@@ -112,8 +112,8 @@ def read_root(path: Path) -> ET.Element:
     try:
         root = _parsed(content)
     except (ValueError, LookupError, ET.ParseError) as error:
-        text = "xacro that is not expanded" if b"<xacro:" in content else error
-        raise DataError(f"{path}: {text}; accepted: a URDF or MJCF file") from None
+        made = f"a URDF, made by: {expanding(path)}" if b"<xacro:" in content else "a URDF or MJCF file"
+        raise DataError(f"{path}: {error}; accepted: {made}") from None
     if root.tag not in KINDS:
         accepted = [f"{kind} ({tag})" for tag, kind in KINDS.items()]
         raise DataError(not_accepted(f"{path}: first element", root.tag, accepted))
@@ -151,19 +151,17 @@ def _imported(tree: Tree, robot: Robot, kind: str, path: Path, armature: float) 
     without = [body.name for body, mass in zip(parts, masses, strict=True) if mass.is_token and body.parts]
     if without:
         notes.append(f"no mass in the file: {', '.join(without)}; {TOKEN_MASS:g} kg is taken, which changes no torque")
-    bodies = _bodies(parts, masses, robot, tree, notes)
+    bodies = _bodies(parts, masses, robot, notes)
     return Imported(
         title_of(tree.name, path.stem), bodies, [], {}, robot.floating, kind, tree, robot, parts, masses, notes
     )
 
 
-def _bodies(
-    parts: Sequence[Body], masses: Sequence[Mass], robot: Robot, tree: Tree, notes: list[str]
-) -> list[dict[str, Any]]:
+def _bodies(parts: Sequence[Body], masses: Sequence[Mass], robot: Robot, notes: list[str]) -> list[dict[str, Any]]:
     """Return the rows of bodies, and note names that differ from those of the file."""
     own = [body.name for body in parts]
     if not robot.floating:
-        own[0] = _standing(tree)
+        own[0] = "base"
     words = words_of(own, "body", {"world"})
     first = 0 if robot.floating else 1
     notes += renamed(own[first:], words[first:], "bodies")
@@ -174,12 +172,6 @@ def _bodies(
         pos = body.pos - shift if k and body.parent == 0 else body.pos
         rows.append(_row(words[k], parent, pos, body.turn, mass))
     return rows
-
-
-def _standing(tree: Tree) -> str:
-    """Return the name of a base that stands still: that of the first link where no joint moves it."""
-    first = tree.links[0]
-    return "base" if first.joints or first.name in ("", "world") else first.name
 
 
 def _shift(parts: Sequence[Body], robot: Robot, notes: list[str]) -> Array:

@@ -11,7 +11,7 @@ from typing import Any, TypeVar
 
 from mobnet.core.errors import DataError
 
-MEMORY_BYTES = 8 * 2**30  # that the process may take
+MEMORY_BYTES = 4 * 2**30  # that the process may take
 Made = TypeVar("Made")
 
 
@@ -33,7 +33,8 @@ def in_child(make: Callable[[], Made], seconds: float, what: str) -> Made:
         is_made, found = receiver.recv()
     except (EOFError, ConnectionResetError):
         process.join()
-        raise DataError(f"{what}: ended by {_reason(process.exitcode)}; accepted: another file") from None
+        text = f"reading it ended by {_reason(process.exitcode)}; accepted: a file that its library can read"
+        raise DataError(f"{what}: {text}") from None
     finally:
         process.kill()
         process.join()
@@ -46,6 +47,7 @@ def in_child(make: Callable[[], Made], seconds: float, what: str) -> Made:
 def _send(make: Callable[[], Any], sender: Connection) -> None:
     """Send what a function makes, or the error that it raises."""
     faulthandler.disable()  # a crash is told in one line
+    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
     _, most = resource.getrlimit(resource.RLIMIT_AS)
     if most == resource.RLIM_INFINITY or most > MEMORY_BYTES:
         resource.setrlimit(resource.RLIMIT_AS, (MEMORY_BYTES, most))
