@@ -85,7 +85,7 @@ NOTES = {
 }  # fmt: skip
 REFUSED = {
     ("r02_empty_robot.urdf", None): "no link is not accepted; accepted: a URDF with links; of xacro, made by: xacro ",
-    ("r09_limit_is_xacro.urdf", None): "'${-pi}' of xacro is not accepted; accepted: a URDF, made by: xacro ",
+    ("r09_limit_is_xacro.urdf", None): "'${-pi}' is not accepted; accepted: a URDF, made of xacro by: xacro ",
     ("r26.urdf.xacro", None): "r26.urdf.xacro > r26.urdf",
     ("r17_two_arms_on_world.urdf", "floating"): "a base that floats without mass, world, is not accepted",
     ("r22_no_inertial_anywhere.urdf", None): "no hinge that moves a mass",

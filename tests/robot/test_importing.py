@@ -339,6 +339,18 @@ def test_a_mjcf_needs_no_files_of_what_has_no_mass(tmp_path):
     assert max(inertia, terms) < EQUAL
 
 
+def test_a_macro_that_xacro_left_in_a_whole_robot_is_noted(tmp_path):
+    space = ('name="two-link arm"', 'name="two-link arm" xmlns:xacro="http://ros.org/wiki/xacro"')
+    (tmp_path / "left.urdf").write_text(arm_with(space, ("</robot>", "<xacro:sensors port='1'/></robot>")))
+    assert (
+        "macros of xacro that are not expanded are left out: sensors"
+        in table_of(tmp_path / "left.urdf", tmp_path)[0].notes
+    )
+    (tmp_path / "whole.urdf").write_text(arm_with(space, ("</robot>", "<xacro:include filename='x'/></robot>")))
+    with pytest.raises(DataError, match="xacro:include is not accepted; accepted: a URDF, made of xacro by: xacro "):
+        table_of(tmp_path / "whole.urdf", tmp_path)
+
+
 def test_a_joint_of_a_mjcf_that_follows_another_one_is_welded(tmp_path):
     (tmp_path / "hand.xml").write_text(
         "<mujoco><compiler angle='radian'/><worldbody>"

@@ -18,6 +18,7 @@ KINDS = {"revolute": HINGE, "continuous": HINGE, "prismatic": SLIDE, "floating":
 MOMENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 UNREAD = ("visual", "collision", "gazebo", "transmission")  # parts that say nothing about the dynamics
 MACRO = re.compile(r"\$[{(]")  # how a value of xacro begins
+KEYWORDS = {"arg", "call", "element", "if", "include", "insert_block", "macro", "property", "unless"}  # of xacro itself
 TURN = 0.01  # length below which an axis has no direction
 
 
@@ -27,7 +28,7 @@ def read_urdf(root: ET.Element, path: Path) -> Tree:
     Raises:
         DataError: it is no robot, holds xacro, or its links are no tree.
     """
-    _check_expanded(root, path)
+    notes = list(_check_expanded(root, path))
     links = {_named(link): link for link in _once("link", root.findall("link"))}
     rows = _once("joint", root.findall("joint"))
     if not links:
@@ -39,7 +40,7 @@ def read_urdf(root: ET.Element, path: Path) -> Tree:
     parents = {row.child: row.parent for row in joints}
     for link in found:
         link.parent = places.get(parents.get(link.name, ""), WORLD)
-    return Tree(root.get("name", ""), found)
+    return Tree(root.get("name", ""), found, notes=notes)
 
 
 class _Row:
@@ -64,16 +65,18 @@ def _tied(joint: _Row, end: str, links: Iterable[str]) -> str:
     return link
 
 
-def _check_expanded(root: ET.Element, path: Path) -> None:
-    """Check that no macro of xacro is in what is read of a file."""
+def _check_expanded(root: ET.Element, path: Path) -> Iterator[str]:
+    """Check that a file is no xacro; yield macros that xacro itself has left in it, since it did not know them."""
     for parent in list(root.iter()):
         for part in [part for kind in UNREAD for part in parent.findall(kind)]:
             parent.remove(part)
-    macros = [part for part in root.iter() if "xacro" in part.tag]
-    values = [value for part in root.iter() for value in part.attrib.values() if MACRO.search(value)]
-    if macros or values:
-        what = repr(values[0]) if values else "a macro"
-        raise DataError(f"{what} of xacro is not accepted; accepted: a URDF, made by: {expanding(path)}")
+    macros = [part.tag.rpartition("}")[2] for part in root.iter() if "xacro" in part.tag]
+    words = [repr(value) for part in root.iter() for value in part.attrib.values() if MACRO.search(value)]
+    words += [f"xacro:{name}" for name in macros if name in KEYWORDS]
+    if words:
+        raise DataError(f"{words[0]} is not accepted; accepted: a URDF, made of xacro by: {expanding(path)}")
+    if macros:
+        yield f"macros of xacro that are not expanded are left out: {', '.join(dict.fromkeys(macros))}"
 
 
 def expanding(path: Path) -> str:
