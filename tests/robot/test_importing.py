@@ -1,14 +1,20 @@
 """Tables from URDF and MJCF files: equal to what MuJoCo and Pinocchio read, and honest about the rest."""
 
+import dataclasses
+import os
 from functools import partial
 from pathlib import Path
 
 import numpy as np
+import pinocchio as pin
 import pytest
 
 from mobnet.core.errors import DataError
+from mobnet.robot import import_checks, import_table
 from mobnet.robot.description import describe
-from mobnet.robot.import_table import differences, main, table_text
+from mobnet.robot.import_checks import differences
+from mobnet.robot.import_inertia import balanced, is_rigid
+from mobnet.robot.import_table import main, table_text
 from mobnet.robot.importing import import_robot
 from mobnet.robot.plant import robot_spec
 from mobnet.settings.load import load_section
@@ -91,8 +97,9 @@ def test_the_base_is_what_the_user_says(tmp_path):
     found, robot = table_of(ARM, tmp_path, floating=True)
     assert robot.floating
     assert robot.layout.nv == 8
-    ((_, inertia, terms),) = differences(robot, found, ARM)
-    assert max(inertia, terms) < EQUAL
+    apart = {reading: numbers for reading, *numbers in differences(robot, found, ARM)}
+    assert apart.keys() == {"MuJoCo", "Pinocchio"}
+    assert np.max(list(apart.values())) < EQUAL
     assert robot.mass == pytest.approx(10.0)
 
 
@@ -161,7 +168,7 @@ def test_the_command_writes_a_table_once_and_says_how_equal_it_is(say, tmp_path)
     [
         ("<robot", "unclosed token"),
         ("<robot name='r'><link name='a'/></robot>", "no hinge"),
-        ("<mujoco><worldbody><body><joint/></body></worldbody></mujoco>", "mass and inertia of moving bodies"),
+        ("<mujoco><worldbody><body><joint/></body></worldbody></mujoco>", "no hinge that moves a mass"),
     ],
     ids=["no xml", "no hinge", "no mass"],
 )
@@ -172,6 +179,225 @@ def test_what_is_no_robot_is_one_line(text, message, say, tmp_path):
     assert message in lines[0]
     with pytest.raises(DataError):
         import_robot(tmp_path / "odd.urdf", None, 1.0, 1.0)
+
+
+def arm_with(*changes):
+    """Return the arm's URDF with words replaced."""
+    text = ARM.read_text()
+    for old, new in changes:
+        assert old in text
+        text = text.replace(old, new)
+    return text
+
+
+HINGE = "<body><joint/><geom size='.1' pos='.1 0 0'/></body>"
+ROBOT = f"<body name='{{name}}'><freejoint/><geom size='.1'/>{HINGE}</body>"
+HOSTILE = {
+    "effort of no number": (arm_with(('effort="60"', 'effort="abc"')), "joint J1: effort 'abc' is not accepted"),
+    "effort below zero": (arm_with(('effort="60"', 'effort="-5"')), "joint J1: effort -5 N m is not accepted"),
+    "reversed range": (arm_with(('lower="-3" upper="3"', 'lower="5" upper="3"')), "range 5 to 3 is not accepted"),
+    "a joint twice": (arm_with(('name="J2"', 'name="J1"')), "two joints named 'J1' are not accepted"),
+    "a link twice": (arm_with(('link name="tool"', 'link name="upper"')), "two links named 'upper' are not accepted"),
+    "a link that is not there": (
+        arm_with(('child link="upper"', 'child link="uper"')),
+        "child: 'uper' is not accepted",
+    ),
+    "another type": (
+        arm_with(('type="revolute"', 'type="hinge"')),
+        "type: 'hinge' is not accepted; accepted: continuous",
+    ),
+    "no direction": (arm_with(('axis xyz="0 1 0"', 'axis xyz="0 0 0"')), "axis [0.0, 0.0, 0.0] is not accepted"),
+    "two numbers": (arm_with(('xyz="0.1 0 0"', 'xyz="0.1 0"')), "xyz '0.1 0' is not accepted; accepted: three numbers"),
+    "mass of no number": (arm_with(('mass value="3.0"', 'mass value="nan"')), "mass 'nan' is not accepted"),
+    "mass below zero": (arm_with(('mass value="3.0"', 'mass value="-3"')), "mass -3 kg is not accepted"),
+    "a loop": (
+        arm_with(
+            ("</robot>", "<joint name='z' type='fixed'><parent link='finger'/><child link='wall'/></joint></robot>")
+        ),
+        "no root (a loop of links) is not accepted",
+    ),
+    "two parents": (
+        arm_with(
+            ("</robot>", "<joint name='z' type='fixed'><parent link='wall'/><child link='tool'/></joint></robot>")
+        ),
+        "link tool below two joints, flange and z, is not accepted",
+    ),
+    "xacro without its namespace": (
+        arm_with(("<link name='wall'>".replace("'", '"'), '<xacro:x/><link name="wall">')),
+        "xacro ",
+    ),
+    "no element": ("", "no element found"),
+    "sdf": (
+        "<sdf><model name='x'/></sdf>",
+        "first element: 'sdf' is not accepted; accepted: MJCF (mujoco), URDF (robot)",
+    ),
+    "an empty MJCF": ("<mujoco/>", "no hinge that moves a mass"),
+    "nested": ("<robot>" + 10000 * "<a>" + 10000 * "</a>" + "</robot>", "more than 500 elements in each other"),
+    "entities": (
+        "<!DOCTYPE r [<!ENTITY a '" + 100 * "a" + "'><!ENTITY b '" + 100 * "&a;" + "'><!ENTITY c '" + 100 * "&b;" + "'>"
+        "<!ENTITY d '" + 100 * "&c;" + "'>]><robot name='r'>&d;</robot>",
+        "limit on input amplification",
+    ),
+    "a file that includes itself": ("<mujoco><include file='odd.urdf'/></mujoco>", "already included"),
+    "two robots": (
+        f"<mujoco><worldbody>{ROBOT.format(name='a')}{ROBOT.format(name='b')}</worldbody></mujoco>",
+        "2 bases that float (a and b) are not accepted; accepted: one, or --base fixed",
+    ),
+    "a mass from a mesh that is missing": (
+        "<mujoco><asset><mesh name='m' file='no.stl'/></asset><worldbody><body name='b'><joint/>"
+        "<geom type='mesh' mesh='m'/></body></worldbody></mujoco>",
+        "or an <inertial> of the bodies whose masses follow from meshes: ['b']",
+    ),
+    "too many": (f"<mujoco><worldbody>{251 * HINGE}</worldbody></mujoco>", "251 hinges are not accepted"),
+}
+
+
+@pytest.mark.parametrize(("text", "message"), HOSTILE.values(), ids=HOSTILE)
+def test_a_file_that_is_wrong_is_one_line_and_leaves_the_table_as_it_was(text, message, say, tmp_path):
+    (tmp_path / "odd.urdf").write_text(text)
+    (tmp_path / "odd.yaml").write_text("a good table")
+    status, lines = say(tmp_path / "odd.urdf", "--out", tmp_path / "odd.yaml", "--force")
+    assert (status, len(lines)) == (1, 1)
+    assert lines[0].startswith(f"{tmp_path / 'odd.urdf'}: ")
+    assert message in lines[0]
+    assert (tmp_path / "odd.yaml").read_text() == "a good table"
+
+
+def test_what_is_no_file_or_too_large_is_one_line(say, tmp_path):
+    os.mkfifo(tmp_path / "pipe.urdf")
+    (tmp_path / "device.urdf").symlink_to("/dev/zero")
+    with (tmp_path / "large.urdf").open("wb") as file:
+        file.truncate(2**36)
+    texts = {
+        "pipe": "a pipe or a device is not",
+        "device": "a pipe or a device is not",
+        "large": "more than 64 MiB are",
+    }
+    for name, text in texts.items():
+        status, lines = say(tmp_path / f"{name}.urdf", "--out", tmp_path / "table.yaml")
+        assert (status, len(lines)) == (1, 1)
+        assert text in lines[0]
+
+
+def test_a_file_that_ends_mujoco_is_one_line(say, tmp_path):
+    (tmp_path / "self.xml").write_text(
+        f"<mujoco><asset><model name='m' file='self.xml'/></asset><worldbody>{HINGE}</worldbody></mujoco>"
+    )
+    status, lines = say(tmp_path / "self.xml", "--out", tmp_path / "table.yaml")
+    assert (status, len(lines)) == (1, 1)
+    assert "reading it ended by signal SIGSEGV" in lines[0]
+    assert not (tmp_path / "table.yaml").exists()
+
+
+def test_a_check_that_cannot_run_is_a_note(say, tmp_path, monkeypatch):
+    def refuse(*_):
+        raise ValueError("no\nmodel; accepted: another")
+
+    monkeypatch.setattr(import_checks, "_pinocchio", refuse)
+    status, lines = say(ARM, "--out", tmp_path / "arm.yaml")
+    assert status == 0
+    assert "note: not compared with Pinocchio's own reading: no model" in lines
+    assert sum("own reading: mass matrix" in line for line in lines) == 1
+
+
+def test_a_table_that_differs_from_another_reading_is_not_written(say, tmp_path, monkeypatch):
+    monkeypatch.setattr(import_table, "differences", lambda *_: [("Pinocchio", 2e-6, 0.0)])
+    status, lines = say(ARM, "--out", tmp_path / "arm.yaml")
+    assert (status, len(lines)) == (1, 1)
+    assert "the table differs from Pinocchio's own reading by 2.0e-06 of the largest entries" in lines[0]
+    assert not (tmp_path / "arm.yaml").exists()
+
+
+def test_a_wrong_place_is_seen_by_the_check(tmp_path):
+    found, robot = table_of(ARM, tmp_path)
+    moved = robot.bodies[2].model_copy(update={"pos": (0.451, 0.0, 0.0)})
+    other = dataclasses.replace(robot, bodies=(*robot.bodies[:2], moved))
+    assert all(max(apart) > 1e-6 for _, *apart in differences(other, found, ARM))
+
+
+def test_words_of_yaml_and_marks_in_names_are_quoted(say, tmp_path):
+    text = arm_with(('"J1"', '"no"'), ('"J2"', '"a: {b}, #c&#10;d"'), ('"upper"', '"null"'), ("two-link arm", "123"))
+    (tmp_path / "odd.urdf").write_text(text)
+    assert say(tmp_path / "odd.urdf", "--out", tmp_path / "odd.yaml")[0] == 0
+    table = load_section(tmp_path / "odd.yaml", RobotTable)
+    assert table.name == "123"
+    assert [(joint.id, joint.name) for joint in table.joints] == [("no", "no"), ("a___b____c_d", "a: {b}, #c\nd")]
+    assert table.bodies[1].name == "null"
+
+
+def test_a_mjcf_needs_no_files_of_what_has_no_mass(tmp_path):
+    (tmp_path / "scene.xml").write_text(
+        "<mujoco><asset><mesh file='no/hand.obj' scale='2 2 2'/><texture name='t' type='2d' file='no.png'/>"
+        "<texture name='s' type='skybox' file='no.png'/><material name='m' texture='t'/>"
+        "<hfield name='h' file='no.png' size='1 1 1 1'/><skin name='s' file='no.skn'/></asset>"
+        "<worldbody><geom type='hfield' hfield='h'/><body name='arm'><joint name='swing' axis='0 1 0'/>"
+        "<inertial pos='0.1 0 0' mass='1' diaginertia='0.01 0.01 0.01'/>"
+        "<geom type='mesh' mesh='hand' material='m'/></body></worldbody></mujoco>"
+    )
+    found, robot = table_of(tmp_path / "scene.xml", tmp_path)
+    ((_, inertia, terms),) = differences(robot, found, tmp_path / "scene.xml")
+    assert max(inertia, terms) < EQUAL
+
+
+def test_a_macro_that_xacro_left_in_a_whole_robot_is_noted(tmp_path):
+    space = ('name="two-link arm"', 'name="two-link arm" xmlns:xacro="http://ros.org/wiki/xacro"')
+    (tmp_path / "left.urdf").write_text(arm_with(space, ("</robot>", "<xacro:sensors port='1'/></robot>")))
+    assert (
+        "macros of xacro that are not expanded are left out: sensors"
+        in table_of(tmp_path / "left.urdf", tmp_path)[0].notes
+    )
+    (tmp_path / "whole.urdf").write_text(arm_with(space, ("</robot>", "<xacro:include filename='x'/></robot>")))
+    with pytest.raises(DataError, match="xacro:include is not accepted; accepted: a URDF, made of xacro by: xacro "):
+        table_of(tmp_path / "whole.urdf", tmp_path)
+
+
+def test_a_joint_of_a_mjcf_that_follows_another_one_is_welded(tmp_path):
+    (tmp_path / "hand.xml").write_text(
+        "<mujoco><compiler angle='radian'/><worldbody>"
+        "<body name='a'><joint name='lead' axis='0 1 0' ref='0.2'/><geom size='.1' pos='.1 0 0'/></body>"
+        "<body name='b'><joint name='tail' axis='0 1 0' ref='-0.1'/><geom size='.1' pos='.1 0 0'/>"
+        "<body name='c'><joint name='tip' axis='0 1 0'/><geom size='.1' pos='.2 0 0'/></body></body></worldbody>"
+        "<equality><joint joint1='tail' joint2='lead' polycoef='0.05 -2 0 0 0'/></equality>"
+        "<actuator><motor joint='lead'/></actuator></mujoco>"
+    )
+    found, robot = table_of(tmp_path / "hand.xml", tmp_path)
+    ((_, inertia, terms),) = differences(robot, found, tmp_path / "hand.xml")
+    assert max(inertia, terms) < EQUAL
+    assert robot.layout.actuated == ("lead", "tip")
+    (tail,) = found.robot.held.values()
+    assert tail == pytest.approx(-0.1 + 0.05 - 2.0 * (0.0 - 0.2))
+    assert "no motor in the file: tip; --lock welds what a log does not have" in found.notes
+
+
+def test_a_token_without_a_place_among_masses_is_left_out(tmp_path):
+    """A camera of a gram with the inertia of a wheel: the link that carries it would have no body's inertia."""
+    camera = (
+        "<link name='camera'><inertial><mass value='1e-6'/><inertia ixx='0' iyy='0' izz='5' ixy='0' ixz='0' iyz='0'/>"
+        "</inertial></link>"
+        "<joint name='mount' type='fixed'><parent link='lower'/><child link='camera'/></joint></robot>"
+    )
+    (tmp_path / "token.urdf").write_text(arm_with(("</robot>", camera)))
+    found, robot = table_of(tmp_path / "token.urdf", tmp_path)
+    assert any(note.startswith("camera: 1e-06 kg with") and note.endswith("left out") for note in found.notes)
+    apart = {reading: numbers for reading, *numbers in differences(robot, found, tmp_path / "token.urdf")}
+    assert max(apart["Pinocchio"]) < EQUAL
+    assert robot.bodies == table_of(ARM, tmp_path)[1].bodies
+
+
+@pytest.mark.parametrize(
+    "moments", [(1e-3, 1e-3, 1e-2), (0.0, 0.0, 0.0), (-1e-3, 1e-2, 1e-2), (1e-9, 1e-9, 1e-9), (9, 1, 1)]
+)
+def test_an_inertia_that_no_body_has_becomes_the_nearest_that_one_has(moments):
+    turn = pin.exp3(np.array([0.3, -0.5, 0.7]))
+    inertia = turn @ np.diag(moments) @ turn.T
+    assert not is_rigid(1.0, inertia)
+    mass, found = balanced(1.0, inertia)
+    assert mass == 1.0
+    assert is_rigid(mass, found)
+    second, other = (np.trace(i) / 2 * np.eye(3) - i for i in (inertia, found))
+    values, axes = np.linalg.eigh(second)
+    # axes stay, and so does what is possible of the second moment
+    np.testing.assert_allclose(axes.T @ other @ axes, np.diag(np.maximum(values, 1e-6 * 1.001 / 2)), atol=1e-12)
 
 
 def test_a_word_that_is_no_base_names_both(say, tmp_path):

@@ -149,7 +149,7 @@ class ContactFinder:
         """Return the Jacobian (6, n) of a link to the joints, in its axes and about its origin, at the pose."""
         frame, data = pin.ReferenceFrame.LOCAL, self.nominal.data
         whole = pin.getJointJacobian(self.nominal.model, data, self._joint(carrier), frame)
-        return whole[:, self.robot.layout.columns(self.joints)]
+        return np.reshape(whole, (-1, self.nominal.model.nv))[:, self.robot.layout.columns(self.joints)]
 
     def _joint(self, carrier: Carrier) -> int:
         """Return the joint of the model that moves a link; a ConfigError says that none does."""

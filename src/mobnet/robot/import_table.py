@@ -1,34 +1,28 @@
 """A robot's table from a URDF or MJCF file: `./reproduce robot FILE` (docs/robots.md)."""
 
 import logging
+import re
 import sys
+import tempfile
 from argparse import Namespace
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
-import mujoco
-import numpy as np
-import pinocchio as pin
-
-from mobnet.core.errors import ConfigError
-from mobnet.core.files import atomic_path
+from mobnet.core.errors import ConfigError, DataError, refusal
+from mobnet.core.files import write_text
 from mobnet.core.flow import flow
-from mobnet.core.joints import N_VIRTUAL
 from mobnet.robot.description import RobotDescription, describe
-from mobnet.robot.dynamics import bias, mass_matrix
+from mobnet.robot.import_checks import differences
 from mobnet.robot.import_words import import_parser
-from mobnet.robot.importing import Imported, check_base, import_robot
-from mobnet.robot.nominal import NominalModel
+from mobnet.robot.importing import BASE_LIMB, VIRTUAL, Imported, check_base, import_robot
+from mobnet.running.child import in_child
 from mobnet.running.printed import printed
 from mobnet.settings.load import load_section
 from mobnet.settings.robot import RobotTable
 
 log = logging.getLogger(__name__)
-VIRTUAL = [f"V{k + 1}" for k in range(N_VIRTUAL)]
-BASE_LIMB = "V"
-POSES, SEED, SPEED = 5, 1, 2.0  # at which models are compared, and their largest velocity [m/s], [rad/s]
-GRAVITY_M_S2 = 9.81
+EQUAL = 1e-6  # by which a table may differ from another reading of its file
+SECONDS = 60.0  # that reading a file may take; that of 1 MB takes 2 s
 
 
 def table_text(found: Imported, source: str) -> str:
@@ -37,15 +31,15 @@ def table_text(found: Imported, source: str) -> str:
     order = {**({"virtual": VIRTUAL} if found.floating else {}), "actuated": [row["id"] for row in found.joints]}
     networks = {name: {"joints": [name], "Q": [name], "T": []} for name in found.groups}
     lines = [
-        f"# {found.name}: from {_line(source)}, by ./reproduce robot. SI units; quaternions w x y z.",
+        f"# {_line(found.name)}: from {_line(source)}, by ./reproduce robot. SI units; quaternions w x y z.",
         "# inertia: [xx, yy, zz, xy, xz, yz] about the centre of mass, in body axes.",
         *(f"# {_line(note)}" for note in found.notes),
         f"name: {flow(found.name)}",
         f"base: {'floating' if found.floating else 'fixed'}",
         *([f"imu: {flow(found.imu)}"] if found.imu else []),
         "order:", *(f"  {key}: {flow(value)}" for key, value in order.items()),
-        "groups:", *(f"  {name}: {flow(joints)}" for name, joints in limbs.items()),
-        "networks:", *(f"  {name}: {flow(row)}" for name, row in networks.items()),
+        "groups:", *(f"  {flow(name)}: {flow(joints)}" for name, joints in limbs.items()),
+        "networks:", *(f"  {flow(name)}: {flow(row)}" for name, row in networks.items()),
         "joints:", *(f"  - {flow(row)}" for row in found.joints),
         "bodies:", *(f"  - {flow(row)}" for row in found.bodies),
     ]  # fmt: skip
@@ -57,74 +51,36 @@ def _line(text: str) -> str:
     return " ".join(text.split())
 
 
-def differences(robot: RobotDescription, found: Imported, path: Path) -> Iterator[tuple[str, float, float]]:
-    """Yield another reading of a file, and by how much mass matrix and bias of the table differ from it.
+def robot_of_text(text: str, source: Path) -> RobotDescription:
+    """Return the robot of a table's text, which is written nowhere before it is right.
 
-    Both are shares of the largest entry, over some random poses.
+    Raises:
+        DataError: the table is not accepted; the lines name the file that it was made of.
     """
-    nominal, model = NominalModel(robot, gravity_m_s2=GRAVITY_M_S2), found.model
-    model.opt.gravity[:] = 0.0, 0.0, -GRAVITY_M_S2
-    data = mujoco.MjData(model)
-    rng, rows = np.random.default_rng(SEED), list[tuple[float, float]]()
-    for _ in range(POSES):
-        q, v = _pose(robot, rng)
-        data.qpos[:], data.qvel[:] = q, v
-        mujoco.mj_forward(model, data)
-        inertia = np.zeros((model.nv, model.nv))
-        mujoco.mj_fullM(model, data, inertia)
-        rows.append((_apart(mass_matrix(nominal, q), inertia), _apart(bias(nominal, q, v), data.qfrc_bias)))
-    yield ("MuJoCo", *np.max(rows, axis=0).tolist())
-    if path.suffix.lower() == ".urdf" and not robot.floating:
-        yield ("Pinocchio", *_pinocchio(robot, nominal, path))
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "table.yaml"
+        path.write_text(text, encoding="utf-8")
+        try:
+            return describe(load_section(path, RobotTable))
+        except ConfigError as error:
+            raise refusal(source, (_without(line, path) for line in str(error).splitlines())) from None
 
 
-def _pinocchio(robot: RobotDescription, nominal: NominalModel, path: Path) -> tuple[float, float]:
-    """Return by how much the table differs from Pinocchio's own reading of a URDF; its other joints stand at zero."""
-    whole = pin.buildModelFromUrdf(str(path))
-    names = [joint.name or joint.id for joint in robot.joints]
-    locked = [k for k, name in enumerate(whole.names) if k and name not in names]
-    model = pin.buildReducedModel(whole, locked, pin.neutral(whole))
-    data, rng, rows = model.createData(), np.random.default_rng(SEED), list[tuple[float, float]]()
-    order = [names.index(name) for name in list(model.names)[1:]]
-    for _ in range(POSES):
-        q, v = _pose(robot, rng)
-        own = _configuration(model, q[order])
-        upper = np.triu(pin.crba(model, data, own))
-        inertia = upper + np.triu(upper, 1).T - np.diag(model.armature)
-        ours = mass_matrix(nominal, q)[np.ix_(order, order)] - np.diag(robot.armature[order])
-        terms = pin.nonLinearEffects(model, data, own, v[order])
-        rows.append((_apart(ours, inertia), _apart(bias(nominal, q, v)[order], terms)))
-    inertia, terms = np.max(rows, axis=0).tolist()
-    return inertia, terms
+def _without(line: str, path: Path) -> str:
+    """Return a fault without the name of a file that is gone."""
+    return re.sub(rf"^{re.escape(str(path))}(:\d+)?: ", "", line)
 
 
-def _configuration(model: Any, angles: np.ndarray[Any, Any]) -> Any:
-    """Return a position as Pinocchio takes it, which holds a joint without end as its cosine and sine."""
-    found = pin.neutral(model)
-    for k, angle in enumerate(angles, start=1):
-        first = model.joints[k].idx_q
-        if model.joints[k].nq == 1:
-            found[first] = angle
-        else:
-            found[first : first + 2] = np.cos(angle), np.sin(angle)
-    return found
+def made(options: Namespace) -> tuple[str, list[str]]:
+    """Return the text of a table as the command's options say, checked, and what is printed about it.
 
-
-def _pose(robot: RobotDescription, rng: np.random.Generator) -> tuple[Any, Any]:
-    """Return a random position (nq,) within the joints' ranges and a random velocity (nv,)."""
-    low, high = np.array([joint.range for joint in robot.joints]).T
-    angles = rng.uniform(np.maximum(low, -np.pi), np.minimum(high, np.pi))
-    base = np.concatenate([rng.normal(size=3), _unit(rng.normal(size=4))]) if robot.floating else np.zeros(0)
-    return np.concatenate([base, angles]), rng.uniform(-SPEED, SPEED, robot.layout.nv)
-
-
-def _unit(vector: Any) -> Any:
-    return vector / np.linalg.norm(vector)
-
-
-def _apart(one: Any, other: Any) -> float:
-    """Return the largest difference, a share of the largest entry."""
-    return float(np.abs(one - other).max() / np.abs(other).max())
+    Raises:
+        DataError: the file is no robot, a table cannot hold it, or the table differs from another reading of the file.
+    """
+    taken = options.torque_limit, options.speed_limit, options.armature, options.lock
+    found = import_robot(options.file, check_base(options.base), *taken)
+    text = table_text(found, options.file.name)
+    return text, list(told(robot_of_text(text, options.file), found, options.file))
 
 
 def run(options: Namespace) -> Iterator[str]:
@@ -132,22 +88,10 @@ def run(options: Namespace) -> Iterator[str]:
     out = options.out or Path(f"{options.file.stem}.yaml")
     if out.exists() and not options.force:
         raise ConfigError(f"{out}: exists already; accepted: another --out, or --force")
-    taken = options.torque_limit, options.speed_limit, options.armature
-    found = import_robot(options.file, check_base(options.base), *taken)
-    text = table_text(found, options.file.name).encode()
-    with atomic_path(out, len(text)) as temporary:  # what is refused leaves an older table as it is
-        temporary.write_bytes(text)
-        lines = list(told(_read(temporary, options.file), found, options.file))
+    text, lines = in_child(lambda: made(options), SECONDS, str(options.file))
+    write_text(out, text)
     yield from lines
     yield f"written: {out}"
-
-
-def _read(table: Path, source: Path) -> RobotDescription:
-    """Return the robot of a table; what is not accepted in it is told of its source."""
-    try:
-        return describe(load_section(table, RobotTable))
-    except ConfigError as error:
-        raise ConfigError(str(error).replace(str(table), f"{source}, as a table")) from None
 
 
 def main(words: list[str]) -> int:
@@ -157,13 +101,26 @@ def main(words: list[str]) -> int:
 
 
 def told(robot: RobotDescription, found: Imported, path: Path) -> Iterator[str]:
-    """Yield what the command prints."""
-    kind = "floating" if robot.floating else "fixed"
+    """Yield what the command prints.
+
+    Raises:
+        DataError: the table differs from another reading of the file.
+    """
+    kind, notes = "floating" if robot.floating else "fixed", list[str]()
+    compared = list(differences(robot, found, path, notes))
+    for reading, *apart in compared:
+        if not max(apart) <= EQUAL:
+            text = f"the table differs from {reading}'s own reading by {max(apart):.1e} of the largest entries"
+            raise DataError(
+                f"{path}: {text}; accepted: at most {EQUAL:g}; this is a fault of the command, please report it"
+            )
     yield f"{robot.name}: {robot.layout.nu} joints, {len(robot.bodies)} bodies, {robot.mass:.6g} kg, {kind} base"
     yield from (f"limb {name}: {', '.join(joints)}" for name, joints in found.groups.items())
-    yield from (f"note: {note}" for note in found.notes)
-    for reading, inertia, terms in differences(robot, found, path):
-        yield f"against {reading}'s own reading: mass matrix {inertia:.1e}, bias {terms:.1e} of their largest entries"
+    yield from (f"note: {_line(note)}" for note in [*found.notes, *notes])
+    changed = ", with these changes" if any(mass.is_changed for mass in found.masses) else ""
+    for reading, inertia, terms in compared:
+        apart = f"mass matrix {inertia:.1e}, bias {terms:.1e} of their largest entries"
+        yield f"against {reading}'s own reading{changed}: {apart}"
 
 
 if __name__ == "__main__":

@@ -64,7 +64,9 @@ def linkage_of(model: pin.Model) -> Linkage:
 def _place(model: pin.Model, data: pin.Data, joint: int, link: Any) -> None:
     """Set the hinge of a link: where it is in its parent, its axis and its rotor."""
     placement, column = model.jointPlacements[joint], model.idx_vs[joint]
-    axis = pin.getJointJacobian(model, data, joint, pin.ReferenceFrame.LOCAL)[3:, column]
+    # of a model with one velocity it is a vector
+    whole = np.reshape(pin.getJointJacobian(model, data, joint, pin.ReferenceFrame.LOCAL), (-1, model.nv))
+    axis = whole[3:, column]
     along = np.outer(axis, axis)
     # Rodrigues' formula, behind the rotation of the joint's frame in its parent's
     link["still"], link["cosine"] = placement.rotation @ along, placement.rotation @ (np.eye(3) - along)

@@ -84,9 +84,11 @@ GainHz = Annotated[Real, Field(ge=GAIN_HZ[0], le=GAIN_HZ[1])]
 LowPassHz = Annotated[Real, Field(ge=LOW_PASS_HZ[0], le=LOW_PASS_HZ[1])]
 Threshold = Annotated[Real, Field(ge=THRESHOLD[0], le=THRESHOLD[1])]
 
-Metres = Annotated[Real, Field(ge=-1.5, le=1.5)]  # between neighbouring parts of a robot
+MOST_M = 5.0  # between neighbouring parts of a robot; the arm of an excavator or of the largest robots has 3 m
+Metres = Annotated[Real, Field(ge=-MOST_M, le=MOST_M)]
 Length = Annotated[Positive, Field(ge=0.001, le=10)]
-Radians = Annotated[Real, Field(ge=-12.6, le=12.6)]  # two turns
+MOST_RAD = 12.6  # two turns
+Radians = Annotated[Real, Field(ge=-MOST_RAD, le=MOST_RAD)]
 Degrees = Annotated[Real, Field(ge=-180, le=180)]
 Seconds = Annotated[Positive, Field(ge=0.001, le=600)]
 Pause = Annotated[NotNegative, Field(le=600)]

@@ -12,6 +12,8 @@ from mobnet.settings.base import Section
 
 UNIT_TOLERANCE = 1e-5  # figures are published with six digits
 INERTIA_TOLERANCE = 1e-3  # share by which rounded figures may miss the triangle inequality
+TORQUE_NM = (0.001, 5000)  # largest torque of a joint
+SPEED_RAD_S = (0.1, 100)  # largest speed of a joint
 SIZES = {"box": 3, "ellipsoid": 3, "sphere": 1, "capsule": 2, "cylinder": 2}  # of a shape that stands at a point
 
 Side = Literal["left", "right"]
@@ -28,11 +30,23 @@ def _unit(values: tuple[float, ...]) -> tuple[float, ...]:
     return values
 
 
-def _possible(inertia: Tensor) -> Tensor:
-    """Check that a rigid body can have an inertia: principal moments above zero, none above the sum of the others."""
+def principal_moments(inertia: Tensor) -> tuple[float, float, float]:
+    """Return the principal moments of xx yy zz xy xz yz, which rise [kg m^2]."""
     xx, yy, zz, xy, xz, yz = inertia
-    low, middle, high = np.linalg.eigvalsh([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
-    if low <= 0 or high > (1 + INERTIA_TOLERANCE) * (low + middle):
+    low, middle, high = np.linalg.eigvalsh(np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])).tolist()
+    return low, middle, high
+
+
+def is_possible(inertia: Tensor) -> bool:
+    """Return whether a rigid body can have an inertia: moments above zero, none above the sum of the others."""
+    low, middle, high = principal_moments(inertia)
+    return low > 0 and high <= (1 + INERTIA_TOLERANCE) * (low + middle)
+
+
+def _possible(inertia: Tensor) -> Tensor:
+    """Check that a rigid body can have an inertia."""
+    if not is_possible(inertia):
+        low, middle, high = principal_moments(inertia)
         found = f"{list(inertia)} with the principal moments {low:.6g}, {middle:.6g}, {high:.6g} is not accepted"
         raise ValueError(f"{found}; accepted: all above 0 and none above the sum of the others")
     return inertia
@@ -71,9 +85,9 @@ class JointRow(Section):
     body: base.BodyName
     axis: UnitVector
     range: base.Span[base.Radians]
-    torque_limit: base.Real = Field(ge=0.1, le=5000)
+    torque_limit: base.Real = Field(ge=TORQUE_NM[0], le=TORQUE_NM[1])
     armature: base.NotNegative = Field(le=10)
-    velocity_limit: base.Real = Field(ge=0.1, le=100)
+    velocity_limit: base.Real = Field(ge=SPEED_RAD_S[0], le=SPEED_RAD_S[1])
 
 
 class FootRow(Section):

@@ -16,7 +16,7 @@ from mobnet.settings.robot import WORLD, RobotTable
 
 MASS_TOLERANCE = 1e-6  # relative, of the total
 LENGTH_TOLERANCE_M = 1e-6
-GYRATION_M = (0.001, 1.5)  # of a body: what is outside has its mass or inertia in another unit
+GYRATION_M = (0.001, 5.0)  # of a body: what is outside has its mass or inertia in another unit
 
 
 def robot_problems(table: RobotTable) -> Iterator[Problem]:

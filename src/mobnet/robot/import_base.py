@@ -1,0 +1,160 @@
+"""Which links of a file are the robot, which of them is its base, and which joints are welded."""
+
+import math
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+
+from mobnet.core.errors import DataError, not_accepted
+from mobnet.robot.import_tree import BALL, FREE, HINGE, PLANAR, SLIDE, WORLD, Joint, Tree
+
+WELDED = {SLIDE: "slides", BALL: "is a ball", PLANAR: "moves in a plane", FREE: "moves freely"}
+UNITS = {HINGE: "rad", SLIDE: "m"}
+
+
+@dataclass
+class Robot:
+    """What of a file becomes a table.
+
+    Attributes:
+        base: the link that floats; `WORLD` where the base stands still.
+        kept: whether each link is a part of the robot.
+        held: index of a joint -> angle [rad] or position [m] at which it is welded.
+    """
+
+    base: int
+    kept: list[bool]
+    held: dict[int, float] = field(default_factory=dict)
+    notes: list[str] = field(default_factory=list)
+
+    @property
+    def floating(self) -> bool:
+        """Whether the base floats."""
+        return self.base != WORLD
+
+
+def robot_of(tree: Tree, floating: bool | None, locked: Sequence[str]) -> Robot:
+    """Return the robot of a file.
+
+    Args:
+        tree: all of its links.
+        floating: whether the base floats; None where the file says it.
+        locked: JOINT=ANGLE, joints that are welded.
+
+    Raises:
+        DataError: there are several robots that float, or none, or a locked joint is none of the file.
+    """
+    hinges = tree.hinges_below()
+    free = [k for k, link in enumerate(tree.links) if any(joint.kind == FREE for joint in link.joints)]
+    robots = [k for k in free if hinges[k]]
+    others = sum(count for count, link in zip(hinges, tree.links, strict=True) if link.parent == WORLD)
+    others -= sum(hinges[k] for k in robots)
+    if floating or (floating is None and robots and max(hinges[k] for k in robots) >= others):
+        base = _base(tree, robots, hinges)
+        moved = [_shown(joint) for joint in tree.links[base].joints if joint.kind != FREE]
+        if moved:
+            raise DataError(f"joints that move the base, {', '.join(moved)}, are not accepted; accepted: --base fixed")
+        kept = tree.below(base)
+    else:
+        base = WORLD
+        objects = [tree.below(k) for k in free if not hinges[k]]
+        kept = [not any(column) for column in zip(*objects, strict=True)] if objects else [True] * len(tree.links)
+    robot = Robot(base, kept)
+    gone = [link.name or "a body without a name" for link, stays in zip(tree.links, kept, strict=True) if not stays]
+    if gone:
+        robot.notes.append(f"left out, as no part of the robot: {', '.join(gone)}")
+    robot.notes += _weld(tree, robot, locked)
+    return robot
+
+
+def _base(tree: Tree, robots: Sequence[int], hinges: Sequence[int]) -> int:
+    """Return the link that floats: the one that does in the file, or else the one root with hinges."""
+    roots = [k for k, link in enumerate(tree.links) if link.parent == WORLD and hinges[k]]
+    found = list(robots) or roots
+    if len(found) > 1:
+        names = " and ".join(tree.links[k].name for k in found[:5])
+        raise DataError(f"{len(found)} bases that float ({names}) are not accepted; accepted: one, or --base fixed")
+    if not found:
+        raise DataError("no hinge; accepted: a robot whose joints turn")
+    return found[0]
+
+
+def _weld(tree: Tree, robot: Robot, locked: Sequence[str]) -> Iterator[str]:
+    """Note which joints do not turn, and yield why."""
+    joints = [joint for link, kept in zip(tree.links, robot.kept, strict=True) if kept for joint in link.joints]
+    places = {joint.index: joint for joint in joints}
+    asked = _asked(joints, locked)
+    robot.held |= asked
+    for joint in joints:
+        if joint.index in asked:
+            yield f"{joint.name}: welded at {asked[joint.index]:g} {UNITS[joint.kind]}, as --lock asks for"
+        elif joint.kind in WELDED and not (joint.kind == FREE and _moves_base(tree, robot, joint)):
+            at = joint.at if joint.kind == SLIDE else 0.0
+            robot.held[joint.index] = at
+            where = f"at {at:g} m" if at else "at zero"
+            yield f"{_shown(joint)}: {WELDED[joint.kind]}; it is welded {where}, as a table holds hinges alone"
+        elif joint.follows is not None:
+            robot.held[joint.index] = _coupled(joint, places, asked)
+            leader = places.get(-1 if joint.follows.leader is None else joint.follows.leader)
+            what = "is held" if leader is None else f"follows {_shown(leader)}"
+            where = f"{robot.held[joint.index]:g} {UNITS[joint.kind]}"
+            yield f"{_shown(joint)}: {what}; it is welded at {where}, as a motor of its own moves each joint of a table"
+    yield from _weld_idle(tree, robot)
+
+
+def _moves_base(tree: Tree, robot: Robot, joint: Joint) -> bool:
+    return robot.floating and joint in tree.links[robot.base].joints
+
+
+def _shown(joint: Joint) -> str:
+    return joint.name or f"joint {joint.index}"
+
+
+def _coupled(joint: Joint, joints: Mapping[int, Joint], asked: Mapping[int, float]) -> float:
+    """Return the coordinate of a joint whose leader, or the leader of that one, is locked or else at zero."""
+    value, factor, seen = 0.0, 1.0, set[int]()
+    follows, index = joint.follows, joint.index
+    while follows is not None and index not in seen:
+        seen.add(index)
+        value, factor = value + factor * follows.offset, factor * follows.factor
+        if follows.leader is None or follows.leader not in joints:
+            return value
+        index = follows.leader
+        follows = None if index in asked else joints[index].follows
+    return value + factor * asked.get(index, 0.0)
+
+
+def _asked(joints: Iterable[Joint], locked: Sequence[str]) -> dict[int, float]:
+    """Return index -> coordinate of the joints that a user locks.
+
+    Raises:
+        DataError: a word is no JOINT=ANGLE, or names no hinge or slide of the robot.
+    """
+    names = {joint.name: joint.index for joint in joints if joint.kind in UNITS and joint.name}
+    found = {}
+    for word in locked:
+        name, _, angle = (word, "", "0") if word in names else word.rpartition("=")
+        if name not in names:
+            raise DataError(not_accepted("--lock", name or word, names))
+        try:
+            found[names[name]] = float(angle)
+        except ValueError:
+            raise DataError(not_accepted("--lock", word, [f"{name}=ANGLE in rad"])) from None
+        if not math.isfinite(found[names[name]]):
+            raise DataError(not_accepted("--lock", word, [f"{name}=ANGLE in rad"]))
+    return found
+
+
+def _weld_idle(tree: Tree, robot: Robot) -> Iterator[str]:
+    """Weld hinges that move nothing with a mass, and yield them."""
+    heavy = [bool(link.mass or link.inertia.any()) for link in tree.links]
+    for k in reversed(range(len(tree.links))):
+        parent = tree.links[k].parent
+        if parent != WORLD and heavy[k]:
+            heavy[parent] = True
+    idle = [
+        joint for link, kept, has_mass in zip(tree.links, robot.kept, heavy, strict=True) if kept and not has_mass
+        for joint in link.joints if joint.kind == HINGE and joint.index not in robot.held
+    ]  # fmt: skip
+    robot.held |= {joint.index: joint.at for joint in idle}
+    if idle:
+        yield f"welded, as they move no mass: {', '.join(map(_shown, idle))}"

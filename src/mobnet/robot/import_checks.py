@@ -1,0 +1,258 @@
+"""By how much a table differs from what Pinocchio and MuJoCo read of the robot's file by themselves.
+
+A URDF is given to them without shapes and under other names, with the numbers of the file: names may be equal
+or foreign there, and a limit may be missing. What the import has changed, and told, is changed in their models too.
+"""
+
+import copy
+import xml.etree.ElementTree as ET
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import mujoco
+import numpy as np
+import pinocchio as pin
+from numpy.typing import NDArray
+
+from mobnet.core.arrays import Array
+from mobnet.core.errors import DataError
+from mobnet.robot.description import RobotDescription
+from mobnet.robot.dynamics import bias, mass_matrix
+from mobnet.robot.import_file import read_root
+from mobnet.robot.import_inertia import balanced
+from mobnet.robot.import_mjcf import GRAVITY, compiled, spec_of
+from mobnet.robot.import_tree import FREE
+from mobnet.robot.import_urdf import MOMENTS
+from mobnet.robot.importing import Imported
+from mobnet.robot.nominal import NominalModel
+
+POSES, SEED, SPEED = 5, 1, 2.0  # at which models are compared, and their largest velocity [m/s], [rad/s]
+LEAST_RAD_S2 = 1.0  # where no torque is larger, that of this acceleration is what a bias is a share of
+TURNING = (int(mujoco.mjtJoint.mjJNT_HINGE), int(mujoco.mjtJoint.mjJNT_SLIDE))
+BASE = 6  # velocities of a floating base
+Terms = Callable[[Array, Array], tuple[Array, Array]]  # (q, v) of a table -> its mass matrix, its bias
+FAULTS = (DataError, ValueError, RuntimeError, KeyError, IndexError, mujoco.FatalError)
+
+
+def differences(
+    robot: RobotDescription, found: Imported, path: Path, notes: list[str] | None = None
+) -> Iterator[tuple[str, float, float]]:
+    """Yield another reading of a file, and by how much mass matrix and bias of the table differ from it.
+
+    Both are shares of the largest entry, over some random poses. A reading that cannot be made is noted.
+    """
+    nominal = NominalModel(robot, gravity_m_s2=-GRAVITY[2])
+    readings = {"Pinocchio": _pinocchio, "MuJoCo": _mujoco} if found.kind == "URDF" else {"MuJoCo": _mujoco}
+    for name, read in readings.items():
+        try:
+            inertia, terms = _compared(nominal, read(robot, found, path))
+        except FAULTS as error:
+            if notes is not None:
+                said = " ".join(str(error).split()).partition("; accepted")[0]
+                notes.append(f"not compared with {name}'s own reading: {said}")
+        else:
+            yield name, inertia, terms
+
+
+def _compared(nominal: NominalModel, read: Terms) -> tuple[float, float]:
+    """Return the largest differences of mass matrix and bias over some poses."""
+    rng, rows = np.random.default_rng(SEED), list[tuple[float, float]]()
+    for _ in range(POSES):
+        q, v = _pose(nominal.robot, rng)
+        inertia, terms = read(q, v)
+        largest = float(np.abs(inertia).max())
+        least = LEAST_RAD_S2 * largest
+        rows.append((_apart(mass_matrix(nominal, q), inertia, largest), _apart(bias(nominal, q, v), terms, least)))
+    inertia, terms = np.max(rows, axis=0).tolist()
+    return inertia, terms
+
+
+def _pose(robot: RobotDescription, rng: np.random.Generator) -> tuple[Array, Array]:
+    """Return a random position (nq,) within the joints' ranges and a random velocity (nv,)."""
+    low, high = np.array([joint.range for joint in robot.joints]).T
+    angles = rng.uniform(np.maximum(low, -np.pi), np.minimum(high, np.pi))
+    base = np.concatenate([rng.normal(size=3), _unit(rng.normal(size=4))]) if robot.floating else np.zeros(0)
+    return np.concatenate([base, angles]), rng.uniform(-SPEED, SPEED, robot.layout.nv)
+
+
+def _unit(vector: Array) -> Array:
+    return vector / np.linalg.norm(vector)
+
+
+def _apart(one: Array, other: Array, least: float) -> float:
+    """Return the largest difference, a share of the largest entry or of a least one."""
+    return float(np.abs(one - other).max() / max(np.abs(other).max(), least))
+
+
+def _pinocchio(robot: RobotDescription, found: Imported, path: Path) -> Terms:
+    """Return mass matrix and bias by Pinocchio's own reading of a URDF."""
+    text = _plain(read_root(path), found)
+    whole = pin.buildModelFromXML(text, pin.JointModelFreeFlyer()) if robot.floating else pin.buildModelFromXML(text)
+    names = ["root_joint"] * robot.floating + [f"j{joint.index}" for joint in found.hinges]
+    locked, start = [k for k, name in enumerate(whole.names) if k and name not in names], pin.neutral(whole)
+    for index, value in found.robot.held.items():
+        if whole.existJointName(f"j{index}"):
+            _set(whole, start, whole.getJointId(f"j{index}"), value)
+    model = pin.buildReducedModel(whole, locked, start)
+    numbers = [model.getJointId(name) for name in names]
+    for number, mass in zip(numbers[::-1], found.masses[::-1], strict=False):  # a base that stands still is none
+        own = model.inertias[number]
+        if mass.is_changed and not mass.dropped:
+            changed, moments = balanced(own.mass, own.inertia)
+            model.inertias[number] = pin.Inertia(changed, own.lever, moments)
+    data, columns = model.createData(), np.concatenate([_columns(model, number) for number in numbers])
+
+    def terms(q: Array, v: Array) -> tuple[Array, Array]:
+        own, speeds, turn = pin.neutral(model), np.zeros(model.nv), np.eye(model.nv)
+        angles, base = q[len(q) - robot.layout.nu :], np.zeros(model.nv)
+        speeds[columns] = v
+        for number, angle in zip(numbers[robot.floating :], angles, strict=True):
+            _set(model, own, number, angle)
+        if robot.floating:  # its velocity is in the base's axes there
+            own[:7] = q[[0, 1, 2, 4, 5, 6, 3]]
+            turn[:3, :3] = pin.Quaternion(own[3:7]).matrix().T
+            speeds[:3] = turn[:3, :3] @ v[:3]
+            base[:3] = -np.cross(speeds[3:6], speeds[:3])
+        upper = np.triu(pin.crba(model, data, own))
+        inertia = upper + np.triu(upper, 1).T
+        bias_terms = turn.T @ (pin.nonLinearEffects(model, data, own, speeds) + inertia @ base)
+        inertia = (turn.T @ inertia @ turn)[np.ix_(columns, columns)]
+        return inertia + np.diag([*np.zeros(len(v) - robot.layout.nu), *robot.armature]), bias_terms[columns]
+
+    return terms
+
+
+def _columns(model: Any, number: int) -> NDArray[np.intp]:
+    """Return where the velocity of a joint stands."""
+    joint = model.joints[number]
+    return np.arange(joint.idx_v, joint.idx_v + joint.nv)
+
+
+def _set(model: Any, q: Array, number: int, value: float) -> None:
+    """Set a joint in a position of Pinocchio's, which holds one without end as its cosine and sine."""
+    joint = model.joints[number]
+    if joint.nq == 1:
+        q[joint.idx_q] = value
+    elif joint.nv == 1:
+        q[joint.idx_q : joint.idx_q + 2] = np.cos(value), np.sin(value)
+
+
+def _plain(root: ET.Element, found: Imported) -> str:
+    """Return a URDF with the links l0, l1 and the joints j0, j1 of a robot, and with the numbers of its file."""
+    names = {link.name: k for k, link in enumerate(found.tree.links)}
+    dropped = {link for mass in found.masses for link in mass.dropped}
+    plain = ET.Element("robot", name="robot")
+    for row in root.findall("link"):
+        number, inertial = names[row.get("name", "")], row.find("inertial")
+        if found.robot.kept[number]:
+            link = ET.SubElement(plain, "link", name=f"l{number}")
+            if inertial is not None and number not in dropped:
+                link.append(_whole(inertial))
+    for index, row in enumerate(root.findall("joint")):
+        child = names[_end(row, "child")]
+        if found.robot.kept[child] and child != found.robot.base:
+            kind = {"floating": "fixed", "planar": "fixed"}.get(row.get("type", ""), row.get("type", ""))
+            joint = ET.SubElement(plain, "joint", name=f"j{index}", type=kind)
+            for end in ("parent", "child"):
+                ET.SubElement(joint, end, link=f"l{names[_end(row, end)]}")
+            joint.extend([copy.deepcopy(part) for tag in ("origin", "axis") for part in row.findall(tag)])
+            if kind in ("revolute", "prismatic"):
+                ET.SubElement(joint, "limit", lower="-1", upper="1", effort="1", velocity="1")
+    return ET.tostring(plain, encoding="unicode")
+
+
+def _end(joint: ET.Element, end: str) -> str:
+    found = joint.find(end)
+    return "" if found is None else found.get("link", "")
+
+
+def _whole(inertial: ET.Element) -> ET.Element:
+    """Return the mass of a link, zeros where the file leaves numbers out."""
+    whole = copy.deepcopy(inertial)
+    for tag, keys in (("mass", ("value",)), ("inertia", MOMENTS)):
+        row = whole.find(tag)
+        row = ET.SubElement(whole, tag) if row is None else row
+        for key in keys:
+            row.set(key, row.get(key, "0"))
+    return whole
+
+
+def _mujoco(robot: RobotDescription, found: Imported, path: Path) -> Terms:
+    """Return mass matrix and bias by MuJoCo's own reading of a file."""
+    model = _model(found, path)
+    joints = {joint.index: _number(model, found, joint.index) for joint in found.tree.joints() if joint.kind != FREE}
+    hinges = [joints[joint.index] for joint in found.hinges]
+    places = {joints.get(index, -1): value for index, value in found.robot.held.items()}
+    held = {int(model.jnt_qposadr[k]): value for k, value in places.items() if k >= 0 and model.jnt_type[k] in TURNING}
+    _change(model, found)
+    model.opt.gravity[:] = GRAVITY
+    model.opt.disableflags = mujoco.mjtDisableBit.mjDSBL_CONTACT | mujoco.mjtDisableBit.mjDSBL_CONSTRAINT
+    model.tendon_armature[:] = 0.0
+    dofs = model.jnt_dofadr[hinges]
+    model.dof_armature[dofs] = robot.armature
+    data, first = mujoco.MjData(model), 0
+    if robot.floating:
+        body = _body(model, found, found.robot.base)
+        first = int(model.body_jntadr[body])
+        dofs = np.concatenate([np.arange(BASE) + model.jnt_dofadr[first], dofs])
+
+    def terms(q: Array, v: Array) -> tuple[Array, Array]:
+        data.qpos[:], data.qvel[:] = model.qpos0, 0.0
+        data.qpos[list(held)] = list(held.values())
+        data.qpos[model.jnt_qposadr[hinges]], data.qvel[dofs] = q[len(q) - robot.layout.nu :], v
+        if robot.floating:
+            data.qpos[model.jnt_qposadr[first] + np.arange(7)] = q[:7]
+        mujoco.mj_forward(model, data)
+        inertia = np.zeros((model.nv, model.nv))
+        mujoco.mj_fullM(model, data, inertia)
+        return inertia[np.ix_(dofs, dofs)], data.qfrc_bias[dofs].copy()
+
+    return terms
+
+
+def _model(found: Imported, path: Path) -> mujoco.MjModel:
+    """Return MuJoCo's model of a file, its base free where the robot floats."""
+    if found.kind == "URDF":
+        spec = mujoco.MjSpec.from_string(_plain(read_root(path), found))
+        spec.compiler.fusestatic = False
+    else:
+        spec = spec_of(path)
+    if found.floating:
+        link = found.tree.links[found.robot.base]
+        if found.kind == "URDF":
+            spec.body(f"l{found.robot.base}").add_freejoint()
+        elif not link.joints:
+            spec.bodies[found.robot.base + 1].add_freejoint()
+    return compiled(spec)
+
+
+def _number(model: mujoco.MjModel, found: Imported, index: int) -> int:
+    """Return the number of a joint, -1 without one: a URDF is given to MuJoCo under other names."""
+    if found.kind == "URDF":
+        return mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_JOINT, f"j{index}")
+    added = found.floating and not found.tree.links[found.robot.base].joints
+    return index + int(added and index >= model.body_jntadr[found.robot.base + 1])
+
+
+def _body(model: mujoco.MjModel, found: Imported, link: int) -> int:
+    """Return the number of a link's body."""
+    if found.kind == "URDF":
+        return mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_BODY, f"l{link}")
+    return link + 1
+
+
+def _change(model: mujoco.MjModel, found: Imported) -> None:
+    """Give the first link of each body that the import has changed the mass of all of the body."""
+    for body, mass in zip(found.parts, found.masses, strict=True):
+        if mass.is_changed:
+            first = body.parts[0]
+            for part in body.parts:
+                number = _body(model, found, part.link)
+                model.body_mass[number], model.body_inertia[number] = 0.0, 0.0
+            number = _body(model, found, first.link)
+            moments, axes = np.linalg.eigh(first.turn.T @ mass.inertia @ first.turn)
+            axes[:, 0] *= np.sign(np.linalg.det(axes))
+            model.body_mass[number], model.body_inertia[number] = mass.mass, moments
+            model.body_ipos[number] = first.turn.T @ (mass.com - first.pos)
+            model.body_iquat[number] = pin.Quaternion(axes).coeffs()[[3, 0, 1, 2]]

@@ -1,0 +1,101 @@
+"""Mass and inertia of links that move as one, and what is done where no rigid body has such an inertia."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from mobnet.core.arrays import Array
+from mobnet.robot.import_tree import Body, Link, Part
+from mobnet.settings.checks.robot import GYRATION_M
+from mobnet.settings.parts import is_possible
+
+# Of a body without mass between joints, [kg] and [kg m^2]: it changes no torque by a digit that counts, and MuJoCo
+# simulates it.
+TOKEN_MASS, TOKEN_INERTIA = 1e-12, 1e-14
+TOKEN_SHARE = 1e-3  # of the mass of a body, below which a link with an impossible inertia stands for a frame
+SURE = 1.001  # by which a balanced moment is above the least one
+
+
+@dataclass(frozen=True)
+class Mass:
+    """Mass [kg], centre of mass (3,) [m] and inertia about it (3, 3) [kg m^2], in a body's axes.
+
+    `is_changed` says that they are not those of the file; `dropped` are links that were left out for it.
+    """
+
+    mass: float
+    com: Array
+    inertia: Array
+    notes: list[str] = field(default_factory=list)
+    is_changed: bool = False
+    is_token: bool = False
+    dropped: tuple[int, ...] = ()
+
+
+def mass_of(body: Body, links: Sequence[Link]) -> Mass:
+    """Return the mass of a body as a table takes it, and notes on each change."""
+    whole = Mass(*fused(body.parts))
+    if not whole.mass and not whole.inertia.any():
+        return Mass(TOKEN_MASS, np.zeros(3), TOKEN_INERTIA * np.eye(3), is_token=True)
+    if is_rigid(whole.mass, whole.inertia):
+        return whole
+    least = TOKEN_SHARE * whole.mass
+    tokens = [part for part in body.parts if part.mass < least and part.inertia.any()]
+    tokens = [part for part in tokens if not is_rigid(part.mass, part.inertia)]
+    dropped = tuple(part.link for part in tokens)
+    rest = fused([part for part in body.parts if part.link not in dropped])
+    if is_rigid(rest[0], rest[2]):
+        told = [
+            f"{links[part.link].name}: {_told(part.mass, part.inertia)} of no rigid body; left out" for part in tokens
+        ]
+        return Mass(*rest, told, is_changed=True, dropped=dropped)
+    mass, com, inertia = fused(body.parts)
+    changed_mass, changed = balanced(mass, inertia)
+    text = f"{body.name}: {_told(mass, inertia)} of no rigid body; changed to {_told(changed_mass, changed)}"
+    return Mass(changed_mass, com, changed, [text], is_changed=True)
+
+
+def fused(parts: Sequence[Part]) -> tuple[float, Array, Array]:
+    """Return mass, centre of mass (3,) and inertia about it (3, 3) of parts together."""
+    mass = sum(part.mass for part in parts)
+    com = sum((part.mass * part.com for part in parts), np.zeros(3)) / (mass or 1.0)
+    inertia = np.zeros((3, 3))
+    for part in parts:
+        lever = part.com - com
+        inertia += part.inertia + part.mass * (lever @ lever * np.eye(3) - np.outer(lever, lever))
+    return mass, com, inertia
+
+
+def is_rigid(mass: float, inertia: Array) -> bool:
+    """Return whether a table takes an inertia of a mass."""
+    low, high = GYRATION_M
+    return mass > 0.0 and is_possible(six(inertia)) and low <= np.sqrt(np.diag(inertia).max() / mass) <= high
+
+
+def six(inertia: Array) -> tuple[float, float, float, float, float, float]:
+    """Return xx yy zz xy xz yz of an inertia (3, 3), as a table has it."""
+    (xx, xy, xz), (_, yy, yz), (_, _, zz) = inertia.tolist()
+    return xx, yy, zz, xy, xz, yz
+
+
+def balanced(mass: float, inertia: Array) -> tuple[float, Array]:
+    """Return a mass and the inertia of a rigid body that is nearest to one that no body has.
+
+    Behind an inertia I stands the second moment S = tr(I) / 2 - I of the mass, whose principal values are sums of
+    masses times squares of lengths: one below zero becomes zero, or what the least radius of gyration asks for.
+    """
+    low, high = GYRATION_M
+    values, axes = np.linalg.eigh(np.trace(inertia) / 2 * np.eye(3) - inertia)
+    raised = np.maximum(values, SURE * mass * low**2 / 2)
+    spread = axes @ np.diag(raised) @ axes.T
+    found = np.trace(spread) * np.eye(3) - spread
+    if not mass:
+        mass = SURE * float(np.diag(found).max()) / high**2
+    return mass, found
+
+
+def _told(mass: float, inertia: Array) -> str:
+    """Return mass and principal moments as a text."""
+    moments = ", ".join(f"{value:.4g}" for value in np.linalg.eigvalsh(inertia))
+    return f"{mass:.4g} kg with the principal moments {moments} kg m^2"

@@ -1,0 +1,112 @@
+"""Rows of bodies and joints as a table has them, with limits and names that it takes."""
+
+from collections.abc import Collection, Iterator, Sequence
+from typing import Any
+
+import numpy as np
+import pinocchio as pin
+
+from mobnet.core.arrays import Array
+from mobnet.robot.import_base import Robot
+from mobnet.robot.import_inertia import Mass, six
+from mobnet.robot.import_names import renamed, words_of
+from mobnet.robot.import_tree import Body, Joint
+from mobnet.settings.base import MOST_M, MOST_RAD
+from mobnet.settings.parts import SPEED_RAD_S, TORQUE_NM
+
+
+def body_rows(parts: Sequence[Body], masses: Sequence[Mass], robot: Robot, notes: list[str]) -> list[dict[str, Any]]:
+    """Return the rows of bodies, and note names that differ from those of the file."""
+    own = [body.name for body in parts]
+    if not robot.floating:
+        own[0] = "base"
+    words = words_of(own, "body", {"world"})
+    first = 0 if robot.floating else 1
+    notes += renamed(own[first:], words[first:], "bodies")
+    shift = _shift(parts, robot, notes)
+    rows = []
+    for k, (body, mass) in enumerate(zip(parts, masses, strict=True)):
+        parent = "world" if k == 0 else words[body.parent]
+        pos = body.pos - shift if k and body.parent == 0 else body.pos
+        rows.append(_row(words[k], parent, pos, body.turn, mass))
+    return rows
+
+
+def _shift(parts: Sequence[Body], robot: Robot, notes: list[str]) -> Array:
+    """Return the place from which a base that stands still counts [m], and note it where it is not the world's."""
+    places = [body.pos for body in parts[1:] if body.parent == 0]
+    if robot.floating or np.abs(places).max() <= MOST_M:
+        return np.zeros(3)
+    told = ", ".join(f"{value:g}" for value in places[0])
+    notes.append(f"the robot stands at [{told}] m in the file; the table counts places from there")
+    return places[0]
+
+
+def _row(name: str, parent: str, pos: Array, turn: Array, mass: Mass) -> dict[str, Any]:
+    """Return the row of a body, in SI units."""
+    quat = pin.Quaternion(turn).normalized().coeffs()[[3, 0, 1, 2]]
+    lists = {"pos": pos, "quat": quat, "com": mass.com, "inertia": six(mass.inertia)}
+    listed = {key: [float(x) + 0.0 for x in value] for key, value in lists.items()}  # no -0.0
+    return {"name": name, "parent": parent, **listed, "mass": float(mass.mass)}
+
+
+def joint_rows(
+    hinges: Sequence[Joint],
+    bodies: Sequence[str],
+    taken: Collection[str],
+    limits: tuple[float, float],
+    notes: list[str],
+) -> Iterator[dict[str, Any]]:
+    """Yield the rows of hinges, and note of which the file says no limit that a table takes.
+
+    Args:
+        hinges: in their order.
+        bodies: names of the bodies that they move.
+        taken: names that no joint may have.
+        limits: of a joint without them: torque [N m] and speed [rad/s].
+        notes: get what is noted.
+    """
+    names = [joint.name for joint in hinges]
+    words = words_of(names, "joint", taken)
+    notes += renamed(names, words, "joints")
+    torque_limit, speed_limit = limits
+    unlimited: dict[str, list[str]] = {"range": [], "torque": [], "speed": []}
+    for joint, word, body in zip(hinges, words, bodies, strict=True):
+        low, high = _range(joint)
+        torque, speed = _within(joint.torque, TORQUE_NM), _within(joint.speed, SPEED_RAD_S)
+        unlimited["range"] += [word] if (low, high) != joint.range else []
+        unlimited["torque"] += [] if torque else [word]
+        unlimited["speed"] += [] if speed else [word]
+        yield {
+            "id": word, **({"name": joint.name} if joint.name else {}), "body": body,
+            "axis": [float(x) + 0.0 for x in joint.axis], "range": [low, high],
+            "torque_limit": torque or torque_limit, "armature": joint.armature, "velocity_limit": speed or speed_limit,
+        }  # fmt: skip
+    defaults = {"range": f"{MOST_RAD} rad", "torque": f"{torque_limit:g} N m", "speed": f"{speed_limit:g} rad/s"}
+    for kind, without in unlimited.items():
+        if without:
+            beyond = _beyond(kind, hinges)
+            notes.append(f"{kind} of {', '.join(without)}: not in the file{beyond}, {defaults[kind]} is taken")
+
+
+def _range(joint: Joint) -> tuple[float, float]:
+    """Return the range of a joint [rad] as a table takes it, two turns to each side where there is none."""
+    if joint.range is None:
+        return -MOST_RAD, MOST_RAD
+    low, high = max(joint.range[0], -MOST_RAD), min(joint.range[1], MOST_RAD)
+    return (low, high) if low < high else (-MOST_RAD, MOST_RAD)
+
+
+def _within(value: float | None, bounds: tuple[float, float]) -> float | None:
+    """Return a limit, or None for one that means that there is none."""
+    return value if value is not None and bounds[0] <= value <= bounds[1] else None
+
+
+def _beyond(kind: str, joints: Sequence[Joint]) -> str:
+    """Return what is said where some joint has a limit, but none that a table takes."""
+    if kind == "range":
+        beyond = [joint.range for joint in joints if joint.range not in (None, _range(joint))]
+        return f" or wider than {MOST_RAD} rad" if beyond else ""
+    values = [joint.torque if kind == "torque" else joint.speed for joint in joints]
+    low, high = TORQUE_NM if kind == "torque" else SPEED_RAD_S
+    return f" or not within {low} to {high}" if any(value and not low <= value <= high for value in values) else ""
