@@ -420,8 +420,7 @@ def test_a_table_that_is_refused_replaces_none(saying, tmp_path):
     for out in (old, tmp_path / "new.yaml"):
         status, (line,) = saying(main, *words, out, "--force")
         assert status == 1
-        assert f"{tmp_path / 'bad.urdf'}, as a table" in line
-        assert "joints.0.torque_limit: -5.0 is not accepted; accepted: a number from 0.1 to 5000" in line
+        assert line.startswith(f"{tmp_path / 'bad.urdf'}: joint J1: effort -5 N m is not accepted; accepted: above 0")
     assert old.read_bytes() == before
     assert {path.name for path in tmp_path.iterdir()} == {"bad.urdf", "good.yaml"}
     assert saying(main, ARM, "--out", tmp_path / "new.yaml")[0] == 0
