@@ -9,9 +9,11 @@ from pathlib import Path
 from typing import NamedTuple, TypeVar
 
 from mobnet.core.errors import DataError, not_accepted
-from mobnet.robotlog.columns import Column, Columns
+from mobnet.core.files import check_regular
+from mobnet.robotlog.columns import Column, Columns, near_names
+from mobnet.robotlog.delimited import csv_columns, csv_names
 from mobnet.robotlog.messages import message_columns, message_names
-from mobnet.robotlog.tables import csv_columns, csv_names, hdf5_columns, hdf5_names, parquet_columns, parquet_names
+from mobnet.robotlog.tables import array_columns, array_names, parquet_columns, parquet_names
 
 METADATA = "metadata.yaml"  # in each folder that `ros2 bag` wrote
 Found = TypeVar("Found")
@@ -24,8 +26,9 @@ class Format(NamedTuple):
     read: Callable[[Path, Collection[str]], dict[str, Column]]
 
 
-TABLES = {".csv": Format(csv_names, csv_columns), ".parquet": Format(parquet_names, parquet_columns)}
-ARRAYS = dict.fromkeys((".h5", ".hdf5"), Format(hdf5_names, hdf5_columns))
+TEXTS = dict.fromkeys((".csv", ".tsv", ".txt", ".dat"), Format(csv_names, csv_columns))
+TABLES = {**TEXTS, ".parquet": Format(parquet_names, parquet_columns)}
+ARRAYS = dict.fromkeys((".h5", ".hdf5", ".mat", ".npz"), Format(array_names, array_columns))
 BAGS = dict.fromkeys((".mcap", ".bag", METADATA), Format(message_names, message_columns))
 FORMATS: Mapping[str, Format] = {**TABLES, **ARRAYS, **BAGS}
 ACCEPTED = (*(kind for kind in FORMATS if kind != METADATA), "a folder of `ros2 bag`")
@@ -52,7 +55,13 @@ def read_log(path: Path, wanted: Collection[str] | None = None) -> Columns:
     names = column_names(path) if wanted is None else list(wanted)
     columns = _asked(path, lambda kind: kind.read(path, names))
     if wanted is not None and (missing := [name for name in wanted if name not in columns]):
-        raise DataError(f"{path}: {not_accepted('column', missing[0], columns)}, which hold numbers")
+        raise DataError(f"{path}: {not_accepted('column', missing[0], near_names(columns, missing[0]))}")
+    texts = {name: column.found for name, column in columns.items() if column.found}
+    if texts and wanted is not None:
+        name, found = next(iter(texts.items()))
+        accepted = "numbers, dates as 2026-05-03T12:00:00.5, or durations of Parquet"
+        raise DataError(f"{path}: column {name!r} holds {found}; accepted: {accepted}")
+    columns = {name: column for name, column in columns.items() if not column.found}
     if not columns:
         raise DataError(f"{path}: holds no column of numbers; accepted: at least positions, velocities and torques")
     return columns
@@ -60,6 +69,8 @@ def read_log(path: Path, wanted: Collection[str] | None = None) -> Columns:
 
 def _asked(path: Path, ask: Callable[[Format], Found]) -> Found:
     """Return what a question to the format of a log finds; whatever goes wrong is one line."""
+    if not path.is_dir():
+        check_regular(path)
     if not path.exists():
         raise DataError(f"{path}: file is missing; accepted: a log, {', '.join(ACCEPTED)}")
     kind = METADATA if (path / METADATA).is_file() else path.suffix.lower()

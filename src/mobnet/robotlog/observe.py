@@ -27,6 +27,7 @@ from mobnet.robot.given import given_robot
 from mobnet.robot.nominal import NominalModel
 from mobnet.robotlog.clocks import rate_of
 from mobnet.robotlog.convert import Converted, convert
+from mobnet.robotlog.delimited import refuse_without_header
 from mobnet.robotlog.formats import column_names, read_log
 from mobnet.robotlog.hints.base import base_hints, weight_hints
 from mobnet.robotlog.hints.columns import (
@@ -105,7 +106,9 @@ def converted_log(path: Path, layout: JointLayout, meaning: LogMap | None, bound
         ConfigError: the map does not fit the robot.
     """
     names = column_names(path)
-    meaning = resolved(path, meaning or default_map(names, layout), names, layout)
+    if meaning is None:
+        refuse_without_header(path, names)
+    meaning = resolved(path, meaning or default_map(path, names, layout), names, layout)
     return convert(path, read_log(path, wanted_columns(meaning, names)), meaning, layout, bounds)
 
 
