@@ -97,8 +97,16 @@ def test_an_even_clock_is_not_resampled_and_an_uneven_one_is(made, plain):
         ({"time": TIME[::-1]}, {}, "log: clock: row 1 is not after the one before it"),
         ({"v2": np.r_[1.0, np.full(ROWS - 1, np.nan)]}, {}, f"log: column 'v2': 1 of {ROWS} rows have a number"),
         ({"v2": np.r_[TIME[:-1], 1e308]}, {}, f"log: column 'v2', sample {ROWS - 1}: 1e[+]308 is not accepted"),
-        ({"v2": TIME[:-3]}, {}, f"log: column 'v2' has {ROWS - 3} rows, and the clock {ROWS}; accepted: columns of one"),
-        ({"time": 1e3 * TIME}, {"rate_hz": 500.0}, f"log: clock: 399001 ticks at 500 Hz for {ROWS} .* is clock.unit right"),
+        (
+            {"v2": TIME[:-3]},
+            {},
+            f"log: column 'v2' has {ROWS - 3} rows, and the clock {ROWS}; accepted: columns of one",
+        ),
+        (
+            {"time": 1e3 * TIME},
+            {"rate_hz": 500.0},
+            f"log: clock: 399001 ticks at 500 Hz for {ROWS} .* is clock.unit right",
+        ),
         ({"time": None}, {}, r"log: clock\.column: 'time' is not accepted; accepted: .*; or give rate_hz"),
     ],
     ids=["column", "number", "clock", "one number", "too large", "shorter", "milliseconds", "no clock"],
@@ -183,7 +191,9 @@ def test_a_column_that_ends_early_or_pauses_makes_nothing_up(made, plain):
 def test_rows_that_stand_twice_or_were_exchanged_are_put_in_order(made, plain):
     order = np.r_[0:50, 49, 50:200, 201, 200, 202:ROWS]
     found = made(columns_of({name: values[order] for name, values in plain.items()}))
-    assert found.hints[0].startswith(f"clock: 2 of {ROWS + 1} times are not after the one before: rows are put in order")
+    assert found.hints[0].startswith(
+        f"clock: 2 of {ROWS + 1} times are not after the one before: rows are put in order"
+    )
     np.testing.assert_array_equal(found.recording.sensed.v[:, 0], plain["v1"])
 
 

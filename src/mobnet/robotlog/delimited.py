@@ -223,7 +223,7 @@ def _spaced(path: Path, layout: Layout, asked: Sequence[str]) -> dict[str, Colum
 
     frame = pd.read_csv(
         path, sep=r"\s+", header=None, names=list(layout.names), usecols=list(asked), skiprows=layout.lead,
-        decimal=layout.decimal, encoding=layout.encoding, float_precision="round_trip", on_bad_lines="skip",
+        decimal=layout.decimal, encoding=layout.encoding, on_bad_lines="skip",
     )  # fmt: skip
     last = _fields(_last_line(path, layout.encoding), SPACES)
     is_cut = len(last) != len(layout.names)

@@ -13,9 +13,10 @@ from mobnet.core.files import check_regular
 from mobnet.robotlog.columns import Column, Columns, near_names
 from mobnet.robotlog.delimited import csv_columns, csv_names
 from mobnet.robotlog.messages import message_columns, message_names
+from mobnet.robotlog.sources import FILES, METADATA
 from mobnet.robotlog.tables import array_columns, array_names, parquet_columns, parquet_names
 
-METADATA = "metadata.yaml"  # in each folder that `ros2 bag` wrote
+MENDED = {".bag": ", such as `rosbag reindex` makes of one that was not closed"}  # what makes a cut file whole
 Found = TypeVar("Found")
 
 
@@ -29,9 +30,9 @@ class Format(NamedTuple):
 TEXTS = dict.fromkeys((".csv", ".tsv", ".txt", ".dat"), Format(csv_names, csv_columns))
 TABLES = {**TEXTS, ".parquet": Format(parquet_names, parquet_columns)}
 ARRAYS = dict.fromkeys((".h5", ".hdf5", ".mat", ".npz"), Format(array_names, array_columns))
-BAGS = dict.fromkeys((".mcap", ".bag", METADATA), Format(message_names, message_columns))
+BAGS = dict.fromkeys((".mcap", ".bag", ".db3", ".active", METADATA), Format(message_names, message_columns))
 FORMATS: Mapping[str, Format] = {**TABLES, **ARRAYS, **BAGS}
-ACCEPTED = (*(kind for kind in FORMATS if kind != METADATA), "a folder of `ros2 bag`")
+ACCEPTED = (*(kind for kind in FORMATS if kind not in (METADATA, ".active")), "a folder of `ros2 bag`")
 
 
 def column_names(path: Path) -> list[str]:
@@ -73,8 +74,8 @@ def _asked(path: Path, ask: Callable[[Format], Found]) -> Found:
         check_regular(path)
     if not path.exists():
         raise DataError(f"{path}: file is missing; accepted: a log, {', '.join(ACCEPTED)}")
-    kind = METADATA if (path / METADATA).is_file() else path.suffix.lower()
-    if path.is_dir() and kind not in FORMATS:
+    kind = METADATA if path.is_dir() else path.suffix.lower()
+    if path.is_dir() and not any(file.name == METADATA or file.suffix in FILES for file in path.iterdir()):
         raise DataError(f"{path}: a folder without {METADATA} is not accepted; accepted: {', '.join(ACCEPTED)}")
     if kind not in FORMATS:
         raise DataError(not_accepted(f"{path}: format", kind or path.name, ACCEPTED))
@@ -84,4 +85,5 @@ def _asked(path: Path, ask: Callable[[Format], Found]) -> Found:
         raise
     except Exception as error:  # five libraries, each with errors of its own for a damaged file
         text = " ".join(str(error).split()) or type(error).__name__
-        raise DataError(f"{path}: cannot be read as {kind}: {text}; accepted: a whole file") from error
+        accepted = f"a whole file{MENDED.get(kind, '')}"
+        raise DataError(f"{path}: cannot be read as {kind}: {text}; accepted: {accepted}") from error

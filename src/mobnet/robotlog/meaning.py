@@ -135,8 +135,9 @@ def _full(key: str, signal: Signal, held: Collection[str], joints: Collection[st
         return signal
     named = [f"{stem}.{end}" for end in (joints if key in MOTORS else ENDS.get(key, ()))]
     numbered = [f"{stem}.{k}" for k in range(width)]
-    listed = [stem.replace("*", str(k)) for k in range(width)] if "*" in stem else []
-    for columns in (named, listed, numbered):
+    by_names, by_numbers = joints if key in MOTORS else (), map(str, range(width))
+    starred = [[stem.replace("*", end) for end in ends] for ends in (by_names, by_numbers)] if "*" in stem else []
+    for columns in (named, *starred, numbered):
         if columns and set(columns) <= set(held):
             by_name = {"order": "wxyz"} if key == "quaternion" and columns is named else {}
             return signal.model_copy(update={"columns": tuple(columns), **by_name})
