@@ -95,7 +95,7 @@ def test_names_that_are_numbers_are_a_header(tmp_path):
             "\n".join(
                 [HEADER, *(f"05/03/2024 12:00:0{k}.5{line[line.index(',') :]}" for k, line in enumerate(LINES[:9]))]
             ),
-            "column 'time' holds text, such as '05/03/2024 12:00:00.5'; accepted: numbers, dates as 2026-05-03T12:00",
+            "column 'time' holds text, '05/03/2024 12:00:00.5' in row 0; accepted: numbers, dates as 2026-05-03T12:00",
         ),
         ("mode,name\na,b\nc,d\n", "holds no column of numbers"),
         (

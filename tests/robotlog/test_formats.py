@@ -84,7 +84,7 @@ def test_texts_are_left_out_and_named_if_wanted(clean, tmp_path):
     path = as_csv(clean[:10].assign(note="x"), tmp_path)
     assert set(read_log(path)) == set(clean)
     with pytest.raises(
-        DataError, match=r"log\.csv: column 'note' holds text, such as 'x'; accepted: numbers, dates as"
+        DataError, match=r"log\.csv: column 'note' holds text, 'x' in row 0; accepted: numbers, dates as"
     ):
         read_log(path, ["q.J1", "note"])
 

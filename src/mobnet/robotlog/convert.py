@@ -17,7 +17,7 @@ from mobnet.core.recording import ABSENT, Recording, Sensed, Truth
 from mobnet.robotlog.clocks import Rising, Segments, Timed, at, common_ticks, covered, rate_of, rising, stamp_hints
 from mobnet.robotlog.columns import Column, Columns, near_names
 from mobnet.robotlog.hints.columns import listed
-from mobnet.robotlog.meaning import given_signals, resolved
+from mobnet.robotlog.meaning import given_signals, is_truth, resolved
 from mobnet.settings.robotlog import LogMap, RobotLog, Signal
 
 SI = {  # unit -> in SI units
@@ -35,7 +35,7 @@ class Converted:
     `wrenches` are those of the feet that have sensors, side -> (T, 6) [N], [N m]; `absent` are signals that the log
     does not have and that are zero; `clocks` are those of the log, signal -> (T,) [s]; `hints` are those on stamps;
     `time_s` are the times of the recording's rows by the log's clock (T,) [s]; `tool` is what a sensor at an end
-    effector reads (T, 6) [N], [N m].
+    effector reads (T, 6) [N], [N m]; `truth` are the columns by which a simulated log tells its pushes, each (T,).
     """
 
     recording: Recording
@@ -46,6 +46,7 @@ class Converted:
     hints: tuple[str, ...]
     time_s: Array
     tool: Array | None
+    truth: Mapping[str, Array]
 
 
 def convert(path: Path, columns: Columns, meaning: LogMap, layout: JointLayout, bounds: RobotLog) -> Converted:
@@ -58,8 +59,11 @@ def convert(path: Path, columns: Columns, meaning: LogMap, layout: JointLayout, 
     meaning = resolved(path, meaning, columns, layout)
     given = given_signals(meaning)
     clock = _table_clock(path, columns, meaning, bounds)
-    used = {name: columns[name] for signal in given.values() for name in signal.columns}
-    hints = [*_reading_hints(used), *clock.hints]
+    known = {name: _own(path, name, column, meaning, clock) for name, column in columns.items() if is_truth(name)}
+    hints = [
+        *_reading_hints({name: columns[name] for signal in given.values() for name in signal.columns}),
+        *clock.hints,
+    ]
     if meaning.clock.stamp == "header":
         hints += stamp_hints((columns[signal.columns[0]] for signal in given.values()), bounds)
     signals = {name: _timed(path, columns, signal, meaning, clock, bounds) for name, signal in given.items()}
@@ -67,16 +71,17 @@ def convert(path: Path, columns: Columns, meaning: LogMap, layout: JointLayout, 
     rate_hz = meaning.rate_hz or rate_of(signals["q"].time_s)
     clocks = {name: signal.time_s for name, signal in signals.items()}
     ticks = common_ticks(path, clocks, rate_hz, bounds)
-    del columns, used  # a log may be as large as the memory
+    del columns  # a log may be as large as the memory
     values = {}
     while signals:
         name, one = signals.popitem()
         values[name] = at(one, ticks.time_s) if ticks.interpolated else one.values
         del one
     wrenches = {foot.removesuffix("_foot"): values[foot] for foot in FEET if foot in values}
+    truth = {name: np.interp(ticks.time_s, *own) for name, own in known.items()}
     recording, absent = _recording(values, layout, ticks.segments, rate_hz)
     return Converted(
-        recording, wrenches, absent, clocks, ticks.interpolated, tuple(hints), ticks.time_s, values.get("tool")
+        recording, wrenches, absent, clocks, ticks.interpolated, tuple(hints), ticks.time_s, values.get("tool"), truth
     )
 
 

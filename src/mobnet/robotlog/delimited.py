@@ -132,7 +132,8 @@ def _fields(line: str, separator: str) -> list[str]:
         return []
     if separator == SPACES:
         return line.split()
-    return [field.strip() for field in next(csv.reader([line], delimiter=separator, skipinitialspace=True), [])]
+    quoted = csv.reader([line], delimiter=separator, skipinitialspace=True) if '"' in line else [line.split(separator)]
+    return [field.strip() for field in next(iter(quoted))]
 
 
 def _begins(lines: Sequence[str], rows: Sequence[Sequence[str]], first: int) -> bool:
@@ -198,7 +199,7 @@ def _separated(path: Path, layout: Layout, asked: Sequence[str]) -> dict[str, Co
         for batch in file:
             # Whole columns of Arrow's own reader would take twice the memory.
             blocks.append(np.stack([numbers(batch.column(k)) for k in held]) if held else np.empty((0, 0)))
-            others = others or {file.schema.names[k]: _such_as(batch.column(k)[0].as_py()) for k in texts}
+            others = others or {file.schema.names[k]: _such_as(batch.column(k).to_pylist()) for k in texts}
         names = [file.schema.names[k] for k in held]
     hint = " ".join(_left_out(wrong, len(layout.names)))
     values = np.concatenate(blocks, axis=1)
@@ -212,9 +213,11 @@ def _left_out(wrong: Sequence[int], fields: int) -> Iterator[str]:
         yield f"{len(wrong)} rows left out, which have {wrong[0]} fields in place of {fields}; the last row may be cut"
 
 
-def _such_as(value: Any) -> str:
-    """Return what a column of texts holds."""
-    return f"text, such as {value!r}"
+def _such_as(values: Sequence[Any]) -> str:
+    """Return what a column of texts holds, by the first that is no number."""
+    texts = ((row, value) for row, value in enumerate(values) if value is not None and not _is_number(str(value)))
+    row, value = next(texts, (0, values[0]))
+    return f"text, {str(value)!r} in row {row}"
 
 
 def _spaced(path: Path, layout: Layout, asked: Sequence[str]) -> dict[str, Column]:
@@ -234,7 +237,7 @@ def _spaced(path: Path, layout: Layout, asked: Sequence[str]) -> dict[str, Colum
         kind = frame[name].dtype.kind
         is_text = kind not in "fiub"
         values = np.empty(0) if is_text else frame[name].to_numpy(np.float64)
-        found[name] = Column(values, hint=hint, found=_such_as(frame[name].iloc[0]) if is_text else "")
+        found[name] = Column(values, hint=hint, found=_such_as(list(frame[name])) if is_text else "")
     return found
 
 

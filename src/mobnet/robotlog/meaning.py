@@ -3,7 +3,7 @@
 from collections.abc import Collection, Iterator, Sequence
 from pathlib import Path
 
-from mobnet.core.columns import FEET, recording_columns
+from mobnet.core.columns import EXTERNAL, FEET, PUSHED, recording_columns
 from mobnet.core.errors import ConfigError, DataError, not_accepted, refuse
 from mobnet.core.joints import JointLayout
 from mobnet.robotlog.columns import near_names
@@ -123,9 +123,15 @@ def resolved(path: Path, meaning: LogMap, names: Collection[str], layout: JointL
 
 
 def wanted_columns(meaning: LogMap, names: Collection[str]) -> list[str]:
-    """Return the columns that a map by full names needs, its clock included where the log has it."""
+    """Return the columns that a map by full names needs, with its clock and the truth where the log has them."""
     own = [name for signal in given_signals(meaning).values() for name in signal.columns]
-    return list(dict.fromkeys([*(name for name in (meaning.clock.column,) if name in names), *own]))
+    clock = [name for name in names if name == meaning.clock.column]
+    return list(dict.fromkeys([*clock, *own, *filter(is_truth, names)]))
+
+
+def is_truth(name: str) -> bool:
+    """Return whether a column is one of those by which a simulated log tells its pushes."""
+    return name == PUSHED or name.startswith(f"{EXTERNAL}.")
 
 
 def _full(key: str, signal: Signal, held: Collection[str], joints: Collection[str], width: int) -> Signal:

@@ -17,6 +17,7 @@ import numpy as np
 from mobnet.core.arrays import Array
 from mobnet.core.columns import EXTERNAL, recording_columns, torque_columns
 from mobnet.core.errors import DataError, not_accepted
+from mobnet.core.files import check_place, sweep
 from mobnet.core.joints import JointLayout
 from mobnet.core.recording import Recording
 from mobnet.core.store import GROUP_ROWS, array_writer, write_array
@@ -43,6 +44,7 @@ from mobnet.robotlog.hints.torque import torque_hints
 from mobnet.robotlog.hints.windows import known_joints, windows_of
 from mobnet.robotlog.meaning import default_map, resolved, wanted_columns
 from mobnet.robotlog.plot import plot_residual
+from mobnet.robotlog.pushes import pushed_rows
 from mobnet.robotlog.tool import with_tool
 from mobnet.robotlog.words import observe_parser
 from mobnet.running.printed import printed
@@ -147,14 +149,14 @@ def hints_of(found: Converted, nominal: NominalModel, gravity_m_s2: float, bound
 
 def write_observed(found: Observed, robot: RobotDescription, gain_hz: float, torque: str, out: Path) -> None:
     """Write recording, estimate and plot into a folder."""
-    out.mkdir(parents=True, exist_ok=True)
     read = found.converted.recording
     meta = {**read.meta, "gain_hz": gain_hz, "torque": torque}
     _write_recording(out / RECORDING, replace(read, meta=meta), robot.layout)
     columns = torque_columns(robot.layout, [EXTERNAL], robot.layout.names)
     note = {"rate_hz": read.rate_hz, **meta, "method": OBSERVER}
     write_array(out / ESTIMATE, found.residual, columns, note, read.segments)
-    plot_residual(read.rate_hz, read.segments, found.residual, robot.layout, out / PLOT)
+    pushed = pushed_rows(found.converted, robot.layout.actuated)
+    plot_residual(read, found.residual, pushed, robot.layout, out / PLOT)
 
 
 def _write_recording(stem: Path, recording: Recording, layout: JointLayout) -> None:
@@ -210,8 +212,10 @@ def run(options: Namespace) -> Iterator[str]:
         raise DataError(not_accepted("--gain", gain_hz, ["a number above 0"]))
     torque = options.torque or (meaning.torque if meaning else "sample")
     bounds, gravity = settings.robotlog, settings.plant.gravity_m_s2
-    found = observe_log(options.log, robot, meaning, torque, gain_hz, gravity, bounds)
     out = options.out or Path(f"{options.log.stem}_observed")
+    check_place(out)
+    sweep(out)
+    found = observe_log(options.log, robot, meaning, torque, gain_hz, gravity, bounds)
     write_observed(found, robot, gain_hz, torque, out)
     yield from told(found, robot, out)
 

@@ -13,6 +13,7 @@ from mobnet.robotlog.columns import module_of
 
 METADATA = "metadata.yaml"  # in each folder that `ros2 bag` wrote
 FILES = (".mcap", ".db3")  # that hold the messages there
+MAGIC = b"#ROSBAG V2.0"  # of bags of ROS 1
 CHUNK_KIND, CHUNK = 6, struct.Struct("<BQQQQII")  # kind, length, times, size, checksum; bytes of the compression's name
 ENCODINGS = ("cdr", "json", "ros1")  # of messages in MCAP files that are read
 Decoder = Callable[[bytes], Any]
@@ -85,6 +86,8 @@ def _folder(path: Path) -> Iterator[Source]:
 def _bag(path: Path) -> Iterator[Source]:
     """Open a bag of ROS 1 or 2; definitions of messages come from the bag, or are those of ROS 2 where it has none."""
     highlevel, stores = module_of("rosbags.highlevel", path), module_of("rosbags.typesys", path)
+    if path.is_file():
+        _check_magic(path)
     with highlevel.AnyReader([path], default_typestore=stores.get_typestore(stores.Stores.LATEST)) as bag:
 
         def messages(topics: Collection[str]) -> Iterator[Message]:
@@ -94,6 +97,14 @@ def _bag(path: Path) -> Iterator[Source]:
 
         known = bag.typestore.fielddefs
         yield Source(sorted({one.topic for one in bag.connections if one.msgtype in known}), messages)
+
+
+def _check_magic(path: Path) -> None:
+    """Raise a DataError where a file does not begin as a bag of ROS 1; its reader takes the first line, whatever it is."""
+    with path.open("rb") as file:
+        start = file.read(len(MAGIC))
+    if start != MAGIC:
+        raise DataError(f"{path}: begins with {start!r}; accepted: {MAGIC!r}, as a bag of ROS 1 does")
 
 
 @contextlib.contextmanager
