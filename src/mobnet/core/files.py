@@ -95,13 +95,13 @@ def check_room(folder: Path) -> None:
         raise DataError(refusal(error, folder, size=ROOM_BYTES)) from None
 
 
-def check_place(path: Path) -> None:
-    """Check that something can be written at a path that may not be there yet, and make nothing.
+def check_place(folder: Path) -> None:
+    """Check that a folder, which may not be there yet, can be written to, and make nothing.
 
     Raises:
-        DataError: the disk is full, or the first folder above it that is there cannot be written to.
+        DataError: the disk is full, or what is there of the folder's path cannot be written to.
     """
-    check_room(next(folder for folder in (path, *path.absolute().parents) if folder.is_dir()))
+    check_room(next(place for place in (folder, *folder.absolute().parents) if place.exists()))
 
 
 def write_text(path: Path, text: str) -> None:

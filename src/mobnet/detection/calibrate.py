@@ -92,7 +92,7 @@ def run(options: Namespace) -> list[str]:
     _check(options)
     settings = load_settings()
     if options.out:
-        check_place(options.out)
+        check_place(options.out.parent)
         sweep(options.out.parent)
     robot = given_robot(options.robot, settings)
     if not options.folders:

@@ -89,7 +89,8 @@ def _layout(path: Path) -> Layout | None:
             break
     else:
         if len([line for line in lines if not _is_left_out(line)]) < 2:
-            raise DataError(f"{path}: has no row below its header; accepted: a log with two samples or more")
+            looked = f" in its first {LOOKED_BYTES} bytes" if path.stat().st_size > LOOKED_BYTES else ""
+            raise DataError(f"{path}: has no row below its header{looked}; accepted: a log with two samples or more")
         return None
     above = [_named(rows[k] or _fields(lines[k].lstrip("#%/ "), separator), rows[first]) for k in range(first)]
     names = next((row for row in above if row), [str(k) for k in range(len(rows[first]))])

@@ -73,7 +73,7 @@ def run(options: Namespace) -> Iterator[str]:
         raise DataError(not_accepted("--minutes", options.minutes, [f"above 0 and up to {MOST_MINUTES:g}"]))
     if options.seed < 1:  # 0 would draw the motion by the numbers that hide the plant
         raise DataError(not_accepted("--seed", options.seed, ["a whole number from 1 on"]))
-    check_place(options.out)
+    check_place(options.out.parent)
     sweep(options.out.parent)
     numbers = Numbers(settings.free_motion, settings.plant, settings.rates)
     seconds = 60.0 * options.minutes

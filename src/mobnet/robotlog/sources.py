@@ -100,7 +100,7 @@ def _bag(path: Path) -> Iterator[Source]:
 
 
 def _check_magic(path: Path) -> None:
-    """Raise a DataError where a file does not begin as a bag of ROS 1; its reader takes the first line, whatever it is."""
+    """Raise a DataError where a file does not begin as a bag of ROS 1, whose reader takes any first line."""
     with path.open("rb") as file:
         start = file.read(len(MAGIC))
     if start != MAGIC:
