@@ -10,6 +10,7 @@ import numpy as np
 JOINTS = ("J1", "J2")
 SIGNALS = {"q": "position", "v": "velocity", "tau_motor": "effort"}  # and the fields of a JointState
 TOPIC = "/joint_states"
+CHUNK_BYTES = 10_000  # of messages that are compressed together
 LATE_NS = 37  # of the recording after the stamp
 STATE, IMU, WRENCH = "sensor_msgs/msg/JointState", "sensor_msgs/msg/Imu", "geometry_msgs/msg/WrenchStamped"
 JOINT_STATE = """std_msgs/Header header
@@ -97,7 +98,7 @@ def as_hdf5(table, folder):
 def as_mcap(table, folder):
     from mcap_ros2.writer import Writer
 
-    with (folder / "log.mcap").open("wb") as file, Writer(file) as writer:
+    with (folder / "log.mcap").open("wb") as file, Writer(file, chunk_size=CHUNK_BYTES) as writer:
         schema = writer.register_msgdef(STATE, JOINT_STATE)
         for k, one in enumerate(states(table)):
             stamp = {"sec": one.stamp_ns // 10**9, "nanosec": one.stamp_ns % 10**9}
@@ -111,7 +112,7 @@ def as_json_mcap(table, folder):
     from mcap.writer import Writer
 
     with (folder / "json.mcap").open("wb") as file:
-        writer = Writer(file)
+        writer = Writer(file, chunk_size=CHUNK_BYTES)
         writer.start()
         schema = writer.register_schema("state", "jsonschema", b"{}")
         channel = writer.register_channel(TOPIC, "json", schema)
@@ -119,6 +120,25 @@ def as_json_mcap(table, folder):
             writer.add_message(channel, one.stamp_ns, json.dumps(one.fields).encode(), one.stamp_ns)
         writer.finish()
     return folder / "json.mcap"
+
+
+def as_ros1_mcap(table, folder):
+    from mcap.writer import Writer
+    from rosbags.typesys import Stores, get_typestore
+
+    types = get_typestore(Stores.ROS1_NOETIC)
+    with (folder / "ros1.mcap").open("wb") as file:
+        writer = Writer(file)
+        writer.start(profile="ros1")
+        text = types.generate_msgdef(STATE)[0]
+        channel = writer.register_channel(
+            TOPIC, "ros1", writer.register_schema("sensor_msgs/JointState", "ros1msg", text.encode())
+        )
+        for one in states(table):
+            message = _message(types, STATE, one.fields, one.stamp_ns)
+            writer.add_message(channel, one.recorded_ns, bytes(types.serialize_ros1(message, STATE)), one.recorded_ns)
+        writer.finish()
+    return folder / "ros1.mcap"
 
 
 def as_bag1(table, folder):

@@ -50,6 +50,7 @@ from mobnet.plan.places import scale_of
 from mobnet.plan.plan import make_plan
 from mobnet.plan.precision import with_precision
 from mobnet.plan.stamps import Stamped
+from mobnet.robotlog.formats import FORMATS
 from mobnet.running.accounts import AccountNote, read_account
 from mobnet.running.words import KINDS, check_parser
 from mobnet.settings.limb_thresholds import LimbThresholds
@@ -63,6 +64,7 @@ NOTES = (ArrayNote, TrainingNote, AccountNote, *FITS)
 HALF = 0.5  # of the columns of a kind, which a file of rows has to pass to be one
 REPORT_S = 5.0  # between two lines of progress
 log = logging.getLogger(__name__)
+LOGGED = ("q.", "v.", "tau_motor.")  # first characters of columns of a log
 
 
 class UnknownKindError(DataError):
@@ -71,6 +73,14 @@ class UnknownKindError(DataError):
     def __init__(self, path: Path, what: str, value: object) -> None:
         """Say what of a file was looked at, and which kinds are accepted."""
         super().__init__(f"{path}: {not_accepted(what, value, [KINDS])}")
+
+
+class LogError(UnknownKindError):
+    """A file is the log of a robot."""
+
+    def __init__(self, path: Path) -> None:
+        """Say what looks at it."""
+        DataError.__init__(self, f"{path}: a log; accepted: {KINDS}; what is wrong with it says `./reproduce observe`")
 
 
 @functools.cache
@@ -124,6 +134,8 @@ def _kind(path: Path, against: Against) -> str:
     check_regular(path)
     is_array = path.suffix == NOTE and path.with_suffix(ARRAY).exists()
     reader = READERS.get(ARRAY if is_array else path.suffix)
+    if reader is None and path.exists() and path.suffix in FORMATS:
+        raise LogError(path)
     if reader is None:
         raise UnknownKindError(path, "file" if path.exists() else "missing file", path.name)
     return reader(path, against)
@@ -199,6 +211,8 @@ def _rows(path: Path, against: Against) -> str:
     kind = max(shares, key=lambda name: shares[name])
     if path.name == METRICS or (kind == "epochs" and shares[kind]):
         return _training(path.parent) if (path.parent / RUN).exists() else f"{len(read_epochs(path)[0])} epochs"
+    if any(name.startswith(LOGGED) for name in held):
+        raise LogError(path)
     if shares[kind] <= HALF:
         raise UnknownKindError(path, "columns", sorted(held))
     if kind == "scores":

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from mobnet.core.errors import DataError
-from mobnet.core.files import atomic_path, read_json, read_text, write_json, write_text
+from mobnet.core.files import PARTIAL, atomic_path, check_place, read_json, read_text, sweep, write_json, write_text
 
 
 def test_failed_write_keeps_the_old_file_and_leaves_nothing_else(tmp_path: Path) -> None:
@@ -57,3 +57,23 @@ def test_a_missing_file_and_damaged_json_are_named(tmp_path: Path, read: Callabl
     (tmp_path / "a.json").write_text('{"rows": ')
     with pytest.raises(DataError, match=r"a\.json: not JSON"):
         read_json(tmp_path / "a.json")
+
+
+def test_what_a_killed_command_left_is_swept_and_what_is_being_written_stays(tmp_path: Path) -> None:
+    left = tmp_path / f"{PARTIAL}abc.log.csv"
+    left.write_text("half")
+    with atomic_path(tmp_path / "new.csv") as temporary:
+        temporary.write_text("whole")
+        sweep(tmp_path)
+        assert not left.exists()
+        assert temporary.exists()
+    sweep(tmp_path / "not there")
+    assert [path.name for path in tmp_path.iterdir()] == ["new.csv"]
+
+
+def test_a_place_is_checked_without_a_trace(tmp_path: Path) -> None:
+    check_place(tmp_path / "a" / "b")
+    assert list(tmp_path.iterdir()) == []
+    (tmp_path / "file").touch()
+    with pytest.raises(DataError, match=r"file: cannot be written: "):
+        check_place(tmp_path / "file" / "b")

@@ -1,5 +1,7 @@
 """Units, signs, order, clocks and gaps: what a map says is what the recording holds."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -93,10 +95,21 @@ def test_an_even_clock_is_not_resampled_and_an_uneven_one_is(made, plain):
         ({"q1": None}, {}, "log: column: 'q1' is not accepted; accepted: q2, tau_motor1"),
         ({}, {"q": {"columns": ("q1",)}}, r"log: q\.columns: number: 1 is not accepted; accepted: 2"),
         ({"time": TIME[::-1]}, {}, "log: clock: row 1 is not after the one before it"),
-        ({"v2": np.r_[TIME[:-1], np.nan]}, {}, f"log: column 'v2', row {ROWS - 1}: nan is not accepted"),
+        ({"v2": np.r_[1.0, np.full(ROWS - 1, np.nan)]}, {}, f"log: column 'v2': 1 of {ROWS} rows have a number"),
+        ({"v2": np.r_[TIME[:-1], 1e308]}, {}, f"log: column 'v2', sample {ROWS - 1}: 1e[+]308 is not accepted"),
+        (
+            {"v2": TIME[:-3]},
+            {},
+            f"log: column 'v2' has {ROWS - 3} rows, and the clock {ROWS}; accepted: columns of one",
+        ),
+        (
+            {"time": 1e3 * TIME},
+            {"rate_hz": 500.0},
+            f"log: clock: 399001 ticks at 500 Hz for {ROWS} .* is clock.unit right",
+        ),
         ({"time": None}, {}, r"log: clock\.column: 'time' is not accepted; accepted: .*; or give rate_hz"),
     ],
-    ids=["column", "number", "clock", "nan", "no clock"],
+    ids=["column", "number", "clock", "one number", "too large", "shorter", "milliseconds", "no clock"],
 )
 def test_what_does_not_fit_is_one_line(made, plain, log, mapping, message):
     given = {name: values for name, values in (plain | log).items() if values is not None}
@@ -137,7 +150,7 @@ def test_base_signals_are_turned_as_the_map_says(layout, settings):
 
 def test_columns_named_as_in_a_recording_need_no_map(clean, arm, stored):
     columns = read_log(stored(clean[:10]))
-    meaning = default_map(columns, arm.layout)
+    meaning = default_map(Path("log.csv"), columns, arm.layout)
     assert meaning.q.columns == ("q.J1", "q.J2")
     assert meaning.acc is None
 
@@ -150,3 +163,45 @@ def test_a_pause_of_a_year_takes_no_memory(made, plain):
     found = made(log | columns_of(slow, late[::2]))
     assert found.interpolated
     assert found.recording.segments == ((0, 18), (18, 397))
+
+
+def test_blank_cells_are_named_and_each_signal_is_taken_on_the_rows_that_it_has(made, plain):
+    """Torques come in every other row, and one joint's speed misses a number."""
+    every_other = np.where(np.arange(ROWS) % 2 == 0, 1.0, np.nan)
+    log = plain | {name: plain[name] * every_other for name in ("tau_motor1", "tau_motor2")}
+    log["v1"] = np.where(np.arange(ROWS) == 7, np.nan, plain["v1"])
+    found = made(columns_of(log))
+    assert [hint.partition(":")[0] for hint in found.hints] == [
+        "no number in 1 of 400 rows of v1",
+        "no number in 200 of 400 rows of tau_motor1, tau_motor2",
+    ]
+    rows = len(found.recording.sensed)
+    assert rows == ROWS - 1  # up to the last torque
+    np.testing.assert_allclose(found.recording.sensed.v[7, 0], plain["v1"][7], atol=1e-3)
+    np.testing.assert_allclose(found.recording.sensed.tau_motor[:, 0], plain["tau_motor1"][:rows], atol=1e-3)
+
+
+def test_a_column_that_ends_early_or_pauses_makes_nothing_up(made, plain):
+    kept = (np.arange(ROWS) < 350) & ((np.arange(ROWS) < 100) | (np.arange(ROWS) > 150))
+    found = made(columns_of(plain | {"v2": np.where(kept, plain["v2"], np.nan)})).recording
+    assert found.segments == ((0, 99), (99, 298))  # and a tick at the end of a stretch has no sample after it
+    np.testing.assert_allclose(found.sensed.v[99:, 1], plain["v2"][151:350], atol=1e-12)
+
+
+def test_rows_that_stand_twice_or_were_exchanged_are_put_in_order(made, plain):
+    order = np.r_[0:50, 49, 50:200, 201, 200, 202:ROWS]
+    found = made(columns_of({name: values[order] for name, values in plain.items()}))
+    assert found.hints[0].startswith(
+        f"clock: 2 of {ROWS + 1} times are not after the one before: rows are put in order"
+    )
+    np.testing.assert_array_equal(found.recording.sensed.v[:, 0], plain["v1"])
+
+
+def test_a_row_that_comes_late_is_put_in_order_and_times_that_begin_anew_end_a_segment(made, plain):
+    order = np.r_[0:100, 120, 100:120, 121:ROWS]
+    late = made(columns_of({name: values[np.argsort(order)] for name, values in plain.items()}))
+    np.testing.assert_array_equal(late.recording.sensed.q[:, 1], plain["q2"])
+    episodes = made(columns_of(plain | {"time": np.r_[TIME[:150], TIME[:250]]}))
+    assert episodes.recording.segments == ((0, 150), (150, ROWS))
+    assert episodes.hints[0].startswith("clock: times begin anew 1 times, first in row 150, as episodes do")
+    np.testing.assert_array_equal(episodes.recording.sensed.q[:, 1], plain["q2"])

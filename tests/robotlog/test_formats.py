@@ -1,6 +1,7 @@
 """One recording in every format gives one residual."""
 
 import importlib
+import re
 
 import numpy as np
 import pytest
@@ -16,6 +17,7 @@ from made_logs import (
     as_json_mcap,
     as_mcap,
     as_parquet,
+    as_ros1_mcap,
 )
 
 from mobnet.core.errors import DataError
@@ -32,6 +34,7 @@ FORMATS = {  # and their maps; None: columns have the names that need no map
     as_hdf5: HDF5,
     as_mcap: None,
     as_json_mcap: None,
+    as_ros1_mcap: None,
     as_bag1: None,
     as_bag2: None,
     as_bag2_mcap: None,
@@ -80,7 +83,9 @@ def test_only_what_is_wanted_is_read(clean, tmp_path):
 def test_texts_are_left_out_and_named_if_wanted(clean, tmp_path):
     path = as_csv(clean[:10].assign(note="x"), tmp_path)
     assert set(read_log(path)) == set(clean)
-    with pytest.raises(DataError, match=r"log\.csv: column: 'note' is not accepted; accepted: q\.J1"):
+    with pytest.raises(
+        DataError, match=r"log\.csv: column 'note' holds text, 'x' in row 0; accepted: numbers, dates as"
+    ):
         read_log(path, ["q.J1", "note"])
 
 
@@ -122,20 +127,44 @@ def test_a_damaged_file_is_one_line(name, tmp_path):
         read_log(tmp_path / name)
 
 
-@pytest.mark.parametrize("write", FORMATS, ids=lambda write: write.__name__)
-def test_a_file_that_ends_early_is_one_line(write, clean, tmp_path):
-    path = write(clean[:200], tmp_path)
+def cut(path, share=0.5):
+    """Leave out the end of a file, or of that with the messages in a folder."""
     whole = next(file for file in path.iterdir() if file.suffix != ".yaml") if path.is_dir() else path
-    whole.write_bytes(whole.read_bytes()[: whole.stat().st_size // 2])
+    whole.write_bytes(whole.read_bytes()[: int(share * whole.stat().st_size)])
+    return path
+
+
+@pytest.mark.parametrize("write", [as_parquet, as_hdf5, as_bag1, as_bag2], ids=lambda write: write.__name__)
+def test_a_file_that_ends_early_is_one_line(write, clean, tmp_path):
     with pytest.raises(DataError, match=r"^[^\n]+$"):
-        read_log(path)
+        read_log(cut(write(clean[:200], tmp_path)))
+
+
+def test_a_bag_of_ros_1_that_was_not_closed_names_what_mends_it(clean, tmp_path):
+    path = as_bag1(clean[:200], tmp_path)
+    for name in ("log.bag", "log.bag.active"):
+        with pytest.raises(DataError, match=r"rosbag reindex"):
+            read_log(cut(path.rename(tmp_path / name)))
+
+
+@pytest.mark.parametrize("write", [as_csv, as_json_mcap, as_mcap, as_bag2_mcap], ids=lambda write: write.__name__)
+def test_a_log_that_ends_early_is_read_as_far_as_it_is_whole(write, clean, observed, tmp_path):
+    path = cut(write(clean[:800], tmp_path), 0.6)
+    found = observed(path).converted
+    rows = len(found.recording.sensed)
+    assert 300 < rows < 600
+    np.testing.assert_allclose(found.recording.sensed.q[:, 1], clean["q.J2"][:rows], atol=1e-6)
+    assert len(found.hints) == 1
+    assert re.search(
+        r"ends early: read as far as it is whole|1 rows left out, .* the last row may be cut", found.hints[0]
+    )
 
 
 def test_an_unknown_format_and_a_missing_file_name_what_is_accepted(tmp_path):
-    (tmp_path / "log.mat").write_text("")
-    with pytest.raises(DataError, match=r"format: '\.mat' is not accepted; accepted: .*\.csv.*a folder of `ros2 bag`"):
-        read_log(tmp_path / "log.mat")
-    with pytest.raises(DataError, match=r"none\.csv: file is missing; accepted: a log, \.csv, \.parquet"):
+    (tmp_path / "log.json").write_text("")
+    with pytest.raises(DataError, match=r"format: '\.json' is not accepted; accepted: .*\.csv.*a folder of `ros2 bag`"):
+        read_log(tmp_path / "log.json")
+    with pytest.raises(DataError, match=r"none\.csv: file is missing; accepted: a log, \.csv, \.tsv"):
         read_log(tmp_path / "none.csv")
 
 

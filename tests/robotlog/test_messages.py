@@ -1,11 +1,13 @@
 """Messages of bags: topics at other rates and with other clocks, joints by name, kinds of messages of one's own."""
 
+import json
 import re
 from pathlib import Path
 
 import numpy as np
 import pytest
-from made_logs import JOINTS, TOPIC, Sample, bag1, bag2, humanoid, states
+from made_logs import IMU, JOINTS, TOPIC, Sample, bag1, bag2, humanoid, states
+from mcap.writer import Writer
 
 from mobnet.core.errors import DataError
 from mobnet.robotlog.formats import column_names, read_log
@@ -24,6 +26,15 @@ float64 dq
 float64 tau_est
 """
 STATE = "my_robot/msg/State"
+NAMED = "my_robot/msg/Joints"
+OWN_NAMED = """my_robot/Joint[] joints
+================================================================================
+MSG: my_robot/Joint
+string name
+float64 q
+float64 dq
+float64 tau_est
+"""
 OWN_FIELDS = {"q": "q", "v": "dq", "tau_motor": "tau_est"}
 OWN_MAP = {name: {"columns": [f"/low.motors.*.{field}"]} for name, field in OWN_FIELDS.items()}
 APART_MAP = {
@@ -194,6 +205,109 @@ def test_kinds_of_messages_of_ones_own_are_read_by_their_definition_in_the_bag(s
     assert "/low.motors.1.tau_est" in column_names(path)
     found = observe_log(path, arm, LogMap.model_validate(OWN_MAP), "sample", 100.0, 9.81, settings.robotlog)
     np.testing.assert_allclose(found.converted.recording.sensed.v[:, 1], clean["v.J2"][:ROWS], atol=1e-12)
+
+
+@pytest.mark.parametrize("storage", ["JSON", "SQLITE3"])
+def test_objects_in_a_list_are_found_by_their_own_names_in_any_order_that_may_change(storage, clean, read, tmp_path):
+    """As Foxglove's JointStates has them; one message lacks a joint."""
+    states_of = []
+    for k, row in enumerate(clean[:200].to_dict("records")):
+        joints = [
+            {"name": j, "q": row[f"q.{j}"], "dq": row[f"v.{j}"], "tau_est": row[f"tau_motor.{j}"]} for j in JOINTS
+        ]
+        states_of.append({"joints": joints[::-1] if k % 3 else joints[: 1 if k == 50 else 2]})
+    if storage == "JSON":
+        path = as_json(states_of, tmp_path / "log.mcap")
+    else:
+        path = bag2([Sample("/low", NAMED, k * 10**6, k * 10**6, one) for k, one in enumerate(states_of)],
+                    tmp_path / "bag", storage, [(NAMED, OWN_NAMED)])  # fmt: skip
+    mapping = {name: {"columns": [f"/low.joints.*.{field}"]} for name, field in OWN_FIELDS.items()}
+    sensed = read(path, mapping).recording.sensed
+    assert len(sensed) == 200
+    for k, joint in enumerate(JOINTS):
+        np.testing.assert_allclose(sensed.q[51:, k], clean[f"q.{joint}"][51:200], atol=1e-6)
+        np.testing.assert_allclose(sensed.tau_motor[:50, k], clean[f"tau_motor.{joint}"][:50], atol=1e-6)
+    names = {"columns": [f"/low.joints.{joint}.q" for joint in JOINTS]}
+    assert len(read(path, {**mapping, "q": names}).recording.sensed) == 200
+
+
+def as_json(contents, path):
+    """Write objects as messages of a topic /low, one each millisecond."""
+    with path.open("wb") as file:
+        writer = Writer(file)
+        writer.start()
+        channel = writer.register_channel("/low", "json", writer.register_schema("state", "jsonschema", b"{}"))
+        for k, content in enumerate(contents):
+            writer.add_message(channel, k * 10**6, json.dumps(content).encode(), k * 10**6)
+        writer.finish()
+    return path
+
+
+def test_messages_that_cannot_be_decoded_are_named(tmp_path):
+    with (tmp_path / "log.mcap").open("wb") as file:
+        writer = Writer(file)
+        writer.start()
+        channel = writer.register_channel("/low", "protobuf", writer.register_schema("state", "protobuf", b"x"))
+        writer.add_message(channel, 0, b"\x08\x01", 0)
+        writer.finish()
+    with pytest.raises(
+        DataError, match=r"cannot be decoded: /low \(protobuf\); accepted: messages in cdr, json, ros1$"
+    ):
+        column_names(tmp_path / "log.mcap")
+
+
+@pytest.mark.parametrize("storage", ["SQLITE3", "MCAP"])
+def test_a_bag_without_its_metadata_and_a_file_of_it_alone_are_read(storage, clean, read, tmp_path):
+    path = bag2(states(clean[:200]), tmp_path / "bag", storage)
+    (path / "metadata.yaml").unlink()
+    (file,) = path.iterdir()
+    for log in (path, file):
+        np.testing.assert_allclose(read(log).recording.sensed.q[:, 1], clean["q.J2"][:200], atol=1e-12)
+
+
+def test_numbers_that_are_nan_in_messages_are_named_and_left_out(clean, read, tmp_path):
+    nothing = [float("nan")] * 2
+    samples = [one._replace(fields={**one.fields, "effort": nothing}) if k == 7 else one for k, one in
+               enumerate(states(clean[:200]))]  # fmt: skip
+    found = read(bag2(samples, tmp_path / "bag"))
+    assert found.hints == (
+        f"no number in 1 of 200 rows of {TOPIC}.effort.J1, {TOPIC}.effort.J2: each signal is taken on the rows that "
+        "it has",
+    )
+    assert len(found.recording.sensed) == 200
+
+
+def without(samples, field):
+    return [one._replace(fields={**one.fields, field: []}) for one in samples]
+
+
+def renamed(samples, names):
+    return [one._replace(fields={**one.fields, "name": names}) for one in samples]
+
+
+def only_first(samples):
+    return [one._replace(fields={key: values[:1] for key, values in one.fields.items()}) for one in samples]
+
+
+@pytest.mark.parametrize(
+    ("spoil", "message"),
+    [
+        (lambda s: without(s, "effort"), "/joint_states: effort is empty; accepted: position, velocity and effort of"),
+        (only_first, "/joint_states: position has J1, and not J2; accepted: all joints of the robot, or `joints` of a"),
+        (lambda s: renamed(s, ["a", "b"]), "/joint_states: position has a, b, and not J1, J2; accepted: all joints"),
+        (
+            lambda s: [*s, *(one._replace(topic="/arm/states") for one in s)],
+            "/arm/states and /joint_states have all joints of the robot; accepted: a --map that names one, such",
+        ),
+        (lambda s: [one._replace(topic="/low", kind=IMU) for one in s], "has no column q.J1 or the like; accepted: a"),
+    ],
+    ids=["no effort", "a joint is missing", "other names", "two topics", "no joint states"],
+)  # fmt: skip
+def test_a_bag_that_needs_a_map_is_one_line_that_says_why(spoil, message, clean, read, tmp_path):
+    path = bag2(spoil(states(clean[:20])), tmp_path / "bag")
+    with pytest.raises(DataError, match=rf"^{path}: {message}.*$") as error:
+        read(path)
+    assert "\n" not in str(error.value)
 
 
 def test_a_message_that_lacks_a_field_is_one_line(tmp_path):

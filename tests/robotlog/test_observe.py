@@ -1,5 +1,6 @@
 """`./reproduce observe`: what it prints and writes, and a humanoid's log with its own mistakes."""
 
+import os
 import re
 from functools import partial
 from pathlib import Path
@@ -86,6 +87,45 @@ def test_a_bad_word_is_one_line(words, message, clean, stored, say):
     status, lines = say(*log, "--robot", "tests/data/arm.yaml")
     assert (status, len(lines)) == (1, 1)
     assert message in lines[0]
+
+
+def test_a_folder_that_cannot_be_written_to_is_one_line_before_the_log_is_read(clean, stored, say, tmp_path):
+    (tmp_path / "file").write_text("")
+    status, lines = say(stored(clean[:100]), "--robot", "tests/data/arm.yaml", "--out", tmp_path / "file" / "made")
+    assert (status, len(lines)) == (1, 1)
+    assert f"{tmp_path}/file" in lines[0]
+
+
+def test_what_a_killed_observe_left_is_swept_and_a_refused_log_leaves_nothing(clean, stored, say, tmp_path):
+    (tmp_path / "made").mkdir()
+    (tmp_path / "made" / ".partial.abc.recording.parquet").write_text("half")
+    log, words = stored(clean[:2000]), ("--robot", "tests/data/arm.yaml", "--out")
+    assert say(log, *words, tmp_path / "made")[0] == 0
+    assert not list((tmp_path / "made").glob(".partial*"))
+    log = stored(clean[:20].assign(**{"q.J1": 1e308}))
+    assert say(log, *words, tmp_path / "none")[0] == 1
+    assert not (tmp_path / "none").exists()
+
+
+@pytest.mark.parametrize("make", [os.mkfifo, lambda path: path.symlink_to("/dev/zero")], ids=["pipe", "device"])
+def test_a_pipe_and_a_device_are_no_log(make, say, tmp_path):
+    make(tmp_path / "log.csv")
+    status, lines = say(tmp_path / "log.csv", "--robot", "tests/data/arm.yaml")
+    assert (status, lines) == (1, [f"{tmp_path}/log.csv: a pipe or a device is not accepted; accepted: a file"])
+
+
+@pytest.mark.parametrize("name", ["log.csv", "log.bag", "log.npz", "log.mcap", "log.h5"])
+def test_a_file_of_nothing_but_room_is_one_line(name, say, tmp_path):
+    with (tmp_path / name).open("wb") as file:
+        file.truncate(20 * 2**30)
+    status, lines = say(tmp_path / name, "--robot", "tests/data/arm.yaml")
+    assert (status, len(lines)) == (1, 1)
+
+
+def test_a_log_that_is_checked_names_the_command_that_looks_at_it(clean, stored, caplog):
+    with caplog.at_level("INFO"):
+        assert check([str(stored(clean[:20]))]) == 1
+    assert re.search(r"log\.csv: a log; accepted: .*`\./reproduce observe`$", caplog.messages[0])
 
 
 @pytest.fixture(scope="module")

@@ -1,7 +1,17 @@
-"""A command whose reader has seen enough ends without a traceback."""
+"""How a command ends: with lines, or with one line and no traceback."""
 
+import errno
+import logging
+import os
+import signal
 import subprocess
 import sys
+import time
+
+import pytest
+
+from mobnet.core.errors import DataError
+from mobnet.running.printed import STOPPED, printed
 
 CODE = """
 import logging
@@ -16,3 +26,58 @@ def test_a_closed_pipe_is_no_traceback():
         child.stdout.close()
         assert child.stderr.read() == b""
     assert child.returncode != 0
+
+
+def raising(error):
+    def lines():
+        raise error
+
+    return lines
+
+
+@pytest.mark.parametrize(
+    ("error", "status", "line"),
+    [
+        (DataError("log.csv: 'a\x1b[2J\0' is not accepted"), 1, "log.csv: 'a\\x1b[2J\\x00' is not accepted"),
+        (MemoryError("Unable to allocate 4.47 GiB"), 1, "out of memory: Unable to allocate 4.47 GiB; accepted: a"),
+        (
+            OSError(errno.EROFS, os.strerror(errno.EROFS), "/out"), 1,
+            "/out: cannot be written: Read-only file system; accepted: a folder that you may write to",
+        ),
+        (KeyboardInterrupt(), 130, STOPPED),
+    ],
+    ids=["refused", "memory", "read-only", "Ctrl-C"],
+)  # fmt: skip
+def test_what_goes_wrong_is_one_line(error, status, line, caplog):
+    assert printed(logging.getLogger("own"), raising(error)) == status
+    (said,) = caplog.messages
+    assert said.startswith(line)
+
+
+def test_errors_of_the_program_are_not_hidden():
+    with pytest.raises(ValueError, match="a fault of ours"):
+        printed(logging.getLogger("own"), raising(ValueError("a fault of ours")))
+
+
+HELD_BACK = """
+import logging, signal, time
+from mobnet.running.printed import printed
+print("ready", flush=True)
+time.sleep(0.3)  # as while packages are imported
+printed(logging.getLogger("own"), lambda: iter([time.sleep(20)]), "stopped, and so on")
+"""
+
+
+def test_ctrl_c_while_packages_are_imported_is_answered_by_the_command():
+    """`./reproduce` blocks it until the command can answer."""
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        child = subprocess.Popen([sys.executable, "-c", HELD_BACK], stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+    with child:
+        assert child.stdout.readline() == b"ready\n"
+        child.send_signal(signal.SIGINT)
+        began = time.monotonic()
+        assert child.stdout.read() + child.stderr.read() == b"stopped, and so on\n"
+    assert time.monotonic() - began < 10.0

@@ -31,6 +31,8 @@ MODULES = {  # command -> the module that `python -m` runs, with words that come
 }
 # Their words are files of the caller, no code of ours.
 OUTSIDE = ("check", "calibrate", "demo", "detect", "export", "learn", "motion", "observe", "robot")
+# They say themselves what Ctrl-C leaves of them.
+LINED = ("calibrate", "cost", "detect", "export", "learn", "motion", "observe", "robot")
 REPORT = ("--report", "report.html", "--report-after-run")
 
 
@@ -65,6 +67,8 @@ def run(root: Path, words: Words) -> int:
     python = str(root / ".venv" / "bin" / "python")
     if words.command in MODULES:
         module = [*MODULES[words.command], *words.extra]
+        if words.command in LINED:
+            signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
         if words.command in OUTSIDE:
             return subprocess.run([python, "-P", "-m", *module], cwd=given, check=False).returncode
         return subprocess.run([python, "-m", *module], check=False).returncode

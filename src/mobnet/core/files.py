@@ -2,6 +2,7 @@
 
 import contextlib
 import errno
+import fcntl
 import json
 import math
 import os
@@ -34,12 +35,13 @@ def atomic_path(path: Path, size: int = 0) -> Iterator[Path]:
     Raises:
         DataError: the disk is full, or the place cannot be written to.
     """
-    temporary = None
+    temporary, handle = None, None
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         handle, name = tempfile.mkstemp(prefix=PARTIAL, suffix=f".{path.name}", dir=path.parent)
-        os.close(handle)
         temporary = Path(name)
+        with contextlib.suppress(OSError):  # not every file system has locks
+            fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
         yield temporary
         with temporary.open("rb+") as file:
             os.fsync(file.fileno())
@@ -52,6 +54,16 @@ def atomic_path(path: Path, size: int = 0) -> Iterator[Path]:
     finally:
         if temporary:
             temporary.unlink(missing_ok=True)
+        if handle is not None:
+            os.close(handle)
+
+
+def sweep(folder: Path) -> None:
+    """Delete what commands that were killed left half written in a folder; what is being written is locked."""
+    for path in folder.glob(f"{PARTIAL}*"):
+        with contextlib.suppress(OSError), path.open("rb+") as file:
+            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            path.unlink()
 
 
 def refusal(error: OSError, path: Path, temporary: Path | None = None, size: int = 0) -> str:
@@ -81,6 +93,15 @@ def check_room(folder: Path) -> None:
             file.write(bytes(ROOM_BYTES))
     except OSError as error:
         raise DataError(refusal(error, folder, size=ROOM_BYTES)) from None
+
+
+def check_place(folder: Path) -> None:
+    """Check that a folder, which may not be there yet, can be written to, and make nothing.
+
+    Raises:
+        DataError: the disk is full, or what is there of the folder's path cannot be written to.
+    """
+    check_room(next(place for place in (folder, *folder.absolute().parents) if place.exists()))
 
 
 def write_text(path: Path, text: str) -> None:

@@ -13,6 +13,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from mobnet.core.errors import DataError, not_accepted, refuse_lines
+from mobnet.core.files import check_place, sweep
 from mobnet.detection.limb import OwnRecording, calibrate_limb
 from mobnet.detection.limb_report import beside, report, thresholds_of
 from mobnet.detection.signals import MEAN, RATIO, STD
@@ -36,6 +37,7 @@ from mobnet.settings.load import load_settings
 from mobnet.settings.settings import Settings
 
 log = logging.getLogger(__name__)
+MANY = 100_000  # samples above which progress is told
 LEAST_RATE = 1e-6  # wanted false alarms [1/h]
 
 
@@ -63,9 +65,18 @@ def estimated(
     logs: Sequence[OwnLog], robot: RobotDescription, limb: str, network: OwnNetwork | None, settings: Settings
 ) -> list[OwnRecording]:
     """Return logs with the estimate of a limb: the observer's, or less what a network predicts."""
+    _progress(logs, "estimating the external torque" + (" less what the network predicts" if network else ""))
     estimator = estimator_of(robot, settings.plant.gravity_m_s2, logs[0].sampling, network)
     estimates = estimates_of(logs, estimator, robot.layout.limb(limb))
+    _progress(logs, "looking for thresholds")
     return [OwnRecording(one.folder, one.recording, own) for one, own in zip(logs, estimates, strict=True)]
+
+
+def _progress(logs: Sequence[OwnLog], text: str) -> None:
+    """Tell what is done with logs of many samples, which takes more than a few seconds."""
+    samples = sum(len(one.residual) for one in logs)
+    if samples > MANY:
+        log.info("%d samples: %s", samples, text)
 
 
 def of_files(options: Namespace, robot: RobotDescription, limb: str) -> list[OwnRecording]:
@@ -81,6 +92,9 @@ def run(options: Namespace) -> list[str]:
     """Calibrate as the command's options say, and return what is printed."""
     _check(options)
     settings = load_settings()
+    if options.out:
+        check_place(options.out.parent)
+        sweep(options.out.parent)
     robot = given_robot(options.robot, settings)
     if not options.folders:
         limb = options.limb or next(iter(robot.layout.legs.values()), None) or limb_of(robot.layout, None)

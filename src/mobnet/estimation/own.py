@@ -29,6 +29,7 @@ from mobnet.settings.settings import Settings
 RECORDING, ESTIMATE = "recording", "estimate"  # arrays in the folder of a log
 OBSERVER, LEARNED = "MOB", "MOB-Net"  # methods: the observer alone, and with a network
 UNCERTAINTY: Target = "uncertainty"  # what such a network learns
+REMEDIES = {"rate_hz": "; one `rate_hz` in the maps of all logs gives them one rate"}  # of what two logs differ in
 
 
 class LearnedNote(Note):
@@ -166,7 +167,7 @@ def limb_of(layout: JointLayout, given: str | None, network: OwnNetwork | None =
 def check_sampling(path: Path, sampling: Sampling, wanted: Sampling, of: Path) -> None:
     """Raise a DataError where a log was sampled or observed otherwise than what a file was made with."""
     faults = [
-        not_accepted(key, value, [f"{expected}, as {of} has it"])
+        not_accepted(key, value, [f"{expected}, as {of} has it"]) + REMEDIES.get(key, "")
         for key, value in vars(sampling).items()
         if value != (expected := getattr(wanted, key))
     ]

@@ -1,5 +1,6 @@
 """The clocks of a log's signals: their times, one clock for all, and what looks wrong with stamps of messages."""
 
+import math
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from itertools import pairwise
@@ -34,6 +35,62 @@ class Ticks:
     interpolated: bool
 
 
+@dataclass(frozen=True)
+class Rising:
+    """The clock of a table: times that rise (T,) [s], the rows that they are of, None for all, and hints on the others.
+
+    `length` is the number of rows of the table.
+    """
+
+    time_s: Array
+    rows: NDArray[np.intp] | None = None
+    length: int = 0
+    hints: tuple[str, ...] = ()
+
+
+def rising(path: Path, time_s: Array, bounds: RobotLog) -> Rising:
+    """Return the clock of a table, whose rows are put in order; of two with one time the first is taken.
+
+    Where times begin anew, as those of episodes in one file do, a segment ends and times count on.
+
+    Raises:
+        DataError: there are less than two times, or most do not rise.
+    """
+    rows = np.flatnonzero(np.isfinite(time_s))
+    hints = [f"clock: no time in {len(time_s) - len(rows)} rows, which are left out"] * (len(rows) < len(time_s))
+    own, steps = time_s[rows], np.diff(time_s[rows])
+    if len(own) < 2 or np.mean(steps <= 0.0) > bounds.backward:
+        row = int(rows[1:][steps <= 0.0][0]) if len(own) > 1 else 0
+        back = f"row {row} is not after the one before it" + f", as {(steps <= 0.0).sum()} of {len(time_s)} rows"
+        accepted = "two samples, rising times; or rate_hz with a clock.column that the log does not have"
+        raise DataError(f"{path}: clock: {back if len(own) > 1 else f'{len(own)} row'}; accepted: {accepted}")
+    if (steps > 0.0).all():
+        return Rising(own, rows if hints else None, len(time_s), tuple(hints))
+    pause = 2.0 * bounds.gap_intervals * float(np.median(steps[steps > 0.0]))
+    anew = np.flatnonzero(steps < -pause) + 1
+    few = anew[:, None] + np.arange(1, 1 + math.ceil(bounds.gap_intervals))
+    is_late = (own[np.minimum(few, len(own) - 1)] > own[anew - 1, None]).any(axis=1)  # one row, and others go on
+    anew = anew[~is_late]
+    forward = np.zeros(len(own))
+    forward[anew] = own[anew - 1] - own[anew] + pause
+    own = own + np.cumsum(forward)
+    if len(anew):
+        text = "as episodes do: each begins a segment, and times count on"
+        hints.append(f"clock: times begin anew {len(anew)} times, first in row {rows[anew[0]]}, {text}")
+    if back := int((np.diff(own) <= 0.0).sum()):
+        text = "rows are put in order, and of two with one time the first is taken"
+        hints.append(f"clock: {back} of {len(own)} times are not after the one before: {text}")
+    kept = np.unique(own, return_index=True)[1]
+    return Rising(own[kept], rows[kept], len(time_s), tuple(hints))
+
+
+def covered(clock: Array, times: Array, gap_intervals: float) -> NDArray[np.bool_]:
+    """Return which times (T,) [s] lie between samples of a clock that no gap parts."""
+    steps = np.diff(clock)
+    before = np.clip(np.searchsorted(clock, times, side="right") - 1, 0, len(steps) - 1)
+    return (steps[before] <= gap_intervals * np.median(steps)) & (times >= clock[0]) & (times <= clock[-1])
+
+
 def rate_of(time_s: Array) -> float:
     """Return the rate of a clock [Hz], a whole number where it is close to one; lost samples do not count."""
     steps = np.diff(time_s)
@@ -63,23 +120,28 @@ def common_ticks(path: Path, clocks: Mapping[str, Array], rate_hz: float, bounds
     if end - start < 2 / rate_hz:
         text = f"clock: {last} begins at {start:.3f} s and {earliest} ends at {end:.3f} s"
         raise DataError(f"{path}: {text}; accepted: signals that overlap; of messages `clock: {{stamp: recorded}}`")
-    ticks = _grid(first, pauses, start, end, rate_hz)
+    spans = _spans(first, pauses, start, end, rate_hz)
+    wanted, samples = int((spans[1] - spans[0] + 1).sum()), max(map(len, clocks.values()))
+    if wanted > bounds.ticks * samples:
+        text = f"{wanted} ticks at {rate_hz:g} Hz for {samples} samples, over {end - start:.4g} s"
+        raise DataError(f"{path}: clock: {text}; accepted: up to {bounds.ticks:g} for each: is clock.unit right?")
+    every = np.unique(np.concatenate([np.arange(a, b + 1) for a, b in zip(*spans, strict=True)]))
+    ticks = start + every / rate_hz
     whole = np.ones(len(ticks), dtype=bool)
     for clock in {id(clock): clock for clock in clocks.values()}.values():
-        steps = np.diff(clock)
-        before = np.clip(np.searchsorted(clock, ticks, side="right") - 1, 0, len(steps) - 1)
-        whole &= steps[before] <= bounds.gap_intervals * np.median(steps)
+        whole &= covered(clock, np.clip(ticks, clock[0], clock[-1]), bounds.gap_intervals)
     kept = ticks[whole]
     ends = [0, *(np.flatnonzero(np.diff(kept) > 1.5 / rate_hz) + 1).tolist(), len(kept)]
     return Ticks(kept, _long_enough(path, pairwise(ends)), interpolated=True)
 
 
-def _grid(clock: Array, pauses: NDArray[np.bool_], start: float, end: float, rate_hz: float) -> Array:
-    """Return even times at a rate from a start to an end [s], without those in pauses of a clock, which may be long."""
+def _spans(
+    clock: Array, pauses: NDArray[np.bool_], start: float, end: float, rate_hz: float
+) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Return the first and the last tick after a start [s] of each stretch between pauses of a clock, up to an end."""
     ends = np.r_[clock[0], clock[1:][pauses]], np.r_[clock[:-1][pauses], clock[-1]]
     first, last = (np.clip((part - start) * rate_hz, 0.0, (end - start) * rate_hz) for part in ends)
-    spans = zip(np.ceil(first - ROUND).astype(int), np.floor(last + ROUND).astype(int), strict=True)
-    return start + np.unique(np.concatenate([np.arange(a, b + 1) for a, b in spans])) / rate_hz
+    return np.ceil(first - ROUND).astype(int), np.floor(last + ROUND).astype(int)
 
 
 def _long_enough(path: Path, segments: Iterable[tuple[int, int]]) -> Segments:

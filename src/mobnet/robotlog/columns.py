@@ -1,9 +1,12 @@
 """Columns of a log, and what their readers share."""
 
 import importlib
+import os
+import resource
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from difflib import SequenceMatcher
+from itertools import islice
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -14,6 +17,9 @@ from mobnet.core.arrays import Array
 from mobnet.core.errors import DataError
 
 PACKAGES = {"h5py": "h5py", "mcap": "mcap", "mcap_ros2": "mcap-ros2-support", "rosbags": "rosbags"}  # by module
+MOST = 1000  # entries of an array above which it is a picture or a map, and no signal
+LOOKED = 1000  # names among which those like a wanted one are looked for
+GIB = 2**30
 
 
 @dataclass(frozen=True)
@@ -27,6 +33,8 @@ class Column:
         recorded_s: in logs of messages, the times at which they were recorded (T,) [s] since the log began.
         topic: of the messages.
         is_stamped: whether `time_s` are stamps of headers; None where messages have no header.
+        hint: what its reader left out of the file, if anything.
+        found: what it holds where that is no numbers.
     """
 
     values: NDArray[Any]
@@ -34,6 +42,8 @@ class Column:
     recorded_s: Array | None = None
     topic: str = ""
     is_stamped: bool | None = None
+    hint: str = ""
+    found: str = ""
 
 
 Columns = Mapping[str, Column]
@@ -59,4 +69,14 @@ def near_names(names: Iterable[str], wanted: str, most: int = 5) -> Sequence[str
     def alike(name: str) -> float:
         return SequenceMatcher(None, wanted.lower(), name.lower()).ratio()
 
-    return sorted(names, key=alike, reverse=True)[:most]
+    return sorted(islice(names, LOOKED), key=alike, reverse=True)[:most]
+
+
+def check_memory(path: Path, rows: int, columns: int) -> None:
+    """Raise a DataError where columns of a log do not fit into the memory of this machine, or of the process."""
+    needed = 8 * rows * columns
+    limits = [os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE"), resource.getrlimit(resource.RLIMIT_AS)[0]]
+    most = min(limit for limit in limits if limit != resource.RLIM_INFINITY)
+    if needed > most:
+        text = f"{rows} rows x {columns} columns x 8 B are {needed / GIB:.1f} GiB, and the memory has {most / GIB:.1f}"
+        raise DataError(f"{path}: {text}; accepted: a log that fits, such as a part of it")

@@ -1,6 +1,6 @@
 """From the columns of a log to the recording that the observer takes: units, order, one clock, gaps."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -14,9 +14,10 @@ from mobnet.core.errors import DataError, not_accepted
 from mobnet.core.joints import JointLayout
 from mobnet.core.motion import turned
 from mobnet.core.recording import ABSENT, Recording, Sensed, Truth
-from mobnet.robotlog.clocks import Segments, Timed, at, common_ticks, rate_of, stamp_hints
+from mobnet.robotlog.clocks import Rising, Segments, Timed, at, common_ticks, covered, rate_of, rising, stamp_hints
 from mobnet.robotlog.columns import Column, Columns, near_names
-from mobnet.robotlog.meaning import given_signals, resolved
+from mobnet.robotlog.hints.columns import listed
+from mobnet.robotlog.meaning import given_signals, is_truth, resolved
 from mobnet.settings.robotlog import LogMap, RobotLog, Signal
 
 SI = {  # unit -> in SI units
@@ -24,6 +25,7 @@ SI = {  # unit -> in SI units
     "g": 9.80665, "kN": 1e3, "ms": 1e-3, "us": 1e-6, "ns": 1e-9,
 }  # fmt: skip
 BLOCK_ROWS = 2048  # of columns that become rows
+LARGEST = 1e30  # number of a signal in SI units: a recording holds numbers of single precision
 
 
 @dataclass(frozen=True)
@@ -33,7 +35,7 @@ class Converted:
     `wrenches` are those of the feet that have sensors, side -> (T, 6) [N], [N m]; `absent` are signals that the log
     does not have and that are zero; `clocks` are those of the log, signal -> (T,) [s]; `hints` are those on stamps;
     `time_s` are the times of the recording's rows by the log's clock (T,) [s]; `tool` is what a sensor at an end
-    effector reads (T, 6) [N], [N m].
+    effector reads (T, 6) [N], [N m]; `truth` are the columns by which a simulated log tells its pushes, each (T,).
     """
 
     recording: Recording
@@ -44,6 +46,7 @@ class Converted:
     hints: tuple[str, ...]
     time_s: Array
     tool: Array | None
+    truth: Mapping[str, Array]
 
 
 def convert(path: Path, columns: Columns, meaning: LogMap, layout: JointLayout, bounds: RobotLog) -> Converted:
@@ -55,73 +58,105 @@ def convert(path: Path, columns: Columns, meaning: LogMap, layout: JointLayout, 
     """
     meaning = resolved(path, meaning, columns, layout)
     given = given_signals(meaning)
-    clock = _table_clock(path, columns, meaning)
-    signals = {name: _timed(path, columns, signal, meaning, clock) for name, signal in given.items()}
+    clock = _table_clock(path, columns, meaning, bounds)
+    known = {name: _own(path, name, column, meaning, clock) for name, column in columns.items() if is_truth(name)}
+    hints = [
+        *_reading_hints({name: columns[name] for signal in given.values() for name in signal.columns}),
+        *clock.hints,
+    ]
+    if meaning.clock.stamp == "header":
+        hints += stamp_hints((columns[signal.columns[0]] for signal in given.values()), bounds)
+    signals = {name: _timed(path, columns, signal, meaning, clock, bounds) for name, signal in given.items()}
     _turn_base(path, signals, given)
     rate_hz = meaning.rate_hz or rate_of(signals["q"].time_s)
     clocks = {name: signal.time_s for name, signal in signals.items()}
     ticks = common_ticks(path, clocks, rate_hz, bounds)
-    used = [columns[signal.columns[0]] for signal in given.values()]
-    hints = tuple(stamp_hints(used, bounds)) if meaning.clock.stamp == "header" else ()
-    del columns, used  # a log may be as large as the memory
+    del columns  # a log may be as large as the memory
     values = {}
     while signals:
         name, one = signals.popitem()
         values[name] = at(one, ticks.time_s) if ticks.interpolated else one.values
         del one
     wrenches = {foot.removesuffix("_foot"): values[foot] for foot in FEET if foot in values}
+    truth = {name: np.interp(ticks.time_s, *own) for name, own in known.items()}
     recording, absent = _recording(values, layout, ticks.segments, rate_hz)
-    return Converted(recording, wrenches, absent, clocks, ticks.interpolated, hints, ticks.time_s, values.get("tool"))
+    return Converted(
+        recording, wrenches, absent, clocks, ticks.interpolated, tuple(hints), ticks.time_s, values.get("tool"), truth
+    )
 
 
-def _timed(path: Path, columns: Columns, signal: Signal, meaning: LogMap, clock: Array | None) -> Timed:
-    """Return a signal in SI units with its clock; columns of other messages are taken at the times of the first one."""
-    first = columns[signal.columns[0]]
-    time_s = _in_order(first, meaning)[0] if first.time_s is not None else clock
-    if time_s is None:
-        raise DataError(f"{path}: {_no_clock(columns, meaning)}")
+def _reading_hints(columns: Columns) -> Iterator[str]:
+    """Yield what readers left out of a log, and how many rows of columns have no number."""
+    yield from dict.fromkeys(column.hint for column in columns.values() if column.hint)
+    blank: dict[tuple[int, int], list[str]] = {}
+    for name, column in columns.items():
+        if count := int((~np.isfinite(column.values)).sum()):
+            blank.setdefault((count, len(column.values)), []).append(name)
+    for (count, rows), names in blank.items():
+        text = "each signal is taken on the rows that it has"
+        yield f"no number in {count} of {rows} rows of {listed(names)}: {text}"
+
+
+def _timed(path: Path, columns: Columns, signal: Signal, meaning: LogMap, clock: Rising, bounds: RobotLog) -> Timed:
+    """Return a signal in SI units with its clock: the times of the column with most numbers that the others cover."""
+    own = [_own(path, name, columns[name], meaning, clock) for name in signal.columns]
+    time_s = max((column_time for column_time, _ in own), key=len)
+    for other, _ in own:
+        if not np.array_equal(other, time_s):
+            time_s = time_s[np.isin(time_s, other) | covered(other, time_s, bounds.gap_intervals)]
     if len(time_s) < 2:
-        raise DataError(f"{path}: {first.topic}: {len(time_s)} message with {signal.columns[0]}; accepted: two or more")
-    parts = []
-    for name in signal.columns:
-        own_time, own = _in_order(columns[name], meaning)
-        if not np.isfinite(own).all():
-            row = int(np.argmin(np.isfinite(own)))
-            value = float(own[row])
-            raise DataError(f"{path}: {not_accepted(f'column {name!r}, row {row}', value, ['finite numbers'])}")
-        if own_time is not None and not np.array_equal(own_time, time_s):
-            own = np.interp(time_s, own_time, own)
-        parts.append(own)
+        text = f"{', '.join(signal.columns)}: {len(time_s)} times at which all have numbers"
+        raise DataError(f"{path}: {text}; accepted: two or more")
+    parts = [part if np.array_equal(other, time_s) else np.interp(time_s, other, part) for other, part in own]
     scale, sign, offset = (np.asarray(part) for part in (signal.scale, signal.sign, signal.offset))
     values, factor = np.empty((len(time_s), len(parts))), scale * SI.get(signal.unit or "-", 1.0)
     for start in range(0, len(values), BLOCK_ROWS):  # which fit into the processor's cache
         rows = slice(start, start + BLOCK_ROWS)
         values[rows] = sign * (factor * np.stack([part[rows] for part in parts], axis=1) - offset)
+    if max(-values.min(), values.max()) > LARGEST:
+        row, k = np.unravel_index(int(np.abs(values).argmax()), values.shape)
+        what = f"column {signal.columns[k]!r}, sample {row}"
+        raise DataError(f"{path}: {not_accepted(what, float(values[row, k]), [f'numbers up to {LARGEST:g}'])}")
     return Timed(time_s - signal.delay_s if signal.delay_s else time_s, values)
 
 
-def _in_order(column: Column, meaning: LogMap) -> tuple[Array | None, NDArray[Any]]:
-    """Return the times of a column of messages, which rise, and its values; of equal stamps the first one counts."""
+def _own(path: Path, name: str, column: Column, meaning: LogMap, clock: Rising) -> tuple[Array, NDArray[Any]]:
+    """Return the times of a column, which rise, and its numbers there."""
     time_s = column.recorded_s if meaning.clock.stamp == "recorded" else column.time_s
-    if time_s is None or (np.diff(time_s) > 0).all():
-        return time_s, column.values
-    kept = np.unique(time_s, return_index=True)[1]
-    return time_s[kept], column.values[kept]
+    values = column.values
+    if time_s is None:
+        if len(values) != clock.length:
+            text = f"column {name!r} has {len(values)} rows, and the clock {clock.length}"
+            raise DataError(f"{path}: {text}; accepted: columns of one length")
+        time_s, values = clock.time_s, values if clock.rows is None else values[clock.rows]
+    elif not (np.diff(time_s) > 0).all():  # of equal stamps the first one counts
+        kept = np.unique(time_s, return_index=True)[1]
+        time_s, values = time_s[kept], values[kept]
+    is_number = np.isfinite(values)
+    if not is_number.all():
+        time_s, values = time_s[is_number], values[is_number]
+    if len(time_s) < 2:
+        what = f"column {name!r}: {len(time_s)} of {len(column.values)} rows have a number"
+        what = f"{column.topic}: {len(time_s)} message with {name}" if column.topic else what
+        raise DataError(f"{path}: {what}; accepted: two or more")
+    return time_s, values
 
 
-def _table_clock(path: Path, columns: Columns, meaning: LogMap) -> Array | None:
-    """Return the clock of all columns of a table (T,) [s], which rises, None where the log has none."""
+def _table_clock(path: Path, columns: Columns, meaning: LogMap, bounds: RobotLog) -> Rising:
+    """Return the clock of all columns of a table, which rises; logs of messages have none.
+
+    Raises:
+        DataError: a table has none, or it does not rise.
+    """
     clock, unit = meaning.clock.column, SI.get(meaning.clock.unit, 1.0)
-    if clock in columns:
-        time_s = columns[clock].values * unit
-    elif meaning.rate_hz:
-        time_s = np.arange(len(next(iter(columns.values())).values)) / meaning.rate_hz
-    else:
-        return None
-    if len(time_s) < 2 or not (np.diff(time_s) > 0).all():
-        row = int(np.argmin(np.diff(time_s) > 0)) + 1 if len(time_s) > 1 else 0
-        raise DataError(f"{path}: clock: row {row} is not after the one before it; accepted: two samples, rising times")
-    return time_s
+    if clock in columns and columns[clock].time_s is None:
+        return rising(path, columns[clock].values * unit, bounds)
+    first = next(column for name, column in columns.items() if name != clock)
+    if first.time_s is not None:
+        return Rising(np.empty(0))
+    if not meaning.rate_hz:
+        raise DataError(f"{path}: {_no_clock(columns, meaning)}")
+    return rising(path, np.arange(len(first.values)) / meaning.rate_hz, bounds)
 
 
 def _no_clock(columns: Columns, meaning: LogMap) -> str:

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from mobnet.core.errors import DataError, not_accepted
-from mobnet.core.files import write_text
+from mobnet.core.files import check_place, sweep, write_text
 from mobnet.core.rows import csv_text
 from mobnet.detection.threshold_file import read_thresholds
 from mobnet.estimation import estimate, observer
@@ -50,6 +50,8 @@ def told(made: Detected, out: Path) -> Iterator[str]:
         where = f", as {push.force_n:.0f} N at {push.point} along {push.direction} of {push.body}" if push else ""
         span = f"{flag.start_s:9.3f} to {flag.end_s:.3f} s"
         yield f"  {span}: {flag.joint} at {flag.ratio:.2f} times its threshold{where}"
+    if known := made.found:
+        yield f"{known.found} of {known.pushes} pushes found, {known.others} other flag{'s' * (known.others != 1)}"
     yield f"written: {out / FLAGS}, {out / ESTIMATE}.parquet, {out / PLOT}.png"
 
 
@@ -67,8 +69,10 @@ def run(options: Namespace) -> Iterator[str]:
     if network:
         given = Sampling(found.rate_hz, found.gain_hz, found.torque)
         check_sampling(options.thresholds, given, network.sampling, network.folder)
-    made = detect_log(options.log, robot, meaning, network, found, settings)
     out = options.out or Path(f"{options.log.stem}_detected")
+    check_place(out)
+    sweep(out)
+    made = detect_log(options.log, robot, meaning, network, found, settings)
     write_detected(made, robot, network, found, out)
     yield from told(made, out)
 

@@ -20,6 +20,7 @@ from mobnet.robot.description import RobotDescription
 from mobnet.robot.nominal import NominalModel
 from mobnet.robotlog.flags import Flag, flags_of
 from mobnet.robotlog.observe import Observed, observe_log
+from mobnet.robotlog.pushes import Found, found_pushes
 from mobnet.settings.detection import Detector
 from mobnet.settings.limb_thresholds import LimbThresholds
 from mobnet.settings.robotlog import LogMap
@@ -28,12 +29,16 @@ from mobnet.settings.settings import Settings
 
 @dataclass(frozen=True)
 class Detected:
-    """A log, the estimate of a limb (T, n) [N m], what is watched of it behind the low-pass (T, n), and its flags."""
+    """A log, the estimate of a limb (T, n) [N m], what is watched of it behind the low-pass (T, n), and its flags.
+
+    `found` counts them beside the pushes of a log that tells them.
+    """
 
     observed: Observed
     estimate: Estimate
     watched: Array
     flags: tuple[Flag, ...]
+    found: Found | None
 
 
 def check_thresholds(path: Path, found: LimbThresholds, robot: RobotDescription, network: OwnNetwork | None) -> None:
@@ -77,8 +82,11 @@ def detect_log(
     alarm = run_segments(setup.chain(np.array([found.thresholds])), signals, gate, read.segments)
     low = setup.low_passed(estimate.tau_ext.astype(np.float64), read.segments)
     nominal = NominalModel(robot, gravity_m_s2=gravity)
-    flags = flags_of(alarm, observed.converted.time_s, read, low, estimate.std, found, nominal, settings.robotlog)
-    return Detected(observed, estimate, setup.low_passed(signals, read.segments), tuple(flags))
+    flags = tuple(
+        flags_of(alarm, observed.converted.time_s, read, low, estimate.std, found, nominal, settings.robotlog)
+    )
+    known = found_pushes(observed.converted, found.joints, flags, settings.robotlog.flag_gap_s)
+    return Detected(observed, estimate, setup.low_passed(signals, read.segments), flags, known)
 
 
 def _gate(path: Path, setup: LimbSetup, observed: Observed, estimate: Estimate, found: LimbThresholds) -> GateSignal:

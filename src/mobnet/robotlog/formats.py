@@ -9,11 +9,14 @@ from pathlib import Path
 from typing import NamedTuple, TypeVar
 
 from mobnet.core.errors import DataError, not_accepted
-from mobnet.robotlog.columns import Column, Columns
+from mobnet.core.files import check_regular
+from mobnet.robotlog.columns import Column, Columns, near_names
+from mobnet.robotlog.delimited import csv_columns, csv_names
 from mobnet.robotlog.messages import message_columns, message_names
-from mobnet.robotlog.tables import csv_columns, csv_names, hdf5_columns, hdf5_names, parquet_columns, parquet_names
+from mobnet.robotlog.sources import FILES, METADATA
+from mobnet.robotlog.tables import array_columns, array_names, parquet_columns, parquet_names
 
-METADATA = "metadata.yaml"  # in each folder that `ros2 bag` wrote
+MENDED = {".bag": ", such as `rosbag reindex` makes of one that was not closed"}  # what makes a cut file whole
 Found = TypeVar("Found")
 
 
@@ -24,11 +27,12 @@ class Format(NamedTuple):
     read: Callable[[Path, Collection[str]], dict[str, Column]]
 
 
-TABLES = {".csv": Format(csv_names, csv_columns), ".parquet": Format(parquet_names, parquet_columns)}
-ARRAYS = dict.fromkeys((".h5", ".hdf5"), Format(hdf5_names, hdf5_columns))
-BAGS = dict.fromkeys((".mcap", ".bag", METADATA), Format(message_names, message_columns))
+TEXTS = dict.fromkeys((".csv", ".tsv", ".txt", ".dat"), Format(csv_names, csv_columns))
+TABLES = {**TEXTS, ".parquet": Format(parquet_names, parquet_columns)}
+ARRAYS = dict.fromkeys((".h5", ".hdf5", ".mat", ".npz"), Format(array_names, array_columns))
+BAGS = dict.fromkeys((".mcap", ".bag", ".db3", ".active", METADATA), Format(message_names, message_columns))
 FORMATS: Mapping[str, Format] = {**TABLES, **ARRAYS, **BAGS}
-ACCEPTED = (*(kind for kind in FORMATS if kind != METADATA), "a folder of `ros2 bag`")
+ACCEPTED = (*(kind for kind in FORMATS if kind not in (METADATA, ".active")), "a folder of `ros2 bag`")
 
 
 def column_names(path: Path) -> list[str]:
@@ -52,7 +56,13 @@ def read_log(path: Path, wanted: Collection[str] | None = None) -> Columns:
     names = column_names(path) if wanted is None else list(wanted)
     columns = _asked(path, lambda kind: kind.read(path, names))
     if wanted is not None and (missing := [name for name in wanted if name not in columns]):
-        raise DataError(f"{path}: {not_accepted('column', missing[0], columns)}, which hold numbers")
+        raise DataError(f"{path}: {not_accepted('column', missing[0], near_names(columns, missing[0]))}")
+    texts = {name: column.found for name, column in columns.items() if column.found}
+    if texts and wanted is not None:
+        name, found = next(iter(texts.items()))
+        accepted = "numbers, dates as 2026-05-03T12:00:00.5, or durations of Parquet"
+        raise DataError(f"{path}: column {name!r} holds {found}; accepted: {accepted}")
+    columns = {name: column for name, column in columns.items() if not column.found}
     if not columns:
         raise DataError(f"{path}: holds no column of numbers; accepted: at least positions, velocities and torques")
     return columns
@@ -60,10 +70,12 @@ def read_log(path: Path, wanted: Collection[str] | None = None) -> Columns:
 
 def _asked(path: Path, ask: Callable[[Format], Found]) -> Found:
     """Return what a question to the format of a log finds; whatever goes wrong is one line."""
+    if not path.is_dir():
+        check_regular(path)
     if not path.exists():
         raise DataError(f"{path}: file is missing; accepted: a log, {', '.join(ACCEPTED)}")
-    kind = METADATA if (path / METADATA).is_file() else path.suffix.lower()
-    if path.is_dir() and kind not in FORMATS:
+    kind = METADATA if path.is_dir() else path.suffix.lower()
+    if path.is_dir() and not any(file.name == METADATA or file.suffix in FILES for file in path.iterdir()):
         raise DataError(f"{path}: a folder without {METADATA} is not accepted; accepted: {', '.join(ACCEPTED)}")
     if kind not in FORMATS:
         raise DataError(not_accepted(f"{path}: format", kind or path.name, ACCEPTED))
@@ -73,4 +85,5 @@ def _asked(path: Path, ask: Callable[[Format], Found]) -> Found:
         raise
     except Exception as error:  # five libraries, each with errors of its own for a damaged file
         text = " ".join(str(error).split()) or type(error).__name__
-        raise DataError(f"{path}: cannot be read as {kind}: {text}; accepted: a whole file") from error
+        accepted = f"a whole file{MENDED.get(kind, '')}"
+        raise DataError(f"{path}: cannot be read as {kind}: {text}; accepted: {accepted}") from error

@@ -14,7 +14,7 @@ import numpy as np
 
 from mobnet.core.code import ROOT
 from mobnet.core.errors import DataError, not_accepted
-from mobnet.core.files import RUN, read_json, write_json
+from mobnet.core.files import RUN, read_json, sweep, write_json
 from mobnet.estimation.own import OwnLog, limb_of, read_log_folder, refuse_twice
 from mobnet.learning.deployed.networks import load_network
 from mobnet.learning.device import own_device
@@ -95,17 +95,15 @@ def run(options: Namespace) -> list[str]:
     logs = [read_log_folder(folder, table.layout) for folder in options.folders]
     refuse_twice(logs, "else what is held out trains too")
     out = options.out or Path(f"{limb}_net")
+    sweep(out)
+    sweep(out / STATE)
     return learn(settings, table, logs, limb, options.labels, epochs, out, force=options.force)
 
 
 def main(words: list[str]) -> int:
     """Run the command; return its exit status."""
     options = learn_parser().parse_args(words)
-    try:
-        return printed(log, lambda: run(options))
-    except KeyboardInterrupt:
-        log.error("stopped; the same words go on from the last whole epoch")
-        return 130
+    return printed(log, lambda: run(options), "stopped; the same words go on from the last whole epoch")
 
 
 if __name__ == "__main__":

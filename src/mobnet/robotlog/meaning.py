@@ -1,17 +1,19 @@
 """Which columns of a log are which signals: a map by full names, and that of a log without one."""
 
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Sequence
 from pathlib import Path
 
-from mobnet.core.columns import FEET, recording_columns
-from mobnet.core.errors import ConfigError, not_accepted, refuse
+from mobnet.core.columns import EXTERNAL, FEET, PUSHED, recording_columns
+from mobnet.core.errors import ConfigError, DataError, not_accepted, refuse
 from mobnet.core.joints import JointLayout
 from mobnet.robotlog.columns import near_names
-from mobnet.settings.robotlog import LogMap, Signal
+from mobnet.robotlog.hints.columns import listed
+from mobnet.settings.robotlog import Clock, LogMap, Signal
 
 MOTORS = ("q", "v", "tau_motor")
 BASE = ("quaternion", "velocity", "omega", "acc")  # what a floating base needs
 JOINT_STATE = {"q": "position", "v": "velocity", "tau_motor": "effort"}  # fields of ROS's message
+CLOCKS = ("time", "timestamp", "t")  # usual names of a clock, in the order in which they are looked for
 AXES = ("x", "y", "z")
 ENDS = {  # signal -> how messages of ROS name its numbers
     **dict.fromkeys(("position", "velocity", "omega", "acc"), AXES),
@@ -25,10 +27,13 @@ def given_signals(meaning: LogMap) -> dict[str, Signal]:
     return {name: signal for name in LogMap.model_fields if isinstance(signal := getattr(meaning, name), Signal)}
 
 
-def default_map(names: Collection[str], layout: JointLayout) -> LogMap:
-    """Return the map of a log whose columns have the names of a recording (docs/data.md), with the clock `time`.
+def default_map(path: Path, names: Collection[str], layout: JointLayout) -> LogMap:
+    """Return the map of a log whose columns have the names of a recording (docs/data.md), with a clock of a usual name.
 
     Of messages it is the topic with a JointState of all joints, if there is a single one and the base is fixed.
+
+    Raises:
+        DataError: the log has no such columns, and needs a map.
     """
     fields, taken, held = recording_columns(layout), dict[str, Signal](), set(names)
     base = 7 if layout.virtual else 0
@@ -39,15 +44,58 @@ def default_map(names: Collection[str], layout: JointLayout) -> LogMap:
         "velocity": own["v"][:3] if base else [], "omega": own["v"][3:6] if base else [],
         **{foot: own[f"wrench_{foot}"] for foot in FEET}, "swing": own["swing"], "landing": own["landing"],
     }  # fmt: skip
-    ends = [f".{field}.{joint}" for field in JOINT_STATE.values() for joint in layout.actuated]
-    topics = [topic for name in names if (topic := name.removesuffix(ends[0])) != name]
-    whole = [topic for topic in topics if {topic + end for end in ends} <= held]
-    if len(whole) == 1 and not base and not set(groups["q"]) <= held:
-        groups = {key: [f"{whole[0]}.{field}"] for key, field in JOINT_STATE.items()}
+    if not any(held.intersection(groups[key]) for key in MOTORS):
+        if base:
+            raise DataError(f"{path}: {_needs_map(names, groups['q'])}")
+        groups = {key: [f"{_joint_state(path, names, layout)}.{field}"] for key, field in JOINT_STATE.items()}
     for key, group in groups.items():
         if group and (key in MOTORS or set(group) <= held):
             taken[key] = Signal(columns=tuple(group))
-    return LogMap.model_validate(taken)
+    clock = next((name for usual in CLOCKS for name in names if name.lower() == usual), CLOCKS[0])
+    return LogMap.model_validate({**taken, "clock": Clock(column=clock)})
+
+
+def _needs_map(names: Collection[str], own: Sequence[str]) -> str:
+    """Return the message about a log whose columns a map has to name."""
+    return f"has no column {own[0]} or the like; accepted: a --map of its columns, which are {listed([*names])}"
+
+
+def _joint_state(path: Path, names: Collection[str], layout: JointLayout) -> str:
+    """Return the single topic of a log of messages that has a JointState of all joints.
+
+    Raises:
+        DataError: there is none, or several; the line says what the nearest one lacks.
+    """
+    topics: dict[str, dict[str, set[str]]] = {}  # -> field -> joints
+    for name in names:
+        for field in JOINT_STATE.values():
+            topic, between, joint = name.partition(f".{field}.")
+            if between and topic.startswith("/"):
+                topics.setdefault(topic, {}).setdefault(field, set()).add(joint)
+    joints = set(layout.actuated)
+    whole = [
+        topic for topic, fields in topics.items() if all(joints <= fields.get(f, set()) for f in JOINT_STATE.values())
+    ]
+    if len(whole) == 1:
+        return whole[0]
+    if whole:
+        accepted = f"a --map that names one, such as `q: {{columns: [{whole[0]}.position]}}`"
+        raise DataError(f"{path}: {' and '.join(whole)} have all joints of the robot; accepted: {accepted}")
+    if not topics:
+        raise DataError(f"{path}: {_needs_map(names, [f'q.{layout.actuated[0]}'])}")
+    near = max(topics, key=lambda topic: len(joints & set().union(*topics[topic].values())))
+    for field in JOINT_STATE.values():
+        if field not in topics[near]:
+            raise DataError(f"{path}: {near}: {field} is empty; accepted: position, velocity and effort of each joint")
+        if missing := [joint for joint in layout.actuated if joint not in topics[near][field]]:
+            held, accepted = (
+                sorted(topics[near][field]),
+                "all joints of the robot, or `joints` of a --map for other names",
+            )
+            raise DataError(
+                f"{path}: {near}: {field} has {listed(held)}, and not {listed(missing)}; accepted: {accepted}"
+            )
+    raise DataError(f"{path}: {_needs_map(names, layout.actuated)}")
 
 
 def resolved(path: Path, meaning: LogMap, names: Collection[str], layout: JointLayout) -> LogMap:
@@ -75,9 +123,15 @@ def resolved(path: Path, meaning: LogMap, names: Collection[str], layout: JointL
 
 
 def wanted_columns(meaning: LogMap, names: Collection[str]) -> list[str]:
-    """Return the columns that a map by full names needs, its clock included where the log has it."""
+    """Return the columns that a map by full names needs, with its clock and the truth where the log has them."""
     own = [name for signal in given_signals(meaning).values() for name in signal.columns]
-    return list(dict.fromkeys([*(name for name in (meaning.clock.column,) if name in names), *own]))
+    clock = [name for name in names if name == meaning.clock.column]
+    return list(dict.fromkeys([*clock, *own, *filter(is_truth, names)]))
+
+
+def is_truth(name: str) -> bool:
+    """Return whether a column is one of those by which a simulated log tells its pushes."""
+    return name == PUSHED or name.startswith(f"{EXTERNAL}.")
 
 
 def _full(key: str, signal: Signal, held: Collection[str], joints: Collection[str], width: int) -> Signal:
@@ -87,8 +141,9 @@ def _full(key: str, signal: Signal, held: Collection[str], joints: Collection[st
         return signal
     named = [f"{stem}.{end}" for end in (joints if key in MOTORS else ENDS.get(key, ()))]
     numbered = [f"{stem}.{k}" for k in range(width)]
-    listed = [stem.replace("*", str(k)) for k in range(width)] if "*" in stem else []
-    for columns in (named, listed, numbered):
+    by_names, by_numbers = joints if key in MOTORS else (), map(str, range(width))
+    starred = [[stem.replace("*", end) for end in ends] for ends in (by_names, by_numbers)] if "*" in stem else []
+    for columns in (named, *starred, numbered):
         if columns and set(columns) <= set(held):
             by_name = {"order": "wxyz"} if key == "quaternion" and columns is named else {}
             return signal.model_copy(update={"columns": tuple(columns), **by_name})
@@ -97,11 +152,13 @@ def _full(key: str, signal: Signal, held: Collection[str], joints: Collection[st
 
 def _faults(key: str, signal: Signal, names: Collection[str], width: int) -> Iterator[str]:
     """Yield what does not fit about the columns of a signal."""
-    count = len(signal.columns)
-    missing = [name for name in signal.columns if name not in names]
-    for name in missing:
-        near = near_names(names, name)
-        yield not_accepted("column", name, near) + (f", and {len(names) - len(near)} others" * (len(names) > len(near)))
+    count, held = len(signal.columns), set(names)
+    missing = [name for name in signal.columns if name not in held]
+    if missing:
+        near = near_names(names, missing[0])
+        text = f", and {len(names) - len(near)} others" if len(names) > len(near) else ""
+        more = f"; {len(missing) - 1} more columns of {key} are missing" if len(missing) > 1 else ""
+        yield not_accepted("column", missing[0], near) + text + more
     if count != width and not missing:
         yield f"{key}.columns: {not_accepted('number', count, [width])}"
     for part in ("sign", "scale", "offset"):

@@ -2,7 +2,7 @@
 
 A column is TOPIC.FIELD, of an array TOPIC.FIELD.0 and so on. Where a message names the entries of its arrays, as a
 JointState does, a column has that name: TOPIC.FIELD.JOINT. Its numbers are found by it in every message, whatever the
-order there.
+order there. So is an entry of a list of objects that have names themselves: TOPIC.FIELD.JOINT.position.
 """
 
 import logging
@@ -18,17 +18,39 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mobnet.core.errors import DataError, not_accepted
-from mobnet.robotlog.columns import Column
-from mobnet.robotlog.sources import Message, opened
+from mobnet.robotlog.columns import MOST, Column
+from mobnet.robotlog.sources import ENCODINGS, Message, opened
 
 NANO = 1e-9
 NAMES = ("name", "names", "joint_names", "interface_names")  # fields that name the entries of the arrays beside them
 STAMPS = (("sec", "nanosec"), ("secs", "nsecs"), ("sec", "nsec"))  # of a header's time
 FIRST = 20  # messages of a topic in which its columns are looked for
-MOST = 1000  # entries of an array above which it is a picture or a map, and no signal
+OWN_NAMES = ("name", "joint_name")  # fields that name an object in a list
 TOLD_S, LOOKED = 5.0, 10_000  # seconds between two lines of progress, messages between two looks at the clock
 log = logging.getLogger(__name__)
 Step = Callable[[Any], Any]  # from a message to one of its fields, or from an array to an entry
+
+
+class AbsentError(LookupError):
+    """A message lacks an entry that others have."""
+
+
+@dataclass
+class Entry:
+    """The step from a list of objects to the one of a name, which is looked for where it was before first."""
+
+    own_name: Step
+    name: str
+    place: int
+
+    def __call__(self, items: Sequence[Any]) -> Any:
+        """Return the object."""
+        if self.place >= len(items) or self.own_name(items[self.place]) != self.name:
+            found = next((k for k, item in enumerate(items) if self.own_name(item) == self.name), None)
+            if found is None:
+                raise AbsentError(self.name)
+            self.place = found
+        return items[self.place]
 
 
 class Part(NamedTuple):
@@ -57,6 +79,11 @@ def message_names(path: Path) -> list[str]:
         for topic in source.topics:
             for _, _, content in islice(source.messages([topic]), FIRST):
                 found += [name for part in _parts(content, topic) for name in _in(part, content)]
+        if not found and source.hint:
+            raise DataError(f"{path}: {source.hint}, which is before its first message; accepted: a log with messages")
+        if not found and source.unread:
+            topics = ", ".join(f"{topic} ({encoding})" for topic, encoding in source.unread.items())
+            raise DataError(f"{path}: cannot be decoded: {topics}; accepted: messages in {', '.join(ENCODINGS)}")
     return list(dict.fromkeys(found))
 
 
@@ -69,10 +96,11 @@ def message_columns(path: Path, wanted: Collection[str]) -> dict[str, Column]:
     with opened(path) as source:
         topics = [topic for topic in source.topics if any(name.startswith(f"{topic}.") for name in wanted)]
         gathered = _gathered(source.messages(topics), set(wanted)) if topics else {}
+        hint = source.hint
     began = min((min(own.recorded) for own in gathered.values()), default=0)
     found = dict[str, Column]()
     for topic, own in gathered.items():
-        found |= {name: column for name, column in _columns_of(topic, own, began).items() if name in wanted}
+        found |= {name: column for name, column in _columns_of(topic, own, began, hint).items() if name in wanted}
     return found
 
 
@@ -86,14 +114,24 @@ def _parts(content: Any, name: str, steps: tuple[Step, ...] = (), labels: tuple[
     elif _holds(content, (bool, int, float, np.number)):
         yield Part(name, steps, labels)
     elif isinstance(content, (list, tuple)):
-        for k, item in enumerate(content[:MOST]):
-            yield from _parts(item, f"{name}.{k}", (*steps, itemgetter(k)))
+        for (end, step), item in zip(_entry_steps(content[:MOST]), content, strict=False):
+            yield from _parts(item, f"{name}.{end}", (*steps, step))
     elif not isinstance(content, (str, bytes, type(None), np.ndarray)):
         fields = {key: step for key, step in _fields(content) if key != "header"}
         named = next((key for key in NAMES if key in fields and _holds(fields[key](content), str)), None)
         labels = (*steps, fields[named]) if named else labels
         for key, step in fields.items():
             yield from _parts(step(content), f"{name}.{key}", (*steps, step), labels)
+
+
+def _entry_steps(items: Sequence[Any]) -> list[tuple[str, Step]]:
+    """Return the names of objects in a list, with the steps to them: their own names if all differ, else numbers."""
+    for key in OWN_NAMES:
+        steps = [step for item in items for name, step in _fields(item) if name == key]
+        names = [step(item) for step, item in zip(steps, items, strict=False)]
+        if names and len(set(names)) == len(items) and all(isinstance(name, str) and name for name in names):
+            return [(name, Entry(step, name, k)) for k, (name, step) in enumerate(zip(names, steps, strict=True))]
+    return [(str(k), itemgetter(k)) for k in range(len(items))]
 
 
 def _fields(content: Any) -> Iterator[tuple[str, Step]]:
@@ -185,6 +223,8 @@ def _gather(own: Gathered, part: Part, content: Any) -> None:
     try:
         values = _at(content, part.steps)
         names = _entries(part, content, values)
+    except AbsentError:
+        return
     except (AttributeError, IndexError, KeyError, TypeError):
         text = not_accepted(f"message {len(own.recorded)}", "it", [f"one with {part.name}, as one before it has"])
         raise DataError(f"{part.name}: {text}") from None
@@ -193,7 +233,7 @@ def _gather(own: Gathered, part: Part, content: Any) -> None:
     numbers.append(values)
 
 
-def _columns_of(topic: str, own: Gathered, began_ns: int) -> dict[str, Column]:
+def _columns_of(topic: str, own: Gathered, began_ns: int, hint: str) -> dict[str, Column]:
     """Return the columns of a topic; what stands in some of its messages alone has their times."""
     recorded = NANO * (np.array(own.recorded) - began_ns)
     is_stamped = 2 * own.stamps.count(0) <= len(own.stamps) if own.stamp else None  # a simulation begins at zero
@@ -209,5 +249,5 @@ def _columns_of(topic: str, own: Gathered, began_ns: int) -> dict[str, Column]:
         rows = np.concatenate([rows for rows, _ in parts])
         values, order = np.concatenate([values for _, values in parts]), np.argsort(rows, kind="stable")
         clocks = (times, recorded) if len(rows) == len(times) else (times[rows[order]], recorded[rows[order]])
-        found[name] = Column(values[order], *clocks, topic, is_stamped)
+        found[name] = Column(values[order], *clocks, topic, is_stamped, hint)
     return found

@@ -13,7 +13,7 @@ from pyarrow import csv, parquet
 
 from mobnet.core.columns import EXTERNAL, PUSHED, recording_columns
 from mobnet.core.errors import DataError, not_accepted
-from mobnet.core.files import atomic_path
+from mobnet.core.files import atomic_path, check_place, sweep
 from mobnet.core.recording import Recording
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.given import given_robot
@@ -73,6 +73,8 @@ def run(options: Namespace) -> Iterator[str]:
         raise DataError(not_accepted("--minutes", options.minutes, [f"above 0 and up to {MOST_MINUTES:g}"]))
     if options.seed < 1:  # 0 would draw the motion by the numbers that hide the plant
         raise DataError(not_accepted("--seed", options.seed, ["a whole number from 1 on"]))
+    check_place(options.out.parent)
+    sweep(options.out.parent)
     numbers = Numbers(settings.free_motion, settings.plant, settings.rates)
     seconds = 60.0 * options.minutes
     recording = record_motion(robot, numbers, seconds, options.seed, options.ideal, options.pushes)

@@ -16,6 +16,7 @@ import numpy as np
 from mobnet.core.arrays import Array
 from mobnet.core.columns import EXTERNAL, recording_columns, torque_columns
 from mobnet.core.errors import beyond, refuse_lines
+from mobnet.core.files import check_place, sweep
 from mobnet.core.joints import JointLayout
 from mobnet.core.notes import read_array_note
 from mobnet.core.recording import Recording
@@ -27,6 +28,7 @@ from mobnet.robot.given import given_robot
 from mobnet.robot.nominal import NominalModel
 from mobnet.robotlog.clocks import rate_of
 from mobnet.robotlog.convert import Converted, convert
+from mobnet.robotlog.delimited import refuse_without_header
 from mobnet.robotlog.formats import column_names, read_log
 from mobnet.robotlog.hints.base import base_hints, weight_hints
 from mobnet.robotlog.hints.columns import (
@@ -42,6 +44,7 @@ from mobnet.robotlog.hints.torque import torque_hints
 from mobnet.robotlog.hints.windows import known_joints, windows_of
 from mobnet.robotlog.meaning import default_map, resolved, wanted_columns
 from mobnet.robotlog.plot import plot_residual
+from mobnet.robotlog.pushes import pushed_rows
 from mobnet.robotlog.tool import with_tool
 from mobnet.robotlog.words import observe_parser
 from mobnet.running.printed import printed
@@ -105,7 +108,9 @@ def converted_log(path: Path, layout: JointLayout, meaning: LogMap | None, bound
         ConfigError: the map does not fit the robot.
     """
     names = column_names(path)
-    meaning = resolved(path, meaning or default_map(names, layout), names, layout)
+    if meaning is None:
+        refuse_without_header(path, names)
+    meaning = resolved(path, meaning or default_map(path, names, layout), names, layout)
     return convert(path, read_log(path, wanted_columns(meaning, names)), meaning, layout, bounds)
 
 
@@ -144,7 +149,6 @@ def hints_of(found: Converted, nominal: NominalModel, gravity_m_s2: float, bound
 
 def write_observed(found: Observed, robot: RobotDescription, gain_hz: float, torque: str, out: Path) -> None:
     """Write recording, estimate and plot into a folder."""
-    out.mkdir(parents=True, exist_ok=True)
     read = found.converted.recording
     meta = {**read.meta, "gain_hz": gain_hz, "torque": torque}
     _write_recording(out / RECORDING, replace(read, meta=meta), robot.layout)
@@ -152,7 +156,8 @@ def write_observed(found: Observed, robot: RobotDescription, gain_hz: float, tor
     recorded = read_array_note(file_of(out / RECORDING, NOTE))["footer"]
     note = {"rate_hz": read.rate_hz, **meta, "method": OBSERVER, "recording": recorded}
     write_array(out / ESTIMATE, found.residual, columns, note, read.segments)
-    plot_residual(read.rate_hz, read.segments, found.residual, robot.layout, out / PLOT)
+    pushed = pushed_rows(found.converted, robot.layout.actuated)
+    plot_residual(read, found.residual, pushed, robot.layout, out / PLOT)
 
 
 def _write_recording(stem: Path, recording: Recording, layout: JointLayout) -> None:
@@ -207,8 +212,10 @@ def run(options: Namespace) -> Iterator[str]:
     refuse_lines(beyond("--gain", gain_hz, GAIN_HZ))
     torque = options.torque or (meaning.torque if meaning else "sample")
     bounds, gravity = settings.robotlog, settings.plant.gravity_m_s2
-    found = observe_log(options.log, robot, meaning, torque, gain_hz, gravity, bounds)
     out = options.out or Path(f"{options.log.stem}_observed")
+    check_place(out)
+    sweep(out)
+    found = observe_log(options.log, robot, meaning, torque, gain_hz, gravity, bounds)
     write_observed(found, robot, gain_hz, torque, out)
     yield from told(found, robot, out)
 

@@ -1,48 +1,53 @@
-"""The residual of a log as a picture: one panel a limb."""
+"""The residual of a log as a picture: one panel a joint."""
 
-from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array
+from mobnet.core.files import atomic_path
 from mobnet.core.joints import JointLayout
+from mobnet.core.recording import Recording
 from mobnet.evaluation.figures.style import PAGE_INCH, styled
+from mobnet.robotlog.flags import stretches
 
 MOST_POINTS = 4000  # of a line: more than a page shows
-PANEL_INCH = 1.6
+PANEL_INCH, EDGE_INCH, BETWEEN = 1.1, 0.5, 0.5  # height of a panel, edge of the page, and gap as a share of a panel
 
 
 @styled
 def plot_residual(
-    rate_hz: float, segments: Sequence[tuple[int, int]], residual: Array, layout: JointLayout, stem: Path
+    read: Recording, residual: Array, pushed: NDArray[np.bool_] | None, layout: JointLayout, stem: Path
 ) -> None:
-    """Write the residual (T, nv) [N] and [N m] of a log over time as `stem.png`, one panel for each limb and unit.
+    """Write the residual (T, nv) [N] and [N m] of a log over time as `stem.png`, one panel for each joint.
 
-    Time is counted in samples at the rate [Hz]; a line is broken where a segment ends.
+    Time is counted in samples; a line is broken where a segment ends. Where the log tells when it was pushed (T,),
+    bands show it.
     """
     from matplotlib.figure import Figure
 
-    panels = [
-        (limb, unit, [joint for joint in joints if layout.unit(joint) == unit])
-        for limb, joints in layout.groups.items()
-        for unit in ("N", "N m")
-    ]
-    panels = [panel for panel in panels if panel[2]]
-    figure = Figure(figsize=(PAGE_INCH, PANEL_INCH * len(panels)), layout="constrained")
     step = max(1, len(residual) // MOST_POINTS)
     rows = np.arange(0, len(residual), step)
-    ends = np.array([end for _, end in segments])
-    breaks = np.searchsorted(ends, rows, side="right")
-    axes = figure.subplots(len(panels), 1, sharex=True, squeeze=False)[:, 0]
-    for axis, (limb, unit, joints) in zip(axes, panels, strict=True):
-        for joint in joints:
-            values = residual[rows, layout.names.index(joint)].copy()
-            values[1:][np.diff(breaks) > 0] = np.nan
-            axis.plot(rows / rate_hz, values, label=joint, linewidth=0.7)
-        axis.set_ylabel(f"{limb}: residual [{unit}]")
-        axis.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False)
-    axes[-1].set_xlim(0, len(residual) / rate_hz)
+    ends = np.array([end for _, end in read.segments])
+    breaks = np.flatnonzero(np.diff(np.searchsorted(ends, rows, side="right")) > 0) + 1
+    pushes = [] if pushed is None else stretches(pushed, read.segments, 0)
+    height = PANEL_INCH * layout.nv + 2 * EDGE_INCH
+    figure = Figure(figsize=(PAGE_INCH, height))
+    figure.subplots_adjust(left=0.1, right=0.98, bottom=EDGE_INCH / height, top=1 - EDGE_INCH / height, hspace=BETWEEN)
+    axes = figure.subplots(layout.nv, 1, sharex=True, squeeze=False)[:, 0]
+    for k, (axis, joint) in enumerate(zip(axes, layout.names, strict=True)):
+        values = residual[rows, k].copy()
+        values[breaks] = np.nan
+        for start, end in pushes:
+            axis.axvspan(start / read.rate_hz, end / read.rate_hz, color="C1", alpha=0.3, linewidth=0)
+        axis.plot(rows / read.rate_hz, values, linewidth=0.7)
+        axis.set_title(joint, loc="left")
+        axis.set_ylabel(f"[{layout.unit(joint)}]")
+    axes[-1].set_xlim(0, len(residual) / read.rate_hz)
     axes[-1].set_xlabel("time [s]")
-    figure.suptitle("residual of the momentum observer: external torque and error of the model", fontsize=8)
-    figure.savefig(stem.with_suffix(".png"), metadata={"Software": None})
+    bands = "; bands: pushes" if pushes else ""
+    text = f"residual of the momentum observer: external torque and error of the model{bands}"
+    figure.suptitle(text, fontsize=8, y=1 - 0.2 / height)
+    with atomic_path(stem.with_suffix(".png")) as temporary:
+        figure.savefig(temporary, metadata={"Software": None})

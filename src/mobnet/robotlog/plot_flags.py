@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from mobnet.core.arrays import Array
+from mobnet.core.files import atomic_path
 from mobnet.evaluation.figures.style import PAGE_INCH, styled
 from mobnet.robotlog.flags import Flag
 from mobnet.robotlog.plot import MOST_POINTS, PANEL_INCH
@@ -51,8 +52,8 @@ def plot_flags(
     ]
     axes[0].legend(handles=[*lines, *bands], loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=4, frameon=False)
     axes[-1].set_xlabel("time [s]")
-    stem.parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(stem.with_suffix(".png"), metadata={"Software": None})
+    with atomic_path(stem.with_suffix(".png")) as temporary:
+        figure.savefig(temporary, metadata={"Software": None})
 
 
 def _once(label: str, side: float) -> str | None:

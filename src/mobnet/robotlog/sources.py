@@ -2,13 +2,20 @@
 
 import contextlib
 import json
-from collections.abc import Callable, Collection, Iterator, Sequence
+import os
+import struct
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import IO, Any, NamedTuple
 
 from mobnet.core.errors import DataError, not_accepted
 from mobnet.robotlog.columns import module_of
 
+METADATA = "metadata.yaml"  # in each folder that `ros2 bag` wrote
+FILES = (".mcap", ".db3")  # that hold the messages there
+MAGIC = b"#ROSBAG V2.0"  # of bags of ROS 1
+CHUNK_KIND, CHUNK = 6, struct.Struct("<BQQQQII")  # kind, length, times, size, checksum; bytes of the compression's name
+ENCODINGS = ("cdr", "json", "ros1")  # of messages in MCAP files that are read
 Decoder = Callable[[bytes], Any]
 
 
@@ -21,25 +28,67 @@ class Message(NamedTuple):
 
 
 class Source(NamedTuple):
-    """An open log of messages: its topics, and those messages of some of them, in the order of recording."""
+    """An open log of messages: its topics, and those messages of some of them, in the order of recording.
+
+    `unread` are the encodings of topics that cannot be read; `hint` says where the log ends early.
+    """
 
     topics: Sequence[str]
     messages: Callable[[Collection[str]], Iterator[Message]]
+    unread: Mapping[str, str] = {}
+    hint: str = ""
 
 
 @contextlib.contextmanager
 def opened(path: Path) -> Iterator[Source]:
-    """Open a bag of ROS 1, a folder that `ros2 bag` wrote, or a MCAP file."""
-    with _mcap(path) if path.suffix.lower() == ".mcap" else _bag(path) as source:
-        yield source
+    """Open a bag of ROS 1, a folder that `ros2 bag` wrote, a file of one, or a MCAP file.
+
+    Raises:
+        DataError: a bag of ROS 1 was not closed.
+    """
+    if path.suffix.lower() == ".active":
+        raise DataError(
+            f"{path}: a bag that was not closed is not accepted; accepted: what `rosbag reindex` makes of it"
+        )
+    with contextlib.ExitStack() as stack:
+        yield stack.enter_context(_opener(path)(path))
+
+
+def _opener(path: Path) -> Callable[[Path], contextlib.AbstractContextManager[Source]]:
+    """Return the function that opens a log of messages."""
+    return {".mcap": _mcap, ".db3": _database, ".bag": _bag}.get(path.suffix.lower(), _folder)
+
+
+@contextlib.contextmanager
+def _folder(path: Path) -> Iterator[Source]:
+    """Open what `ros2 bag` wrote; where it was stopped, its files one after the other."""
+    files = sorted(file for file in path.iterdir() if file.suffix in FILES)
+    with contextlib.ExitStack() as stack:
+        if (path / METADATA).is_file():
+            try:
+                yield stack.enter_context(_bag(path))
+                return
+            except module_of("rosbags.highlevel", path).AnyReaderError:
+                if not files:
+                    raise
+        sources = [stack.enter_context(_opener(file)(file)) for file in files]
+
+        def messages(topics: Collection[str]) -> Iterator[Message]:
+            for source in sources:
+                yield from source.messages(topics)
+
+        topics = sorted({topic for source in sources for topic in source.topics})
+        unread = {topic: encoding for source in sources for topic, encoding in source.unread.items()}
+        yield Source(topics, messages, unread, next((source.hint for source in sources if source.hint), ""))
 
 
 @contextlib.contextmanager
 def _bag(path: Path) -> Iterator[Source]:
     """Open a bag of ROS 1 or 2; definitions of messages come from the bag, or are those of ROS 2 where it has none."""
-    reader = module_of("rosbags.highlevel", path).AnyReader
-    stores = module_of("rosbags.typesys", path)
-    with reader([path], default_typestore=stores.get_typestore(stores.Stores.LATEST)) as bag:
+    highlevel, stores = module_of("rosbags.highlevel", path), module_of("rosbags.typesys", path)
+    if path.is_file():
+        _check_magic(path)
+    with highlevel.AnyReader([path], default_typestore=stores.get_typestore(stores.Stores.LATEST)) as bag:
 
         def messages(topics: Collection[str]) -> Iterator[Message]:
             own = [connection for connection in bag.connections if connection.topic in topics]
@@ -50,40 +99,130 @@ def _bag(path: Path) -> Iterator[Source]:
         yield Source(sorted({one.topic for one in bag.connections if one.msgtype in known}), messages)
 
 
-@contextlib.contextmanager
-def _mcap(path: Path) -> Iterator[Source]:
-    """Open a MCAP file with messages of ROS 2 or in JSON."""
-    reading, decoding = module_of("mcap.reader", path), module_of("mcap_ros2.decoder", path)
+def _check_magic(path: Path) -> None:
+    """Raise a DataError where a file does not begin as a bag of ROS 1, whose reader takes any first line."""
     with path.open("rb") as file:
-        reader, ros, decoders = (
-            reading.make_reader(file),
-            decoding.DecoderFactory(),
-            dict[int, Decoder](),
-        )
+        start = file.read(len(MAGIC))
+    if start != MAGIC:
+        raise DataError(f"{path}: begins with {start!r}; accepted: {MAGIC!r}, as a bag of ROS 1 does")
+
+
+@contextlib.contextmanager
+def _database(path: Path) -> Iterator[Source]:
+    """Open a file of a bag of ROS 2 without its metadata, sqlite3."""
+    stores = module_of("rosbags.typesys", path)
+    reader = module_of("rosbags.rosbag2.storage_sqlite3", path).Sqlite3Reader(path)
+    reader.open()
+    with contextlib.closing(reader):
+        types = stores.get_typestore(stores.Stores.LATEST)
+        for connection in reader.connections:
+            if connection.msgdef.format.name == "MSG":
+                own = stores.get_types_from_msg(connection.msgdef.data, connection.msgtype)
+                types.register({name: kind for name, kind in own.items() if name not in types.fielddefs})
 
         def messages(topics: Collection[str]) -> Iterator[Message]:
-            for schema, channel, message in reader.iter_messages(topics=list(topics)):
+            own = [connection for connection in reader.connections if connection.topic in topics]
+            for connection, recorded, raw in reader.messages(own):
+                yield Message(connection.topic, recorded, types.deserialize_cdr(raw, connection.msgtype))
+
+        known = {one.topic for one in reader.connections if one.msgtype in types.fielddefs}
+        yield Source(
+            sorted(known), messages, {one.topic: one.msgtype for one in reader.connections if one.topic not in known}
+        )
+
+
+@contextlib.contextmanager
+def _mcap(path: Path) -> Iterator[Source]:
+    """Open a MCAP file with messages of ROS 1, of ROS 2 or in JSON; one that ends early, as far as it is whole."""
+    reading = module_of("mcap.reader", path)
+    with path.open("rb") as file:
+        reader = reading.make_reader(file)
+        try:
+            summary, is_cut = reader.get_summary(), False
+        except Exception:  # noqa: BLE001  the file has no end, in whose place may stand anything
+            summary, is_cut = None, True
+
+        def every(topics: Collection[str] | None) -> Iterator[tuple[Any, Any, Any]]:
+            if not is_cut:
+                yield from reader.iter_messages(topics=topics)
+                return
+            yield from (one for one in _whole(file, path) if topics is None or one[1].topic in topics)
+
+        def messages(topics: Collection[str]) -> Iterator[Message]:
+            decoders = dict[int, Decoder]()
+            for schema, channel, message in every(list(topics)):
                 if channel.id not in decoders:
-                    decoders[channel.id] = _decoder(ros, channel, schema, path)
+                    decoders[channel.id] = _decoder(channel, schema, path)
                 yield Message(channel.topic, message.log_time, decoders[channel.id](message.data))
 
-        summary = reader.get_summary()
-        channels = summary.channels.values() if summary and summary.channels else _channels(reader)
-        read = {channel.topic for channel in channels if channel.message_encoding in ("cdr", "json")}
-        yield Source(sorted(read), messages)
+        channels = summary.channels if summary and summary.channels else {one.id: one for _, one, _ in every(None)}
+        read = {one.topic for one in channels.values() if one.message_encoding in ENCODINGS}
+        unread = {one.topic: one.message_encoding or "none" for one in channels.values() if one.topic not in read}
+        yield Source(sorted(read), messages, unread, f"{path.name} ends early: read as far as it is whole" * is_cut)
 
 
-def _channels(reader: Any) -> list[Any]:
-    """Return the channels of a MCAP file without a summary."""
-    return list({channel.id: channel for _, channel, _ in reader.iter_messages()}.values())
+def _whole(file: IO[bytes], path: Path) -> Iterator[tuple[Any, Any, Any]]:
+    """Yield schema, channel and message of each message of a MCAP file that ends early, up to there."""
+    records = module_of("mcap.records", path)
+    schemas, channels = dict[int, Any](), dict[int, Any]()
+    for record in _records(file, path):
+        if isinstance(record, records.Schema):
+            schemas[record.id] = record
+        elif isinstance(record, records.Channel):
+            channels[record.id] = record
+        elif isinstance(record, records.Message) and record.channel_id in channels:
+            channel = channels[record.channel_id]
+            yield schemas.get(channel.schema_id), channel, record
 
 
-def _decoder(ros: Any, channel: Any, schema: Any, path: Path) -> Decoder:
+def _records(file: IO[bytes], path: Path) -> Iterator[Any]:
+    """Yield the whole records of a MCAP file that ends early, those of a last chunk too if it is not compressed."""
+    streams, most = module_of("mcap.stream_reader", path), path.stat().st_size
+    start = 0
+    for is_inside in (False, True):
+        file.seek(start)
+        if is_inside and not _enter_chunk(file):
+            return
+        stream = iter(streams.StreamReader(file, skip_magic=is_inside, record_size_limit=most).records)
+        while True:
+            start = file.tell()
+            try:
+                record = next(stream)
+            except Exception:  # noqa: BLE001  whatever stands where the file was cut
+                break
+            yield record
+
+
+def _enter_chunk(file: IO[bytes]) -> bool:
+    """Go to the first record of a chunk; return whether one begins here, and is not compressed."""
+    head = file.read(CHUNK.size)
+    if len(head) < CHUNK.size:
+        return False
+    kind, *_, name_bytes = CHUNK.unpack(head)
+    file.seek(8, os.SEEK_CUR)  # the length of the records
+    return kind == CHUNK_KIND and name_bytes == 0
+
+
+def _decoder(channel: Any, schema: Any, path: Path) -> Decoder:
     """Return the function that decodes the messages of a channel."""
     if channel.message_encoding == "json":
         return json.loads
+    encoding = f"{channel.message_encoding} with {schema.encoding if schema else 'no schema'}"
+    if encoding == "ros1 with ros1msg":
+        return _ros1(schema, path)
+    ros = module_of("mcap_ros2.decoder", path).DecoderFactory()
     decoder = ros.decoder_for(channel.message_encoding, schema)
     if decoder is None:
-        encoding = f"{channel.message_encoding} with {schema.encoding if schema else 'no schema'}"
-        raise DataError(not_accepted(f"{path}: {channel.topic}: encoding", encoding, ["cdr with ros2msg", "json"]))
+        accepted = ["cdr with ros2msg", "ros1 with ros1msg", "json"]
+        raise DataError(not_accepted(f"{path}: {channel.topic}: encoding", encoding, accepted))
     return decoder
+
+
+def _ros1(schema: Any, path: Path) -> Decoder:
+    """Return the function that decodes messages of ROS 1."""
+    stores = module_of("rosbags.typesys", path)
+    types, name = stores.get_typestore(stores.Stores.EMPTY), schema.name
+    package, _, kind = name.rpartition("/")
+    full = f"{package.removesuffix('/msg') or 'own'}/msg/{kind}"
+    types.register(stores.get_types_from_msg(schema.data.decode(), full))
+    return lambda raw: types.deserialize_ros1(raw, full)

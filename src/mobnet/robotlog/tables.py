@@ -1,131 +1,175 @@
-"""Logs that are tables: CSV, Parquet and HDF5. Their packages start slowly and are imported where they are needed."""
+"""Logs that are Parquet, or arrays of HDF5, MATLAB or NumPy.
 
-import csv
-from collections.abc import Collection
+Their packages start slowly and are imported where they are needed.
+"""
+
+import contextlib
+from collections.abc import Collection, Iterator, Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mobnet.core.errors import DataError
-from mobnet.robotlog.columns import Column, module_of
-
-BLOCK_BYTES = 4 * 2**20  # of a CSV file that are read together
-
-
-def csv_names(path: Path) -> list[str]:
-    """Return the header of a CSV file."""
-    return _csv_header(path)[0]
+from mobnet.robotlog.arrow import is_numeric, numbers
+from mobnet.robotlog.columns import MOST, Column, check_memory, module_of
 
 
-def _csv_header(path: Path) -> tuple[list[str], str]:
-    """Return the names in the header of a CSV file, and what stands between them: a comma, semicolon or tabulator."""
-    with path.open(newline="", encoding="utf-8-sig") as file:
-        header = file.readline()
-    between = max(",;\t", key=header.count)
-    names = [name.strip() for name in next(csv.reader([header], delimiter=between, skipinitialspace=True), [])]
-    if twice := [name for k, name in enumerate(names) if name in names[:k]]:
-        raise DataError(f"{path}: column {twice[0]!r} stands twice in the header; accepted: each name once")
-    return names, between
+class Part(NamedTuple):
+    """A column in a file: its array there, the field of a compound one, and its number in one of several columns."""
 
-
-def csv_columns(path: Path, wanted: Collection[str]) -> dict[str, Column]:
-    """Read columns of a CSV with a header; a field without a number is NaN."""
-    import pyarrow as pa
-    from pyarrow import csv as arrow
-
-    names, between = _csv_header(path)
-    layout, asked = arrow.ParseOptions(delimiter=between), set(wanted)
-    rows = arrow.ReadOptions(column_names=names, skip_rows=1, block_size=BLOCK_BYTES)
-    empty = [*arrow.ConvertOptions().null_values, " "]
-    kept = {"include_columns": [name for name in names if name in asked], "null_values": empty}
-    with arrow.open_csv(path, rows, layout, arrow.ConvertOptions(**kept)) as file:
-        first = file.schema  # of the first block: what looks whole there, or empty, may be a fraction further down
-    kinds = {f.name: pa.float64() for f in first if pa.types.is_integer(f.type) or pa.types.is_null(f.type)}
-    with arrow.open_csv(path, rows, layout, arrow.ConvertOptions(**kept, column_types=kinds)) as file:
-        held = [k for k, kind in enumerate(file.schema.types) if _is_numeric(kind)]
-        if not held:
-            return {}
-        # Whole columns of Arrow's own reader would take twice the memory.
-        blocks = [np.stack([_numbers(batch.column(k)) for k in held]) for batch in file]
-        return dict(zip((file.schema.names[k] for k in held), map(Column, np.concatenate(blocks, axis=1)), strict=True))
+    array: str
+    field: str | None = None
+    number: int | None = None
 
 
 def parquet_names(path: Path) -> list[str]:
-    """Return the columns of a Parquet file."""
-    import pyarrow.parquet as pq
-
-    return pq.read_schema(path).names
-
-
-def parquet_columns(path: Path, wanted: Collection[str]) -> dict[str, Column]:
-    """Read columns of a Parquet file."""
+    """Return the columns of a Parquet file; NAME.0 to NAME.n-1 of one with lists of n numbers."""
     import pyarrow.parquet as pq
 
     with pq.ParquetFile(path) as file:
+        return list(_parquet_parts(file))
+
+
+def parquet_columns(path: Path, wanted: Collection[str]) -> dict[str, Column]:
+    """Read columns of a Parquet file.
+
+    Raises:
+        DataError: lists of a column differ in their lengths.
+    """
+    import pyarrow.parquet as pq
+
+    with pq.ParquetFile(path) as file:
+        parts = _parquet_parts(file)
+        asked = {name: parts[name] for name in wanted if name in parts}
+        check_memory(path, file.metadata.num_rows, len(asked))
+        found, lists = dict[str, Column](), dict[str, NDArray[Any]]()
         kinds = {field.name: field.type for field in file.schema_arrow}
-        held = [name for name in wanted if name in kinds and _is_numeric(kinds[name])]
-        # One at a time: a whole table of Arrow's would stay beside the columns.
-        return {name: Column(_numbers(file.read([name]).column(name).combine_chunks())) for name in held}
+        for name, part in asked.items():
+            if part.number is not None:
+                if part.array not in lists:
+                    lists[part.array] = _lists(path, part.array, file.read([part.array]).column(part.array))
+                found[name] = Column(np.ascontiguousarray(lists[part.array][:, part.number]))
+            elif is_numeric(kinds[part.array]):
+                # One at a time: a whole table of Arrow's would stay beside the columns.
+                found[name] = Column(numbers(file.read([part.array]).column(part.array).combine_chunks()))
+            else:
+                found[name] = Column(np.empty(0), found=str(kinds[part.array]))
+        return found
 
 
-def _is_numeric(kind: Any) -> bool:
-    """Return whether a column of this type of Arrow holds numbers, or points in time."""
+def _parquet_parts(file: Any) -> dict[str, Part]:
+    """Return the columns of a Parquet file by their names; those of lists by the length of the first one."""
     from pyarrow import types
 
-    tests = types.is_floating, types.is_integer, types.is_boolean, types.is_timestamp
-    return any(test(kind) for test in tests)
-
-
-def _numbers(column: Any) -> NDArray[Any]:
-    """Return a column as floating numbers, NaN where it has none; points in time become seconds since 1970.
-
-    Arrow's own conversion would import pandas.
-    """
-    import pyarrow as pa
-    import pyarrow.compute as pc
-
-    is_time = pa.types.is_timestamp(column.type)
-    if is_time:
-        column = pc.cast(column, pa.timestamp("ns", column.type.tz)).cast(pa.int64())
-    if column.type not in (pa.float32(), pa.float64()):
-        column = pc.cast(column, pa.float64(), safe=False)
-    values: NDArray[Any] = np.from_dlpack(column.fill_null(np.nan) if column.null_count else column)
-    return values * 1e-9 if is_time else values
-
-
-def hdf5_names(path: Path) -> list[str]:
-    """Return a column for each dataset (T,) by its path, and PATH.0 to PATH.n-1 for one of (T, n)."""
-    return [name for name, _ in _hdf5_parts(path)]
-
-
-def hdf5_columns(path: Path, wanted: Collection[str]) -> dict[str, Column]:
-    """Read columns of an HDF5 file; a dataset is read once."""
-    asked: dict[str, list[tuple[str, int]]] = {}
-    names = set(wanted)
-    for name, (dataset, k) in _hdf5_parts(path):
-        if name in names:
-            asked.setdefault(dataset, []).append((name, k))
-    found = dict[str, Column]()
-    with module_of("h5py", path).File(path, "r") as file:
-        for dataset, parts in asked.items():
-            values = np.atleast_2d(np.asarray(file[dataset][()], dtype=np.float64).T)
-            found |= {name: Column(np.ascontiguousarray(values[k])) for name, k in parts}
+    found = dict[str, Part]()
+    for field in file.schema_arrow:
+        is_list = types.is_list(field.type) or types.is_large_list(field.type) or types.is_fixed_size_list(field.type)
+        if not is_list:
+            found[field.name] = Part(field.name)
+        elif is_numeric(field.type.value_type):
+            first = next(file.iter_batches(batch_size=1, columns=[field.name]), None)
+            width = len(first.column(0)[0].as_py() or ()) if first else 0
+            if width <= MOST:
+                found |= {f"{field.name}.{k}": Part(field.name, number=k) for k in range(width)}
     return found
 
 
-def _hdf5_parts(path: Path) -> list[tuple[str, tuple[str, int]]]:
-    """Return the name of each column in an HDF5 file, with its dataset and its number there."""
-    h5py, found = module_of("h5py", path), list[tuple[str, tuple[str, int]]]()
+def _lists(path: Path, name: str, column: Any) -> NDArray[Any]:
+    """Return the numbers of a column of lists (T, n), NaN where it has none."""
+    import pyarrow.compute as pc
+
+    column = column.combine_chunks()
+    lengths = numbers(pc.list_value_length(column))
+    is_there = np.isfinite(lengths)
+    widths = np.unique(lengths[is_there]).astype(int)
+    if len(widths) != 1:
+        text = f"lists of {widths[0]} to {widths[-1]} numbers" if len(widths) else "no list"
+        raise DataError(f"{path}: column {name!r} has {text}; accepted: lists of one length")
+    values = np.full((len(lengths), widths[0]), np.nan)
+    values[is_there] = numbers(pc.list_flatten(column)).reshape(-1, widths[0])
+    return values
+
+
+def array_names(path: Path) -> list[str]:
+    """Return the columns of a file of arrays.
+
+    An array of one axis is a column of its name, a path in HDF5; one of (samples, n), or (n, samples) as MATLAB stores
+    it, is NAME.0 to NAME.n-1: its longest axis is that of the samples, and axes of one do not count. Fields of compound
+    ones are NAME.FIELD.
+    """
+    with _arrays(path) as arrays:
+        return list(_array_parts(arrays))
+
+
+def array_columns(path: Path, wanted: Collection[str]) -> dict[str, Column]:
+    """Read columns of a file of arrays; an array is read once."""
+    asked, found = dict[tuple[str, str | None], dict[str, int | None]](), dict[str, Column]()
+    with _arrays(path) as arrays:
+        parts = _array_parts(arrays)
+        for name in wanted:
+            if name in parts:
+                part = parts[name]
+                asked.setdefault((part.array, part.field), {})[name] = part.number
+        for (array, field), columns in asked.items():
+            check_memory(path, max(arrays[array].shape), len(columns))
+            values = np.squeeze(np.asarray(arrays[array][() if field is None else field], dtype=np.float64))
+            if values.ndim == 2 and values.shape[0] < values.shape[1]:
+                values = values.T
+            for name, k in columns.items():
+                found[name] = Column(np.atleast_1d(values) if k is None else np.ascontiguousarray(values[:, k]))
+    return found
+
+
+@contextlib.contextmanager
+def _arrays(path: Path) -> Iterator[Mapping[str, Any]]:
+    """Open the arrays of a file by their names: NumPy's, MATLAB's, which are HDF5 from version 7.3 on, or HDF5."""
+    if path.suffix.lower() == ".npz":
+        with np.load(path, allow_pickle=False) as file:
+            yield dict(file)
+        return
+    h5py = module_of("h5py", path)
+    if path.suffix.lower() == ".mat" and not h5py.is_hdf5(path):
+        from scipy.io import loadmat
+
+        yield dict(_flat(loadmat(path, simplify_cells=True)))
+        return
+    found = dict[str, Any]()
 
     def visit(name: str, item: Any) -> None:
-        if isinstance(item, h5py.Dataset) and item.dtype.kind in "fiub" and item.ndim in (1, 2):
+        if isinstance(item, h5py.Dataset):
             if item.external or item.is_virtual:  # any file of this machine could become a column of the recording
                 raise DataError(f"{path}: {name!r} takes its numbers from other files; accepted: a file that holds all")
-            columns = [name] if item.ndim == 1 else [f"{name}.{k}" for k in range(item.shape[1])]
-            found.extend((column, (name, k)) for k, column in enumerate(columns))
+            found[name] = item
 
     with h5py.File(path, "r") as file:
         file.visititems(visit)
+        yield found
+
+
+def _flat(content: Mapping[str, Any], above: str = "") -> Iterator[tuple[str, NDArray[Any]]]:
+    """Yield the arrays of MATLAB's structures, by their names with those of the structures before them."""
+    for name, item in content.items():
+        if isinstance(item, dict):
+            yield from _flat(item, f"{above}{name}/")
+        elif isinstance(item, np.ndarray) and not name.startswith("__"):
+            yield above + name, item
+
+
+def _array_parts(arrays: Mapping[str, Any]) -> dict[str, Part]:
+    """Return the columns of arrays by their names."""
+    found = dict[str, Part]()
+    for array, item in arrays.items():
+        for field in item.dtype.names or [None]:
+            kind = item.dtype if field is None else item.dtype[field]
+            base, inner = kind.subdtype or (kind, ())
+            axes = [size for size in (*item.shape, *inner) if size != 1]
+            name = array if field is None else f"{array}.{field}"
+            if base.kind not in "fiub" or len(axes) > 2 or (len(axes) == 2 and min(axes) > MOST):
+                continue
+            if len(axes) < 2:
+                found[name] = Part(array, field)
+            else:
+                found |= {f"{name}.{k}": Part(array, field, k) for k in range(min(axes))}
     return found

@@ -157,6 +157,8 @@ class RobotLog(Section):
 
     Attributes:
         gap_intervals: a pause of more than so many sample intervals ends a segment.
+        backward: share of the times of a table that may not be after the one before.
+        ticks: samples of the recording for each one of the log, above which it is refused.
         jitter: standard deviation of the intervals over their median, above which the clock is named.
         even: the same, below which samples are taken as they are, without interpolation.
         apart_s: difference between stamps and times of recording from which clocks count as apart [s].
@@ -181,6 +183,8 @@ class RobotLog(Section):
     """
 
     gap_intervals: Annotated[Positive, Field(ge=1.5, le=1000)]
+    backward: InnerShare
+    ticks: Annotated[Positive, Field(ge=1, le=1000)]
     jitter: Share
     even: Share
     apart_s: Seconds

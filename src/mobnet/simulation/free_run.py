@@ -1,5 +1,7 @@
 """A recording of any robot that moves without walking: plan, plant, control, sensors, truth (docs/robots.md)."""
 
+import logging
+import time
 import zlib
 from collections.abc import Sequence
 from dataclasses import fields
@@ -28,7 +30,9 @@ from mobnet.simulation.free_plant import (
 
 STREAMS = ("motion", "pushes", "noise")  # of random numbers of a seed, in the order spawned
 HIDDEN = ("body", "motors")  # those of the robot itself, whatever the seed
+TOLD_S = 5.0  # between two lines of progress
 CHUNK = 10_000  # samples for which the motion is computed at once
+log = logging.getLogger(__name__)
 
 
 class Numbers(NamedTuple):
@@ -99,7 +103,11 @@ class Run:
         self.push, self.pushed = np.zeros((samples, model.nv)), np.zeros((samples, 1))
         self.acc = np.zeros((samples, 3))
         before = self.control(*(self.motion(0.0, order) for order in range(3)))
+        told = time.monotonic()
         for start in range(0, samples, CHUNK):
+            if time.monotonic() - told > TOLD_S:
+                told = time.monotonic()
+                log.info("%.0f of %.0f s simulated", start / rate_hz, samples / rate_hz)
             times = np.arange(start, min(start + CHUNK, samples)) / rate_hz
             for k, *wanted in zip(
                 range(start, samples), *(self.motion(times, order) for order in range(3)), strict=False

@@ -32,6 +32,8 @@ def motion_hints(
 ) -> Iterator[str]:
     """Yield hints on positions and velocities of joints (T, nu) [rad], [rad/s] within contiguous spans."""
     change, integral = turns(q, v, spans, rate_hz, bounds.window_s)
+    if not len(change):  # the log is shorter than a window
+        return
     size = np.sqrt(np.maximum(np.square(change).mean(axis=0), np.square(integral).mean(axis=0)))
     moves = size > MOVES_RAD
     match = _correlation(change, integral)

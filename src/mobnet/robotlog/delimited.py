@@ -1,0 +1,250 @@
+"""Logs that are text with a separator: how a file is laid out, which its first lines tell, and its columns."""
+
+import codecs
+import csv
+import re
+from collections import Counter
+from collections.abc import Collection, Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from mobnet.core.errors import SHOWN, DataError
+from mobnet.robotlog.arrow import is_numeric, numbers
+from mobnet.robotlog.columns import Column, check_memory
+
+LOOKED_BYTES = 2**20  # of a file in which its layout is looked for
+LOOKED_ROWS = 100  # in which a decimal comma is looked for
+BLOCK_BYTES = 4 * 2**20  # that are read together
+SPACES = ""  # in place of a separator: any number of spaces
+SEPARATORS = (";", "\t", ",", SPACES)  # in the order tried: a comma may stand in numbers, a space in names
+COMMENTS = ("#", "%", "//", "sep=")  # first characters of lines that are no rows
+ENCODINGS = {codecs.BOM_UTF8: "utf-8-sig", codecs.BOM_UTF16_LE: "utf-16", codecs.BOM_UTF16_BE: "utf-16"}
+DECIMAL_COMMA = re.compile(r"[+-]?\d*,\d+([eE][+-]?\d+)?")
+
+
+@dataclass(frozen=True)
+class Layout:
+    """How a text is laid out.
+
+    Attributes:
+        names: of its columns; their numbers, from 0, where it has no header.
+        separator: what stands between two fields, `SPACES` for any number of spaces.
+        decimal: what stands before the fraction of a number, a point or a comma.
+        encoding: of its characters.
+        lead: lines before the first row.
+        row_bytes: length of a row [bytes].
+    """
+
+    names: tuple[str, ...]
+    separator: str
+    decimal: str
+    encoding: str
+    lead: int
+    row_bytes: int
+
+
+def csv_names(path: Path) -> list[str]:
+    """Return the columns of a text with a separator: those in its header, or their numbers where it has none."""
+    layout = _layout(path)
+    return [name for name in layout.names if name] if layout else []
+
+
+def has_header(names: Collection[str]) -> bool:
+    """Return whether names are more than the numbers of columns."""
+    return [*names] != [str(k) for k in range(len(names))]
+
+
+def refuse_without_header(path: Path, names: Collection[str]) -> None:
+    """Raise a DataError where a log without a map has no header either, with its first row."""
+    if not has_header(names):
+        row = next(line for line in _first_lines(path)[1] if not _is_left_out(line))
+        accepted = f'a header, or a map that names columns by number, "0" to "{len(names) - 1}"'
+        raise DataError(f"{path}: has no header; its first row is {SHOWN.repr(row)}; accepted: {accepted}")
+
+
+def csv_columns(path: Path, wanted: Collection[str]) -> dict[str, Column]:
+    """Read columns of a text with a separator; a field without a number is NaN."""
+    layout = _layout(path)
+    if layout is None:
+        return {}
+    asked = [name for name in layout.names if name in set(wanted)]
+    check_memory(path, path.stat().st_size // layout.row_bytes, len(asked))
+    return _spaced(path, layout, asked) if layout.separator == SPACES else _separated(path, layout, asked)
+
+
+def _layout(path: Path) -> Layout | None:
+    """Return how a text is laid out, None if no line has numbers.
+
+    Raises:
+        DataError: it is empty or no text, has a header alone, or a name stands twice in the header.
+    """
+    encoding, lines = _first_lines(path)
+    for separator in SEPARATORS:
+        rows = [_fields(line, separator) for line in lines]
+        first = next((k for k in range(len(lines)) if _begins(lines, rows, k)), None)
+        if first is not None:
+            break
+    else:
+        if len([line for line in lines if not _is_left_out(line)]) < 2:
+            looked = f" in its first {LOOKED_BYTES} bytes" if path.stat().st_size > LOOKED_BYTES else ""
+            raise DataError(f"{path}: has no row below its header{looked}; accepted: a log with two samples or more")
+        return None
+    above = [_named(rows[k] or _fields(lines[k].lstrip("#%/ "), separator), rows[first]) for k in range(first)]
+    names = next((row for row in above if row), [str(k) for k in range(len(rows[first]))])
+    if twice := [name for name, count in Counter(names).items() if name and count > 1]:
+        raise DataError(f"{path}: column {twice[0]!r} stands twice in the header; accepted: each name once")
+    looked = [field for row in rows[first : first + LOOKED_ROWS] for field in row]
+    has_comma = separator != "," and any(DECIMAL_COMMA.fullmatch(field) for field in looked)
+    decimal = "," if has_comma and not any("." in field for field in looked) else "."
+    return Layout(tuple(names), separator, decimal, encoding, first, len(lines[first].encode(encoding)) + 1)
+
+
+def _first_lines(path: Path) -> tuple[str, list[str]]:
+    """Return the encoding of a text, and its first lines."""
+    with path.open("rb") as file:
+        start = file.read(LOOKED_BYTES)
+    encoding = next((name for mark, name in ENCODINGS.items() if start.startswith(mark)), "utf-8")
+    if encoding != "utf-16" and b"\0" in start:
+        raise DataError(f"{path}: byte {start.index(0)} is zero, which no text has; accepted: text in UTF-8 or UTF-16")
+    try:
+        text = codecs.getincrementaldecoder(encoding)().decode(start)
+    except UnicodeDecodeError:
+        encoding = "cp1252"  # of Windows, where it is not UTF-8
+        text = start.decode(encoding, errors="replace")
+    lines = text.splitlines()
+    if len(start) == LOOKED_BYTES and len(lines) > 1:
+        del lines[-1]  # which may go on
+    if not text.strip():
+        raise DataError(f"{path}: is empty; accepted: a log with two samples or more")
+    return encoding, lines
+
+
+def _is_left_out(line: str) -> bool:
+    """Return whether a line is empty or a comment."""
+    return not line.strip() or line.lstrip().startswith(COMMENTS)
+
+
+def _fields(line: str, separator: str) -> list[str]:
+    """Return the fields of a line, none of one that is left out."""
+    if _is_left_out(line):
+        return []
+    if separator == SPACES:
+        return line.split()
+    quoted = csv.reader([line], delimiter=separator, skipinitialspace=True) if '"' in line else [line.split(separator)]
+    return [field.strip() for field in next(iter(quoted))]
+
+
+def _begins(lines: Sequence[str], rows: Sequence[Sequence[str]], first: int) -> bool:
+    """Return whether the rows of numbers begin at a line: it and the next one have as many fields, mostly numbers."""
+    row = rows[first]
+    filled = [field for field in row if field]
+    if len(row) < 2 or not filled or 2 * sum(map(_is_number, filled)) < len(filled):
+        return False
+    after = next((rows[k] for k in range(first + 1, len(lines)) if not _is_left_out(lines[k])), row)
+    if any(_is_number(below) and not _is_number(field) for field, below in zip(row, after, strict=False) if field):
+        return False  # a header, in which numbers are names
+    return len(after) == len(row) or first + 2 >= len(lines)
+
+
+def _is_number(field: str) -> bool:
+    """Return whether a field is a number, with a point or a comma."""
+    try:
+        float(field.replace(",", "."))
+    except ValueError:
+        return False
+    return True
+
+
+def _named(fields: Sequence[str], row: Sequence[str]) -> list[str]:
+    """Return the names of columns that a line above a row gives, none if it is no header.
+
+    A separator at the end of the header or of the row stands before nothing.
+    """
+    names = list(fields)
+    if len(names) == len(row) + 1 and not names[-1]:
+        names.pop()
+    if len(names) == len(row) - 1 and not row[-1]:
+        names.append("")
+    is_header = len(names) == len(row) and any(name and not _is_number(name) for name in names)
+    return names if is_header else []
+
+
+def _separated(path: Path, layout: Layout, asked: Sequence[str]) -> dict[str, Column]:
+    """Read columns by Arrow; rows with another number of fields are left out."""
+    import pyarrow as pa
+    from pyarrow import csv as arrow
+
+    wrong = list[int]()
+
+    def leave_out(row: arrow.InvalidRow) -> str:
+        wrong.append(row.actual_columns)
+        return "skip"
+
+    parse = arrow.ParseOptions(delimiter=layout.separator, invalid_row_handler=leave_out)
+    read = arrow.ReadOptions(
+        column_names=list(layout.names), skip_rows=layout.lead, block_size=BLOCK_BYTES, encoding=layout.encoding
+    )
+    empty = [*arrow.ConvertOptions().null_values, " "]
+    kept = {"include_columns": asked, "null_values": empty, "decimal_point": layout.decimal}
+    with arrow.open_csv(path, read, parse, arrow.ConvertOptions(**kept)) as file:
+        first = file.schema  # of the first block: what looks whole there, or empty, may be a fraction further down
+    kinds = {f.name: pa.float64() for f in first if pa.types.is_integer(f.type) or pa.types.is_null(f.type)}
+    wrong.clear()
+    with arrow.open_csv(path, read, parse, arrow.ConvertOptions(**kept, column_types=kinds)) as file:
+        held = [k for k, kind in enumerate(file.schema.types) if is_numeric(kind)]
+        texts = [k for k in range(len(file.schema)) if k not in held]
+        blocks, others = [], dict[str, str]()
+        for batch in file:
+            # Whole columns of Arrow's own reader would take twice the memory.
+            blocks.append(np.stack([numbers(batch.column(k)) for k in held]) if held else np.empty((0, 0)))
+            others = others or {file.schema.names[k]: _such_as(batch.column(k).to_pylist()) for k in texts}
+        names = [file.schema.names[k] for k in held]
+    hint = " ".join(_left_out(wrong, len(layout.names)))
+    values = np.concatenate(blocks, axis=1)
+    found = {name: Column(own, hint=hint) for name, own in zip(names, values, strict=True)}
+    return found | {name: Column(np.empty(0), found=text) for name, text in others.items()}
+
+
+def _left_out(wrong: Sequence[int], fields: int) -> Iterator[str]:
+    """Yield the hint on rows with another number of fields, which are left out."""
+    if wrong:
+        yield f"{len(wrong)} rows left out, which have {wrong[0]} fields in place of {fields}; the last row may be cut"
+
+
+def _such_as(values: Sequence[Any]) -> str:
+    """Return what a column of texts holds, by the first that is no number."""
+    texts = ((row, value) for row, value in enumerate(values) if value is not None and not _is_number(str(value)))
+    row, value = next(texts, (0, values[0]))
+    return f"text, {str(value)!r} in row {row}"
+
+
+def _spaced(path: Path, layout: Layout, asked: Sequence[str]) -> dict[str, Column]:
+    """Read columns with any number of spaces between them, which Arrow cannot."""
+    import pandas as pd
+
+    frame = pd.read_csv(
+        path, sep=r"\s+", header=None, names=list(layout.names), usecols=list(asked), skiprows=layout.lead,
+        decimal=layout.decimal, encoding=layout.encoding, on_bad_lines="skip",
+    )  # fmt: skip
+    last = _fields(_last_line(path, layout.encoding), SPACES)
+    is_cut = len(last) != len(layout.names)
+    frame = frame.iloc[:-1] if is_cut else frame
+    hint = " ".join(_left_out([len(last)] if is_cut else [], len(layout.names)))
+    found = dict[str, Column]()
+    for name in asked:
+        kind = frame[name].dtype.kind
+        is_text = kind not in "fiub"
+        values = np.empty(0) if is_text else frame[name].to_numpy(np.float64)
+        found[name] = Column(values, hint=hint, found=_such_as(list(frame[name])) if is_text else "")
+    return found
+
+
+def _last_line(path: Path, encoding: str) -> str:
+    """Return the last line of a text."""
+    with path.open("rb") as file:
+        file.seek(max(0, path.stat().st_size - LOOKED_BYTES // 2))
+        end = file.read().decode(encoding.removesuffix("-sig"), errors="replace")
+    return end.rstrip().splitlines()[-1]

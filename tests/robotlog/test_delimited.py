@@ -1,0 +1,124 @@
+"""Tables as people have them: each kind of text gives the numbers of the plain one, or one line."""
+
+import math
+import re
+
+import numpy as np
+import pytest
+
+from mobnet.core.errors import DataError
+from mobnet.robotlog.formats import column_names, read_log
+from mobnet.robotlog.observe import converted_log
+from mobnet.settings.robotlog import LogMap
+
+NAMES = ["time", "q.J1", "q.J2", "v.J1", "v.J2", "tau_motor.J1", "tau_motor.J2"]
+TIME = np.arange(40) / 100
+ROWS = np.stack([TIME, *(np.sin(k + TIME) for k in range(6))], axis=1)
+HEADER, LINES = ",".join(NAMES), [",".join(f"{value:.7g}" for value in row) for row in ROWS]
+PLAIN = [HEADER, *LINES]
+
+
+def semicolons(lines):
+    return [line.replace(",", ";").replace(".", ",") if k else line.replace(",", ";") for k, line in enumerate(lines)]
+
+
+KINDS = {
+    "plain": "\n".join(PLAIN),
+    "comments": "\n".join(["# two-link arm", "% by hand", "// 2024", "", *PLAIN]),
+    "a title": "\n".join(["Two-link arm, log of 3 May", *PLAIN]),
+    "a header that is a comment": "\n".join(["# two-link arm", f"# {HEADER}", *LINES]),
+    "units below the header": "\n".join([HEADER, "s,rad,rad,rad/s,rad/s,N m,N m", *LINES]),
+    "Excel of Germany": "\r\n".join(["sep=;", *semicolons(PLAIN)]),
+    "tabulators and decimal commas": "\n".join(semicolons(PLAIN)).replace(";", "\t"),
+    "spaces": "\n".join(PLAIN).replace(",", " "),
+    "columns of one width": "\n".join(["  ".join(f"{part:>14}" for part in line.split(",")) for line in PLAIN]),
+    "separators at the end of all rows": "\n".join(f"{line}," for line in PLAIN),
+    "separators at the end of rows": "\n".join([HEADER, *(f"{line}," for line in LINES)]),
+    "an index of pandas": "\n".join([f",{HEADER}", *(f"{k},{line}" for k, line in enumerate(LINES))]),
+    "quotes": "\n".join(",".join(f'"{part}"' for part in line.split(",")) for line in PLAIN),
+    "old line ends": "\r\n".join(PLAIN) + "\r\n\r\n",
+}
+
+
+@pytest.mark.parametrize("ending", [".csv", ".txt"])
+@pytest.mark.parametrize("kind", KINDS)
+def test_each_kind_of_text_gives_the_numbers_of_the_plain_one(kind, ending, tmp_path):
+    path = tmp_path / f"log{ending}"
+    path.write_text(KINDS[kind], newline="")
+    columns = read_log(path, NAMES)
+    np.testing.assert_allclose(np.stack([columns[name].values for name in NAMES], axis=1), ROWS, atol=1e-6)
+    assert {column.hint for column in columns.values()} == {""}
+
+
+@pytest.mark.parametrize("encoding", ["utf-8-sig", "utf-16", "cp1252"])
+def test_encodings_of_windows_are_read(encoding, tmp_path):
+    (tmp_path / "log.csv").write_bytes(
+        "\r\n".join([f"{HEADER},angle [°]", *(f"{line},1" for line in LINES)]).encode(encoding)
+    )
+    assert column_names(tmp_path / "log.csv") == [*NAMES, "angle [°]"]
+    np.testing.assert_allclose(read_log(tmp_path / "log.csv")["q.J2"].values, ROWS[:, 2], atol=1e-6)
+
+
+@pytest.mark.parametrize("between", [",", " ", "\t"])
+def test_a_cut_last_row_is_left_out_with_a_hint(between, tmp_path):
+    text = "\n".join(PLAIN)[:-30].replace(",", between)
+    (tmp_path / "log.csv").write_text(text)
+    columns = read_log(tmp_path / "log.csv")
+    assert {len(column.values) for column in columns.values()} == {39}
+    assert re.search(r"^1 rows left out, which have \d fields in place of 7; the last", columns["time"].hint)
+
+
+def test_columns_without_a_header_have_numbers_that_a_map_may_name(arm, settings, tmp_path):
+    (tmp_path / "log.csv").write_text("\n".join(LINES))
+    with pytest.raises(DataError, match=r'has no header; its first row is .0,0,0\.84.*by number, "0" to "6"$'):
+        converted_log(tmp_path / "log.csv", arm.layout, None, settings.robotlog)
+    numbers = {"q": ("1", "2"), "v": ("3", "4"), "tau_motor": ("5", "6")}
+    meaning = LogMap.model_validate({"clock": {"column": "0"}} | {k: {"columns": own} for k, own in numbers.items()})
+    sensed = converted_log(tmp_path / "log.csv", arm.layout, meaning, settings.robotlog).recording.sensed
+    np.testing.assert_allclose(sensed.tau_motor, ROWS[:, 5:], atol=1e-6)
+
+
+def test_names_that_are_numbers_are_a_header(tmp_path):
+    (tmp_path / "log.csv").write_text("\n".join(["time,1,2,3", "0.0,1,2,3", "0.1,4,5,6"]))
+    assert column_names(tmp_path / "log.csv") == ["time", "1", "2", "3"]
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("", "is empty; accepted: a log with two samples or more"),
+        (HEADER, "has no row below its header; accepted: a log with two samples or more"),
+        (f"{HEADER}\n{LINES[0]}", "clock: 1 row; accepted: two samples, rising times"),
+        ("\0" * 5000, "byte 0 is zero, which no text has; accepted: text in UTF-8 or UTF-16"),
+        ("a\0b,c\n1,2", "byte 1 is zero, which no text has"),
+        (
+            "\n".join(
+                [HEADER, *(f"05/03/2024 12:00:0{k}.5{line[line.index(',') :]}" for k, line in enumerate(LINES[:9]))]
+            ),
+            "column 'time' holds text, '05/03/2024 12:00:00.5' in row 0; accepted: numbers, dates as 2026-05-03T12:00",
+        ),
+        ("mode,name\na,b\nc,d\n", "holds no column of numbers"),
+        (
+            "\n".join(PLAIN).replace("tau_motor", "torque"),
+            "column: 'tau_motor.J1' is not accepted; accepted: q.J1, time, torque.J1, torque.J2",
+        ),
+    ],
+    ids=["empty", "header alone", "one row", "zeros", "a zero", "dates of the US", "texts", "other names"],
+)
+def test_what_cannot_be_read_is_one_line(text, message, arm, settings, tmp_path):
+    (tmp_path / "log.csv").write_text(text)
+    with pytest.raises(DataError) as error:
+        converted_log(tmp_path / "log.csv", arm.layout, None, settings.robotlog)
+    assert f"log.csv: {message}" in str(error.value)
+    assert "\n" not in str(error.value)
+
+
+def test_a_clock_of_another_usual_name_needs_no_map(arm, settings, tmp_path):
+    (tmp_path / "log.csv").write_text("\n".join(PLAIN).replace("time", "Timestamp"))
+    assert len(converted_log(tmp_path / "log.csv", arm.layout, None, settings.robotlog).recording.sensed) == 40
+
+
+def test_cells_without_a_number_are_nan(tmp_path):
+    (tmp_path / "log.csv").write_text("a,b\n1,\n2,nan\n3,inf\n4,5\n")
+    values = read_log(tmp_path / "log.csv")["b"].values
+    assert [math.isfinite(value) for value in values] == [False, False, False, True]

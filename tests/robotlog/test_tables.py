@@ -1,0 +1,112 @@
+"""Parquet and files of arrays, as other programs write them."""
+
+import h5py
+import numpy as np
+import pyarrow as pa
+import pytest
+from pyarrow import parquet
+from scipy.io import savemat
+
+from mobnet.core.errors import DataError
+from mobnet.robotlog.formats import column_names, read_log
+from mobnet.robotlog.observe import converted_log
+from mobnet.settings.robotlog import LogMap
+
+T = np.arange(50) / 100
+Q = np.stack([np.sin(T), np.cos(T)], axis=1)
+ARRAYS = {"t": T, "q": Q, "v": 2 * Q, "tau": 3 * Q}
+MAP = {"clock": {"column": "t"}, "q": {"columns": ("q",)}, "v": {"columns": ("v",)}, "tau_motor": {"columns": ("tau",)}}
+
+
+def as_hdf5(path, arrays):
+    with h5py.File(path, "w") as file:
+        for name, values in arrays.items():
+            file[name] = values
+    return path
+
+
+def as_compound(path):
+    rows = np.zeros(len(T), dtype=[("t", "f8"), ("q", "f8", 2), ("v", "f4", 2), ("tau", "f8", 2)])
+    for name, values in ARRAYS.items():
+        rows[name] = values
+    return as_hdf5(path, {"log": rows})
+
+
+def as_npz(path):
+    np.savez(path, note=np.array("a text is left out"), **ARRAYS)
+    return path
+
+
+def as_matlab(path):
+    savemat(path, {"log": {name: values if values.ndim == 2 else values[:, None] for name, values in ARRAYS.items()}})
+    return path
+
+
+WRITERS = {
+    "column vectors": lambda folder: as_hdf5(folder / "log.h5", ARRAYS | {"t": T[:, None]}),
+    "an axis of one": lambda folder: as_hdf5(folder / "log.h5", ARRAYS | {"q": Q[:, None, :]}),
+    "compound": lambda folder: as_compound(folder / "log.h5"),
+    "MATLAB 7.3": lambda folder: as_hdf5(folder / "log.mat", {k: np.atleast_2d(own.T) for k, own in ARRAYS.items()}),
+    "MATLAB 5": lambda folder: as_matlab(folder / "log.mat"),
+    "NumPy": lambda folder: as_npz(folder / "log.npz"),
+}
+ABOVE = {"compound": "log.", "MATLAB 5": "log/"}  # before the names of the arrays
+
+
+@pytest.mark.parametrize("kind", WRITERS)
+def test_arrays_are_columns_however_they_lie(kind, arm, settings, tmp_path):
+    path, above = WRITERS[kind](tmp_path), ABOVE.get(kind, "")
+    mapping: dict = {key: {"columns": (above + name,)} for key, name in (("q", "q"), ("v", "v"), ("tau_motor", "tau"))}
+    mapping["clock"] = {"column": f"{above}t"}
+    sensed = converted_log(path, arm.layout, LogMap.model_validate(mapping), settings.robotlog).recording.sensed
+    np.testing.assert_allclose(sensed.q, Q, atol=1e-12)
+    np.testing.assert_allclose(sensed.tau_motor, 3 * Q, atol=1e-12)
+
+
+def test_arrays_of_different_lengths_are_one_line(arm, settings, tmp_path):
+    path = as_hdf5(tmp_path / "log.h5", ARRAYS | {"v": Q[:-3]})
+    with pytest.raises(
+        DataError, match=r"column 'v\.0' has 47 rows, and the clock 50; accepted: columns of one length"
+    ):
+        converted_log(path, arm.layout, LogMap.model_validate(MAP), settings.robotlog)
+
+
+def test_pictures_are_no_columns_and_arrays_beyond_the_memory_are_one_line(tmp_path):
+    with h5py.File(tmp_path / "log.h5", "w") as file:
+        file["t"] = T
+        file.create_dataset("pictures", (50, 480, 640), "u1", chunks=(1, 480, 640))
+        file.create_dataset("map", (5000, 5000), "f4", chunks=(500, 500))
+        file.create_dataset("endless", (2, 10**11), "f8", chunks=(2, 1000))
+    assert column_names(tmp_path / "log.h5") == ["endless.0", "endless.1", "t"]
+    assert set(read_log(tmp_path / "log.h5", ["t"])) == {"t"}
+    with pytest.raises(DataError, match=r"100000000000 rows x 1 columns x 8 B are 745\.1 GiB, and the memory has"):
+        read_log(tmp_path / "log.h5", ["endless.0"])
+
+
+def lists(values):
+    return pa.FixedSizeListArray.from_arrays(pa.array(values.ravel()), 2)
+
+
+@pytest.mark.parametrize("make", [lists, lambda values: pa.array(values.tolist())], ids=["fixed", "free"])
+def test_lists_in_parquet_are_columns_by_number_and_episodes_are_segments(make, arm, settings, tmp_path):
+    """As LeRobot writes them: the time of each episode begins at zero."""
+    own = {"t": np.r_[T[:20], T[:30]].astype(np.float32), "q": make(Q), "v": make(2 * Q), "tau": make(3 * Q)}
+    parquet.write_table(pa.table(own), tmp_path / "log.parquet")
+    assert column_names(tmp_path / "log.parquet")[:3] == ["t", "q.0", "q.1"]
+    found = converted_log(tmp_path / "log.parquet", arm.layout, LogMap.model_validate(MAP), settings.robotlog).recording
+    assert found.segments == ((0, 20), (20, 50))
+    np.testing.assert_allclose(found.sensed.v, 2 * Q, atol=1e-6)
+
+
+def test_lists_of_several_lengths_are_one_line(tmp_path):
+    parquet.write_table(pa.table({"t": T[:3], "q": [[1.0, 2.0], [1.0], None]}), tmp_path / "log.parquet")
+    with pytest.raises(DataError, match=r"column 'q' has lists of 1 to 2 numbers; accepted: lists of one length"):
+        read_log(tmp_path / "log.parquet", ["q.0"])
+
+
+def test_durations_are_seconds_and_other_types_are_named(tmp_path):
+    own = {"t": pa.array((T * 1e9).round().astype("i8"), pa.duration("ns")), "q": T, "note": ["x"] * len(T)}
+    parquet.write_table(pa.table(own), tmp_path / "log.parquet")
+    np.testing.assert_allclose(read_log(tmp_path / "log.parquet")["t"].values, T, atol=1e-9)
+    with pytest.raises(DataError, match="column 'note' holds string; accepted: numbers, dates as"):
+        read_log(tmp_path / "log.parquet", ["note"])
