@@ -16,6 +16,12 @@ from mobnet.settings.robot import RobotTable
 ARM = Path("tests/data/arm.yaml")
 BOTH = ("J1", "J2")
 LATE = 12  # samples
+TWELVE = r"(11\.[5-9]\d?|12(\.[0-4]\d?)?)"  # of them, within half a sample
+DELAYS = [  # rate of a log [Hz], and how late its torques are [ms]
+    (50.0, 40.0), (50.0, 50.0), (100.0, 20.0), (100.0, 25.0), (100.0, -30.0), (100.0, 80.0), (250.0, 8.0),
+    (250.0, 80.0), (500.0, 4.0), (1000.0, 3.0), (1000.0, 80.0),
+]  # fmt: skip
+RATE_HZ = 1000.0  # of the logs
 SEEDS = range(5)
 
 
@@ -61,10 +67,19 @@ def with_speeds_as_positions(table):
     return table.assign(**{f"{a}.{j}": table[f"{b}.{j}"] for j in BOTH for a, b in (("q", "v"), ("v", "q"))})
 
 
-def without_gravity(table):
+def with_gravity(table, times):
+    """Return a log with the torque of gravity so many times more."""
     nominal = NominalModel(describe(load_section(ARM, RobotTable)))
-    load = np.array([gravity(nominal, q) for q in table[["q.J1", "q.J2"]].to_numpy()])
-    return table.assign(**{f"tau_motor.{j}": table[f"tau_motor.{j}"] - load[:, k] for k, j in enumerate(BOTH)})
+    load = times * np.array([gravity(nominal, q) for q in table[["q.J1", "q.J2"]].to_numpy()])
+    return table.assign(**{f"tau_motor.{j}": table[f"tau_motor.{j}"] + load[:, k] for k, j in enumerate(BOTH)})
+
+
+def without_gravity(table):
+    return with_gravity(table, -1.0)
+
+
+def with_gravity_twice(table):
+    return with_gravity(table, 1.0)
 
 
 MISTAKES = {  # name -> what a lab does to its log, and the hint
@@ -74,14 +89,14 @@ MISTAKES = {  # name -> what a lab does to its log, and the hint
     ),
     "torque before the gear": (
         lambda t: changed(t, ["J1"], ["tau_motor"], lambda x: x / 100),
-        r"J1: tau_motor is 1/(9\d|10\d).* of what the motion needs: before the gear\?",
+        r"J1: tau_motor is 1/(9\d|10\d).* of what the motion needs: before the gear, or a current in A\?",
     ),
     "torques exchanged": (lambda t: exchanged(t, ["tau_motor"]), "J1 and J2: tau_motor of the two is exchanged"),
     "joints exchanged": (lambda t: exchanged(t, ["q", "v", "tau_motor"]), "J1 and J2: the two joints are exchanged"),
     "positions in degrees": (lambda t: changed(t, BOTH, ["q"], np.degrees), "q of J1, J2: .* 57.3 times .* degrees"),
     "speeds in degrees": (lambda t: changed(t, BOTH, ["v"], np.degrees), "q of J1, J2: .* 0.0175 times .* deg/s"),
     "both in degrees": (lambda t: changed(t, BOTH, ["q", "v"], np.degrees), "q of J1, J2: .* in degrees"),
-    "torque in mN m": (lambda t: changed(t, BOTH, ["tau_motor"], lambda x: 1e3 * x), "J1, J2: tau_motor is in mN m"),
+    "torque in mN m": (lambda t: changed(t, BOTH, ["tau_motor"], lambda x: 1e3 * x), "J1 and J2: tau_motor is in mN m"),
     "a column twice": (lambda t: t.assign(**{"v.J2": t["v.J1"]}), "v of J1 and J2: the same numbers in both"),
     "a constant column": (lambda t: t.assign(**{"tau_motor.J2": 1.5}), "tau_motor of J2: never changes, 1.5"),
     "jitter": (jittered, r"clock of q, v, tau_motor: intervals of .* ms spread by \d\d%"),
@@ -96,7 +111,7 @@ MISTAKES = {  # name -> what a lab does to its log, and the hint
         "J2: q, v and tau_motor have the wrong sign",
     ),
     "speed of the wrong sign": (lambda t: changed(t, ["J1"], ["v"], np.negative), "q of J1: changes by -1 times"),
-    "late torque": (lambda t: changed(t, BOTH, ["tau_motor"], late), "tau_motor: 12 ms late against the motion"),
+    "late torque": (lambda t: changed(t, BOTH, ["tau_motor"], late), f"tau_motor: {TWELVE} ms late against the motion"),
     "held speed": (lambda t: changed(t, BOTH, ["v"], held), "v of J1, J2: 90% of the samples repeat"),
     "clock in ns": (lambda t: t.assign(time=1e9 * t["time"]), r"clock of .*: 1e\+06 s between samples: in ns\?"),
     "clock in us": (lambda t: t.assign(time=1e6 * t["time"]), r"clock of .*: 1e\+03 s between samples: in us"),
@@ -112,9 +127,25 @@ MISTAKES = {  # name -> what a lab does to its log, and the hint
         lambda t: changed(t, ["J2"], ["q"], lambda x: x + np.pi / 2),
         r"J2: q reads \+1\.\d+ rad \(\+9\d degrees\) too much",
     ),
-    "late speed": (lambda t: changed(t, BOTH, ["v"], late), "v of J1, J2: 12 ms late against q"),
+    "late speed": (lambda t: changed(t, BOTH, ["v"], late), f"v of J1, J2: {TWELVE} ms late against q"),
     "held torque": (lambda t: changed(t, BOTH, ["tau_motor"], held), "tau_motor of J1, J2: 90% of the samples repeat"),
     "torque without gravity": (without_gravity, "J1 and J2: tau_motor lacks the torque of gravity"),
+    "all torques of the wrong sign": (
+        lambda t: changed(t, BOTH, ["tau_motor"], np.negative),
+        "J1 and J2: tau_motor is of the wrong sign",
+    ),
+    "motor currents": (
+        lambda t: t.assign(**{f"tau_motor.{j}": t[f"tau_motor.{j}"] / size for j, size in (("J1", 9.1), ("J2", 4.2))}),
+        r"J1 and J2: tau_motor is 1/4\.[0-4]\d* to (8\.[89]|9)\.?\d* of what the motion needs: .* or a current in A\?",
+    ),
+    "an offset": (
+        lambda t: changed(t, ["J1"], ["tau_motor"], lambda x: x - 20),
+        r"J1: tau_motor reads -(19|20)\.?\d* N m too much all the time: an offset",
+    ),
+    "torque with gravity twice": (
+        with_gravity_twice,
+        "J1.*: tau_motor has the torque of gravity twice",
+    ),
     "clock in ms": (lambda t: t.assign(time=1e3 * t["time"]), "q of J1, J2: .* the clock in ms"),
 }  # fmt: skip
 
@@ -140,3 +171,19 @@ def test_each_mistake_has_a_hint_that_names_it(name, clean, hints):
     assert matching, found
     named = [hint for hint in found if hint not in matching]
     assert all("beyond" in hint for hint in named), named  # and it names nothing else but values beyond limits
+
+
+@pytest.mark.parametrize(("rate_hz", "late_ms"), DELAYS)
+def test_a_delay_is_told_within_half_a_sample(rate_hz, late_ms, clean, hints):
+    t = clean["time"].to_numpy()
+    table = changed(clean, BOTH, ["tau_motor"], lambda column: np.interp(t - late_ms / 1e3, t, column))
+    (hint,) = hints(table[:: round(RATE_HZ / rate_hz)])
+    found = re.match(r"tau_motor: ([\d.]+) ms (late|early) against the motion", hint)
+    assert found, hint
+    told_ms = float(found[1]) * (1 if found[2] == "late" else -1)
+    assert abs(told_ms - late_ms) < 500.0 / rate_hz
+
+
+@pytest.mark.parametrize("rate_hz", [50.0, 100.0, 250.0, 500.0])
+def test_a_log_without_a_delay_has_no_hint_at_any_rate(rate_hz, clean, hints):
+    assert hints(clean[:: round(RATE_HZ / rate_hz)]) == ()

@@ -191,7 +191,10 @@ WALKING = {
     "feet exchanged": (with_feet_exchanged, "LL1, LL2.*: the sensors of the left and the right foot are exchanged"),
     "torques of a leg in another order": (in_another_order, "another order: LL1 has that of LL2, LL2 has that of LL3"),
     "omega held": (lambda t: held(t, "v.omega", 5), "omega: 80% of the samples repeat the one before"),
-    "late speeds": (lambda t: late(t, r"v\.[LRWN]", 8), "v of LL1, LL2, .* more: 8 ms late against q"),
+    "late speeds": (
+        lambda t: late(t, r"v\.[LRWN]", 8),
+        r"v of LL1, LL2, .* more: (7\.[5-9]\d?|8(\.[0-4]\d?)?) ms late against q",
+    ),
     "a foot's sensor that reads half": (lambda t: times(t, "wrench_left_foot", 0.5), "feet: their sensors carry 0.7"),
     "hip of the wrong sign": (lambda t: times(t, "tau_motor.LL3", -1.0), "LL3: tau_motor is of the wrong sign"),
     "waist before the gear": (lambda t: times(t, "tau_motor.W2", 0.01), r"W2: tau_motor is 1/\d+ .* before the gear"),

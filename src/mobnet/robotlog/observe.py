@@ -38,8 +38,9 @@ from mobnet.robotlog.hints.columns import (
     limit_hints,
     unit_hints,
 )
-from mobnet.robotlog.hints.delay import delay_hints, speed_delay_hints
+from mobnet.robotlog.hints.delay import speed_delay_hints, torque_delay
 from mobnet.robotlog.hints.motion import jump_hints, motion_hints
+from mobnet.robotlog.hints.rest import explanation
 from mobnet.robotlog.hints.torque import torque_hints
 from mobnet.robotlog.hints.windows import known_joints, windows_of
 from mobnet.robotlog.meaning import default_map, resolved, wanted_columns
@@ -59,11 +60,15 @@ MANY = 100_000  # samples above which progress is told
 
 @dataclass(frozen=True)
 class Observed:
-    """A log with its residual r of (9), (T, nv) [N] and [N m], and hints on what is wrong with it."""
+    """A log with its residual r of (9), (T, nv) [N] and [N m], and hints on what is wrong with it.
+
+    If its motion and torques are right, `explained` says what the residual comes from.
+    """
 
     converted: Converted
     residual: Array
     hints: tuple[str, ...]
+    explained: tuple[str, ...] = ()
 
 
 def observe_log(
@@ -91,7 +96,8 @@ def observe_log(
     for span in read.spans():
         residual[span] = mob.residual(read.sensed[span])
     _progress(rows, "residual computed; looking for what is wrong with the log")
-    return Observed(converted, residual, tuple(hints_of(converted, nominal, gravity_m_s2, bounds)))
+    hints, explained = looked_at(converted, nominal, torque, gravity_m_s2, bounds)
+    return Observed(converted, residual, tuple(hints), tuple(explained))
 
 
 def _progress(rows: int, text: str) -> None:
@@ -114,37 +120,60 @@ def converted_log(path: Path, layout: JointLayout, meaning: LogMap | None, bound
     return convert(path, read_log(path, wanted_columns(meaning, names)), meaning, layout, bounds)
 
 
-def hints_of(found: Converted, nominal: NominalModel, gravity_m_s2: float, bounds: RobotLog) -> Iterator[str]:
-    """Yield what looks wrong with a log, each as one line with numbers."""
+def looked_at(
+    found: Converted, nominal: NominalModel, torque: TorqueKind, gravity_m_s2: float, bounds: RobotLog
+) -> tuple[list[str], list[str]]:
+    """Return what looks wrong with a log whose torques are of a kind, each as one line with numbers.
+
+    The second list says what the residual comes from, if neither motion nor torques are wrong.
+    """
     read, layout = found.recording, nominal.robot.layout
     sensed, spans, rate_hz = read.sensed, read.spans(), read.rate_hz
-    yield from found.hints
+    hints = list(found.hints)
     if units := list(unit_hints(found.clocks)):
-        yield from units
-        return
-    yield from clock_hints(found.clocks, bounds)
-    yield from column_hints(sensed, layout.actuated, bounds)
-    yield from limit_hints(sensed, layout)
+        return hints + units, []
+    hints += clock_hints(found.clocks, bounds)
+    hints += column_hints(sensed, layout.actuated, bounds)
+    hints += limit_hints(sensed, layout)
     motors = sensed.q[:, -layout.nu :], sensed.v[:, -layout.nu :]
     wrong = list(motion_hints(*motors, spans, rate_hz, layout.actuated, bounds))
-    yield from wrong
-    yield from jump_hints(motors[0], spans, rate_hz, layout)
+    hints += wrong
+    hints += jump_hints(motors[0], spans, rate_hz, layout)
     late = [] if wrong else list(speed_delay_hints(*motors, spans, rate_hz, layout.actuated, bounds))
-    yield from late
+    hints += late
     if nominal.robot.floating:
-        yield from base_column_hints(sensed, bounds)
-        wrong += (own := list(base_hints(sensed, spans, rate_hz, bounds)))
-        yield from own
-    if not wrong:  # torques that a wrong motion would need say nothing
-        heavy = list(weight_hints(nominal, sensed, found.wrenches, gravity_m_s2, bounds))
-        yield from heavy
-        wrenches = {} if heavy else found.wrenches
-        if windows := windows_of(sensed, spans, rate_hz, wrenches, bounds):
-            needed = windows.needed(nominal)
-            known = known_joints(nominal, windows, needed, wrenches, bounds)
-            if not late:  # late speeds make torques look early
-                yield from delay_hints(nominal, sensed, spans, rate_hz, wrenches, known, bounds)
-            yield from torque_hints(nominal, windows, needed, known, bounds)
+        hints += base_column_hints(sensed, bounds)
+        own = list(base_hints(sensed, spans, rate_hz, bounds))
+        wrong += own
+        hints += own
+    if wrong:  # torques that a wrong motion would need say nothing
+        return hints, []
+    heavy = list(weight_hints(nominal, sensed, found.wrenches, gravity_m_s2, bounds))
+    wrenches = {} if heavy else found.wrenches
+    torques, explained = _torques_looked_at(found, nominal, torque, wrenches, bool(late), bounds)
+    return hints + heavy + torques, explained
+
+
+def _torques_looked_at(
+    found: Converted, nominal: NominalModel, torque: TorqueKind, wrenches: Mapping[str, Array], late: bool,
+    bounds: RobotLog,
+) -> tuple[list[str], list[str]]:  # fmt: skip
+    """Return what looks wrong with torques, or else what explains the residual; speeds may be known to be late."""
+    read = found.recording
+    log_of = read.sensed, read.spans(), read.rate_hz, wrenches
+    windows = windows_of(*log_of, torque, 0.0, bounds)
+    if windows is None:
+        return [], []
+    known = known_joints(nominal, windows, windows.asked(nominal), bounds)
+    delay = (
+        None if late else torque_delay(nominal, *log_of, known, torque, bounds)
+    )  # late speeds make torques look early
+    if delay:
+        windows = windows_of(*log_of, torque, delay.samples, bounds) or windows
+    hints = list(torque_hints(nominal, windows, bounds))
+    if delay:
+        return [delay.text, *hints], []
+    return hints, [] if hints or late else list(explanation(nominal, windows, bounds))
 
 
 def write_observed(found: Observed, robot: RobotDescription, gain_hz: float, torque: str, out: Path) -> None:
@@ -190,6 +219,9 @@ def told(found: Observed, robot: RobotDescription, out: Path) -> Iterator[str]:
         own = k - len(robot.layout.virtual)
         beside = f"  of {motor[own]:8.3f}" if own >= 0 else ""
         yield f"  {name:<{width}} {value:9.3f}{beside} {robot.layout.unit(name)}"
+    if found.explained:
+        yield "explained, by least squares:"
+    yield from (f"  {line}" for line in found.explained)
     yield "hints: none" if not found.hints else f"hints: {len(found.hints)}"
     yield from (f"  {hint}" for hint in found.hints)
     yield f"written: {out / RECORDING}.parquet, {out / ESTIMATE}.parquet, {out / PLOT}.png"

@@ -166,9 +166,14 @@ class RobotLog(Section):
         windows: how many of them.
         least_torque: a joint whose motor gives less than this share of its largest torque tells nothing of it.
         suspect: share of a joint's torque that the motion does not explain, as squares, from which it is looked at.
-        few: so many such joints are tried with each other; of more only factors of their torques are told.
+        few: so many such joints are tried with each other, and so many tell of a delay.
         explained: one mistake is named if it takes this share of the square error away.
         good: after which the error is below this share of the torque, both as squares.
+        floor: shares of square torque that a mistake leaves are alike below this one.
+        number: how much each number that is chosen counts against a change, beside the sum of the logarithms of what it
+            leaves.
+        close: of two changes that differ by less in that sum both are told.
+        offset: largest offset of a motor's torque that is no mistake, as a share of its largest torque.
         factor: known factors between two units are recognised within this share.
         clipped: share of the samples at a torque's own largest value above which it is called clipped.
         held: share of samples that repeat the one before while a joint moves, above which it is called stale.
@@ -195,6 +200,10 @@ class RobotLog(Section):
     few: Count
     explained: InnerShare
     good: InnerShare
+    floor: InnerShare
+    number: Positive
+    close: Positive
+    offset: InnerShare
     factor: InnerShare
     clipped: InnerShare
     held: InnerShare

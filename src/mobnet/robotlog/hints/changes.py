@@ -1,6 +1,6 @@
-"""Changes of a log that would undo a mistake: of torques, of joints as a whole, of feet."""
+"""Changes of a log that would undo a mistake: of torques, of joints as a whole, of feet, of what the model lacks."""
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -10,14 +10,20 @@ from scipy.optimize import linear_sum_assignment
 
 from mobnet.core.arrays import Array
 from mobnet.robot.nominal import NominalModel
-from mobnet.robotlog.hints.windows import Windows, share_of
+from mobnet.robotlog.hints.fits import friction_fit, unexplained
+from mobnet.robotlog.hints.payload import payloads
+from mobnet.robotlog.hints.windows import Asked, Windows, repeated, size_of
 from mobnet.settings.robotlog import RobotLog
 
-ALIKE = 2.0  # factor that friction and a wrong model may make of a torque
-GEAR = (10.0, 500.0)  # reductions of gears
+ALIKE = 3.0  # factor that a wrong model may make of a torque
+ANY = np.array(np.inf)  # offset of a torque [N m]
+FACTORS = np.geomspace(1e-4, 1e4, 161)  # of torques that are tried, and how finely the best of them is sought again
+FINER = np.geomspace(1 / 1.1, 1.1, 41)
 UNITS = {"mN m": 1e-3, "kN m": 1e3}
 APART_RAD = np.radians(15.0)  # between zeros of a joint that are tried
 LEAST_RAD = np.radians(12.0)  # shift of a zero below which friction may be the cause
+TINY = np.finfo(float).tiny
+LEAST_CARRIED = 2  # joints that a mass at the end of an arm loads
 LEAST_ORDER = 3  # joints that stand in another order; two are exchanged
 
 
@@ -25,113 +31,246 @@ Changed = Callable[[Windows], Windows]
 
 
 class Change(NamedTuple):
-    """A change that would undo a mistake: its text, the joints that it must explain, and what it makes of windows."""
+    """A change that would undo a mistake.
+
+    Attributes:
+        text: what the mistake is.
+        joints: those that it must explain.
+        numbers: how many numbers were chosen for it, by which changes are held against each other.
+        apply: what it makes of windows.
+    """
 
     text: str
     joints: tuple[int, ...]
+    numbers: int
     apply: Changed
 
 
 Moved = tuple[Changed, tuple[Change, ...]]  # a change of motion, and those of torques that may go with it
 
 
-def factor_of(needed: Array, windows: Windows, k: int, bounds: RobotLog) -> Change | None:
-    """Return the factor on the torque of one joint that explains it, if one with a meaning does."""
-    own, wanted = windows.torque[:, k], needed[:, k]
-    factor = float(own @ wanted / max(float(own @ own), np.finfo(float).tiny))
-    meaning = _meaning(factor, bounds)
-    if not meaning or not _explains(wanted, own, factor * own, bounds):
-        return None
-    size = np.ones(windows.torque.shape[1])
-    size[k] = factor
-    return Change(meaning, (k,), lambda w: replace(w, torque=size * w.torque))
+class Seen(NamedTuple):
+    """A log's windows and what their motion asks for.
+
+    Attributes:
+        left: share of the square torque of each joint that is not explained (nu,).
+        known: joints that tell of themselves.
+        suspects: those of them that are not explained, the worst first.
+        few: those of the suspects that are tried with each other, in order.
+    """
+
+    nominal: NominalModel
+    bounds: RobotLog
+    windows: Windows
+    asked: Asked
+    left: Array
+    known: tuple[int, ...]
+    suspects: tuple[int, ...]
+    few: tuple[int, ...]
+
+    def offset(self, k: int) -> Array:
+        """Return the largest offset of a motor's torque that needs no word, an array of one number [N m]."""
+        return self.bounds.offset * np.asarray(self.nominal.robot.torque_limits[k])
+
+    def with_torque(self, i: int, torque: Array) -> Array:
+        """Return what joint i would leave unexplained if its torques were these (W, m), (m,)."""
+        return unexplained(self.asked.terms[:, i], self.asked.needed[:, [i]], torque, self.offset(i))
+
+    def with_factors(self, i: int, factors: Array, offset: Array | None = None) -> Array:
+        """Return what joint i would leave unexplained if its motion needed so many times as much (m,).
+
+        The offset of its torque is at most so large [N m], that which needs no word where none is given.
+        """
+        needed, torque = self.asked.needed[:, [i]] * factors, self.windows.torque[:, [i]]
+        return unexplained(self.asked.terms[:, i], needed, torque, self.offset(i) if offset is None else offset)
 
 
-def torque_changes(
-    nominal: NominalModel,
-    needed: Array,
-    windows: Windows,
-    suspects: Sequence[int],
-    few: Sequence[int],
-    bounds: RobotLog,
-) -> Iterator[Change]:
-    """Yield changes of torques alone: two exchanged, many in another order, gravity that the drive adds by itself."""
-    for i in few:
-        for j in (j for j in few if j > i):
-            order = _exchanged(windows.torque.shape[1], i, j)
-            if all(_explains(needed[:, k], windows.torque[:, k], windows.torque[:, order[k]], bounds) for k in (i, j)):
-                yield Change("tau_motor of the two is exchanged", (i, j), _with_torques(order))
-    share = np.array([share_of(needed[:, suspects], windows.torque[:, [j]]) for j in suspects]).clip(max=1.0)
-    place, own = linear_sum_assignment(share.T) if len(suspects) >= LEAST_ORDER else (np.zeros(0, int),) * 2
-    order = np.arange(windows.torque.shape[1])
+def sign_changes(seen: Seen) -> Iterator[Change]:
+    """Yield the change of the signs of all torques that fit better with the other one."""
+    torque = -seen.windows.torque
+    wrong = [k for k in seen.suspects if _improves(seen.with_torque(k, torque[:, [k]])[0], seen.left[k], seen.bounds)]
+    if wrong:
+        sign = np.ones(torque.shape[1])
+        sign[wrong] = -1.0
+        numbers = 1 if len(wrong) == len(seen.known) else len(wrong)
+        yield Change("tau_motor is of the wrong sign", tuple(sorted(wrong)), numbers, _times(sign))
+
+
+def factor_changes(seen: Seen) -> Iterator[Change]:
+    """Yield factors of torques: of a single joint, or of all that are not explained, one or for each its own."""
+    # A joint whose motion needs next to nothing has no factor to tell.
+    large = size_of(seen.asked.needed) > seen.bounds.least_torque * seen.nominal.robot.torque_limits
+    own = {k: _best_factor(seen, [k]) for k in sorted(seen.suspects) if large[k]}
+    own = {
+        k: factor
+        for k, factor in own.items()
+        if _improves(*seen.with_factors(k, np.array([factor, 1.0]), ANY), seen.bounds)
+    }
+    for k, factor in own.items():
+        yield from _factor_change(seen, {k: factor}, 1)
+    if len(own) > 1:
+        common = _best_factor(seen, list(own))
+        same = dict.fromkeys(own, common)
+        # A joint that its own factor does not explain either has none to tell.
+        told = {k: float(seen.with_factors(k, np.array([own[k]]))[0]) < seen.bounds.suspect for k in own}
+        each = {k: factor if told[k] else common for k, factor in own.items()}
+        better = _sum_of_logs(seen, each) + seen.bounds.number * (len(own) - 1) < _sum_of_logs(seen, same)
+        yield from _factor_change(seen, each if better else same, len(own) if better else 1)
+
+
+def _best_factor(seen: Seen, joints: Sequence[int]) -> float:
+    """Return the factor on what the motion needs of some joints that explains their torques best."""
+    tried = np.concatenate([FACTORS, -FACTORS])
+    coarse = float(tried[int(np.argmin(_log_left(seen, joints, tried)))])
+    return coarse * float(FINER[int(np.argmin(_log_left(seen, joints, coarse * FINER)))])
+
+
+def _log_left(seen: Seen, joints: Sequence[int], factors: Array) -> Array:
+    """Return the sum of logarithms of what joints leave with factors on what their motion needs (m,)."""
+    return np.sum([np.log(seen.with_factors(k, factors) + TINY) for k in joints], axis=0)
+
+
+def _sum_of_logs(seen: Seen, factors: Mapping[int, float]) -> float:
+    """Return the sum of logarithms of what joints leave with factors on what their motion needs."""
+    return float(sum(_logs(seen.with_factors(k, np.array([size])), seen.bounds)[0] for k, size in factors.items()))
+
+
+def _factor_change(seen: Seen, factors: Mapping[int, float], numbers: int) -> Iterator[Change]:
+    """Yield the change that undoes factors of joints on what the motion needs, if they have a meaning."""
+    if meaning := _meaning(list(factors.values()), seen.bounds):
+        size = np.ones(len(seen.left))
+        size[list(factors)] = [1 / factor for factor in factors.values()]
+        yield Change(meaning, tuple(factors), numbers, _times(size))
+
+
+def order_changes(seen: Seen) -> Iterator[Change]:
+    """Yield orders of torques: two exchanged, or many in another order."""
+    nu, suspects, torque = len(seen.left), sorted(seen.suspects), seen.windows.torque
+    for i in seen.few:
+        for j in (j for j in seen.few if j > i):
+            yield Change("tau_motor of the two is exchanged", (i, j), 1, _in_order(_exchanged(nu, i, j)))
+    if len(suspects) < LEAST_ORDER:
+        return
+    yield Change("tau_motor stands in the reverse order", tuple(suspects), 1, _in_order(np.arange(nu)[::-1]))
+    left = np.array([seen.with_torque(i, torque[:, suspects]) for i in suspects])
+    place, own = linear_sum_assignment(_logs(left, seen.bounds))
+    order = np.arange(nu)
     order[[suspects[k] for k in place]] = [suspects[k] for k in own]
-    moved = tuple(np.flatnonzero(order != np.arange(len(order))).tolist())
+    moved = tuple(np.flatnonzero(order != np.arange(nu)).tolist())
     if len(moved) >= LEAST_ORDER:
-        names = nominal.robot.layout.actuated
+        names = seen.nominal.robot.layout.actuated
         given = ", ".join(f"{names[k]} has that of {names[int(np.flatnonzero(order == k)[0])]}" for k in moved)
-        yield Change(f"tau_motor stands in another order: {given}", moved, _with_torques(order))
-    if suspects and not nominal.robot.floating:  # whose feet carry it
-        gravity = replace(windows, v=0 * windows.v, loads={}).needed(nominal)
-        yield Change(
-            "tau_motor lacks the torque of gravity, which the drive adds by itself", tuple(suspects),
-            lambda w: replace(w, torque=w.torque + gravity),
-        )  # fmt: skip
+        yield Change(f"tau_motor stands in another order: {given}", moved, len(moved), _in_order(order))
 
 
-def motion_changes(nominal: NominalModel, few: Sequence[int]) -> Iterator[Moved]:
+def offset_changes(seen: Seen) -> Iterator[Change]:
+    """Yield offsets of single torques."""
+    for k in seen.suspects:
+        rest = seen.windows.torque[:, [k]] - seen.asked.needed[:, [k]]
+        size = float(friction_fit(seen.asked.terms[:, k], rest, np.array(np.inf))[1].item())
+        if abs(size) > seen.offset(k):
+            shift = np.zeros(len(seen.left))
+            shift[k] = -size
+            text = f"tau_motor reads {size:+.3g} N m too much all the time: an offset"
+            yield Change(text, (k,), 1, _plus(shift))
+
+
+def gravity_changes(seen: Seen) -> Iterator[Change]:
+    """Yield gravity that the drives of an arm add by themselves, or that is in its torques twice."""
+    if not seen.suspects or seen.nominal.robot.floating:  # whose feet carry it
+        return
+    gravity = replace(seen.windows, v=0 * seen.windows.v, loads={}).needed(seen.nominal)
+    joints = tuple(sorted(seen.suspects))
+    yield Change("tau_motor lacks the torque of gravity, which the drive adds by itself", joints, 1, _beside(gravity))
+    yield Change("tau_motor has the torque of gravity twice", joints, 1, _beside(-gravity))
+
+
+def payload_changes(seen: Seen) -> Iterator[Change]:
+    """Yield a mass at the end of a limb, which several joints carry."""
+    if len(seen.suspects) < LEAST_CARRIED:
+        return
+    for mass in payloads(seen.nominal, seen.windows, seen.asked, seen.left, seen.known):
+        yield Change(mass.text(), tuple(sorted(seen.suspects)), 4, _beside(-mass.torque))
+
+
+def motion_changes(seen: Seen) -> Iterator[Moved]:
     """Yield changes of motion, for which the model has to be asked again, and those of torques that may go with it."""
-    nu = nominal.robot.layout.nu
+    nu, few, every = len(seen.left), seen.few, tuple(sorted(seen.suspects))
     order, same = np.arange(nu), np.ones(nu)
+    # A joint that is explained is exchanged with none; one that tells nothing may be.
+    others = [k for k in range(nu) if k in few or k not in seen.known]
     for i in few:
         sign = same.copy()
         sign[i] = -1.0
-        alone = Change("q and v have the wrong sign", (i,), _unchanged)
-        whole = Change("q, v and tau_motor have the wrong sign", (i,), _with_torques(order, sign))
+        alone = Change("q and v have the wrong sign", (i,), 1, _unchanged)
+        whole = Change("q, v and tau_motor have the wrong sign", (i,), 1, _times(sign))
         yield _with_motion(order, sign), (alone, whole)
-        for j in (j for j in range(nu) if j > i or (j not in few and j != i)):
+        for j in (j for j in others if j > i or j not in few):
             pair = _exchanged(nu, i, j)
-            alone = Change("q and v of the two are exchanged", (i, j), _unchanged)
-            yield _with_motion(pair, same), (alone, Change("the two joints are exchanged", (i, j), _with_torques(pair)))
+            alone = Change("q and v of the two are exchanged", (i, j), 1, _unchanged)
+            both = Change("the two joints are exchanged", (i, j), 1, _in_order(pair))
+            yield _with_motion(pair, same), (alone, both)
+    if len(every) >= LEAST_ORDER:
+        back = order[::-1].copy()
+        alone = Change("q and v stand in the reverse order", every, 1, _unchanged)
+        whole = Change("q, v and tau_motor stand in the reverse order", every, 1, _in_order(back))
+        yield _with_motion(back, same), (alone, whole)
+    if every:
+        degrees = Change("q and v are too small by 57.3: in rad, and taken for degrees", every, 1, _unchanged)
+        yield _with_motion(order, np.degrees(same)), (degrees,)
 
 
-def zero_changes(nominal: NominalModel, thin: Windows, few: Sequence[int], bounds: RobotLog) -> Iterator[Moved]:
-    """Yield shifts of positions, of each joint that which leaves the least error in a few windows.
+def zero_changes(seen: Seen, thin: Windows) -> Iterator[Moved]:
+    """Yield shifts of positions, of each joint that which explains its own torque best in a few windows.
 
-    It must explain how the joint's torque changes, too: gravity at another angle can look like the friction of a joint
-    that rests.
+    It must explain how the torque changes, too: gravity at another angle can look like the friction of a joint that
+    rests.
     """
-    nu, before = nominal.robot.layout.nu, _share_of_changes(thin.needed(nominal), thin.torque)
-    for i in few:
-
-        def left(shift: float, i: int = i) -> float:
-            moved = _shifted(nu, i, shift)(thin)
-            return float(share_of(moved.needed(nominal), moved.torque).clip(max=1.0).sum())
-
+    nu = len(seen.left)
+    for i in seen.few:
         best, apart = 0.0, APART_RAD
         tried = np.arange(-np.pi, np.pi, apart)
         while apart > LEAST_RAD / 20:
-            best = float(min(tried, key=left))
+            best = float(tried[int(np.argmin(_left_by_shifts(seen, thin, i, tried, seen.offset(i))))])
             tried, apart = best + apart * np.linspace(-1, 1, 7), apart / 3
-        after = _share_of_changes(_shifted(nu, i, best)(thin).needed(nominal), thin.torque)
-        if abs(best) > LEAST_RAD and after[i] < (1 - bounds.explained) * before[i]:
+        both = _left_by_shifts(seen, thin, i, np.array([best, 0.0]), ANY)
+        if abs(best) > LEAST_RAD and _improves(float(both[0]), float(both[1]), seen.bounds):
             much = f"{-best:+.2f} rad ({np.degrees(-best):+.0f} degrees)"
             text = f"q reads {much} too much: another zero; give it as offset"
-            yield _shifted(nu, i, best), (Change(text, (i,), _unchanged),)
+            yield _shifted(nu, i, best), (Change(text, (i,), 2, _unchanged),)
 
 
-def feet_changes(nominal: NominalModel, windows: Windows, suspects: Sequence[int]) -> Iterator[Moved]:
+def _left_by_shifts(seen: Seen, windows: Windows, i: int, shifts: Array, offset: Array) -> Array:
+    """Return what joint i would leave unexplained if its positions were shifted by numbers (n,) [rad], (n,).
+
+    The offset of its torque is at most so large [N m].
+    """
+    count, many = len(shifts), repeated(windows, len(shifts))
+    many.q[..., i - len(seen.left)] += np.repeat(shifts, len(windows.q))[:, None]
+    asked = many.asked(seen.nominal)
+    needed, torque = (values[:, i].reshape(count, -1, 1) for values in (asked.needed, many.torque))
+    terms = asked.terms[:, i].reshape(count, *windows.q.shape[:1], -1)
+    return unexplained(terms, needed, torque, np.full(count, offset))[:, 0]
+
+
+def feet_changes(seen: Seen) -> Iterator[Moved]:
     """Yield the exchange of the sensors of both feet, for the joints of the legs."""
-    robot = nominal.robot
+    robot = seen.nominal.robot
     legs = {joint for foot in robot.feet.values() for joint in robot.layout.limb(foot.limb)}
-    own = tuple(k for k in sorted(suspects) if robot.layout.actuated[k] in legs)
-    if own and len(windows.loads) > 1:
+    own = tuple(k for k in sorted(seen.suspects) if robot.layout.actuated[k] in legs)
+    if own and len(seen.windows.loads) > 1:
         text = "the sensors of the left and the right foot are exchanged"
-        yield _with_feet_exchanged, (Change(text, own, _unchanged),)
+        yield _with_feet_exchanged, (Change(text, own, 1, _unchanged),)
 
 
-def _share_of_changes(needed: Array, torque: Array) -> Array:
-    """Return the square error over the larger square of what is left of both without their means (nu,)."""
-    return share_of(needed - needed.mean(axis=0), torque - torque.mean(axis=0))
+def _improves(left: float, before: float, bounds: RobotLog) -> bool:
+    """Return whether a share that is left is little, and much less than before."""
+    return left < min(bounds.good, (1 - bounds.explained) * before)
+
+
+def _logs(left: Array, bounds: RobotLog) -> Array:
+    """Return the logarithms of shares that are left, of which the smallest count alike."""
+    return np.log(np.maximum(left, bounds.floor))
 
 
 def _with_feet_exchanged(windows: Windows) -> Windows:
@@ -149,17 +288,32 @@ def _exchanged(nu: int, i: int, j: int) -> NDArray[np.intp]:
     return order
 
 
-def _with_torques(order: NDArray[np.intp], sign: Array | float = 1.0) -> Changed:
-    """Return the change that puts torques into an order, with signs (nu,)."""
-    return lambda w: replace(w, torque=sign * w.torque[:, order])
+def _times(size: Array) -> Changed:
+    """Return the change that multiplies torques by factors (nu,)."""
+    return lambda w: replace(w, torque=size * w.torque)
 
 
-def _with_motion(order: NDArray[np.intp], sign: Array) -> Changed:
-    """Return the change that puts positions and velocities of joints into an order, with signs (nu,)."""
+def _plus(shift: Array) -> Changed:
+    """Return the change that adds numbers (nu,) [N m] to torques."""
+    return lambda w: replace(w, torque=w.torque + shift)
+
+
+def _beside(torque: Array) -> Changed:
+    """Return the change that lets a torque (W, nu) [N m] act beside the motors."""
+    return lambda w: replace(w, beside=w.beside + torque)
+
+
+def _in_order(order: NDArray[np.intp]) -> Changed:
+    """Return the change that puts torques into an order."""
+    return lambda w: replace(w, torque=w.torque[:, order])
+
+
+def _with_motion(order: NDArray[np.intp], size: Array) -> Changed:
+    """Return the change that puts positions and velocities of joints into an order, with factors (nu,)."""
 
     def apply(w: Windows) -> Windows:
         q, v = w.q.copy(), w.v.copy()
-        q[..., -len(order) :], v[..., -len(order) :] = (sign * x[..., -len(order) :][..., order] for x in (w.q, w.v))
+        q[..., -len(order) :], v[..., -len(order) :] = (size * x[..., -len(order) :][..., order] for x in (w.q, w.v))
         return replace(w, q=q, v=v)
 
     return apply
@@ -176,19 +330,30 @@ def _shifted(nu: int, i: int, shift: float) -> Changed:
     return apply
 
 
-def _meaning(factor: float, bounds: RobotLog) -> str:
-    """Return what a factor on a torque means; nothing of one that a model's error or friction may make."""
-    size = abs(factor)
-    sign = " and of the wrong sign" if factor < 0 else ""
-    unit = next((unit for unit, value in UNITS.items() if abs(size / value - 1) < bounds.factor), "")
-    if unit:
-        return f"tau_motor is in {unit}{sign}"
-    if GEAR[0] < size < GEAR[1]:
-        return f"tau_motor is 1/{size:.3g} of what the motion needs{sign}: before the gear?"
-    return "tau_motor is of the wrong sign" if sign and 1 / ALIKE < size < ALIKE else ""
+def _meaning(needed: Sequence[float], bounds: RobotLog) -> str:
+    """Return what it means that torques are so many times what the motion needs, nothing where friction may be it."""
+    sizes = sorted(map(abs, needed))
+    turned = {factor < 0 for factor in needed}
+    if len(turned) > 1 or (sizes[0] < ALIKE and sizes[-1] > 1 / ALIKE):
+        return ""
+    sign = " and of the wrong sign" if turned == {True} else ""
+    exact = [unit for unit, value in UNITS.items() if _far(sizes, value) < 1 + bounds.factor]
+    if exact:
+        return f"tau_motor is in {exact[0]}{sign}"
+    near = [f"in {unit}, " for unit, value in UNITS.items() if _far(sizes, value) < ALIKE]
+    if sizes[0] > ALIKE:
+        return f"tau_motor is {_span(sizes)} times what the motion needs{sign}: {''.join(near)}or a current in mA?"
+    inverse = [1 / size for size in reversed(sizes)]
+    likely = "".join(near) or "before the gear, "
+    return f"tau_motor is 1/{_span(inverse)} of what the motion needs{sign}: {likely}or a current in A?"
 
 
-def _explains(needed: Array, before: Array, after: Array, bounds: RobotLog) -> bool:
-    """Return whether a change of a torque (W,) takes most of the square error away and leaves little of it."""
-    was, left = float(np.square(needed - before).sum()), float(np.square(needed - after).sum())
-    return left < (1 - bounds.explained) * was and left < bounds.good * float(np.square(needed).sum())
+def _far(sizes: Sequence[float], unit: float) -> float:
+    """Return the largest factor between what torques would be in a unit [N m] and what the motion needs."""
+    return max(max(size * unit, 1 / (size * unit)) for size in sizes)
+
+
+def _span(sizes: Sequence[float]) -> str:
+    """Return the smallest and the largest of some numbers in order."""
+    few, many = f"{sizes[0]:.3g}", f"{sizes[-1]:.3g}"
+    return few if few == many else f"{few} to {many}"

@@ -1,7 +1,9 @@
 """Hints from the motion that torques should make: which single mistake explains the observer's own residual best.
 
-A mistake is told if the change that would undo it takes most of the difference between needed and measured torque away
-and leaves little of it.
+Every change that would undo a mistake is held against all others by what it leaves unexplained, joint by joint, with
+friction and rotor inertia fitted beside each of them, and the one that leaves least is told. Each number that is chosen
+for a change counts against it, so that the more general of two does not win by itself. A change that leaves hardly more
+than the best one is told beside it.
 """
 
 from collections.abc import Iterator
@@ -9,20 +11,24 @@ from itertools import chain
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array
 from mobnet.robot.nominal import NominalModel
 from mobnet.robotlog.hints.changes import (
     Change,
-    factor_of,
+    Seen,
+    factor_changes,
     feet_changes,
+    gravity_changes,
     motion_changes,
-    torque_changes,
+    offset_changes,
+    order_changes,
+    payload_changes,
+    sign_changes,
     zero_changes,
 )
 from mobnet.robotlog.hints.columns import listed
-from mobnet.robotlog.hints.windows import Windows, share_of
+from mobnet.robotlog.hints.windows import Asked, Windows, known_joints, left_of
 from mobnet.settings.robotlog import RobotLog
 
 MANY = 2  # joints up to which each of them must be explained
@@ -32,85 +38,106 @@ LOOSE = 1.5  # factor on what may be left in those
 
 
 class Mistake(NamedTuple):
-    """A mistake with the windows that undoing it makes, and the torques that their motion needs (W, nu) [N m]."""
+    """A mistake with the windows that undoing it makes, what they ask for, and a score: the less the better."""
 
     change: Change
     windows: Windows
-    needed: Array
+    asked: Asked
+    score: float
 
 
-def torque_hints(
-    nominal: NominalModel, windows: Windows, needed: Array, known: NDArray[np.bool_], bounds: RobotLog
-) -> Iterator[str]:
-    """Yield what looks wrong with torques, or with joints as a whole, of those that are known (nu,).
-
-    `needed` are the torques that the motion needs (W, nu) [N m].
-    """
-    names, told = nominal.robot.layout.actuated, dict[str, list[str]]()
+def torque_hints(nominal: NominalModel, windows: Windows, bounds: RobotLog) -> Iterator[str]:
+    """Yield what looks wrong with torques, or with joints as a whole, of those that tell of themselves."""
+    asked, told = windows.asked(nominal), dict[str, list[str]]()
     for _ in range(MOST):
-        found = _best(nominal, windows, needed, known, bounds)
-        for change, after, wanted in found:
-            joints = [names[k] for k in change.joints]
-            few = " and ".join(joints) if len(joints) <= MANY else listed(joints)
-            told.setdefault(change.text, []).append(few)
-            # Changes of torques alone, of which there may be several, are undone one after another.
-            windows, needed = (change.apply(windows), needed) if wanted is needed else (after, wanted)
+        found = _best(_seen(nominal, windows, asked, bounds))
         if not found:
             break
+        best, *others = found
+        windows, asked = best.windows, best.asked
+        meant = "".join(f"; or {_named(other.change, nominal)}: {other.change.text}" for other in others)
+        told.setdefault(best.change.text + meant, []).append(_named(best.change, nominal))
     for text, joints in told.items():
         yield f"{', '.join(joints)}: {text}"
 
 
-def _best(
-    nominal: NominalModel, windows: Windows, needed: Array, known: NDArray[np.bool_], bounds: RobotLog
-) -> list[Mistake]:
-    """Return the mistake that explains most; where many joints are wrong, the factors of all their torques at once."""
-    wrong = share_of(needed, windows.torque)
-    worst = np.argsort(np.where(known, -wrong, np.inf))
-    suspects = [k for k in worst.tolist() if known[k] and wrong[k] > bounds.suspect]
-    factors = [change for k in suspects if (change := factor_of(needed, windows, k, bounds))]
-    alone = [Mistake(change, change.apply(windows), needed) for change in factors]
-    if len(alone) > bounds.few:
-        return alone
+def _seen(nominal: NominalModel, windows: Windows, asked: Asked, bounds: RobotLog) -> Seen:
+    """Return windows with what is not explained in them."""
+    known = np.flatnonzero(known_joints(nominal, windows, asked, bounds)).tolist()
+    left = left_of(asked, windows.torque, nominal, bounds, range(windows.torque.shape[1]))
+    suspects = [k for k in np.argsort(-left).tolist() if k in known and left[k] > bounds.suspect]
     few = sorted(suspects[: bounds.few])
-    torques = torque_changes(nominal, needed, windows, sorted(suspects), few, bounds)
-    alone += [Mistake(change, change.apply(windows), needed) for change in torques]
-    best, least = [], float(wrong[known].clip(max=1.0).sum())
-    for mistake in chain(alone, _of_motion(nominal, windows, suspects, few, wrong, bounds)):
-        left = share_of(mistake.needed, mistake.windows.torque)
-        total = float(left[known].clip(max=1.0).sum())
-        if _clears(mistake.change, left, wrong, bounds) and total < least:
-            best, least = [mistake], total
-    return best
+    return Seen(nominal, bounds, windows, asked, left, tuple(known), tuple(suspects), tuple(few))
 
 
-def _of_motion(
-    nominal: NominalModel, windows: Windows, suspects: list[int], few: list[int], wrong: Array, bounds: RobotLog
-) -> Iterator[Mistake]:
-    """Yield changes of motion and feet that clear a few of the windows: asking the model costs most of the time."""
-    thin = windows.thinned(THIN)
+def _named(change: Change, nominal: NominalModel) -> str:
+    """Return the names of the joints of a change."""
+    joints = [nominal.robot.layout.actuated[k] for k in change.joints]
+    return " and ".join(joints) if len(joints) <= MANY else listed(joints)
+
+
+def _best(seen: Seen) -> list[Mistake]:
+    """Return the mistake that explains most, and one that explains hardly less; none where nothing is wrong."""
+    if not seen.suspects:
+        return []
+    found = sorted(chain(_of_torque(seen), _of_motion(seen)), key=lambda mistake: mistake.score)
+    return [one for one in found if one.score < found[0].score + seen.bounds.close][:2]
+
+
+def _of_torque(seen: Seen) -> Iterator[Mistake]:
+    """Yield changes of torques alone that clear their joints."""
     changes = (
-        feet_changes(nominal, windows, suspects),
-        zero_changes(nominal, thin, few, bounds),
-        motion_changes(nominal, few),
+        sign_changes(seen),
+        factor_changes(seen),
+        order_changes(seen),
+        offset_changes(seen),
+        gravity_changes(seen),
+        payload_changes(seen),
     )
-    for move, torques in chain(*changes):
+    for change in chain(*changes):
+        windows = change.apply(seen.windows)
+        asked = seen.asked._replace(needed=seen.asked.needed - (windows.beside - seen.windows.beside))
+        yield from _cleared(change, windows, asked, seen)
+
+
+def _of_motion(seen: Seen) -> Iterator[Mistake]:
+    """Yield changes of motion and feet that clear a few of the windows: asking the model costs most of the time."""
+    nominal, bounds, thin = seen.nominal, seen.bounds, seen.windows.thinned(THIN)
+    for move, changes in chain(feet_changes(seen), zero_changes(seen, thin), motion_changes(seen)):
         moved = move(thin)
-        needed = moved.needed(nominal)
-        left = (share_of(needed, change.apply(moved).torque) / LOOSE for change in torques)
-        kept = [change for change, share in zip(torques, left, strict=True) if _clears(change, share, wrong, bounds)]
+        asked = moved.asked(nominal)
+        kept = []
+        for change in changes:
+            joints = list(change.joints)
+            left = left_of(asked, change.apply(moved).torque, nominal, bounds, joints) / LOOSE
+            if _clears(left, seen.left[joints], bounds):
+                kept.append(change)
         if kept:
-            whole = move(windows)
-            needed = whole.needed(nominal)
-            yield from (Mistake(change, change.apply(whole), needed) for change in kept)
+            whole = move(seen.windows)
+            asked = whole.asked(nominal)
+            for change in kept:
+                yield from _cleared(change, change.apply(whole), asked, seen)
 
 
-def _clears(change: Change, left: Array, wrong: Array, bounds: RobotLog) -> bool:
-    """Return whether a change takes most of the error of its joints away, and leaves little; shares (nu,).
+def _cleared(change: Change, windows: Windows, asked: Asked, seen: Seen) -> Iterator[Mistake]:
+    """Yield a change with its score, if it clears its joints and is better than none."""
+    own = list(change.joints)
+    left = left_of(asked, windows.torque, seen.nominal, seen.bounds, range(len(seen.left)))
+    score = _score(left, seen) + seen.bounds.number * change.numbers
+    if _clears(left[own], seen.left[own], seen.bounds) and score < _score(seen.left, seen):
+        yield Mistake(change, windows, asked, score)
+
+
+def _score(left: Array, seen: Seen) -> float:
+    """Return the sum of the logarithms of what the known joints leave, of which the smallest shares count alike."""
+    return float(np.log(np.maximum(left[list(seen.known)], seen.bounds.floor)).sum())
+
+
+def _clears(left: Array, before: Array, bounds: RobotLog) -> bool:
+    """Return whether a change takes most of the error of its joints away, and leaves little; shares (n,).
 
     Of many joints the mean counts, as friction may be the larger part of the torque of some.
     """
-    own = list(change.joints)
-    before, after = (share[own] if len(own) <= MANY else share[own].mean() for share in (wrong, left))
-    most = np.minimum(bounds.good, (1 - bounds.explained) * before)
-    return bool((after < most).all())
+    if len(left) > MANY:
+        left, before = left.mean(keepdims=True), before.mean(keepdims=True)
+    return bool(len(left) and (left < np.minimum(bounds.good, (1 - bounds.explained) * before)).all())

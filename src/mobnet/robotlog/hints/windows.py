@@ -3,8 +3,10 @@
 No acceleration is needed. All hints on torques look at these windows.
 """
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,76 +16,119 @@ from mobnet.core.recording import Sensed
 from mobnet.robot.dynamics import momentum_and_beta
 from mobnet.robot.nominal import NominalModel
 from mobnet.robot.wrench import feet_torque
+from mobnet.robotlog.hints.fits import dissipation, unexplained
+from mobnet.settings.base import TorqueKind
 from mobnet.settings.robotlog import RobotLog
 
 NODES = 11  # samples of a window at which beta is taken
+
+
+class Asked(NamedTuple):
+    """What the motion of windows asks of the motors: `needed` (W, nu) [N m], and terms of their friction (W, nu, 3)."""
+
+    needed: Array
+    terms: Array
 
 
 @dataclass(frozen=True)
 class Windows:
     """Positions and velocities at the nodes of windows (W, NODES, n), and mean torques of the motors (W, nu) [N m].
 
-    `loads` are what the feet's sensors read, side -> (W, NODES, 6) [N], [N m].
+    `loads` are what the feet's sensors read, side -> (W, NODES, 6) [N], [N m]; `beside` is what acts on the joints
+    beside the motors, as they are logged (W, nu) [N m].
     """
 
     q: Array
     v: Array
     torque: Array
+    beside: Array
     loads: Mapping[str, Array]
     period_s: float
 
+    def asked(self, nominal: NominalModel) -> Asked:
+        """Return what the motion needs of the motors, and what their friction and rotor inertia multiply."""
+        speed = self.v[:, :, len(nominal.robot.layout.virtual) :]
+        terms = _mean(dissipation(speed, np.zeros(speed.shape)))
+        terms[..., -1] = (speed[:, -1] - speed[:, 0]) / self.period_s
+        return Asked(self.needed(nominal) - self.beside, terms)
+
     def needed(self, nominal: NominalModel) -> Array:
-        """Return the mean torques of the motors that the motion needs (W, nu) [N m]."""
+        """Return the mean torques that the motion needs at the joints (W, nu) [N m]."""
         shape = self.q.shape[:2]
         p, beta = (term.reshape(*shape, -1) for term in momentum_and_beta(nominal, self.q, self.v))
-        mean = (beta.sum(axis=1) - (beta[:, 0] + beta[:, -1]) / 2) / (shape[1] - 1)
         feet = feet_torque(nominal, self.q, self.loads).mean(axis=1)
-        needed = (p[:, -1] - p[:, 0]) / self.period_s - mean - feet
+        needed = (p[:, -1] - p[:, 0]) / self.period_s - _mean(beta) - feet
         return needed[:, len(nominal.robot.layout.virtual) :]
 
     def thinned(self, step: int) -> "Windows":
         """Return every so many of the windows."""
         loads = {side: load[::step] for side, load in self.loads.items()}
-        return Windows(self.q[::step], self.v[::step], self.torque[::step], loads, self.period_s)
+        q, v, torque, beside = self.q[::step], self.v[::step], self.torque[::step], self.beside[::step]
+        return Windows(q, v, torque, beside, loads, self.period_s)
+
+
+def repeated(windows: Windows, times: int) -> Windows:
+    """Return windows so many times, one after another."""
+    loads = {side: np.concatenate([load] * times) for side, load in windows.loads.items()}
+    q, v = np.concatenate([windows.q] * times), np.concatenate([windows.v] * times)
+    torque, beside = np.concatenate([windows.torque] * times), np.concatenate([windows.beside] * times)
+    return Windows(q, v, torque, beside, loads, windows.period_s)
 
 
 def windows_of(
-    sensed: Sensed, spans: Sequence[slice], rate_hz: float, wrenches: Mapping[str, Array], bounds: RobotLog
-) -> Windows | None:
-    """Return windows spread evenly over the spans, None where no span is long enough."""
-    steps = max(2, round(bounds.window_s * rate_hz))
-    starts = np.concatenate([np.arange(s.start, s.stop - steps, steps) for s in spans] or [np.zeros(0)]).astype(np.intp)
+    sensed: Sensed, spans: Sequence[slice], rate_hz: float, wrenches: Mapping[str, Array], kind: TorqueKind,
+    late: float, bounds: RobotLog,
+) -> Windows | None:  # fmt: skip
+    """Return windows spread evenly over the spans, None where no span is long enough.
+
+    Torques of a kind are so many samples late.
+    """
+    steps, apart = max(2, round(bounds.window_s * rate_hz)), math.ceil(abs(late))
+    firsts = [np.arange(s.start + apart, s.stop - steps - apart, steps) for s in spans]
+    starts = np.concatenate(firsts or [np.zeros(0)]).astype(np.intp)
     if not len(starts):
         return None
     count = min(bounds.windows, len(starts))
     starts = starts[np.linspace(0, len(starts) - 1, count).round().astype(np.intp)]
     nodes = starts[:, None] + np.linspace(0, steps, min(NODES, steps + 1)).round().astype(np.intp)
     q, v = sensed.q[nodes].astype(np.float64), sensed.v[nodes].astype(np.float64)
-    inside = starts[:, None] + 1 + np.arange(steps)
-    torque = sensed.tau_motor[inside].mean(axis=1, dtype=np.float64)
+    torque = _mean_torque(sensed, starts[:, None] + np.arange(steps + 1), kind, late)
     loads = {side: wrench[nodes] for side, wrench in wrenches.items()}
-    return Windows(q, v, torque, loads, steps / rate_hz)
+    return Windows(q, v, torque, np.zeros(torque.shape), loads, steps / rate_hz)
 
 
-def known_joints(
-    nominal: NominalModel, windows: Windows, needed: Array, wrenches: Mapping[str, Array], bounds: RobotLog
-) -> NDArray[np.bool_]:
-    """Return which joints tell of themselves (nu,): with a torque, and on no leg whose contact nobody measures.
+def _mean_torque(sensed: Sensed, rows: NDArray[np.intp], kind: TorqueKind, late: float) -> Array:
+    """Return the mean torque of the motors between the first and the last of rows (W, n), so many samples late."""
+    whole = math.floor(late)
+    part, torque = late - whole, sensed.tau_motor[rows + whole].astype(np.float64)
+    if part > 0:
+        torque = (1 - part) * torque + part * sensed.tau_motor[rows + whole + 1]
+    return _mean(torque) if kind == "sample" else torque[:, 1:].mean(axis=1)
 
-    `needed` are the torques that the motion needs (W, nu) [N m].
-    """
+
+def _mean(nodes: Array) -> Array:
+    """Return the mean of what is given at the nodes of windows (W, n, ...), by the rule of trapezia."""
+    return (nodes.sum(axis=1) - (nodes[:, 0] + nodes[:, -1]) / 2) / (nodes.shape[1] - 1)
+
+
+def known_joints(nominal: NominalModel, windows: Windows, asked: Asked, bounds: RobotLog) -> NDArray[np.bool_]:
+    """Return which joints tell of themselves (nu,): with a torque, and on no leg whose contact nobody measures."""
     robot = nominal.robot
-    felt = [foot.limb for side, foot in robot.feet.items() if side not in wrenches]
+    felt = [foot.limb for side, foot in robot.feet.items() if side not in windows.loads]
     blind = {joint for limb in felt for joint in robot.layout.limb(limb)}
     sees = np.array([joint not in blind for joint in robot.layout.actuated])
     sees &= np.ptp(windows.torque, axis=0) > 0.0
-    return sees & (np.maximum(size_of(windows.torque), size_of(needed)) > bounds.least_torque * robot.torque_limits)
+    largest = np.maximum(size_of(windows.torque), size_of(asked.needed))
+    return sees & (largest > bounds.least_torque * robot.torque_limits)
 
 
-def share_of(needed: Array, torque: Array) -> Array:
-    """Return the square error over the larger square of the two, joint by joint (nu,)."""
-    error = np.square(needed - torque).mean(axis=0)
-    return error / np.maximum(np.maximum(size_of(needed), size_of(torque)) ** 2, np.finfo(float).tiny)
+def left_of(asked: Asked, torque: Array, nominal: NominalModel, bounds: RobotLog, joints: Sequence[int]) -> Array:
+    """Return the share of the square torque of some joints that motion and friction leave unexplained (n,)."""
+    own = list(joints)
+    offsets = bounds.offset * nominal.robot.torque_limits[own]
+    terms = np.moveaxis(asked.terms[:, own], 1, 0)
+    needed, measured = (values[:, own].T[..., None] for values in (asked.needed, torque))
+    return np.minimum(unexplained(terms, needed, measured, offsets)[:, 0], 1.0)
 
 
 def size_of(values: Array) -> Array:

@@ -1,0 +1,71 @@
+"""Least squares of a joint's torque: what its motion needs beside friction, rotor inertia and a small offset.
+
+No table has them in full, and without them a mistake that looks like friction would be taken for another one. Friction
+and inertia take no torque away from what moves a joint, so that a torque of the wrong sign cannot hide in them.
+"""
+
+from itertools import product
+
+import numpy as np
+
+from mobnet.core.arrays import Array
+
+STEADY = 0.05  # speed at which dry friction has turned round [rad/s]
+BLOCKS = 10  # of windows, each half of which is explained by what was fitted to the other half
+SMALL = 1e-12  # share added to squares, so that a joint at rest has numbers, too
+
+
+def dissipation(speed: Array, change: Array) -> Array:
+    """Return what dry friction, viscous friction and rotor inertia multiply, (..., 3).
+
+    `speed` [rad/s] and `change`, its derivative [rad/s^2], are (...).
+    """
+    return np.stack([np.tanh(speed / STEADY), speed, change], axis=-1)
+
+
+def positive_fit(terms: Array, targets: Array) -> Array:
+    """Return the numbers (..., p, m) of least squares, none below zero, by which terms (..., W, p) make up targets.
+
+    Targets are (..., W, m). Of few terms all choices of those above zero can be tried: the best of those whose numbers
+    are all above zero is the answer.
+    """
+    count = terms.shape[-1]
+    across = np.swapaxes(terms, -1, -2)
+    gram, cross = across @ terms, across @ targets
+    gram += (SMALL * gram.max(axis=(-1, -2), keepdims=True) + np.finfo(float).tiny) * np.eye(count)
+    chosen = np.array(list(product((0.0, 1.0), repeat=count)))  # (choices, p)
+    both = chosen[:, :, None] * chosen[:, None, :]
+    own = gram[..., None, :, :] * both + (1 - chosen)[:, :, None] * np.eye(count)
+    wanted = cross[..., None, :, :] * chosen[:, :, None]
+    numbers = np.linalg.solve(own, wanted)  # (..., choices, p, m), zero where not chosen
+    explained = np.where((numbers >= 0.0).all(axis=-2), (numbers * wanted).sum(axis=-2), -np.inf)
+    best = explained.argmax(axis=-2)[..., None, None, :]
+    return np.take_along_axis(numbers, best, axis=-3)[..., 0, :, :]
+
+
+def friction_fit(terms: Array, rest: Array, offset: Array) -> tuple[Array, Array]:
+    """Return the numbers (..., p, m) of terms (..., W, p) that make up what is left of torques, and its offsets.
+
+    What is left is (..., W, m) [N m], offsets are (..., 1, m) and at most so large (...,) [N m].
+    """
+    middle, means = terms.mean(axis=-2, keepdims=True), rest.mean(axis=-2, keepdims=True)
+    numbers = positive_fit(terms - middle, rest - means)
+    most = np.asarray(offset)[..., None, None]
+    constant = np.clip(means - middle @ numbers, -most, most)
+    return positive_fit(terms, rest - constant), constant
+
+
+def unexplained(terms: Array, needed: Array, torque: Array, offset: Array) -> Array:
+    """Return the share of the square of measured torques that neither motion nor friction explains (..., m).
+
+    Terms are (..., W, p), torques that the motion needs and that were measured (..., W, m) [N m], of which one may have
+    a single column. What is fitted to one half of the windows must explain the other one.
+    """
+    rest = torque - needed
+    count = rest.shape[-2]
+    late = (np.arange(count) * BLOCKS // count) % 2 == 1
+    left = np.zeros((*rest.shape[:-2], rest.shape[-1]))
+    for half in (late, ~late):
+        numbers, constant = friction_fit(terms[..., ~half, :], rest[..., ~half, :], offset)
+        left += np.square(rest[..., half, :] - terms[..., half, :] @ numbers - constant).sum(axis=-2)
+    return left / np.maximum(np.square(torque).sum(axis=-2), np.finfo(float).tiny)

@@ -1,0 +1,121 @@
+"""Mistakes planted into an arm's log are named, and no other joint or mistake: 14 of them, on two kinds of torques.
+
+The arm is a made-up stand-in for a real one: its links weigh a tenth more than its table says, and its drives have
+friction and rotor inertia that the table lacks. A UR10e's own log is tried where there is one: MOBNET_UR10E names a
+folder with `log.csv`, whose columns are the time, and then q, v, motor current, its target and the target torque of
+each joint without a header, `gains.csv`, a line of the drives' gains [N m/A], and the robot's table `ur10e.yaml`.
+"""
+
+import os
+import re
+from pathlib import Path
+
+import numpy as np
+import pinocchio as pin
+import pytest
+from made_mistakes import PLANTED, Log, fault_of
+
+from mobnet.robot.description import describe
+from mobnet.robot.dynamics import inverse_dynamics
+from mobnet.robot.nominal import NominalModel
+from mobnet.robotlog.observe import observe_log
+from mobnet.settings.load import load_section
+from mobnet.settings.robot import RobotTable
+
+RATE_HZ, SECONDS, WAVES = 100.0, 40.0, 6
+HEAVIER = 1.1  # links than in the table
+DRY, VISCOUS, ROTOR = 0.06, 0.05, 0.01  # shares of a motor's largest torque: [N m], [N m s/rad], [N m s^2/rad]
+NOISE = {"q": 1e-5, "v": 2e-3, "torque": 2e-3}  # [rad], [rad/s], share of a motor's largest torque
+CARRIED_M = (0.0, 0.0, 0.2)  # in the frame of the last link
+MIDDLE = (0.0, -0.6, 0.0, -1.6, 0.0, 1.8, 0.0)  # pose about which the arm moves [rad]
+REAL = os.environ.get("MOBNET_UR10E")
+KINDS = ("of the controller", "of currents")  # the first without friction
+
+
+@pytest.fixture(scope="module")
+def panda():
+    return describe(load_section(Path("configs/robots/panda.yaml"), RobotTable))
+
+
+def arm_log(robot, friction, carried_kg=0.0):
+    """Return a log of the stand-in that carries a mass beyond its last link, and may have friction."""
+    rng, t = np.random.default_rng(5), np.arange(0, SECONDS, 1 / RATE_HZ)
+    joints, limits = robot.layout.nu, robot.torque_limits
+    rate, phase = 2 * np.pi * rng.uniform(0.05, 0.5, (WAVES, joints)), rng.uniform(0, 6, (WAVES, joints))
+    size, angle = rng.uniform(0.08, 0.2, (WAVES, joints)), rate * t[:, None, None] + phase
+    q = MIDDLE + (size * np.sin(angle)).sum(axis=1)
+    v = (size * rate * np.cos(angle)).sum(axis=1)
+    a = -(size * rate**2 * np.sin(angle)).sum(axis=1)
+    heavier = NominalModel(robot, mass_ratio=HEAVIER)
+    if carried_kg:
+        load = pin.Inertia(carried_kg, np.array(CARRIED_M), np.zeros((3, 3)))
+        heavier.model.appendBodyToJoint(joints, load, pin.SE3.Identity())
+    torque = np.array([inverse_dynamics(heavier, *row) for row in zip(q, v, a, strict=True)])
+    if friction:
+        torque += limits * (DRY * np.tanh(v / 0.02) + VISCOUS * v + ROTOR * a)
+    noise = {name: spread * rng.normal(size=q.shape) for name, spread in NOISE.items()}
+    read = q + noise["q"], v + noise["v"], torque + limits * noise["torque"]
+    return Log(*read, RATE_HZ, base=0, shoulder=1, elbow=3)
+
+
+@pytest.fixture(scope="module")
+def arm_logs(panda):
+    """Return a log of the stand-in by kind of torque."""
+    return {kind: arm_log(panda, friction=kind == KINDS[1]) for kind in KINDS}
+
+
+@pytest.fixture
+def observed(panda, settings, tmp_path):
+    """Return a function of a log that observes it."""
+
+    def observe(log):
+        log.table(panda.layout.actuated).to_parquet(tmp_path / "log.parquet")
+        return observe_log(tmp_path / "log.parquet", panda, None, "sample", 100.0, 9.81, settings.robotlog)
+
+    return observe
+
+
+def test_a_clean_log_says_what_explains_its_residual(arm_logs, panda, observed):
+    found = observed(arm_logs["of currents"])
+    assert found.hints == ()
+    numbers = {}
+    for line in found.explained:
+        if match := re.match(r"(\w+): friction of (\S+) N m .* explain (\d+)% of its square", line):
+            numbers[match[1]] = float(match[2]), float(match[3])
+    dry = dict(zip(panda.layout.actuated, DRY * panda.torque_limits, strict=True))
+    assert len(numbers) >= 5
+    for joint, (friction, explained) in numbers.items():
+        assert abs(friction / dry[joint] - 1) < 0.3
+        assert explained > 60
+
+
+def test_a_mass_that_the_table_lacks_is_named(panda, observed):
+    (hint,) = observed(arm_log(panda, friction=True, carried_kg=4.0)).hints
+    found = re.search(r"a mass of ([\d.]+) kg at .* m of (\w+), which the table lacks", hint)
+    assert found, hint
+    assert 3.5 < float(found[1]) < 6.0  # the links are heavier than in the table, too
+
+
+@pytest.mark.parametrize("name", PLANTED)
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_planted_mistake_is_named_and_nothing_else(kind, name, arm_logs, panda, observed):
+    log = arm_logs[kind]
+    hints = observed(PLANTED[name].spoil(log)).hints
+    assert fault_of(name, log, panda.layout.actuated, hints) == ""
+
+
+@pytest.mark.skipif(REAL is None, reason="MOBNET_UR10E names no folder with a real log")
+@pytest.mark.parametrize("name", PLANTED)
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_mistake_planted_into_a_real_log_is_named(kind, name, settings, tmp_path):
+    folder = Path(str(REAL))
+    robot = describe(load_section(folder / "ur10e.yaml", RobotTable))
+    columns = np.loadtxt(folder / "log.csv", delimiter=",")
+    columns = columns[np.diff(columns[:, 0], prepend=-np.inf) > 0]
+    t = np.arange(columns[0, 0], columns[-1, 0], 1 / RATE_HZ)[: round(SECONDS * RATE_HZ)]
+    q, v, current, _, target = np.split(np.stack([np.interp(t, columns[:, 0], x) for x in columns.T[1:]], axis=1), 5, 1)
+    torque = target if kind == KINDS[0] else current * np.loadtxt(folder / "gains.csv", delimiter=",")
+    log, joints = Log(q, v, torque, RATE_HZ, base=0, shoulder=1, elbow=2), robot.layout.actuated
+    PLANTED[name].spoil(log).table(joints).to_parquet(tmp_path / "log.parquet")
+    hints = observe_log(tmp_path / "log.parquet", robot, None, "sample", 100.0, 9.81, settings.robotlog).hints
+    assert fault_of(name, log, joints, hints) == ""
