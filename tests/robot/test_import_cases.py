@@ -21,7 +21,7 @@ NOTES = {
     ("r03b_token_inertia_on_sensor.urdf", None): [],
     ("r04_inertia_not_of_a_body.urdf", None): [
         "lower: 1 kg with the principal moments 0.001, 0.001, 0.01 kg m^2 of no rigid body; changed to 1 kg with the "
-        "principal moments 0.005"
+        "principal moments 0.001, 0.001, 0.002 kg m^2"
     ],
     ("r04b_inertia_not_of_a_body_fixed.urdf", None): [],
     ("r05_massless_virtual_links.urdf", None): ["no mass in the file: virtual; 1e-12 kg is taken"],
