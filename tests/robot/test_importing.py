@@ -339,6 +339,21 @@ def test_a_mjcf_needs_no_files_of_what_has_no_mass(tmp_path):
     assert max(inertia, terms) < EQUAL
 
 
+def test_the_robot_of_a_scene_is_what_has_most_joints(tmp_path):
+    two = "<body><joint/><geom size='.1' pos='.1 0 0'/>" + HINGE + "</body>"
+    scissors = ROBOT.format(name="scissors")
+    (tmp_path / "arm.xml").write_text(f"<mujoco><worldbody>{scissors}{two}</worldbody></mujoco>")
+    found, robot = table_of(tmp_path / "arm.xml", tmp_path)
+    assert (robot.floating, len(robot.joints)) == (False, 2)
+    assert "left out, as no part of the robot: scissors, a body without a name" in found.notes
+    walker = f"<body name='trunk'><freejoint/><geom size='.1'/>{two}</body>"
+    (tmp_path / "walker.xml").write_text(f"<mujoco><worldbody>{HINGE}{walker}</worldbody></mujoco>")
+    found, robot = table_of(tmp_path / "walker.xml", tmp_path)
+    assert (robot.floating, robot.base, len(robot.joints)) == (True, "trunk", 2)
+    ((_, inertia, terms),) = differences(robot, found, tmp_path / "walker.xml")
+    assert max(inertia, terms) < EQUAL
+
+
 def test_a_macro_that_xacro_left_in_a_whole_robot_is_noted(tmp_path):
     space = ('name="two-link arm"', 'name="two-link arm" xmlns:xacro="http://ros.org/wiki/xacro"')
     (tmp_path / "left.urdf").write_text(arm_with(space, ("</robot>", "<xacro:sensors port='1'/></robot>")))
