@@ -6,9 +6,11 @@ import numpy as np
 import pytest
 
 from mobnet.core.errors import DataError
+from mobnet.robot.dynamics import gravity, mass_matrix, momentum_and_beta
 from mobnet.robot.import_checks import differences
 from mobnet.robot.import_table import robot_of_text, table_text
 from mobnet.robot.importing import import_robot
+from mobnet.robot.nominal import NominalModel
 
 CASES = Path(__file__).parent / "cases"
 EQUAL = 1e-10
@@ -21,7 +23,7 @@ NOTES = {
     ("r03b_token_inertia_on_sensor.urdf", None): [],
     ("r04_inertia_not_of_a_body.urdf", None): [
         "lower: 1 kg with the principal moments 0.001, 0.001, 0.01 kg m^2 of no rigid body; changed to 1 kg with the "
-        "principal moments 0.005"
+        "principal moments 0.001, 0.001, 0.002 kg m^2"
     ],
     ("r04b_inertia_not_of_a_body_fixed.urdf", None): [],
     ("r05_massless_virtual_links.urdf", None): ["no mass in the file: virtual; 1e-12 kg is taken"],
@@ -127,6 +129,14 @@ def test_what_cannot_be_read_is_one_line(name, base):
     (line,) = str(refused.value).splitlines()
     assert line.startswith(f"{CASES / name}: ")
     assert REFUSED[name, base] in line
+
+
+def test_a_robot_of_one_joint_has_a_momentum():
+    _, robot = found_of("r08_one_joint.urdf")
+    nominal, q, v = NominalModel(robot), np.array([[0.4]]), np.array([[1.5]])
+    p, beta = momentum_and_beta(nominal, q, v)
+    assert p[0] == pytest.approx(mass_matrix(nominal, q[0])[0] * v[0])
+    assert beta[0] == pytest.approx(-gravity(nominal, q[0]))  # its inertia is constant
 
 
 def test_limits_follow_from_motors_by_the_smaller_of_their_ranges():

@@ -14,7 +14,7 @@ from mobnet.robot import import_checks, import_table
 from mobnet.robot.description import describe
 from mobnet.robot.import_checks import differences
 from mobnet.robot.import_inertia import balanced, is_rigid
-from mobnet.robot.import_table import main, table_text
+from mobnet.robot.import_table import main, robot_of_text, table_text
 from mobnet.robot.importing import import_robot
 from mobnet.robot.plant import robot_spec
 from mobnet.settings.load import load_section
@@ -339,6 +339,21 @@ def test_a_mjcf_needs_no_files_of_what_has_no_mass(tmp_path):
     assert max(inertia, terms) < EQUAL
 
 
+def test_the_robot_of_a_scene_is_what_has_most_joints(tmp_path):
+    two = "<body><joint/><geom size='.1' pos='.1 0 0'/>" + HINGE + "</body>"
+    scissors = ROBOT.format(name="scissors")
+    (tmp_path / "arm.xml").write_text(f"<mujoco><worldbody>{scissors}{two}</worldbody></mujoco>")
+    found, robot = table_of(tmp_path / "arm.xml", tmp_path)
+    assert (robot.floating, len(robot.joints)) == (False, 2)
+    assert "left out, as no part of the robot: scissors, a body without a name" in found.notes
+    walker = f"<body name='trunk'><freejoint/><geom size='.1'/>{two}</body>"
+    (tmp_path / "walker.xml").write_text(f"<mujoco><worldbody>{HINGE}{walker}</worldbody></mujoco>")
+    found, robot = table_of(tmp_path / "walker.xml", tmp_path)
+    assert (robot.floating, robot.base, len(robot.joints)) == (True, "trunk", 2)
+    ((_, inertia, terms),) = differences(robot, found, tmp_path / "walker.xml")
+    assert max(inertia, terms) < EQUAL
+
+
 def test_a_macro_that_xacro_left_in_a_whole_robot_is_noted(tmp_path):
     space = ('name="two-link arm"', 'name="two-link arm" xmlns:xacro="http://ros.org/wiki/xacro"')
     (tmp_path / "left.urdf").write_text(arm_with(space, ("</robot>", "<xacro:sensors port='1'/></robot>")))
@@ -384,20 +399,36 @@ def test_a_token_without_a_place_among_masses_is_left_out(tmp_path):
     assert robot.bodies == table_of(ARM, tmp_path)[1].bodies
 
 
+def test_a_light_link_with_the_inertia_of_a_heavy_one_gets_mass_and_a_heavy_one_is_refused(tmp_path):
+    mass, inertia = balanced(1e-6, 0.1 * np.eye(3))
+    assert is_rigid(mass, inertia)
+    np.testing.assert_allclose(inertia, 0.1 * np.eye(3))
+    (tmp_path / "unit.urdf").write_text(arm_with(('ixx="0.004" iyy="0.05" izz="0.05"', 'ixx="40" iyy="500" izz="500"')))
+    with pytest.raises(DataError, match=r"radius of gyration of 12\.9 m is not accepted"):
+        robot_of_text(table_text(import_robot(tmp_path / "unit.urdf", None, 1.0, 1.0), "x"), tmp_path / "unit.urdf")
+    (tmp_path / "large.urdf").write_text(arm_with(('ixx="0.004" iyy="0.05" izz="0.05"', 'ixx="8" iyy="8" izz="8"')))
+    notes = table_of(tmp_path / "large.urdf", tmp_path)[0].notes
+    assert any(note.startswith("upper: 3 kg with") and "a radius of gyration of 1.63 m" in note for note in notes)
+
+
 @pytest.mark.parametrize(
-    "moments", [(1e-3, 1e-3, 1e-2), (0.0, 0.0, 0.0), (-1e-3, 1e-2, 1e-2), (1e-9, 1e-9, 1e-9), (9, 1, 1)]
+    ("moments", "possible"),
+    [
+        ((1e-3, 1e-3, 1e-2), (1e-3, 1e-3, 2e-3)),
+        ((3e-3, 4e-3, 4.8), (3e-3, 4e-3, 7e-3)),
+        ((-1e-3, 1e-2, 1e-2), (1e-6, 1e-2, 1e-2)),
+        ((0.0, 0.0, 0.0), (1e-6, 1e-6, 1e-6)),
+        ((1e-9, 1e-9, 1e-9), (1e-6, 1e-6, 1e-6)),
+    ],
 )
-def test_an_inertia_that_no_body_has_becomes_the_nearest_that_one_has(moments):
+def test_moments_that_no_body_has_become_possible_about_the_same_axes(moments, possible):
     turn = pin.exp3(np.array([0.3, -0.5, 0.7]))
     inertia = turn @ np.diag(moments) @ turn.T
     assert not is_rigid(1.0, inertia)
     mass, found = balanced(1.0, inertia)
     assert mass == 1.0
     assert is_rigid(mass, found)
-    second, other = (np.trace(i) / 2 * np.eye(3) - i for i in (inertia, found))
-    values, axes = np.linalg.eigh(second)
-    # axes stay, and so does what is possible of the second moment
-    np.testing.assert_allclose(axes.T @ other @ axes, np.diag(np.maximum(values, 1e-6 * 1.001 / 2)), atol=1e-12)
+    np.testing.assert_allclose(np.diag(turn.T @ found @ turn), possible, rtol=2e-3)
 
 
 def test_a_word_that_is_no_base_names_both(say, tmp_path):

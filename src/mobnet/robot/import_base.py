@@ -56,7 +56,7 @@ def robot_of(tree: Tree, floating: bool | None, locked: Sequence[str]) -> Robot:
         kept = tree.below(base)
     else:
         base = WORLD
-        objects = [tree.below(k) for k in free if not hinges[k]]
+        objects = [tree.below(k) for k in free if others or not hinges[k]]
         kept = [not any(column) for column in zip(*objects, strict=True)] if objects else [True] * len(tree.links)
     robot = Robot(base, kept)
     gone = [link.name or "a body without a name" for link, stays in zip(tree.links, kept, strict=True) if not stays]

@@ -1,6 +1,6 @@
 """Mass and inertia of links that move as one, and what is done where no rigid body has such an inertia."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -14,6 +14,8 @@ from mobnet.settings.parts import is_possible
 # simulates it.
 TOKEN_MASS, TOKEN_INERTIA = 1e-12, 1e-14
 TOKEN_SHARE = 1e-3  # of the mass of a body, below which a link with an impossible inertia stands for a frame
+LIGHT_KG = 1e-3  # a link of less mass may get more, where its inertia asks for it
+LARGE_M = 1.5  # a radius of gyration above this is told
 SURE = 1.001  # by which a balanced moment is above the least one
 
 
@@ -39,6 +41,7 @@ def mass_of(body: Body, links: Sequence[Link]) -> Mass:
     if not whole.mass and not whole.inertia.any():
         return Mass(TOKEN_MASS, np.zeros(3), TOKEN_INERTIA * np.eye(3), is_token=True)
     if is_rigid(whole.mass, whole.inertia):
+        whole.notes.extend(_large(body.name, whole))
         return whole
     least = TOKEN_SHARE * whole.mass
     tokens = [part for part in body.parts if part.mass < least and part.inertia.any()]
@@ -80,19 +83,26 @@ def six(inertia: Array) -> tuple[float, float, float, float, float, float]:
 
 
 def balanced(mass: float, inertia: Array) -> tuple[float, Array]:
-    """Return a mass and the inertia of a rigid body that is nearest to one that no body has.
+    """Return a mass and an inertia that a rigid body can have, near to one that none has.
 
-    Behind an inertia I stands the second moment S = tr(I) / 2 - I of the mass, whose principal values are sums of
-    masses times squares of lengths: one below zero becomes zero, or what the least radius of gyration asks for.
+    Axes stay. A principal moment that is too small for the mass is raised, and one above the sum of the others becomes
+    that sum, because a single figure is wrong more often than two. Only a light body gets more mass.
     """
-    low, high = GYRATION_M
-    values, axes = np.linalg.eigh(np.trace(inertia) / 2 * np.eye(3) - inertia)
-    raised = np.maximum(values, SURE * mass * low**2 / 2)
-    spread = axes @ np.diag(raised) @ axes.T
-    found = np.trace(spread) * np.eye(3) - spread
-    if not mass:
-        mass = SURE * float(np.diag(found).max()) / high**2
-    return mass, found
+    least, most = GYRATION_M
+    moments, axes = np.linalg.eigh(inertia)
+    low, middle, high = np.maximum(moments, SURE * mass * least**2)
+    high = min(high, low + middle)
+    if mass < LIGHT_KG:
+        mass = max(mass, SURE * high / most**2)
+        low, middle, high = np.maximum((low, middle, high), SURE * mass * least**2)
+    return float(mass), axes @ np.diag((low, middle, high)) @ axes.T
+
+
+def _large(name: str, whole: Mass) -> Iterator[str]:
+    """Yield that a radius of gyration is larger than that of links of robots."""
+    radius = float(np.sqrt(np.diag(whole.inertia).max() / whole.mass))
+    if radius > LARGE_M:
+        yield f"{name}: {_told(whole.mass, whole.inertia)}, a radius of gyration of {radius:.3g} m, as the file has it"
 
 
 def _told(mass: float, inertia: Array) -> str:

@@ -47,6 +47,7 @@ def in_child(make: Callable[[], Made], seconds: float, what: str) -> Made:
 def _send(make: Callable[[], Any], sender: Connection) -> None:
     """Send what a function makes, or the error that it raises."""
     faulthandler.disable()  # a crash is told in one line
+    signal.signal(signal.SIGINT, signal.SIG_DFL)  # so is the end that a user asks for, elsewhere
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
     _, most = resource.getrlimit(resource.RLIMIT_AS)
     if most == resource.RLIM_INFINITY or most > MEMORY_BYTES:
@@ -54,10 +55,8 @@ def _send(make: Callable[[], Any], sender: Connection) -> None:
     try:
         answer = True, make()
     except MemoryError:
-        answer = (
-            False,
-            DataError(f"more than {MEMORY_BYTES // 2**30} GiB of memory are needed; accepted: a smaller file"),
-        )
+        text = f"more than {MEMORY_BYTES // 2**30} GiB of memory are needed; accepted: a smaller file"
+        answer = False, DataError(text)
     except Exception as error:  # noqa: BLE001 it is raised where the function is called
         answer = False, error
     with contextlib.suppress(BrokenPipeError):
