@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from mobnet.core.errors import ConfigError, DataError
-from mobnet.robotlog.columns import Column
+from mobnet.robotlog.columns import Column, near_names
 from mobnet.robotlog.convert import convert
 from mobnet.robotlog.formats import read_log
 from mobnet.robotlog.meaning import default_map
@@ -205,3 +205,9 @@ def test_a_row_that_comes_late_is_put_in_order_and_times_that_begin_anew_end_a_s
     assert episodes.recording.segments == ((0, 150), (150, ROWS))
     assert episodes.hints[0].startswith("clock: times begin anew 1 times, first in row 150, as episodes do")
     np.testing.assert_array_equal(episodes.recording.sensed.q[:, 1], plain["q2"])
+
+
+def test_names_are_compared_with_the_first_ones_alone():
+    """A table of 100 000 columns would take minutes."""
+    names = (f"sensor_{k}" if k < 1000 else pytest.fail("too many") for k in range(1010))
+    assert near_names(names, "sensor_7")[0] == "sensor_7"

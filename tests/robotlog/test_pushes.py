@@ -1,12 +1,17 @@
 """Pushes that a simulated log tells: which flags lie in them, and their bands in the picture of the residual."""
 
+from dataclasses import replace
+
 import matplotlib.image
 import numpy as np
 import pytest
 
+from mobnet.core.estimator import Estimate
+from mobnet.robotlog.detect import told
+from mobnet.robotlog.detected import Detected
 from mobnet.robotlog.flags import Flag
-from mobnet.robotlog.observe import converted_log, main
-from mobnet.robotlog.pushes import found_pushes, pushed_rows
+from mobnet.robotlog.observe import Observed, converted_log, main
+from mobnet.robotlog.pushes import Found, found_pushes, pushed_rows
 
 ROWS = 3000
 SPANS = (500, 600), (1000, 1400), (2000, 2050)
@@ -33,6 +38,17 @@ def test_flags_are_counted_beside_the_pushes_of_the_limb(pushed, arm, settings):
     assert found_pushes(found, ("J1", "J2"), flags, late_s=0.1) == (2, 2, 2)
     assert found_pushes(found, ("J1", "J2"), flags, late_s=0.0) == (2, 1, 3)
     assert found_pushes(found, ("J1", "J2"), [], late_s=0.1) == (2, 0, 0)
+
+
+@pytest.mark.parametrize(
+    ("counted", "line"),
+    [(Found(23, 17, 1), "17 of 23 pushes found, 1 other flag"), (Found(2, 2, 0), "2 of 2 pushes found, 0 other flags")],
+)
+def test_detect_tells_how_many_pushes_it_found(counted, line, pushed, arm, settings, tmp_path):
+    observed = Observed(converted_log(pushed, arm.layout, None, settings.robotlog), np.empty((0, 2)), ())
+    made = Detected(observed, Estimate(np.empty((0, 2))), np.empty((0, 2)), (), counted)
+    assert list(told(made, tmp_path))[-2] == line
+    assert not any("found" in one for one in told(replace(made, found=None), tmp_path))
 
 
 def test_a_log_without_the_truth_counts_nothing(clean, stored, arm, settings):

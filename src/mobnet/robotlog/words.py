@@ -10,8 +10,8 @@ def observe_parser() -> argparse.ArgumentParser:
         prog="./reproduce observe",
         description="Make a recording and the momentum observer's residual of a robot's log, with a plot of it, and "
         "say what looks wrong with the log.",
-        epilog="LOG is .csv with a header, .parquet, .h5, .mcap, .bag, or a folder that `ros2 bag` wrote "
-        "(docs/robots.md).",
+        epilog="LOG is a text with a separator, .parquet, .h5, .mat, .npz, .mcap, .bag, .db3, or a folder that "
+        "`ros2 bag` wrote (docs/robots.md).",
     )
     parser.add_argument("log", type=Path, metavar="LOG", help="log of a robot")
     parser.add_argument("--robot", type=Path, help="table of the robot (default: that of configs)")

@@ -58,7 +58,7 @@ class Signal(Section):
     Attributes:
         columns: names in the log; of joints in motor order, of a vector x y z, of a wrench force and then moment. One
             name alone stands for the columns below it: NAME.JOINT, NAME.x and so on, or NAME.0 and so on; or, with a *,
-            for those with numbers in its place.
+            for those with names of joints or numbers in its place.
         unit: unit of the columns, of which `scale` is one: a current in A becomes a torque by a scale in N m/A.
         offset: what is subtracted, SI units.
         delay_s: by how much the signal is late in the log [s]; it is brought forward.
