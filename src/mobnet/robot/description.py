@@ -1,7 +1,7 @@
 """A robot's table and what follows from it; the plant, the nominal model and the controller are built from both."""
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TypeVar
 
 import numpy as np
@@ -9,7 +9,18 @@ from numpy.typing import NDArray
 
 from mobnet.core.errors import ConfigError
 from mobnet.core.joints import LEG_AXES, JointLayout, Limits, right_of, with_image
-from mobnet.settings.parts import BodyRow, Colour, FootRow, ImuRow, JointRow, LegRow, PointRow, ShapeRow, SoleRow
+from mobnet.settings.parts import (
+    BodyRow,
+    Colour,
+    FootRow,
+    FrictionRow,
+    ImuRow,
+    JointRow,
+    LegRow,
+    PointRow,
+    ShapeRow,
+    SoleRow,
+)
 from mobnet.settings.robot import RobotTable
 
 SIDES = ("left", "right")
@@ -49,6 +60,7 @@ class RobotDescription:
         posture: how the joints are held that nothing moves, in motor order; the table may leave joints out.
         shapes: what the robot looks like, both sides, in colours of `tones`.
         points: where forces may be applied, both sides.
+        friction: joint -> friction and errors of its drive that the observer knows; empty where it knows none.
     """
 
     name: str
@@ -64,6 +76,7 @@ class RobotDescription:
     tones: Mapping[str, Colour]
     shapes: tuple[ShapeRow, ...]
     points: tuple[PointRow, ...]
+    friction: Mapping[str, FrictionRow] = field(default_factory=dict)
 
     @property
     def floating(self) -> bool:
@@ -123,6 +136,7 @@ def describe(table: RobotTable) -> RobotDescription:
         tones=table.tones,
         shapes=with_mirrored(table.shapes),
         points=with_mirrored(table.points),
+        friction={**table.friction},
     )
 
 
