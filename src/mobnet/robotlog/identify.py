@@ -11,8 +11,6 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-import numpy as np
-
 from mobnet.core.arrays import Array
 from mobnet.core.errors import ConfigError, DataError, not_accepted
 from mobnet.core.recording import SensedRecording
@@ -22,8 +20,8 @@ from mobnet.robot.description import RobotDescription, describe
 from mobnet.robot.given import given_table
 from mobnet.robot.table_file import head_of, write_table
 from mobnet.robotlog.identify_words import identify_parser
-from mobnet.robotlog.identifying.fit import JointFit, fit_joint
-from mobnet.robotlog.identifying.regressors import columns_of, moved, window_products
+from mobnet.robotlog.identifying.fit import JointFit, fit_joints
+from mobnet.robotlog.identifying.regressors import Windows, columns_of, moved, together, windows_of
 from mobnet.robotlog.observe import converted_log
 from mobnet.running.printed import printed
 from mobnet.settings.base import TorqueKind
@@ -64,34 +62,35 @@ def read_free_log(path: Path, robot: RobotDescription, meaning: LogMap | None, s
 
 
 def identify(
-    robot: RobotDescription, logs: Sequence[FreeLog], terms: Sequence[str], settings: Settings
-) -> dict[str, JointFit]:
-    """Return the numbers of the joints that move in logs of free motion.
+    robot: RobotDescription, logs: Sequence[FreeLog], terms: Sequence[str], settings: Settings, *, links: bool = False
+) -> tuple[dict[str, JointFit], Array]:
+    """Return the numbers of the joints that move in logs of free motion, and the errors of the links (d,).
 
     Raises:
         DataError: the logs are too short.
     """
     numbers, gravity = settings.robotlog.identify, settings.plant.gravity_m_s2
-    gain_hz = settings.observer.gain_hz
-    products = [window_products(robot, one.recording, one.torque, gravity, gain_hz, numbers) for one in logs]
-    known, held_out = split(products, numbers)
-    columns, speeds = columns_of(numbers), moved([one.recording for one in logs], robot.layout.nu)
-    return {
-        joint: fit_joint(known[:, j], held_out[:, j], columns, terms, numbers)
-        for j, joint in enumerate(robot.layout.actuated)
-        if speeds[j] >= numbers.least_speed_rad_s
+    windows = [windows_of(robot, one.recording, one.torque, gravity, numbers) for one in logs]
+    known, held_out = split(windows, numbers)
+    fits, by_links = fit_joints(known, held_out, columns_of(numbers), terms, numbers, links=links)
+    speeds = moved([one.recording for one in logs], robot.layout.nu)
+    found = {
+        joint: fit
+        for joint, fit, speed in zip(robot.layout.actuated, fits, speeds, strict=True)
+        if speed >= numbers.least_speed_rad_s
     }
+    return found, by_links
 
 
-def split(products: Sequence[Array], numbers: Identification) -> tuple[Array, Array]:
+def split(windows: Sequence[Windows], numbers: Identification) -> tuple[Windows, Windows]:
     """Return the windows of logs before and after the time at which what is held out begins.
 
     Raises:
         DataError: there are too few windows.
     """
-    cuts = [len(one) - round(numbers.held_out * len(one)) for one in products]
-    known = np.concatenate([one[:cut] for one, cut in zip(products, cuts, strict=True)])
-    held_out = np.concatenate([one[cut:] for one, cut in zip(products, cuts, strict=True)])
+    cuts = [len(one) - round(numbers.held_out * len(one)) for one in windows]
+    known = together([one[:cut] for one, cut in zip(windows, cuts, strict=True)])
+    held_out = together([one[cut:] for one, cut in zip(windows, cuts, strict=True)])
     if len(known) < numbers.least_windows or not len(held_out):
         seconds = numbers.window_s * (len(known) + len(held_out))
         least = numbers.window_s * numbers.least_windows / (1 - numbers.held_out)
@@ -163,7 +162,7 @@ def run(options: Namespace) -> Iterator[str]:
         raise ConfigError(f"{out}: exists already; accepted: another --out, or --force")
     meaning = load_section(options.map, LogMap) if options.map else None
     logs = [read_free_log(path, robot, meaning, settings) for path in options.logs]
-    found = identify(robot, logs, (*TERMS, *(term for term in FURTHER if getattr(options, term))), settings)
+    found, _ = identify(robot, logs, (*TERMS, *(term for term in FURTHER if getattr(options, term))), settings)
     head = head_of(options.robot) if options.robot else []
     made = f"friction and armature: from {', '.join(path.name for path in options.logs)}, by ./reproduce identify."
     write_table(out, with_numbers(table, found), [*head, made])

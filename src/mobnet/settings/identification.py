@@ -19,6 +19,8 @@ class Identification(Section):
         smoothing_rad_s: widths of the smooth sign of which a joint takes the best [rad/s].
         breakaway_rad: angles of Dahl's law, the same [rad].
         gain: share by which Dahl's law must lower the error on the parts held out.
+        mass_share: standard deviation of the share by which a link's mass and inertia differ from those of the table.
+        com_m: the same of its centre of mass, along each axis [m].
         least_speed_rad_s: root mean square speed below which a joint did not move [rad/s].
         confidence: nominal one of the intervals.
     """
@@ -31,5 +33,7 @@ class Identification(Section):
     smoothing_rad_s: Rising[Annotated[Positive, Field(ge=1e-4, le=20)]]
     breakaway_rad: Rising[Annotated[Positive, Field(ge=1e-5, le=1)]]
     gain: InnerShare
+    mass_share: InnerShare
+    com_m: Annotated[Positive, Field(le=1)]
     least_speed_rad_s: Positive
     confidence: InnerShare

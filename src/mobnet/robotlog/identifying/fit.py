@@ -1,26 +1,32 @@
-"""A joint's numbers by least squares on products of its columns, with intervals, and how well they predict new time.
+"""Friction, rotor inertia and errors of the links by regularised least squares, with intervals.
 
-Friction and rotor inertia are not negative; an offset and the error of a scale have either sign. The smooth sign of a
-joint is the one with the least error on parts of the time that are held out.
+All joints are fitted at once, as the error of a link acts on each joint that carries it. Friction and inertia are not
+negative; an offset and the error of a scale have either sign. A log cannot tell a rotor from the link that it turns
+where both turn about one axis alone. So the errors of the links have a prior: a description's masses and centres of
+mass are right within a share and a distance. A link's mass and inertia change by one factor and its centre of mass
+moves, so that it stays a rigid body (Traversaro et al., "Identification of fully physical consistent inertial
+parameters using optimization on manifolds", IROS 2016, on why this matters).
 
-Errors of a model are alike for about a second, so that samples are not independent. Windows are, and the intervals are
-those of the jackknife that leaves one window out at a time (Künsch, "The jackknife and the bootstrap for general
-stationary observations", Annals of Statistics 17(3), 1989).
+The intervals have two parts. Errors that vary with the motion are alike for about a second, so that samples are not
+independent, but windows are: the sandwich of their scores (Liang and Zeger, "Longitudinal data analysis using
+generalized linear models", Biometrika 73(1), 1986). What the prior leaves open of the links adds its own variance.
 """
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.optimize import lsq_linear
 from scipy.stats import t
 
 from mobnet.core.arrays import Array
-from mobnet.estimation.regression import non_negative
-from mobnet.robotlog.identifying.regressors import PLAIN, Columns
+from mobnet.robotlog.identifying.regressors import LINK, Columns, Windows
 from mobnet.settings.identification import Identification
 
 FREE = ("offset", "scale")  # of either sign: errors of a sensor, which dissipate nothing
 DAHL = "breakaway"
+ROUNDS = 3  # of fitting all joints, and choosing the signs by what the links do not explain
+LEAST = 1e-9  # root mean square below which a column did not vary, and the share that keeps a solution unique
 
 
 @dataclass(frozen=True)
@@ -47,64 +53,169 @@ class JointFit:
         return 1.0 - (self.after_nm / self.before_nm) ** 2 if self.before_nm else 0.0
 
 
-def fit_joint(
-    known: Array, held_out: Array, columns: Columns, terms: Sequence[str], settings: Identification
-) -> JointFit:
-    """Fit a joint to mean products of windows, (windows, m, m) each: what is not held out chooses the sign.
+@dataclass(frozen=True)
+class Problem:
+    """What is solved: terms of each joint, its smooth sign (nu,), the weight of its errors (nu,) and the prior.
 
-    The numbers are those of all windows; the error on those held out is of numbers that do not know them.
+    `prior` (d,) is the standard deviation of the links' errors.
     """
-    sign = chosen_sign(known, columns, terms, settings)
-    mixed = columns_by_term(sign, columns, terms)
-    tried = solved(known.mean(axis=0), mixed)
-    unseen = held_out.mean(axis=0)
-    windows = np.concatenate([known, held_out])
-    factors = solved(windows.mean(axis=0), mixed)
-    return JointFit(
-        columns.signs[sign], factors, half_widths(windows, mixed, settings.confidence),
-        float(np.sqrt(unseen[-1, -1])), error(unseen, mixed, tried),
-    )  # fmt: skip
+
+    columns: Columns
+    terms: tuple[str, ...]
+    signs: tuple[int, ...]
+    weights: Array
+    prior: Array
+
+    def own(self, windows: Windows, joint: int) -> Array:
+        """Return the columns of a joint, (windows, rows, terms)."""
+        return windows.joints[:, :, joint, [self.columns.of(term, self.signs[joint]) for term in self.terms]]
 
 
-def chosen_sign(windows: Array, columns: Columns, terms: Sequence[str], settings: Identification) -> int:
+@dataclass(frozen=True)
+class Solution:
+    """Numbers of the joints (nu, terms), errors of the links (d,), and the matrix of the equations with the prior."""
+
+    joints: Array
+    links: Array
+    matrix: Array
+
+
+def fit_joints(
+    known: Windows, held_out: Windows, columns: Columns, terms: Sequence[str], settings: Identification,
+    *, links: bool,
+) -> tuple[list[JointFit], Array]:  # fmt: skip
+    """Fit all joints: what is not held out chooses the signs, and its fit is tried on what is held out.
+
+    The numbers are those of all windows. With `links`, the table gets the errors of the links too, which are returned
+    (d,); without, they only keep the other numbers right.
+    """
+    problem, tried = solved(known, columns, terms, settings)
+    windows = Windows(*(np.concatenate([getattr(w, n) for w in (known, held_out)]) for n in ("joints", "links")))
+    final = solution(windows, problem)
+    half = half_widths(windows, problem, final, settings.confidence)
+    unseen, fits = held_out.joints[..., -1], list[JointFit]()
+    for j, sign in enumerate(problem.signs):
+        rest = unseen[:, :, j] - problem.own(held_out, j) @ tried.joints[j]
+        rest = rest - held_out.links[:, :, j] @ tried.links if links else rest
+        named = (dict(zip(terms, one[j].tolist(), strict=True)) for one in (final.joints, half))
+        fits.append(JointFit(columns.signs[sign], *named, _rms(unseen[:, :, j]), _rms(rest)))
+    return fits, final.links
+
+
+def solved(
+    windows: Windows, columns: Columns, terms: Sequence[str], settings: Identification
+) -> tuple[Problem, Solution]:
+    """Return the signs of the joints, the weights of their errors, and the numbers with them."""
+    nu = windows.joints.shape[2]
+    prior = np.tile([settings.mass_share, *(settings.com_m,) * (len(LINK) - 1)], nu)
+    by_links: Array = np.zeros(windows.joints.shape[:3])
+    for _ in range(ROUNDS):
+        targets = windows.joints[..., -1] - by_links
+        signs = tuple(
+            chosen_sign(windows.joints[:, :, j], targets[:, :, j], columns, terms, settings) for j in range(nu)
+        )
+        problem = Problem(columns, tuple(terms), signs, np.ones(nu), prior)
+        rough = solution(windows, Problem(columns, tuple(terms), signs, _weights(windows, problem, by_links), prior))
+        by_links = windows.links @ rough.links
+    problem = Problem(columns, tuple(terms), signs, _weights(windows, problem, by_links), prior)
+    return problem, solution(windows, problem)
+
+
+def _weights(windows: Windows, problem: Problem, by_links: Array) -> Array:
+    """Return one over the variance of what is left of each joint (nu,), in whole windows."""
+    found = np.empty(len(problem.signs))
+    for j in range(len(found)):
+        own, target = problem.own(windows, j), windows.joints[:, :, j, -1] - by_links[:, :, j]
+        rest = target - own @ joint_numbers(_products(own, target).sum(axis=0), problem.terms)
+        # Samples of a window are alike: the square of their sum is larger than the sum of their squares.
+        alike = np.square(rest.sum(axis=1)).mean() / rest.shape[1]
+        found[j] = 1.0 / max(float(np.square(rest).mean()), float(alike), LEAST)
+    return found
+
+
+def chosen_sign(joint: Array, target: Array, columns: Columns, terms: Sequence[str], settings: Identification) -> int:
     """Return the smooth sign with the least error on parts of the windows that are held out one after another.
 
-    Dahl's law, which has a state, must pay.
+    Columns of a joint are (windows, rows, m), its target is (windows, rows). Dahl's law, which has a state, must pay.
     """
-    parts = np.array_split(np.arange(len(windows)), settings.folds)
-    whole = windows.sum(axis=0)
-    rest = [(whole - windows[part].sum(axis=0), windows[part].sum(axis=0)) for part in parts]
-    scores = list[float]()
+    parts, scores = np.array_split(np.arange(len(joint)), settings.folds), list[float]()
     for sign, (kind, _) in enumerate(columns.signs):
-        mixed = columns_by_term(sign, columns, terms)
-        left = [error(own, mixed, solved(others, mixed)) for others, own in rest]
-        scores.append(float(np.linalg.norm(left)) / (1.0 - settings.gain if kind == DAHL else 1.0))
+        products = _products(joint[:, :, [columns.of(term, sign) for term in terms]], target)
+        whole, left = products.sum(axis=0), 0.0
+        for part in parts:
+            unseen = products[part].sum(axis=0)
+            rest = np.append(-joint_numbers(whole - unseen, terms), 1.0)
+            left += float(rest @ unseen @ rest)
+        scores.append(left / (1.0 - settings.gain if kind == DAHL else 1.0) ** 2)
     return int(np.argmin(scores))
 
 
-def columns_by_term(sign: int, columns: Columns, terms: Sequence[str]) -> dict[str, Array]:
-    """Return term -> the column (m,) that it takes of those of a joint, whose smooth sign is one of those tried."""
-    unit, count = np.eye(len(columns.names)), len(columns.signs)
-    plain = dict(zip(PLAIN, unit[2 * count : -1], strict=True))
-    dry = {"coulomb": unit[sign], "load": unit[count + sign]}
-    return {term: {**dry, **plain}[term] for term in terms}
+def _products(own: Array, target: Array) -> Array:
+    """Return the products of columns (windows, rows, n) and a target (windows, rows) in each window, target last."""
+    table = np.concatenate([own, target[..., None]], axis=2)
+    return table.transpose(0, 2, 1) @ table
 
 
-def solved(products: Array, mixed: Mapping[str, Array]) -> dict[str, float]:
-    """Return the factors of the terms by mean products (m, m)."""
-    return non_negative(products, mixed, [term for term in mixed if term in FREE])[0]
+def joint_numbers(products: Array, terms: Sequence[str]) -> Array:
+    """Return the numbers (terms,) of a joint alone by products of its columns, target last."""
+    size = np.sqrt(np.maximum(np.diag(products)[:-1], LEAST))
+    matrix = products[:-1, :-1] / np.outer(size, size) + LEAST * np.eye(len(terms))
+    return _bounded(matrix, products[:-1, -1] / size, np.array([term in FREE for term in terms])) / size
 
 
-def error(products: Array, mixed: Mapping[str, Array], factors: Mapping[str, float]) -> float:
-    """Return the root mean square of what factors leave of the target [N m], by mean products (m, m)."""
-    rest = np.eye(len(products))[-1] - sum(factors[term] * column for term, column in mixed.items())
-    return float(np.sqrt(max(0.0, rest @ products @ rest)))
+def _bounded(matrix: Array, right: Array, free: Array) -> Array:
+    """Return the least squares of equations, none below zero but the free ones."""
+    root = np.linalg.cholesky(matrix).T
+    target = np.linalg.solve(root.T, right)
+    low = np.where(free, -np.inf, 0.0)
+    found = np.linalg.solve(root, target)
+    return found if (found >= low).all() else lsq_linear(root, target, (low, np.inf), method="bvls").x
 
 
-def half_widths(windows: Array, mixed: Mapping[str, Array], confidence: float) -> dict[str, float]:
-    """Return half the widths of the intervals of the factors, by leaving out one window (m, m) at a time."""
-    count, whole = len(windows), windows.sum(axis=0)
-    without = [list(solved((whole - window) / (count - 1), mixed).values()) for window in windows]
-    spread = np.sqrt((count - 1) * np.var(without, axis=0))
-    quantile = float(t.ppf((1 + confidence) / 2, count - 1))
-    return dict(zip(mixed, (quantile * spread).tolist(), strict=True))
+def solution(windows: Windows, problem: Problem) -> Solution:
+    """Return the regularised least squares of all joints and links."""
+    nu, count, d = len(problem.signs), len(problem.terms), len(problem.prior)
+    matrix, right = np.zeros((nu * count + d,) * 2), np.zeros(nu * count + d)
+    behind = slice(nu * count, None)
+    matrix[behind, behind] = np.diag(problem.prior**-2)
+    for j in range(nu):
+        own, links = problem.own(windows, j).reshape(-1, count), windows.links[:, :, j].reshape(-1, d)
+        target, weight, place = (
+            windows.joints[:, :, j, -1].ravel(),
+            problem.weights[j],
+            slice(j * count, (j + 1) * count),
+        )
+        matrix[place, place] = weight * own.T @ own
+        matrix[place, behind] = weight * own.T @ links
+        matrix[behind, place] = matrix[place, behind].T
+        matrix[behind, behind] += weight * links.T @ links
+        right[place] = weight * own.T @ target
+        right[behind] += weight * links.T @ target
+    size = np.sqrt(np.maximum(np.diag(matrix), LEAST))
+    free = np.array([*(term in FREE for _ in range(nu) for term in problem.terms), *(True for _ in range(d))])
+    scaled = matrix / np.outer(size, size) + LEAST * np.eye(len(size))
+    found = _bounded(scaled, right / size, free) / size
+    return Solution(found[: nu * count].reshape(nu, count), found[nu * count :], matrix)
+
+
+def half_widths(windows: Windows, problem: Problem, found: Solution, confidence: float) -> Array:
+    """Return half the widths of the intervals of the joints' numbers (nu, terms)."""
+    (nu, count), d, groups = found.joints.shape, len(problem.prior), len(windows)
+    scores = np.zeros((groups, nu * count + d))
+    for j in range(nu):
+        own, links = problem.own(windows, j), windows.links[:, :, j]
+        rest = windows.joints[:, :, j, -1] - own @ found.joints[j] - links @ found.links
+        scores[:, j * count : (j + 1) * count] = problem.weights[j] * np.einsum("gr,grk->gk", rest, own)
+        scores[:, nu * count :] += problem.weights[j] * np.einsum("gr,grk->gk", rest, links)
+    middle = groups / (groups - 1) * scores.T @ scores
+    middle[nu * count :, nu * count :] += np.diag(problem.prior**-2)
+    size = np.sqrt(np.maximum(np.diag(found.matrix), LEAST))
+    scaled = found.matrix / np.outer(size, size) + LEAST * np.eye(len(size))
+    inverse = np.linalg.inv(scaled)
+    variance = np.diag(inverse @ (middle / np.outer(size, size)) @ inverse)[: nu * count] / size[: nu * count] ** 2
+    return (float(t.ppf((1 + confidence) / 2, groups - 1)) * np.sqrt(variance)).reshape(nu, count)
+
+
+def _rms(values: Array) -> float:
+    """Return the root mean square of values."""
+    return float(np.sqrt(np.square(values).mean()))
