@@ -21,6 +21,7 @@ from mobnet.detection.words import SIGNALS, calibrate_parser
 from mobnet.estimation.own import (
     OwnLog,
     OwnNetwork,
+    check_drives,
     check_sampling,
     estimates_of,
     estimator_of,
@@ -54,6 +55,7 @@ def read_folders(options: Namespace, robot: RobotDescription, network: OwnNetwor
     logs = [read_log_folder(folder, robot.layout) for folder in options.folders]
     sampling, of = (network.sampling, network.folder) if network else (logs[0].sampling, logs[0].folder)
     for one in logs:
+        check_drives(one.folder, one.sampling.drives, robot)
         check_sampling(one.folder, one.sampling, sampling, of)
     return logs
 

@@ -26,6 +26,7 @@ from mobnet.settings.methods import Target
 from mobnet.settings.settings import Settings
 
 RECORDING, ESTIMATE = "recording", "estimate"  # arrays in the folder of a log
+DRIVES = "drives"  # key of a note: digest of the friction that the observer knew
 OBSERVER, LEARNED = "MOB", "MOB-Net"  # methods: the observer alone, and with a network
 UNCERTAINTY: Target = "uncertainty"  # what such a network learns
 
@@ -39,16 +40,25 @@ class LearnedNote(Note):
     rate_hz: Positive | None = None
     gain_hz: Positive | None = None
     torque: TorqueKind | None = None
+    drives: Text | None = None
     folders: list[Text] | None = None
 
 
 @dataclass(frozen=True)
 class Sampling:
-    """Samples per second [Hz], gain K_0 of the observer [1/s], and what a log holds of torques between two ticks."""
+    """Samples per second [Hz], gain K_0 of the observer [1/s], and what a log holds of torques between two ticks.
+
+    `drives` is the digest of the friction that the observer knew; None where the table had none.
+    """
 
     rate_hz: float
     gain_hz: float
     torque: TorqueKind
+    drives: str | None = None
+
+    def note(self) -> dict[str, float | str]:
+        """Return what a note says of it."""
+        return {key: value for key, value in vars(self).items() if value is not None}
 
 
 @dataclass(frozen=True)
@@ -92,7 +102,8 @@ def read_log_folder(folder: Path, layout: JointLayout) -> OwnLog:
         raise DataError(f"{not_accepted(f'{folder}: joint', others[0], layout.names)}, those of --robot")
     recording = read_sensed(stems[0], layout)
     residual = read_array(stems[1], named(EXTERNAL, layout.names))[0]
-    return OwnLog(folder, recording, residual, Sampling(recording.rate_hz, float(note["gain_hz"]), note["torque"]))
+    sampling = Sampling(recording.rate_hz, float(note["gain_hz"]), note["torque"], note.get(DRIVES))
+    return OwnLog(folder, recording, residual, sampling)
 
 
 def read_network_folder(folder: Path, layout: JointLayout, settings: Settings) -> OwnNetwork:
@@ -109,7 +120,7 @@ def read_network_folder(folder: Path, layout: JointLayout, settings: Settings) -
         raise DataError(not_accepted(f"{folder / RUN}: target", note.target, [UNCERTAINTY]))
     rate_hz, gain_hz = note.rate_hz or settings.rates.data_hz, note.gain_hz or observer.gain_hz
     networks = load_limb_networks({note.limb: folder}, layout)
-    sampling = Sampling(rate_hz, gain_hz, note.torque or observer.torque)
+    sampling = Sampling(rate_hz, gain_hz, note.torque or observer.torque, note.drives)
     return OwnNetwork(folder, note.limb, note.fingerprint, networks, sampling, tuple(map(Path, note.folders or ())))
 
 
@@ -136,6 +147,13 @@ def check_sampling(path: Path, sampling: Sampling, wanted: Sampling, of: Path) -
         if value != (expected := getattr(wanted, key))
     ]
     refuse(path, faults)
+
+
+def check_drives(path: Path, drives: str | None, robot: RobotDescription) -> None:
+    """Raise a DataError where a file was made with other friction or rotors than those of a robot's table."""
+    if drives != robot.drives:
+        accepted = [f"{robot.drives or 'none'}, those of --robot; make it anew with that table"]
+        raise DataError(f"{path}: {not_accepted('drives (friction and armature)', drives or 'none', accepted)}")
 
 
 def estimator_of(

@@ -18,6 +18,7 @@ import numpy as np
 from mobnet.core.errors import DataError, not_accepted
 from mobnet.core.files import atomic_path, write_json
 from mobnet.detection.threshold_file import read_thresholds
+from mobnet.estimation.own import check_drives
 from mobnet.export.contract import CONTRACT, Contract, ObserverContract, read_contract
 from mobnet.export.graph import graph_of
 from mobnet.export.runtime import export_model
@@ -57,6 +58,8 @@ def export(
             the folder has a contract that cannot be read.
     """
     check_apart(networks)
+    for one in networks:
+        check_drives(one.folder, one.run.drives, robot)
     check_thresholds(thresholds, networks, robot, run)
     before = {own.file for own in read_contract(out).networks} if (out / CONTRACT).exists() else set()
     contract = contract_of(robot.name, robot.layout, networks, run.rate_hz, run.observer, thresholds)
@@ -80,6 +83,7 @@ def check_thresholds(
     """Raise a DataError unless thresholds belong to the robot, its run time and, where they name it, the network."""
     fingerprints = {one.note.limb: one.run.fingerprint for one in networks}
     for one in thresholds:
+        check_drives(Path(f"thresholds of {one.limb}"), one.drives, robot)
         expected = {
             "robot": robot.name, "rate_hz": run.rate_hz, "gain_hz": run.observer.gain_hz, "torque": run.observer.torque,
             "joints": robot.layout.limb(one.limb),

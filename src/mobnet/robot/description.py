@@ -1,5 +1,6 @@
 """A robot's table and what follows from it; the plant, the nominal model and the controller are built from both."""
 
+import hashlib
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import TypeVar
@@ -102,6 +103,14 @@ class RobotDescription:
     def armature(self) -> Vector:
         """Reflected rotor inertia (nu,) [kg m^2]."""
         return np.array([joint.armature for joint in self.joints])
+
+    @property
+    def drives(self) -> str | None:
+        """Digest of friction and rotors where the table has friction: what was made with others does not fit."""
+        if not self.friction:
+            return None
+        known = [sorted((joint, repr(row)) for joint, row in self.friction.items()), self.armature.tolist()]
+        return hashlib.sha256(repr(known).encode()).hexdigest()[:16]
 
     def joint_of(self, body: str) -> JointRow | None:
         """Return the joint that moves a body, or None where the body is welded or the base."""

@@ -15,7 +15,7 @@ import numpy as np
 from mobnet.core.code import ROOT
 from mobnet.core.errors import DataError, not_accepted
 from mobnet.core.files import RUN, read_json, write_json
-from mobnet.estimation.own import OwnLog, limb_of, read_log_folder
+from mobnet.estimation.own import OwnLog, check_drives, limb_of, read_log_folder
 from mobnet.learning.deployed.networks import load_network
 from mobnet.learning.device import own_device
 from mobnet.learning.job import TrainingJob
@@ -63,7 +63,7 @@ def learn(
     label = np.concatenate(known)[:, columns]
     numbers = settings.robotlog.learn
     found = free_check(load_network(out), data, label, cut, units, numbers.margin)
-    told = {"folders": [str(one.folder) for one in logs], "labels": labels, **vars(first), "check": found.note()}
+    told = {"folders": [str(one.folder) for one in logs], "labels": labels, **first.note(), "check": found.note()}
     write_json(out / RUN, {**read_json(out / RUN), **told})
     return [*lines_of(found, labels, numbers), f"written: {out}"]
 
@@ -99,6 +99,8 @@ def run(options: Namespace) -> list[str]:
     table = given_table(options.robot, settings)
     limb = limb_of(table.layout, options.limb)
     logs = [read_log_folder(folder, table.layout) for folder in options.folders]
+    for one in logs:
+        check_drives(one.folder, one.sampling.drives, describe(table))
     out = options.out or Path(f"{limb}_net")
     return learn(settings, table, logs, limb, options.labels, epochs, out, force=options.force)
 

@@ -21,7 +21,7 @@ from mobnet.core.joints import JointLayout
 from mobnet.core.recording import Recording
 from mobnet.core.store import GROUP_ROWS, array_writer, write_array
 from mobnet.estimation import observer
-from mobnet.estimation.own import ESTIMATE, OBSERVER, RECORDING
+from mobnet.estimation.own import DRIVES, ESTIMATE, OBSERVER, RECORDING
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.given import given_robot
 from mobnet.robot.nominal import NominalModel
@@ -146,7 +146,7 @@ def write_observed(found: Observed, robot: RobotDescription, gain_hz: float, tor
     """Write recording, estimate and plot into a folder."""
     out.mkdir(parents=True, exist_ok=True)
     read = found.converted.recording
-    meta = {**read.meta, "gain_hz": gain_hz, "torque": torque}
+    meta = {**read.meta, "gain_hz": gain_hz, "torque": torque, **({DRIVES: robot.drives} if robot.drives else {})}
     _write_recording(out / RECORDING, replace(read, meta=meta), robot.layout)
     columns = torque_columns(robot.layout, [EXTERNAL], robot.layout.names)
     note = {"rate_hz": read.rate_hz, **meta, "method": OBSERVER}
