@@ -13,14 +13,14 @@ generalized linear models", Biometrika 73(1), 1986). What the prior leaves open 
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.optimize import lsq_linear
 from scipy.stats import t
 
 from mobnet.core.arrays import Array
-from mobnet.robotlog.identifying.regressors import LINK, Columns, Windows
+from mobnet.robotlog.identifying.regressors import LINK, Columns, Windows, together
 from mobnet.settings.identification import Identification
 
 FREE = ("offset", "scale")  # of either sign: errors of a sensor, which dissipate nothing
@@ -90,15 +90,15 @@ def fit_joints(
     (d,); without, they only keep the other numbers right.
     """
     problem, tried = solved(known, columns, terms, settings)
-    windows = Windows(*(np.concatenate([getattr(w, n) for w in (known, held_out)]) for n in ("joints", "links")))
+    windows = together([known, held_out])
     final = solution(windows, problem)
     half = half_widths(windows, problem, final, settings.confidence)
     unseen, fits = held_out.joints[..., -1], list[JointFit]()
     for j, sign in enumerate(problem.signs):
         rest = unseen[:, :, j] - problem.own(held_out, j) @ tried.joints[j]
         rest = rest - held_out.links[:, :, j] @ tried.links if links else rest
-        named = (dict(zip(terms, one[j].tolist(), strict=True)) for one in (final.joints, half))
-        fits.append(JointFit(columns.signs[sign], *named, _rms(unseen[:, :, j]), _rms(rest)))
+        factors, halves = (dict(zip(terms, one[j].tolist(), strict=True)) for one in (final.joints, half))
+        fits.append(JointFit(columns.signs[sign], factors, halves, _rms(unseen[:, :, j]), _rms(rest)))
     return fits, final.links
 
 
@@ -108,17 +108,22 @@ def solved(
     """Return the signs of the joints, the weights of their errors, and the numbers with them."""
     nu = windows.joints.shape[2]
     prior = np.tile([settings.mass_share, *(settings.com_m,) * (len(LINK) - 1)], nu)
-    by_links: Array = np.zeros(windows.joints.shape[:3])
+    # All torques times a factor are those of links and friction times that factor: a scale takes the links as they are.
+    prior *= LEAST if "scale" in terms else 1.0
+    by_links = np.zeros(windows.joints.shape[:3])
+    problem = Problem(columns, tuple(terms), (0,) * nu, np.ones(nu), prior)
+    found = None
     for _ in range(ROUNDS):
         targets = windows.joints[..., -1] - by_links
-        signs = tuple(
-            chosen_sign(windows.joints[:, :, j], targets[:, :, j], columns, terms, settings) for j in range(nu)
-        )
-        problem = Problem(columns, tuple(terms), signs, np.ones(nu), prior)
-        rough = solution(windows, Problem(columns, tuple(terms), signs, _weights(windows, problem, by_links), prior))
-        by_links = windows.links @ rough.links
-    problem = Problem(columns, tuple(terms), signs, _weights(windows, problem, by_links), prior)
-    return problem, solution(windows, problem)
+        signs = [
+            chosen_sign(windows.joints[:, :, j, :-1], targets[:, :, j], columns, terms, settings) for j in range(nu)
+        ]
+        problem = replace(problem, signs=tuple(signs))
+        problem = replace(problem, weights=_weights(windows, problem, by_links))
+        found = solution(windows, problem)
+        by_links = windows.links @ found.links
+    assert found is not None
+    return problem, found
 
 
 def _weights(windows: Windows, problem: Problem, by_links: Array) -> Array:
@@ -138,14 +143,16 @@ def chosen_sign(joint: Array, target: Array, columns: Columns, terms: Sequence[s
 
     Columns of a joint are (windows, rows, m), its target is (windows, rows). Dahl's law, which has a state, must pay.
     """
-    parts, scores = np.array_split(np.arange(len(joint)), settings.folds), list[float]()
+    products = _products(joint, target)
+    parts = np.array_split(products, settings.folds)
+    sums = [part.sum(axis=0) for part in parts]
+    whole, scores = np.sum(sums, axis=0), list[float]()
     for sign, (kind, _) in enumerate(columns.signs):
-        products = _products(joint[:, :, [columns.of(term, sign) for term in terms]], target)
-        whole, left = products.sum(axis=0), 0.0
-        for part in parts:
-            unseen = products[part].sum(axis=0)
-            rest = np.append(-joint_numbers(whole - unseen, terms), 1.0)
-            left += float(rest @ unseen @ rest)
+        chosen = np.ix_(*[[*(columns.of(term, sign) for term in terms), -1]] * 2)
+        left = 0.0
+        for unseen in sums:
+            rest = np.append(-joint_numbers((whole - unseen)[chosen], terms), 1.0)
+            left += float(rest @ unseen[chosen] @ rest)
         scores.append(left / (1.0 - settings.gain if kind == DAHL else 1.0) ** 2)
     return int(np.argmin(scores))
 
@@ -168,7 +175,7 @@ def _bounded(matrix: Array, right: Array, free: Array) -> Array:
     root = np.linalg.cholesky(matrix).T
     target = np.linalg.solve(root.T, right)
     low = np.where(free, -np.inf, 0.0)
-    found = np.linalg.solve(root, target)
+    found = np.asarray(np.linalg.solve(root, target), dtype=np.float64)
     return found if (found >= low).all() else lsq_linear(root, target, (low, np.inf), method="bvls").x
 
 
