@@ -9,15 +9,16 @@ import pandas as pd
 import pinocchio as pin
 import pytest
 
-from mobnet.core.errors import DataError
+from mobnet.core.errors import ConfigError, DataError
 from mobnet.core.recording import Sensed, SensedRecording
 from mobnet.detection.calibrate import main as calibrate
 from mobnet.estimation.observer import MomentumObserver
 from mobnet.robot.description import describe
 from mobnet.robot.nominal import NominalModel
 from mobnet.robotlog.detect import main as detect
-from mobnet.robotlog.identify import TERMS, FreeLog, identify, main
+from mobnet.robotlog.identify import TERMS, FreeLog, identify, main, with_payload
 from mobnet.robotlog.observe import main as observe
+from mobnet.settings.checks.robot import robot_problems
 from mobnet.settings.load import load_section
 from mobnet.settings.parts import FrictionRow
 from mobnet.settings.robot import RobotTable
@@ -31,6 +32,7 @@ SMOOTH = {
     "J2": FrictionRow(coulomb_nm=1.0, viscous_nms=0.5, offset_nm=OFFSET[1], smoothing_rad_s=0.02),
 }
 BENT = {joint: row.model_copy(update={"breakaway_rad": 0.03}) for joint, row in SMOOTH.items()}
+LOAD, BALL = (1.2, (0.3, 0.0, -0.12)), (1.3e-3, 1.3e-3, 1.3e-3, 0.0, 0.0, 0.0)  # [kg], [m], [kg m^2]
 WITHIN = 0.05  # of the truth
 
 
@@ -44,7 +46,7 @@ def bare(arm):
 def moved(bare):
     """Return a function of a seed and of friction that makes samples of the arm in free motion; a push, if wanted."""
 
-    def make(seed, friction=SMOOTH, seconds=SECONDS, links=0.0, push_nm=0.0, spans=()):
+    def make(seed, friction=SMOOTH, seconds=SECONDS, links=0.0, push_nm=0.0, spans=(), payload=None):
         rng, t = np.random.default_rng(seed), np.arange(0, seconds, 1 / RATE_HZ)[:, None]
         rate, size = 2 * np.pi * rng.uniform(0.1, 0.8, (WAVES, 1, 2)), rng.uniform(0.1, 0.3, (WAVES, 1, 2))
         angle = rate * t + rng.uniform(0, 6, (WAVES, 1, 2))
@@ -56,6 +58,12 @@ def moved(bare):
             row.model_copy(update={"mass": own * row.mass, "inertia": tuple(own * x for x in row.inertia)})
             for row, own in zip(bare.bodies, 1 + links * rng.normal(size=len(bare.bodies)), strict=True)
         )
+        if payload:
+            mass, com = payload
+            load = bare.bodies[-1].model_copy(
+                update={"name": "load", "parent": "lower", "pos": com, "com": (0.0,) * 3, "mass": mass, "inertia": BALL}
+            )
+            bodies = (*bodies, load)
         rotors = (row.model_copy(update={"armature": own}) for row, own in zip(bare.joints, ROTORS, strict=True))
         true = NominalModel(replace(bare, bodies=bodies, joints=tuple(rotors)), gravity_m_s2=GRAVITY)
         tau = np.array([pin.rnea(true.model, true.data, *row) for row in zip(q, v, a, strict=True)])
@@ -136,6 +144,25 @@ def test_the_observer_explains_what_it_knows(bare, moved, arm):
         size = np.sqrt(np.square(observer.residual(sensed)[100:]).mean(axis=0))
         assert (size >= low).all()
         assert (size <= high).all()
+
+
+def test_a_payload_that_the_table_lacks_is_found(bare, moved, settings):
+    """1.2 kg, 12 cm below the tip of the lower link; its intervals hold it, and the table has it then."""
+    sensed = moved(10, payload=LOAD)
+    found, carried = identify(bare, [recorded(sensed)], TERMS, settings, "lower")
+    alone, none = identify(bare, [recorded(sensed)], TERMS, settings)
+    assert none is None
+    assert abs(carried.mass - LOAD[0]) <= carried.mass_half
+    assert carried.mass == pytest.approx(LOAD[0], rel=0.1)
+    for own, half, value in list(zip(carried.com, carried.com_half, LOAD[1], strict=True))[::2]:  # not along the axes
+        assert abs(own - value) <= half
+    for joint, fit in found.items():
+        assert fit.after_nm < 0.3 * alone[joint].after_nm
+    table = with_payload(load_section(ARM, RobotTable), "lower", carried)
+    assert not list(robot_problems(table))
+    assert [row.name for row in table.bodies] == ["wall", "upper", "lower", "payload"]
+    with pytest.raises(ConfigError, match="--payload: 'wall' is not accepted; accepted: lower, upper"):
+        identify(bare, [recorded(sensed)], TERMS, settings, "wall")
 
 
 def test_too_short_a_log_is_refused(bare, moved, settings):

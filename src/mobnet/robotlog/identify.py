@@ -9,9 +9,9 @@ import sys
 from argparse import Namespace
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import chain, count
 from pathlib import Path
 
-from mobnet.core.arrays import Array
 from mobnet.core.errors import ConfigError, DataError, not_accepted
 from mobnet.core.recording import SensedRecording
 from mobnet.estimation import observer
@@ -21,13 +21,14 @@ from mobnet.robot.given import given_table
 from mobnet.robot.table_file import head_of, write_table
 from mobnet.robotlog.identify_words import identify_parser
 from mobnet.robotlog.identifying.fit import JointFit, fit_joints
+from mobnet.robotlog.identifying.payload import Payload
 from mobnet.robotlog.identifying.regressors import Windows, columns_of, moved, together, windows_of
 from mobnet.robotlog.observe import converted_log
 from mobnet.running.printed import printed
 from mobnet.settings.base import TorqueKind
 from mobnet.settings.identification import Identification
 from mobnet.settings.load import load_section, load_settings
-from mobnet.settings.parts import FrictionRow
+from mobnet.settings.parts import BodyRow, FrictionRow
 from mobnet.settings.robot import RobotTable
 from mobnet.settings.robotlog import LogMap
 from mobnet.settings.settings import Settings
@@ -35,6 +36,7 @@ from mobnet.settings.settings import Settings
 log = logging.getLogger(__name__)
 TERMS = ("coulomb", "viscous", "offset", "armature")
 FURTHER = ("load", "scale")  # on request
+PAYLOAD = "payload"  # name of its body in the table
 DIGITS = 6  # of a number in the table
 
 
@@ -62,24 +64,35 @@ def read_free_log(path: Path, robot: RobotDescription, meaning: LogMap | None, s
 
 
 def identify(
-    robot: RobotDescription, logs: Sequence[FreeLog], terms: Sequence[str], settings: Settings, *, links: bool = False
-) -> tuple[dict[str, JointFit], Array]:
-    """Return the numbers of the joints that move in logs of free motion, and the errors of the links (d,).
+    robot: RobotDescription, logs: Sequence[FreeLog], terms: Sequence[str], settings: Settings,
+    payload: str | None = None,
+) -> tuple[dict[str, JointFit], Payload | None]:  # fmt: skip
+    """Return the numbers of the joints that move in logs of free motion, and the payload of a body.
 
     Raises:
         DataError: the logs are too short.
+        ConfigError: no joint moves the body.
     """
     numbers, gravity = settings.robotlog.identify, settings.plant.gravity_m_s2
-    windows = [windows_of(robot, one.recording, one.torque, gravity, numbers) for one in logs]
+    carrier = _carrier(robot, payload) if payload else None
+    windows = [windows_of(robot, one.recording, one.torque, gravity, numbers, carrier) for one in logs]
     known, held_out = split(windows, numbers)
-    fits, by_links = fit_joints(known, held_out, columns_of(numbers), terms, numbers, links=links)
+    fits, carried = fit_joints(known, held_out, columns_of(numbers), terms, numbers)
     speeds = moved([one.recording for one in logs], robot.layout.nu)
     found = {
         joint: fit
         for joint, fit, speed in zip(robot.layout.actuated, fits, speeds, strict=True)
         if speed >= numbers.least_speed_rad_s
     }
-    return found, by_links
+    return found, carried
+
+
+def _carrier(robot: RobotDescription, body: str) -> int:
+    """Return the joint that moves a body."""
+    moved_bodies = [joint.body for joint in robot.joints]
+    if body not in moved_bodies:
+        raise ConfigError(not_accepted("--payload", body, moved_bodies))
+    return moved_bodies.index(body)
 
 
 def split(windows: Sequence[Windows], numbers: Identification) -> tuple[Windows, Windows]:
@@ -108,6 +121,19 @@ def with_numbers(table: RobotTable, found: Mapping[str, JointFit]) -> RobotTable
     ordered = {row.id: rows.get(row.id) or table.friction.get(row.id) for row in joints}
     friction = {joint: row for joint, row in ordered.items() if row}
     return table.model_copy(update={"joints": joints, "friction": friction})
+
+
+def with_payload(table: RobotTable, body: str, found: Payload) -> RobotTable:
+    """Return a table with one more body, a payload welded to one of its bodies; published totals are left out."""
+    names = [row.name for row in table.bodies]
+    free = (name for name in chain((PAYLOAD,), (f"{PAYLOAD}_{k}" for k in count(2))) if name not in names)
+    own, (x, y, z) = _rounded(found.inertia), map(_rounded, found.com)
+    row = BodyRow(
+        name=next(free), parent=body, pos=(0.0, 0.0, 0.0), quat=(1.0, 0.0, 0.0, 0.0), mass=_rounded(found.mass),
+        com=(x, y, z), inertia=(own, own, own, 0.0, 0.0, 0.0),
+    )  # fmt: skip
+    place = names.index(body) + 1
+    return table.model_copy(update={"bodies": (*table.bodies[:place], row, *table.bodies[place:]), "totals": None})
 
 
 def friction_row(fit: JointFit) -> FrictionRow:
@@ -162,12 +188,19 @@ def run(options: Namespace) -> Iterator[str]:
         raise ConfigError(f"{out}: exists already; accepted: another --out, or --force")
     meaning = load_section(options.map, LogMap) if options.map else None
     logs = [read_free_log(path, robot, meaning, settings) for path in options.logs]
-    found, _ = identify(robot, logs, (*TERMS, *(term for term in FURTHER if getattr(options, term))), settings)
+    terms = (*TERMS, *(term for term in FURTHER if getattr(options, term)))
+    found, carried = identify(robot, logs, terms, settings, options.payload)
     head = head_of(options.robot) if options.robot else []
     made = f"friction and armature: from {', '.join(path.name for path in options.logs)}, by ./reproduce identify."
-    write_table(out, with_numbers(table, found), [*head, made])
+    made_table = with_numbers(table, found)
+    made_table = with_payload(made_table, options.payload, carried) if carried else made_table
+    write_table(out, made_table, [*head, made])
     load_section(out, RobotTable)
     yield from told(found, robot, settings.robotlog.identify.held_out)
+    if carried:
+        place = ", ".join(f"{x:.3f} ± {half:.2g}" for x, half in zip(carried.com, carried.com_half, strict=True))
+        mass = f"{carried.mass:.4g} ± {carried.mass_half:.2g} kg"
+        yield f"payload of {options.payload}: {mass} with its centre at ({place}) m in the axes of that body"
     yield f"written: {out}"
 
 

@@ -26,6 +26,9 @@ def identify_parser() -> argparse.ArgumentParser:
         help="also find dry friction in proportion to the motor's torque; it hides that share of a push which brakes a "
         "joint",
     )
+    parser.add_argument(
+        "--payload", metavar="BODY", help="also find mass and centre of what this body carries, and the table lacks"
+    )
     parser.add_argument("--out", type=Path, metavar="TABLE", help="the new table (default: the robot's name, here)")
     parser.add_argument("--force", action="store_true", help="replace a table that is there")
     return parser

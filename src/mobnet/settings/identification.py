@@ -21,6 +21,7 @@ class Identification(Section):
         gain: share by which Dahl's law must lower the error on the parts held out.
         mass_share: standard deviation of the share by which a link's mass and inertia differ from those of the table.
         com_m: the same of its centre of mass, along each axis [m].
+        payload_kg_m3: density of a payload, which is taken for a ball [kg/m^3].
         least_speed_rad_s: root mean square speed below which a joint did not move [rad/s].
         confidence: nominal one of the intervals.
     """
@@ -35,5 +36,6 @@ class Identification(Section):
     gain: InnerShare
     mass_share: InnerShare
     com_m: Annotated[Positive, Field(le=1)]
+    payload_kg_m3: Annotated[Positive, Field(ge=10, le=30_000)]
     least_speed_rad_s: Positive
     confidence: InnerShare

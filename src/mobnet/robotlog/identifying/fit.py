@@ -20,12 +20,14 @@ from scipy.optimize import lsq_linear
 from scipy.stats import t
 
 from mobnet.core.arrays import Array
+from mobnet.robotlog.identifying.payload import NUMBERS, START, Payload, linearised, parameters, payload_of
 from mobnet.robotlog.identifying.regressors import LINK, Columns, Windows, together
 from mobnet.settings.identification import Identification
 
 FREE = ("offset", "scale")  # of either sign: errors of a sensor, which dissipate nothing
 DAHL = "breakaway"
-ROUNDS = 3  # of fitting all joints, and choosing the signs by what the links do not explain
+OPEN = 1e3  # standard deviation of what has no prior, a payload's mass [kg] and first moment [kg m]
+ROUNDS = 4  # of fitting all joints, and choosing the signs by what the links do not explain
 LEAST = 1e-9  # root mean square below which a column did not vary, and the share that keeps a solution unique
 
 
@@ -81,25 +83,29 @@ class Solution:
 
 
 def fit_joints(
-    known: Windows, held_out: Windows, columns: Columns, terms: Sequence[str], settings: Identification,
-    *, links: bool,
-) -> tuple[list[JointFit], Array]:  # fmt: skip
+    known: Windows, held_out: Windows, columns: Columns, terms: Sequence[str], settings: Identification
+) -> tuple[list[JointFit], Payload | None]:
     """Fit all joints: what is not held out chooses the signs, and its fit is tried on what is held out.
 
-    The numbers are those of all windows. With `links`, the table gets the errors of the links too, which are returned
-    (d,); without, they only keep the other numbers right.
+    The numbers are those of all windows. Errors of the links are fitted to keep them right; the table does not get
+    them, and so they do not count where the fit is tried.
     """
     problem, tried = solved(known, columns, terms, settings)
-    windows = together([known, held_out])
+    windows, density = together([known, held_out]), settings.payload_kg_m3
+    loaded = known.payload.shape[-1] > 0
+    carried = parameters(tried.links[-NUMBERS:], density) if loaded else np.zeros(0)
+    windows = linearised(windows, tried.links[-NUMBERS:], density) if loaded else windows
     final = solution(windows, problem)
-    half = half_widths(windows, problem, final, settings.confidence)
+    halves = half_widths(windows, problem, final, settings.confidence)
+    half = halves[: final.joints.size].reshape(final.joints.shape)
+    payload = payload_of(final.links[-NUMBERS:], halves[-NUMBERS:], density) if loaded else None
     unseen, fits = held_out.joints[..., -1], list[JointFit]()
     for j, sign in enumerate(problem.signs):
         rest = unseen[:, :, j] - problem.own(held_out, j) @ tried.joints[j]
-        rest = rest - held_out.links[:, :, j] @ tried.links if links else rest
-        factors, halves = (dict(zip(terms, one[j].tolist(), strict=True)) for one in (final.joints, half))
-        fits.append(JointFit(columns.signs[sign], factors, halves, _rms(unseen[:, :, j]), _rms(rest)))
-    return fits, final.links
+        rest = rest - held_out.payload[:, :, j] @ carried
+        factors, widths = (dict(zip(terms, one[j].tolist(), strict=True)) for one in (final.joints, half))
+        fits.append(JointFit(columns.signs[sign], factors, widths, _rms(unseen[:, :, j]), _rms(rest)))
+    return fits, payload
 
 
 def solved(
@@ -110,10 +116,13 @@ def solved(
     prior = np.tile([settings.mass_share, *(settings.com_m,) * (len(LINK) - 1)], nu)
     # All torques times a factor are those of links and friction times that factor: a scale takes the links as they are.
     prior *= LEAST if "scale" in terms else 1.0
-    by_links = np.zeros(windows.joints.shape[:3])
+    loaded, near = windows.payload.shape[-1] > 0, START
+    prior = np.append(prior, np.full(NUMBERS, OPEN)) if loaded else prior
+    by_links, given = np.zeros(windows.joints.shape[:3]), windows
     problem = Problem(columns, tuple(terms), (0,) * nu, np.ones(nu), prior)
     found = None
     for _ in range(ROUNDS):
+        windows = linearised(given, near, settings.payload_kg_m3) if loaded else given
         targets = windows.joints[..., -1] - by_links
         signs = [
             chosen_sign(windows.joints[:, :, j, :-1], targets[:, :, j], columns, terms, settings) for j in range(nu)
@@ -121,7 +130,7 @@ def solved(
         problem = replace(problem, signs=tuple(signs))
         problem = replace(problem, weights=_weights(windows, problem, by_links))
         found = solution(windows, problem)
-        by_links = windows.links @ found.links
+        by_links, near = windows.links @ found.links, found.links[-NUMBERS:]
     assert found is not None
     return problem, found
 
@@ -206,7 +215,7 @@ def solution(windows: Windows, problem: Problem) -> Solution:
 
 
 def half_widths(windows: Windows, problem: Problem, found: Solution, confidence: float) -> Array:
-    """Return half the widths of the intervals of the joints' numbers (nu, terms)."""
+    """Return half the widths of the intervals of the joints' numbers and of the links' errors, (nu * terms + d,)."""
     (nu, count), d, groups = found.joints.shape, len(problem.prior), len(windows)
     scores = np.zeros((groups, nu * count + d))
     for j in range(nu):
@@ -219,8 +228,8 @@ def half_widths(windows: Windows, problem: Problem, found: Solution, confidence:
     size = np.sqrt(np.maximum(np.diag(found.matrix), LEAST))
     scaled = found.matrix / np.outer(size, size) + LEAST * np.eye(len(size))
     inverse = np.linalg.inv(scaled)
-    variance = np.diag(inverse @ (middle / np.outer(size, size)) @ inverse)[: nu * count] / size[: nu * count] ** 2
-    return (float(t.ppf((1 + confidence) / 2, groups - 1)) * np.sqrt(variance)).reshape(nu, count)
+    variance = np.diag(inverse @ (middle / np.outer(size, size)) @ inverse) / size**2
+    return float(t.ppf((1 + confidence) / 2, groups - 1)) * np.sqrt(variance)
 
 
 def _rms(values: Array) -> float:

@@ -56,10 +56,12 @@ class Windows:
     Attributes:
         joints: columns of each joint, target last, (windows, rows, nu, m), SI units.
         links: what the errors of the links contribute to each joint, in units of `LINK`, (windows, rows, nu, d).
+        payload: what the ten parameters of a payload contribute, (windows, rows, nu, 10), or none of them.
     """
 
     joints: Array
     links: Array
+    payload: Array
 
     def __len__(self) -> int:
         """Return how many there are."""
@@ -67,12 +69,14 @@ class Windows:
 
     def __getitem__(self, part: slice) -> "Windows":
         """Return some of them."""
-        return Windows(self.joints[part], self.links[part])
+        return Windows(self.joints[part], self.links[part], self.payload[part])
 
 
 def together(windows: Sequence[Windows]) -> Windows:
     """Return windows of several logs."""
-    return Windows(*(np.concatenate([getattr(one, name) for one in windows]) for name in ("joints", "links")))
+    return Windows(
+        *(np.concatenate([getattr(one, name) for one in windows]) for name in ("joints", "links", "payload"))
+    )
 
 
 def columns_of(settings: Identification) -> Columns:
@@ -88,9 +92,13 @@ def bare(robot: RobotDescription) -> RobotDescription:
 
 
 def windows_of(
-    robot: RobotDescription, read: SensedRecording, torque: TorqueKind, gravity_m_s2: float, settings: Identification
-) -> Windows:
-    """Return the windows of a recording; what is left of a segment behind its last whole window is not used."""
+    robot: RobotDescription, read: SensedRecording, torque: TorqueKind, gravity_m_s2: float, settings: Identification,
+    carrier: int | None = None,
+) -> Windows:  # fmt: skip
+    """Return the windows of a recording; the end of a segment behind its last whole window is not used.
+
+    `carrier` is the joint whose body carries a payload that the table does not have.
+    """
     nominal = NominalModel(bare(robot), gravity_m_s2=gravity_m_s2)
     # A gain this large has no low-pass: r is s of (O1).
     observer = MomentumObserver(nominal, 1e3 * read.rate_hz, read.rate_hz, torque)
@@ -102,10 +110,14 @@ def windows_of(
         if len(sensed) <= rows * every:
             continue
         parts = _Filter(settings.low_pass_hz, read.rate_hz, every), rows
-        found.append(Windows(_joints(observer, sensed, columns, *parts), _links(nominal, sensed, *parts)))
+        regressor = _links(nominal, sensed, *parts)
+        links = regressor @ link_directions(nominal.model, robot.layout.nu)
+        payload = regressor[..., 10 * carrier : 10 * carrier + 10] if carrier is not None else regressor[..., :0]
+        found.append(Windows(_joints(observer, sensed, columns, *parts), links, payload))
     if not found:
         nu, width = robot.layout.nu, 2 * len(columns.signs) + len(PLAIN) + 1
-        return Windows(np.zeros((0, rows, nu, width)), np.zeros((0, rows, nu, len(LINK) * nu)))
+        sizes = width, len(LINK) * nu, 0 if carrier is None else 10
+        return Windows(*(np.zeros((0, rows, nu, size)) for size in sizes))
     return together(found)
 
 
@@ -143,15 +155,15 @@ def _joints(observer: MomentumObserver, sensed: Sensed, columns: Columns, thin: 
 
 
 def _links(nominal: NominalModel, sensed: Sensed, thin: _Filter, rows: int) -> Array:
-    """Return what the errors of all moving links contribute to the joints in windows, (windows, rows, nu, d)."""
+    """Return what the parameters of all moving links contribute to the joints, (windows, rows, nu, 10 nu)."""
     nu, model, data = nominal.robot.layout.nu, nominal.model, nominal.data
     velocity = thin(sensed.v.astype(np.float64))
     acceleration = np.gradient(velocity, axis=0) * thin.rate_hz
     keep = slice(1, None, thin.every)
-    q, mixed = nominal.positions(sensed.q[keep]), link_directions(model, nu)
-    found = np.empty((len(q), nu, mixed.shape[1]))
+    q = nominal.positions(sensed.q[keep])
+    found = np.empty((len(q), nu, 10 * nu))
     for k, state in enumerate(zip(q, velocity[keep], acceleration[keep], strict=True)):
-        found[k] = pin.computeJointTorqueRegressor(model, data, *state)[-nu:, -len(mixed) :] @ mixed
+        found[k] = pin.computeJointTorqueRegressor(model, data, *state)[-nu:, -10 * nu :]
     return _cut(found, rows)
 
 
