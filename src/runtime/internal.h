@@ -44,13 +44,21 @@ struct robot {
     struct moving *moving;
 };
 
+/* Friction and errors of a drive, as `mobnet.estimation.drive` has them and as they stand in the file. */
+struct drive {
+    double coulomb, viscous, load, offset, scale;
+    double smoothing; /* width of the smooth sign of the velocity [rad/s] */
+    double breakaway; /* angle of Dahl's law [rad]; zero with the smooth sign */
+};
+
 struct observer {
     double pole, rate_hz;
+    struct drive *drive; /* (nu); none of a robot whose table has no friction */
     int sampled; /* whether torques are samples at the ticks, and not means over the intervals that end there */
 };
 
-/* Kinds of sections of a model file, in their order. */
-enum part { ROBOT = 1, JOINTS, COLUMNS, OBSERVER, NETWORK, DETECTOR };
+/* Kinds of sections of a model file, in their order, but that DRIVES, which may be missing, follow the observer. */
+enum part { ROBOT = 1, JOINTS, COLUMNS, OBSERVER, NETWORK, DETECTOR, DRIVES };
 
 enum source { FROM_Q, FROM_V, FROM_TORQUE, FROM_ROTATION, FROM_OMEGA, FROM_ACC, SOURCES };
 
@@ -115,6 +123,7 @@ struct detector {
  * which takes its place if all of its numbers are finite. */
 struct tick {
     double *momentum, *beta, *residual, *torque, *tau_ext;
+    double *bend, *friction; /* (nu) of the drives, where there are any */
     float *mean, *std, *hidden;
 };
 
@@ -127,6 +136,7 @@ struct mobnet {
     struct robot robot;
     struct observer observer;
     size_t columns, networks, detectors, hidden;
+    size_t driven; /* whether there is a section of drives */
     struct column *column;
     char (*joint)[NAME];
     struct network *network;

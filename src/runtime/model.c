@@ -37,7 +37,7 @@ static mobnet_status check_header(const unsigned char *model, size_t size, uint3
         return MOBNET_TRUNCATED;
     if (sum != checksum(model + CHECKED, size - CHECKED))
         return MOBNET_CHECKSUM;
-    if (*sections < OBSERVER || *sections > OBSERVER + 2 * MOST_PARTS || HEADER + *sections * ENTRY > size)
+    if (*sections < OBSERVER || *sections > OBSERVER + 1 + 2 * MOST_PARTS || HEADER + *sections * ENTRY > size)
         return MOBNET_SECTION;
     return MOBNET_OK;
 }
@@ -65,7 +65,11 @@ static mobnet_status count_parts(struct mobnet *m, const unsigned char *model, s
     for (uint32_t k = 0; k < sections; k++) {
         struct cursor c;
         uint32_t kind = find(model, size, k, &end, &c);
-        /* One section of each of the first kinds, then networks, then detectors. */
+        /* One section of each of the first kinds, drives if there are any, then networks, then detectors. */
+        if (k == OBSERVER && kind == DRIVES) {
+            m->driven = 1;
+            continue;
+        }
         if (k < OBSERVER ? kind != k + 1 : kind < (m->detectors ? DETECTOR : NETWORK) || kind > DETECTOR)
             return MOBNET_SECTION;
         m->networks += kind == NETWORK;
@@ -80,6 +84,8 @@ static void take_ticks(struct mobnet *m, struct arena *arena) {
         double **numbers[] = {&tick->momentum, &tick->beta, &tick->residual, &tick->torque, &tick->tau_ext};
         for (int k = 0; k < 5; k++)
             *numbers[k] = mobnet_take(arena, m->robot.nv, sizeof(double));
+        tick->bend = m->driven ? mobnet_take(arena, m->robot.nu, sizeof(double)) : NULL;
+        tick->friction = m->driven ? mobnet_take(arena, m->robot.nu, sizeof(double)) : NULL;
         tick->mean = mobnet_take(arena, m->robot.nv, sizeof(float));
         tick->std = mobnet_take(arena, m->robot.nv, sizeof(float));
         tick->hidden = mobnet_take(arena, m->hidden, sizeof(float));

@@ -5,8 +5,9 @@
 
 enum { MOST_UNITS = 8192, MOST_SAMPLES = 10000, MOST_PHASES = 100 };
 
-/* These two are read at once, as they stand in the file. */
+/* These are read at once, as they stand in the file. */
 typedef char link_is_as_in_the_file[sizeof(struct link) == 392 ? 1 : -1];
+typedef char drive_is_as_in_the_file[sizeof(struct drive) == 56 ? 1 : -1];
 typedef char gate_is_as_in_the_file[sizeof(struct gate) == 64 ? 1 : -1];
 
 static void read_robot(struct mobnet *m, struct arena *arena, struct cursor *c) {
@@ -57,6 +58,18 @@ static void read_observer(struct mobnet *m, struct cursor *c) {
     doubles(c, 1, LEAST, MOST, &m->observer.rate_hz);
     m->observer.sampled = (int)whole(c, 0, 1);
     whole(c, 0, 0);
+}
+
+static void read_drives(struct mobnet *m, struct arena *arena, struct cursor *c) {
+    m->observer.drive = mobnet_take(arena, m->robot.nu, sizeof *m->observer.drive);
+    for (size_t k = 0; k < m->robot.nu && !c->fault; k++) {
+        struct drive drive = {0};
+        copy(c, &drive, sizeof drive);
+        need(c, within(&drive.coulomb, sizeof drive / sizeof(double)));
+        need(c, drive.smoothing >= LEAST && (drive.breakaway == 0.0 || drive.breakaway >= LEAST));
+        if (m->observer.drive)
+            m->observer.drive[k] = drive;
+    }
 }
 
 static void read_inputs(struct mobnet *m, struct network *net, struct cursor *c) {
@@ -202,8 +215,10 @@ void mobnet_read_part(struct mobnet *m, struct arena *arena, uint32_t kind, uint
         read_columns(m, arena, c);
     else if (kind == OBSERVER)
         read_observer(m, c);
+    else if (kind == DRIVES)
+        read_drives(m, arena, c);
     else if (kind == NETWORK)
-        read_network(m, number - OBSERVER, arena, c);
+        read_network(m, number - OBSERVER - m->driven, arena, c);
     else
-        read_detector(m, number - OBSERVER - m->networks, arena, c);
+        read_detector(m, number - OBSERVER - m->driven - m->networks, arena, c);
 }

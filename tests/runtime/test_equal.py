@@ -1,5 +1,7 @@
 """The C library gives the numbers of this project: residual, estimate and flags, for both kinds of base."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from c_library import OK, Runtime, load, make
@@ -8,13 +10,16 @@ from mobnet.core.estimator import Estimate
 from mobnet.detection.detector import ALARM_RATIO, GateSignal, LegDetector, LegGate, run_over
 from mobnet.detection.signals import Watched
 from mobnet.estimation.kinds.residual import ResidualEstimator
+from mobnet.estimation.observer import MomentumObserver
 from mobnet.export.model_file import RuntimeDetector, write_model_file
 from mobnet.learning.deployed.limbs import LimbNetworks
 from mobnet.learning.deployed.networks import deployed
 from mobnet.reaction.watchers import LimbWatcher
+from mobnet.robot.nominal import NominalModel
 from mobnet.settings.detection import Detector
+from mobnet.settings.parts import FrictionRow
 
-from .conftest import RATE_HZ, chain_of, changed, moving, network_of
+from .conftest import GAIN_HZ, GRAVITY, RATE_HZ, chain_of, changed, moving, network_of
 
 EXACT, SINGLE = 1e-9, 1e-5  # shares of the largest number: of double precision, of single precision
 
@@ -61,6 +66,22 @@ def test_residual(runtime, observer_of, machine, torque):
     residual, _, _, tau, _ = run(runtime(observer), sensed)
     agree(residual, observer.residual(sensed), EXACT)
     np.testing.assert_array_equal(tau, residual)
+
+
+@pytest.mark.parametrize("machine", ["robot", "arm"])
+def test_residual_with_friction_of_the_drives(runtime, observer_of, machine):
+    """Both smooth signs, load, offset and scale; a joint of the table may have none of them."""
+    plain = observer_of(machine, "sample")
+    robot = plain.nominal.robot
+    rubbing = {"coulomb_nm": 3.0, "viscous_nms": 0.7, "load": 0.1, "offset_nm": -0.4, "scale": 1.1}
+    shapes = [{"smoothing_rad_s": 0.05}, {"smoothing_rad_s": 1.0, "breakaway_rad": 0.02}]
+    rows = {joint: FrictionRow(**rubbing, **shapes[k % 2]) for k, joint in enumerate(robot.layout.actuated) if k != 2}
+    nominal = NominalModel(replace(robot, friction=rows), plain.nominal.mass_ratio, GRAVITY)
+    observer = MomentumObserver(nominal, GAIN_HZ, RATE_HZ, "sample")
+    sensed = moving(robot.layout, 500)
+    residual, _, _, _, _ = run(runtime(observer), sensed)
+    agree(residual, observer.residual(sensed), EXACT)
+    assert np.abs(residual - plain.residual(sensed))[100:, -robot.layout.nu :].max() > 1.0
 
 
 def test_the_stored_push(runtime, push, published, felt):

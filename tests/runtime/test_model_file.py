@@ -25,8 +25,10 @@ from mobnet.export.runtime import MODEL, model_of
 from mobnet.export.soles import leg_record
 from mobnet.export.trained import contract_of, read_trained
 from mobnet.robot.description import describe
+from mobnet.robot.nominal import NominalModel
 from mobnet.settings import base
 from mobnet.settings.limb_thresholds import LimbThresholds
+from mobnet.settings.parts import FrictionRow
 
 from .conftest import GRAVITY, RATE_HZ, chain_of, moving, network_of, watching
 
@@ -66,6 +68,23 @@ def test_the_file_is_as_described(model):
     kinds = [kind for kind, _ in sections(model)]
     assert kinds == [1, 2, 3, 4, 5, 6]
     assert model_file.file_of(sections(model)) == model
+
+
+def test_drives_follow_the_observer_and_have_no_other_place(observer_of, library, tmp_path):
+    plain = observer_of("arm")
+    row = FrictionRow(coulomb_nm=1.0, viscous_nms=0.0, smoothing_rad_s=0.01)
+    robot = replace(plain.nominal.robot, friction={"J2": row})
+    observer = MomentumObserver(NominalModel(robot), 100.0, RATE_HZ)
+    write_model_file(tmp_path / "arm.bin", observer, [network_of(robot.layout, "A", GRU)], [])
+    found = sections((tmp_path / "arm.bin").read_bytes())
+    assert [kind for kind, _ in found] == [1, 2, 3, 4, 7, 5]
+    assert struct.unpack_from("<7d", found[4][1], 56) == (1.0, 0.0, 0.0, 0.0, 1.0, 0.01, 0.0)
+    assert status_of(library, model_file.file_of(found)) == OK
+    for places in ([0, 1, 2, 3, 5, 4], [0, 1, 2, 4, 3, 5], [0, 1, 2, 3, 4, 4, 5]):
+        assert status_of(library, model_file.file_of([found[k] for k in places])) == SECTION
+    narrow = bytearray(found[4][1])
+    struct.pack_into("<d", narrow, 40, 0.0)  # the width of a sign divides
+    assert status_of(library, model_file.file_of([*found[:4], (7, bytes(narrow)), found[5]])) == VALUE
 
 
 def test_the_same_model_is_the_same_file(model, observer_of, tmp_path):

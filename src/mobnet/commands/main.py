@@ -22,6 +22,7 @@ MODULES = {  # command -> the module that `python -m` runs, with words that come
     "export": ("mobnet.export.export",),
     "motion": ("mobnet.robotlog.motion",),
     "observe": ("mobnet.robotlog.observe",),
+    "identify": ("mobnet.robotlog.identify",),
     "learn": ("mobnet.robotlog.learn",),
     "detect": ("mobnet.robotlog.detect",),
     "robot": ("mobnet.robot.import_table",),
@@ -30,9 +31,9 @@ MODULES = {  # command -> the module that `python -m` runs, with words that come
     **{name: ("mobnet.evaluation.report.snapshot", name) for name in ("verify", "compare", "snapshot")},
 }
 # Their words are files of the caller, no code of ours.
-OUTSIDE = ("check", "calibrate", "demo", "detect", "export", "learn", "motion", "observe", "robot")
+OUTSIDE = ("check", "calibrate", "demo", "detect", "export", "identify", "learn", "motion", "observe", "robot")
 # They say themselves what Ctrl-C leaves of them.
-LINED = ("calibrate", "cost", "detect", "export", "learn", "motion", "observe", "robot")
+LINED = ("calibrate", "cost", "detect", "export", "identify", "learn", "motion", "observe", "robot")
 REPORT = ("--report", "report.html", "--report-after-run")
 
 

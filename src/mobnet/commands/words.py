@@ -13,6 +13,7 @@ from mobnet.detection.words import calibrate_parser
 from mobnet.export.words import export_parser
 from mobnet.plan.places import scale_of
 from mobnet.robot.import_words import import_parser
+from mobnet.robotlog.identify_words import identify_parser
 from mobnet.robotlog.learning_words import detect_parser, learn_parser
 from mobnet.robotlog.motion_words import motion_parser
 from mobnet.robotlog.words import observe_parser
@@ -27,6 +28,7 @@ COMMANDS = {
     "robot": "make a robot's table from its URDF or MJCF file; --help says how",
     "motion": "simulate the log of a robot of a table that moves without walking; --help says how",
     "observe": "make the residual of a robot's own log, and say what looks wrong with it; --help says how",
+    "identify": "find friction and rotor inertia in logs of free motion, for the robot's table; --help says how",
     "learn": "train a network on a robot's own logs, and try it on their end; --help says how",
     "calibrate": "print thresholds of detection for a wanted rate of false alarms; --help says how",
     "detect": "write when something pushes a limb in a robot's own log; --help says how",
@@ -62,6 +64,7 @@ PARSERS = {
     "demo": demo_parser,
     "detect": detect_parser,
     "export": export_parser,
+    "identify": identify_parser,
     "learn": learn_parser,
     "motion": motion_parser,
     "observe": observe_parser,

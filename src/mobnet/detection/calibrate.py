@@ -22,6 +22,7 @@ from mobnet.detection.words import SIGNALS, calibrate_parser
 from mobnet.estimation.own import (
     OwnLog,
     OwnNetwork,
+    check_drives,
     check_sampling,
     estimates_of,
     estimator_of,
@@ -57,6 +58,7 @@ def read_folders(options: Namespace, robot: RobotDescription, network: OwnNetwor
     refuse_twice(logs, "else its alarms count twice")
     sampling, of = (network.sampling, network.folder) if network else (logs[0].sampling, logs[0].folder)
     for one in logs:
+        check_drives(one.folder, one.sampling.drives, robot)
         check_sampling(one.folder, one.sampling, sampling, of)
     return logs
 

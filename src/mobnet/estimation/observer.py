@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from mobnet.core.arrays import Array
 from mobnet.core.errors import ConfigError, DataError, not_accepted
 from mobnet.core.recording import Sensed
+from mobnet.estimation.drive import drives_of
 from mobnet.estimation.low_pass import exact_pole, filtered
 from mobnet.robot.dynamics import momentum_and_beta
 from mobnet.robot.nominal import NominalModel
@@ -31,12 +32,16 @@ class ObserverState:
         beta: C^T v - g of (6) at the last sample (nv,) [N] and [N m].
         residual: r of (9) at the last sample (nv,) [N] and [N m].
         torque: motors' torque at the last sample (nu,) [N m].
+        bend: state of the drives' friction (nu,), and
+        friction: its torque at the last sample (nu,) [N m]; None for a robot whose table has no friction.
     """
 
     momentum: Array | None = None
     beta: Array | None = None
     residual: Array | None = None
     torque: Array | None = None
+    bend: Array | None = None
+    friction: Array | None = None
 
 
 class MomentumObserver:
@@ -49,6 +54,7 @@ class MomentumObserver:
         rate_hz: samples per second [Hz].
         torque: whether `Sensed.tau_motor` holds means over the intervals that end at the ticks, as the simulator writes
             them, or samples at the ticks.
+        drives: friction and errors of the drives that the robot's table has; None where it has none.
     """
 
     def __init__(self, nominal: NominalModel, gain_hz: float, rate_hz: float, torque: TorqueKind = "mean") -> None:
@@ -61,6 +67,7 @@ class MomentumObserver:
             raise ConfigError(not_accepted("torque", torque, get_args(TorqueKind)))
         self.torque = torque
         self.nominal = nominal
+        self.drives = drives_of(nominal.robot.friction, nominal.robot.layout.actuated)
         self._motors = slice(len(nominal.robot.layout.virtual), None)  # of a generalized velocity
         self.gain_hz = gain_hz
         self.pole = exact_pole(gain_hz, rate_hz)
@@ -77,14 +84,26 @@ class MomentumObserver:
         if state.momentum is None or state.beta is None or state.residual is None or state.torque is None:
             # (O5): before the first sample there is no momentum to take a difference from.
             residual = np.zeros_like(p)
+            bend, friction = self._friction(None, sample.v[None], torque[None])
         else:
             applied = np.zeros_like(p)
+            bend, friction = self._friction(state.bend, sample.v[None], torque[None])
             applied[self._motors] = self._mean_torque(torque, state.torque)
+            if self.drives is not None and friction is not None and state.friction is not None:
+                lost = (friction[0] + state.friction) / 2
+                applied[self._motors] = self.drives.scale * applied[self._motors] - lost
             # (O1): beta is known at both ends of the sample; either of them alone would cost an order in T.
             raw = (p - state.momentum) * self.rate_hz - applied - (beta + state.beta) / 2
             # (O4), the solution of (10) over a sample, so that r has the low-pass of the truth it is compared with.
             residual = self.pole * state.residual + (1 - self.pole) * raw
-        return ObserverState(p, beta, residual, torque), residual
+        return ObserverState(p, beta, residual, torque, bend, None if friction is None else friction[0]), residual
+
+    def _friction(self, bend: Array | None, v: NDArray[Any], torque: NDArray[Any]) -> tuple[Array | None, Array | None]:
+        """Return the state of the drives' friction after samples, and its torque at each (T, nu) [N m]."""
+        if self.drives is None:
+            return None, None
+        before = self.drives.init() if bend is None else bend
+        return self.drives.run(before, v[:, self._motors], torque, self.rate_hz)
 
     def residual(self, sensed: Sensed) -> Array:
         """Return r of (9) over one contiguous stretch, (T, nv) [N] and [N m]; equal to stepping through it.
@@ -100,7 +119,11 @@ class MomentumObserver:
         # (O5) once more: the first row stays zero, and the low-pass from zero is then the recursion (O4) of `step`.
         raw = np.zeros_like(p)
         raw[1:] = np.diff(p, axis=0) * self.rate_hz - (beta[1:] + beta[:-1]) / 2
-        raw[1:, self._motors] -= self._mean_torque(sensed.tau_motor[1:], sensed.tau_motor[:-1])
+        applied = self._mean_torque(sensed.tau_motor[1:], sensed.tau_motor[:-1])
+        _, friction = self._friction(None, sensed.v, sensed.tau_motor)
+        if self.drives is not None and friction is not None:
+            applied = self.drives.scale * applied - (friction[1:] + friction[:-1]) / 2
+        raw[1:, self._motors] -= applied
         return filtered(raw, self.pole)
 
     def _mean_torque(self, now: NDArray[Any], before: NDArray[Any]) -> NDArray[Any]:

@@ -27,6 +27,7 @@ from mobnet.settings.robot import GroupName
 from mobnet.settings.settings import Settings
 
 RECORDING, ESTIMATE = "recording", "estimate"  # arrays in the folder of a log
+DRIVES = "drives"  # key of a note: digest of the friction that the observer knew
 OBSERVER, LEARNED = "MOB", "MOB-Net"  # methods: the observer alone, and with a network
 UNCERTAINTY: Target = "uncertainty"  # what such a network learns
 REMEDIES = {"rate_hz": "; one `rate_hz` in the maps of all logs gives them one rate"}  # of what two logs differ in
@@ -44,17 +45,26 @@ class LearnedNote(Note):
     rate_hz: RateHz | None = None
     gain_hz: GainHz | None = None
     torque: TorqueKind | None = None
+    drives: Text | None = None
     folders: list[Text] | None = None
     recordings: list[Text] | None = None
 
 
 @dataclass(frozen=True)
 class Sampling:
-    """Samples per second [Hz], gain K_0 of the observer [1/s], and what a log holds of torques between two ticks."""
+    """Samples per second [Hz], gain K_0 of the observer [1/s], and what a log holds of torques between two ticks.
+
+    `drives` is the digest of the friction that the observer knew; None where the table had none.
+    """
 
     rate_hz: float
     gain_hz: float
     torque: TorqueKind
+    drives: str | None = None
+
+    def note(self) -> dict[str, float | str]:
+        """Return what a note says of it."""
+        return {key: value for key, value in vars(self).items() if value is not None}
 
 
 @dataclass(frozen=True)
@@ -125,7 +135,7 @@ def read_log_folder(folder: Path, layout: JointLayout) -> OwnLog:
         raise DataError(f"{not_accepted(f'{folder}: joint', others[0], layout.names)}, those of --robot")
     recording = read_sensed(stems[0], layout)
     residual = read_array(stems[1], named(EXTERNAL, layout.names))[0]
-    sampling = Sampling(recording.rate_hz, float(note["gain_hz"]), note["torque"])
+    sampling = Sampling(recording.rate_hz, float(note["gain_hz"]), note["torque"], note.get(DRIVES))
     return OwnLog(folder, recording, residual, sampling, footer_hash(file_of(stems[0], ARRAY)))
 
 
@@ -143,7 +153,7 @@ def read_network_folder(folder: Path, layout: JointLayout, settings: Settings) -
         raise DataError(not_accepted(f"{folder / RUN}: target", note.target, [UNCERTAINTY]))
     rate_hz, gain_hz = note.rate_hz or settings.rates.data_hz, note.gain_hz or observer.gain_hz
     networks = load_limb_networks({note.limb: folder}, layout)
-    sampling = Sampling(rate_hz, gain_hz, note.torque or observer.torque)
+    sampling = Sampling(rate_hz, gain_hz, note.torque or observer.torque, note.drives)
     folders, recordings = tuple(map(Path, note.folders or ())), note.recordings
     known = None if recordings is None else tuple(recordings)
     return OwnNetwork(folder, note.limb, note.fingerprint, networks, sampling, folders, known)
@@ -172,6 +182,13 @@ def check_sampling(path: Path, sampling: Sampling, wanted: Sampling, of: Path) -
         if value != (expected := getattr(wanted, key))
     ]
     refuse(path, faults)
+
+
+def check_drives(path: Path, drives: str | None, robot: RobotDescription) -> None:
+    """Raise a DataError where a file was made with other friction or rotors than those of a robot's table."""
+    if drives != robot.drives:
+        accepted = [f"{robot.drives or 'none'}, those of --robot; make it anew with that table"]
+        raise DataError(f"{path}: {not_accepted('drives (friction and armature)', drives or 'none', accepted)}")
 
 
 def estimator_of(

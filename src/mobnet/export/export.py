@@ -18,7 +18,7 @@ from mobnet.core.errors import DataError, beyond, not_accepted, refuse_lines
 from mobnet.core.files import atomic_path, write_json
 from mobnet.detection.signals import MEAN
 from mobnet.detection.threshold_file import read_thresholds
-from mobnet.estimation.own import OBSERVER
+from mobnet.estimation.own import OBSERVER, check_drives
 from mobnet.export.contract import CONTRACT, Contract, ObserverContract, read_contract
 from mobnet.export.graph import graph_of
 from mobnet.export.runtime import MODEL, model_of
@@ -62,6 +62,8 @@ def export(
         ConfigError: a limb that is watched in swing is no leg.
     """
     check_apart(networks)
+    for one in networks:
+        check_drives(one.folder, one.run.drives, robot)
     check_thresholds(thresholds, networks, robot, run)
     before = {own.file for own in read_contract(out).networks} if (out / CONTRACT).exists() else set()
     contract = contract_of(robot.name, robot.layout, networks, run.rate_hz, run.observer, thresholds)
@@ -95,6 +97,7 @@ def check_thresholds(
     fingerprints = {one.note.limb: one.run.fingerprint for one in networks}
     predicted = {joint for one in networks for joint in one.note.joints}
     for one in thresholds:
+        check_drives(Path(f"thresholds of {one.limb}"), one.drives, robot)
         if one.method == OBSERVER and one.signal != MEAN:
             raise DataError(not_accepted(f"thresholds of {one.limb}: signal", one.signal, [f"{MEAN} of {OBSERVER}"]))
         if one.method != OBSERVER and not set(one.joints) <= predicted:

@@ -20,6 +20,7 @@ from mobnet.core.files import atomic_path
 from mobnet.core.joints import JointLayout
 from mobnet.detection.chain import Chain
 from mobnet.detection.detector import LegGate
+from mobnet.estimation.drive import NUMBERS, Drives
 from mobnet.estimation.observer import MomentumObserver
 from mobnet.export.soles import leg_record
 from mobnet.learning.deployed.networks import WITHOUT_TORCH
@@ -32,7 +33,7 @@ from mobnet.settings.methods import Target
 MAGIC, VERSION = b"MOBNETRT", 1
 HEADER, ENTRY, ALIGNED, NAME = 64, 32, 64, 32  # bytes
 CHECKED = 12  # bytes in front of what the checksum covers
-ROBOT, JOINTS, COLUMNS, OBSERVER, NETWORK, DETECTOR = range(1, 7)  # kinds of sections
+ROBOT, JOINTS, COLUMNS, OBSERVER, NETWORK, DETECTOR, DRIVES = range(1, 8)  # kinds of sections
 # fields of a sample, in the order of `mobnet_sample` in mobnet.h
 SAMPLE = ("q", "v", "tau_motor", "tau_des", "acc_base_in_base", "swing", "landing")
 JOINT_SOURCES = ("q", "v", "tau_des")  # inputs of a network from a joint, in the order of `enum source` in internal.h
@@ -111,6 +112,7 @@ def model_content(
         (JOINTS, b"".join(_name(joint) for joint in layout.names)),
         (COLUMNS, b"".join(_columns(layout))),
         (OBSERVER, struct.pack("<ddII", observer.pole, observer.rate_hz, observer.torque == "sample", 0)),
+        *([(DRIVES, _drives(observer.drives))] if observer.drives else []),
         *((NETWORK, _network(network, layout)) for network in networks),
         *((DETECTOR, _detector(detector, observer)) for detector in detectors),
     ]
@@ -187,6 +189,11 @@ def _robot(observer: MomentumObserver) -> bytes:
     links, gravity = nominal.linkage
     feet = len(recording_columns(nominal.robot.layout)["swing"])
     return struct.pack("<4I", nominal.robot.floating, len(links), feet, 0) + _doubles(gravity) + links.tobytes()
+
+
+def _drives(drives: Drives) -> bytes:
+    """Return the numbers of each drive, one after another."""
+    return _doubles(np.column_stack([getattr(drives, name) for name in NUMBERS]))
 
 
 def _columns(layout: JointLayout) -> Iterable[bytes]:

@@ -1,7 +1,8 @@
 """A robot's table and what follows from it; the plant, the nominal model and the controller are built from both."""
 
+import hashlib
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TypeVar
 
 import numpy as np
@@ -9,7 +10,18 @@ from numpy.typing import NDArray
 
 from mobnet.core.errors import ConfigError
 from mobnet.core.joints import LEG_AXES, JointLayout, Limits, right_of, with_image
-from mobnet.settings.parts import BodyRow, Colour, FootRow, ImuRow, JointRow, LegRow, PointRow, ShapeRow, SoleRow
+from mobnet.settings.parts import (
+    BodyRow,
+    Colour,
+    FootRow,
+    FrictionRow,
+    ImuRow,
+    JointRow,
+    LegRow,
+    PointRow,
+    ShapeRow,
+    SoleRow,
+)
 from mobnet.settings.robot import RobotTable
 
 SIDES = ("left", "right")
@@ -49,6 +61,7 @@ class RobotDescription:
         posture: how the joints are held that nothing moves, in motor order; the table may leave joints out.
         shapes: what the robot looks like, both sides, in colours of `tones`.
         points: where forces may be applied, both sides.
+        friction: joint -> friction and errors of its drive that the observer knows; empty where it knows none.
     """
 
     name: str
@@ -64,6 +77,7 @@ class RobotDescription:
     tones: Mapping[str, Colour]
     shapes: tuple[ShapeRow, ...]
     points: tuple[PointRow, ...]
+    friction: Mapping[str, FrictionRow] = field(default_factory=dict)
 
     @property
     def floating(self) -> bool:
@@ -89,6 +103,14 @@ class RobotDescription:
     def armature(self) -> Vector:
         """Reflected rotor inertia (nu,) [kg m^2]."""
         return np.array([joint.armature for joint in self.joints])
+
+    @property
+    def drives(self) -> str | None:
+        """Digest of friction and rotors where the table has friction: what was made with others does not fit."""
+        if not self.friction:
+            return None
+        known = [sorted((joint, repr(row)) for joint, row in self.friction.items()), self.armature.tolist()]
+        return hashlib.sha256(repr(known).encode()).hexdigest()[:16]
 
     def joint_of(self, body: str) -> JointRow | None:
         """Return the joint that moves a body, or None where the body is welded or the base."""
@@ -123,6 +145,7 @@ def describe(table: RobotTable) -> RobotDescription:
         tones=table.tones,
         shapes=with_mirrored(table.shapes),
         points=with_mirrored(table.points),
+        friction={**table.friction},
     )
 
 

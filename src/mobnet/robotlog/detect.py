@@ -67,7 +67,7 @@ def run(options: Namespace) -> Iterator[str]:
         accepted = [f"{found.torque}, that of {options.thresholds}"]
         raise DataError(not_accepted(f"{options.map}: torque", meaning.torque, accepted))
     if network:
-        given = Sampling(found.rate_hz, found.gain_hz, found.torque)
+        given = Sampling(found.rate_hz, found.gain_hz, found.torque, found.drives)
         check_sampling(options.thresholds, given, network.sampling, network.folder)
     out = options.out or Path(f"{options.log.stem}_detected")
     check_place(out)

@@ -15,7 +15,7 @@ from mobnet.detection.always import always_on, setup_of
 from mobnet.detection.detector import GateSignal, run_segments
 from mobnet.detection.signals import Watched
 from mobnet.detection.watch import LegSetup, LimbSetup
-from mobnet.estimation.own import OwnLog, OwnNetwork, Sampling, estimates_of, estimator_of
+from mobnet.estimation.own import OwnLog, OwnNetwork, Sampling, check_drives, estimates_of, estimator_of
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.nominal import NominalModel
 from mobnet.robotlog.flags import Flag, flags_of
@@ -42,7 +42,8 @@ class Detected:
 
 
 def check_thresholds(path: Path, found: LimbThresholds, robot: RobotDescription, network: OwnNetwork | None) -> None:
-    """Raise a DataError where thresholds are those of another robot, limb or network."""
+    """Raise a DataError where thresholds are those of another robot, limb or network, or of other friction."""
+    check_drives(path, found.drives, robot)
     own = robot.layout.groups.get(found.limb, ())
     pairs = {
         "robot": (found.robot, robot.name), "joints": (found.joints, own),
@@ -64,7 +65,7 @@ def detect_log(
             is watched in its swings is in the air.
         ConfigError: the map does not fit the robot.
     """
-    sampling, gravity = Sampling(found.rate_hz, found.gain_hz, found.torque), settings.plant.gravity_m_s2
+    sampling, gravity = Sampling(found.rate_hz, found.gain_hz, found.torque, found.drives), settings.plant.gravity_m_s2
     if meaning and meaning.rate_hz is None:
         meaning = meaning.model_copy(update={"rate_hz": sampling.rate_hz})
     observed = observe_log(path, robot, meaning, found.torque, found.gain_hz, gravity, settings.robotlog)

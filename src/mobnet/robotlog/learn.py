@@ -15,7 +15,7 @@ import numpy as np
 from mobnet.core.code import ROOT
 from mobnet.core.errors import DataError, not_accepted
 from mobnet.core.files import RUN, read_json, sweep, write_json
-from mobnet.estimation.own import OwnLog, limb_of, read_log_folder, refuse_twice
+from mobnet.estimation.own import OwnLog, check_drives, limb_of, read_log_folder, refuse_twice
 from mobnet.learning.deployed.networks import load_network
 from mobnet.learning.device import own_device
 from mobnet.learning.job import TrainingJob
@@ -64,7 +64,7 @@ def learn(
     numbers = settings.robotlog.learn
     found = free_check(load_network(out), data, label, cut, units, numbers.margin)
     learned = {"folders": [str(one.folder) for one in logs], "recordings": [one.footer for one in logs]}
-    told = {**learned, "labels": labels, **vars(first), "check": found.note()}
+    told = {**learned, "labels": labels, **first.note(), "check": found.note()}
     write_json(out / RUN, {**read_json(out / RUN), **told})
     return [*lines_of(found, labels, numbers), f"written: {out}"]
 
@@ -94,6 +94,8 @@ def run(options: Namespace) -> list[str]:
     limb = limb_of(table.layout, options.limb)
     logs = [read_log_folder(folder, table.layout) for folder in options.folders]
     refuse_twice(logs, "else what is held out trains too")
+    for one in logs:
+        check_drives(one.folder, one.sampling.drives, describe(table))
     out = options.out or Path(f"{limb}_net")
     sweep(out)
     sweep(out / STATE)

@@ -22,7 +22,7 @@ from mobnet.core.notes import read_array_note
 from mobnet.core.recording import Recording
 from mobnet.core.store import GROUP_ROWS, NOTE, array_writer, file_of, write_array
 from mobnet.estimation import observer
-from mobnet.estimation.own import ESTIMATE, OBSERVER, RECORDING
+from mobnet.estimation.own import DRIVES, ESTIMATE, OBSERVER, RECORDING
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.given import given_robot
 from mobnet.robot.nominal import NominalModel
@@ -179,7 +179,7 @@ def _torques_looked_at(
 def write_observed(found: Observed, robot: RobotDescription, gain_hz: float, torque: str, out: Path) -> None:
     """Write recording, estimate and plot into a folder."""
     read = found.converted.recording
-    meta = {**read.meta, "gain_hz": gain_hz, "torque": torque}
+    meta = {**read.meta, "gain_hz": gain_hz, "torque": torque, **({DRIVES: robot.drives} if robot.drives else {})}
     _write_recording(out / RECORDING, replace(read, meta=meta), robot.layout)
     columns = torque_columns(robot.layout, [EXTERNAL], robot.layout.names)
     recorded = read_array_note(file_of(out / RECORDING, NOTE))["footer"]

@@ -42,6 +42,7 @@ class LimbThresholds(Section):
         rate_hz: samples per second of the estimate [Hz].
         gain_hz: gain K_0 of the observer [1/s].
         torque: whether the log's torques are samples at the ticks or means over the intervals before them.
+        drives: digest of the friction and the rotors that the observer knew; none of a table without friction.
         rate_per_h: false alarms that were wanted [1/h].
         expected_per_h, low_per_h, high_per_h: those to expect, and the interval of this number [1/h].
         confidence: nominal one of the interval.
@@ -61,6 +62,7 @@ class LimbThresholds(Section):
     rate_hz: RateHz
     gain_hz: GainHz
     torque: TorqueKind
+    drives: Text | None = None
     rate_per_h: Positive
     expected_per_h: NotNegative
     low_per_h: NotNegative

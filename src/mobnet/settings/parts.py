@@ -86,8 +86,34 @@ class JointRow(Section):
     axis: UnitVector
     range: base.Span[base.Radians]
     torque_limit: base.Real = Field(ge=TORQUE_NM[0], le=TORQUE_NM[1])
-    armature: base.NotNegative = Field(le=10)
+    armature: base.NotNegative = Field(le=1000)
     velocity_limit: base.Real = Field(ge=SPEED_RAD_S[0], le=SPEED_RAD_S[1])
+
+
+class FrictionRow(Section):
+    """What lies between a motor's reported torque and its joint; the observer takes it into account.
+
+    Of the reported torque tau the joint gets scale * tau - (coulomb_nm + load |tau|) s(v) - viscous_nms * v -
+    offset_nm. s(v) = tanh(v / smoothing_rad_s), or with `breakaway_rad` the bend of Dahl's law, which follows a
+    reversal over that angle (mobnet.estimation.drive).
+
+    Attributes:
+        coulomb_nm: dry friction [N m].
+        viscous_nms: friction for each speed [N m s/rad].
+        load: dry friction for each torque of the motor [-].
+        offset_nm: by how much the motor reports too much [N m].
+        scale: true torque over the reported one [-].
+        smoothing_rad_s: width of the smooth sign of the speed [rad/s].
+        breakaway_rad: angle of Dahl's law [rad].
+    """
+
+    coulomb_nm: base.NotNegative = Field(le=5000)
+    viscous_nms: base.NotNegative = Field(le=50_000)
+    load: base.Share = 0.0
+    offset_nm: base.Real = Field(default=0.0, ge=-5000, le=5000)
+    scale: base.Positive = Field(default=1.0, ge=0.001, le=1000)
+    smoothing_rad_s: base.Positive = Field(ge=1e-4, le=20)
+    breakaway_rad: Annotated[base.Positive, Field(ge=1e-5, le=1)] | None = None
 
 
 class FootRow(Section):

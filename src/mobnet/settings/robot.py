@@ -9,12 +9,13 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from mobnet.core.joints import JointLayout, Limits, with_image
-from mobnet.settings.base import BodyName, JointName, LimbName, PartName, Section, Some, Text
+from mobnet.settings.base import BodyName, JointName, LimbName, MotorName, PartName, Section, Some, Text
 from mobnet.settings.networks import Limb
 from mobnet.settings.parts import (
     BodyRow,
     Colour,
     FootRow,
+    FrictionRow,
     ImuRow,
     JointRow,
     LegRow,
@@ -42,7 +43,8 @@ class RobotTable(Section):
     """The table of a robot: joints, bodies, limbs, sensors, shapes, and the limbs that have networks.
 
     Entries that contradict each other are refused by `checks.robot`. `bodies` stand depth-first, parents first, and
-    `joints` in the order of the motors; `groups` are limb -> joints.
+    `joints` in the order of the motors; `groups` are limb -> joints, `friction` is that of joints which the observer is
+    to know.
     """
 
     name: Annotated[Text, Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9 _.-]*$")]
@@ -58,6 +60,7 @@ class RobotTable(Section):
     posture: dict[LimbName, PostureRow] = Field(default_factory=dict)
     networks: dict[GroupName, Limb] = Field(default_factory=dict)
     joints: tuple[JointRow, ...]
+    friction: dict[MotorName, FrictionRow] = Field(default_factory=dict)
     bodies: Some[BodyRow]
     tones: dict[PartName, Colour] = Field(default_factory=dict)
     shapes: tuple[ShapeRow, ...] = ()
@@ -68,10 +71,11 @@ class RobotTable(Section):
         """Name the robot and a digest of all figures: the table is a parameter of every rule that takes it.
 
         Looks are left out, so that no recording is made again because a shell has another form; what draws them takes
-        them as a parameter of its own.
+        them as a parameter of its own. A table without friction has the digest that it had before there was this key.
         """
+        without = {"looks"} if self.friction else {"looks", "friction"}
         yield "name", self.name
-        yield "digest", hashlib.sha256(self.model_dump_json(exclude={"looks"}).encode()).hexdigest()[:16]
+        yield "digest", hashlib.sha256(self.model_dump_json(exclude=without).encode()).hexdigest()[:16]
 
     @property
     def layout(self) -> JointLayout:

@@ -19,6 +19,7 @@ from mobnet.settings.base import (
     TorqueKind,
     Vector3,
 )
+from mobnet.settings.identification import Identification
 
 Unit = Literal[
     "rad", "deg", "rad/s", "deg/s", "rpm", "N m", "mN m", "kN m", "A", "m", "mm", "m/s", "m/s^2", "g", "N", "kN", "s",
@@ -181,6 +182,7 @@ class RobotLog(Section):
         gravity: share of gravity by which a resting accelerometer may differ.
         weight: share of the robot's weight by which the feet's mean vertical force may differ.
         learn: how a network learns from it.
+        identify: how friction and rotor inertia are found in it.
         settle_s: time after the start of a segment in which a limb without swings is not watched [s].
         flag_gap_s: two stretches above a threshold that are closer are one flag [s].
         percentiles: share of the rates of false alarms of recordings drawn anew that the interval of a limb that is
@@ -211,6 +213,7 @@ class RobotLog(Section):
     gravity: InnerShare
     weight: InnerShare
     learn: LogLearning
+    identify: Identification
     percentiles: InnerShare
     settle_s: Seconds
     flag_gap_s: Seconds

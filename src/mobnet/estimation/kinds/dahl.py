@@ -19,6 +19,7 @@ from mobnet.core.errors import not_accepted, refuse
 from mobnet.core.joints import JointLayout
 from mobnet.core.notes import Note, NotNegative, Text, read_note
 from mobnet.core.notes import Positive as AboveZero
+from mobnet.estimation.drive import bent
 from mobnet.estimation.kinds.friction import LARGEST, check, fitted_joints, friction_model
 from mobnet.estimation.kinds.residual import ResidualEstimator
 from mobnet.estimation.recipe import Recipe
@@ -96,15 +97,6 @@ class DahlFriction:
         bend = state.copy()
         columns = regressors(velocity, torque, bent(bend, velocity, self.breakaway, rate_hz))
         return bend, -sum((self.factors[term] * columns[term] for term in TERMS), start=np.zeros(velocity.shape))
-
-
-def bent(bend: Array, velocity: NDArray[Any], breakaway: Array, rate_hz: float) -> Array:
-    """Advance bends (n,) over samples of velocity (T, n) [rad/s]; return them after each, (T, n)."""
-    from mobnet.estimation.presliding import follow  # numba: the workflow imports kinds before it starts
-
-    out = np.empty(velocity.shape)
-    follow(bend, np.ascontiguousarray(velocity, dtype=np.float64), breakaway, 1.0 / rate_hz, out)
-    return out
 
 
 def regressors(velocity: NDArray[Any], torque: NDArray[Any], bend: Array) -> dict[str, NDArray[Any]]:

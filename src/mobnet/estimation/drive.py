@@ -1,0 +1,86 @@
+"""Friction of a robot's drives, and errors of what its motors report, as its table has them: what the observer knows.
+
+The law of a joint, of its velocity v and its motor's reported torque tau, is
+
+    tau_f = (coulomb + load |tau|) s + viscous v + offset,        and the joint gets        scale tau - tau_f.
+
+Coulomb and viscous friction and an offset are the model that is identified of robots since Swevers et al., "Dynamic
+model identification for industrial robots", IEEE Control Systems 27(5), 2007; a load term is that of harmonic drives.
+s is a smooth sign of the velocity, tanh(v / width): a sign would switch with the noise of a joint at rest, where
+friction takes any value. Where the table has an angle of breakaway, s is the bend of Dahl's law, (O19) of
+docs/notes/0034-observer.md, which does not switch with noise either, because it follows the angle.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mobnet.core.arrays import Array
+from mobnet.settings.parts import FrictionRow
+
+NUMBERS = ("coulomb", "viscous", "load", "offset", "scale", "smoothing", "breakaway")  # in the order of the C library
+
+
+@dataclass(frozen=True)
+class Drives:
+    """Numbers of all actuated joints, (nu,) each; joints without a row have no friction.
+
+    Attributes:
+        coulomb: dry friction [N m].
+        viscous: [N m s/rad].
+        load: dry friction for each torque of the motor [-].
+        offset: by how much a motor reports too much [N m].
+        scale: true torque over the reported one [-].
+        smoothing: width of the smooth sign [rad/s].
+        breakaway: angle of Dahl's law [rad]; zero for a joint with the smooth sign.
+    """
+
+    coulomb: Array
+    viscous: Array
+    load: Array
+    offset: Array
+    scale: Array
+    smoothing: Array
+    breakaway: Array
+
+    def init(self) -> Array:
+        """Return the bends before the first sample, (nu,): none."""
+        return np.zeros(len(self.breakaway))
+
+    def run(self, bend: Array, velocity: NDArray[Any], torque: NDArray[Any], rate_hz: float) -> tuple[Array, Array]:
+        """Return the bends after samples of joint velocity [rad/s] and motor torque [N m], and tau_f [N m], (T, nu)."""
+        bend, sign = bend.copy(), np.tanh(velocity / self.smoothing)
+        if (dahl := np.flatnonzero(self.breakaway)).size:
+            own = bend[dahl]
+            sign[:, dahl] = bent(own, velocity[:, dahl], self.breakaway[dahl], rate_hz)
+            bend[dahl] = own
+        dry = self.coulomb + self.load * np.abs(torque)
+        return bend, dry * sign + self.viscous * velocity + self.offset
+
+
+def bent(bend: Array, velocity: NDArray[Any], breakaway: Array, rate_hz: float) -> Array:
+    """Advance bends (n,) over samples of velocity (T, n) [rad/s]; return them after each, (T, n)."""
+    from mobnet.estimation.presliding import follow  # numba: the workflow imports kinds before it starts
+
+    out = np.empty(velocity.shape)
+    follow(bend, np.ascontiguousarray(velocity, dtype=np.float64), breakaway, 1.0 / rate_hz, out)
+    return out
+
+
+def drives_of(friction: Mapping[str, FrictionRow], joints: Sequence[str]) -> Drives | None:
+    """Return the drives of actuated joints (nu,) by the rows of a table; None where it has none."""
+    if not friction:
+        return None
+    rows = [friction.get(joint) for joint in joints]
+    return Drives(
+        coulomb=np.array([row.coulomb_nm if row else 0.0 for row in rows]),
+        viscous=np.array([row.viscous_nms if row else 0.0 for row in rows]),
+        load=np.array([row.load if row else 0.0 for row in rows]),
+        offset=np.array([row.offset_nm if row else 0.0 for row in rows]),
+        scale=np.array([row.scale if row else 1.0 for row in rows]),
+        smoothing=np.array([row.smoothing_rad_s if row else 1.0 for row in rows]),
+        breakaway=np.array([(row.breakaway_rad if row else None) or 0.0 for row in rows]),
+    )

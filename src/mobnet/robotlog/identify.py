@@ -1,0 +1,215 @@
+"""What logs of free motion tell of a robot: `./reproduce identify FOLDER... --robot TABLE` (docs/identify.md).
+
+It finds friction, rotor inertia and errors of the motors' torques, joint by joint, tries them on the end of the logs,
+and writes them into a new table, by which the observer takes them into account.
+"""
+
+import logging
+import sys
+from argparse import Namespace
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import chain, count
+from pathlib import Path
+
+from mobnet.core.errors import ConfigError, DataError, not_accepted
+from mobnet.core.recording import SensedRecording
+from mobnet.estimation import observer
+from mobnet.estimation.own import RECORDING, read_log_folder
+from mobnet.robot.description import RobotDescription, describe
+from mobnet.robot.given import given_table
+from mobnet.robot.table_file import head_of, write_table
+from mobnet.robotlog.identify_words import identify_parser
+from mobnet.robotlog.identifying.fit import JointFit, fit_joints
+from mobnet.robotlog.identifying.payload import Payload
+from mobnet.robotlog.identifying.regressors import Windows, columns_of, moved, together, windows_of
+from mobnet.robotlog.observe import converted_log
+from mobnet.running.printed import printed
+from mobnet.settings.base import TorqueKind
+from mobnet.settings.identification import Identification
+from mobnet.settings.load import load_section, load_settings
+from mobnet.settings.parts import BodyRow, FrictionRow
+from mobnet.settings.robot import RobotTable
+from mobnet.settings.robotlog import LogMap
+from mobnet.settings.settings import Settings
+
+log = logging.getLogger(__name__)
+TERMS = ("coulomb", "viscous", "offset", "armature")
+FURTHER = ("load", "scale")  # on request
+PAYLOAD = "payload"  # name of its body in the table
+DIGITS = 6  # of a number in the table
+
+
+@dataclass(frozen=True)
+class FreeLog:
+    """A log of free motion: where it is, what the robot sensed, and what its torques are."""
+
+    path: Path
+    recording: SensedRecording
+    torque: TorqueKind
+
+
+def read_free_log(path: Path, robot: RobotDescription, meaning: LogMap | None, settings: Settings) -> FreeLog:
+    """Read a folder that `./reproduce observe` wrote, or a log itself.
+
+    Raises:
+        DataError: it cannot be read, or a column is missing or not accepted.
+        ConfigError: the map does not fit the robot.
+    """
+    if (path / f"{RECORDING}.json").exists():
+        own = read_log_folder(path, robot.layout)
+        return FreeLog(path, own.recording, own.sampling.torque)
+    found = converted_log(path, robot.layout, meaning, settings.robotlog)
+    return FreeLog(path, found.recording, meaning.torque if meaning else "sample")
+
+
+def identify(
+    robot: RobotDescription, logs: Sequence[FreeLog], terms: Sequence[str], settings: Settings,
+    payload: str | None = None,
+) -> tuple[dict[str, JointFit], Payload | None]:  # fmt: skip
+    """Return the numbers of the joints that move in logs of free motion, and the payload of a body.
+
+    Raises:
+        DataError: the logs are too short.
+        ConfigError: no joint moves the body.
+    """
+    numbers, gravity = settings.robotlog.identify, settings.plant.gravity_m_s2
+    carrier = _carrier(robot, payload) if payload else None
+    windows = [windows_of(robot, one.recording, one.torque, gravity, numbers, carrier) for one in logs]
+    known, held_out = split(windows, numbers)
+    fits, carried = fit_joints(known, held_out, columns_of(numbers), terms, numbers)
+    speeds = moved([one.recording for one in logs], robot.layout.nu)
+    found = {
+        joint: fit
+        for joint, fit, speed in zip(robot.layout.actuated, fits, speeds, strict=True)
+        if speed >= numbers.least_speed_rad_s
+    }
+    return found, carried
+
+
+def _carrier(robot: RobotDescription, body: str) -> int:
+    """Return the joint that moves a body."""
+    moved_bodies = [joint.body for joint in robot.joints]
+    if body not in moved_bodies:
+        raise ConfigError(not_accepted("--payload", body, moved_bodies))
+    return moved_bodies.index(body)
+
+
+def split(windows: Sequence[Windows], numbers: Identification) -> tuple[Windows, Windows]:
+    """Return the windows of logs before and after the time at which what is held out begins.
+
+    Raises:
+        DataError: there are too few windows.
+    """
+    cuts = [len(one) - round(numbers.held_out * len(one)) for one in windows]
+    known = together([one[:cut] for one, cut in zip(windows, cuts, strict=True)])
+    held_out = together([one[cut:] for one, cut in zip(windows, cuts, strict=True)])
+    if len(known) < numbers.least_windows or not len(held_out):
+        seconds = numbers.window_s * (len(known) + len(held_out))
+        least = numbers.window_s * numbers.least_windows / (1 - numbers.held_out)
+        raise DataError(not_accepted("seconds of free motion", seconds, [f"{least:g} or more"]))
+    return known, held_out
+
+
+def with_numbers(table: RobotTable, found: Mapping[str, JointFit]) -> RobotTable:
+    """Return a table with the numbers of joints in place of its own; other joints keep theirs."""
+    rows = {joint: friction_row(fit) for joint, fit in found.items()}
+    joints = tuple(
+        row.model_copy(update={"armature": _rounded(found[row.id].factors["armature"])}) if row.id in found else row
+        for row in table.joints
+    )
+    ordered = {row.id: rows.get(row.id) or table.friction.get(row.id) for row in joints}
+    friction = {joint: row for joint, row in ordered.items() if row}
+    return table.model_copy(update={"joints": joints, "friction": friction})
+
+
+def with_payload(table: RobotTable, body: str, found: Payload) -> RobotTable:
+    """Return a table with one more body, a payload welded to one of its bodies; published totals are left out."""
+    names = [row.name for row in table.bodies]
+    free = (name for name in chain((PAYLOAD,), (f"{PAYLOAD}_{k}" for k in count(2))) if name not in names)
+    own, (x, y, z) = _rounded(found.inertia), map(_rounded, found.com)
+    row = BodyRow(
+        name=next(free), parent=body, pos=(0.0, 0.0, 0.0), quat=(1.0, 0.0, 0.0, 0.0), mass=_rounded(found.mass),
+        com=(x, y, z), inertia=(own, own, own, 0.0, 0.0, 0.0),
+    )  # fmt: skip
+    place = names.index(body) + 1
+    return table.model_copy(update={"bodies": (*table.bodies[:place], row, *table.bodies[place:]), "totals": None})
+
+
+def friction_row(fit: JointFit) -> FrictionRow:
+    """Return the row of a joint in a table."""
+    kind, number = fit.sign
+    shape = {"smoothing_rad_s": number} if kind == "smoothing" else {"smoothing_rad_s": 1.0, "breakaway_rad": number}
+    factors = {term: _rounded(value) for term, value in fit.factors.items()}
+    optional = {"load": factors["load"]} if factors.get("load") else {}
+    optional |= {"scale": _rounded(1.0 + factors["scale"])} if "scale" in factors else {}
+    return FrictionRow(
+        coulomb_nm=factors["coulomb"], viscous_nms=factors["viscous"], offset_nm=factors["offset"], **optional, **shape
+    )
+
+
+def _rounded(value: float) -> float:
+    return float(f"{value:.{DIGITS}g}")
+
+
+def told(found: Mapping[str, JointFit], robot: RobotDescription, held_out: float) -> Iterator[str]:
+    """Yield what the command prints."""
+    units = {
+        "coulomb": "Coulomb [N m]", "viscous": "viscous [N m s/rad]", "load": "load [-]", "offset": "offset [N m]",
+        "armature": "rotor inertia [kg m^2]", "scale": "scale - 1 [-]",
+    }  # fmt: skip
+    shown = [term for term in units if any(term in fit.factors for fit in found.values())]
+    rows = [["joint", *(units[term] for term in shown), "sign", "residual, held out", "explained"]]
+    for joint, fit in found.items():
+        cells = [_cell(fit, term) for term in shown]
+        kind, number = fit.sign
+        sign = f"tanh, {number:g} rad/s" if kind == "smoothing" else f"Dahl, {number:g} rad"
+        left = f"{fit.before_nm:.3g} -> {fit.after_nm:.3g} N m"
+        rows.append([joint, *cells, sign, left, f"{fit.explained:.0%}"])
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    yield f"numbers with their intervals; the last {held_out:.0%} of each log are held out to try them"
+    yield from ("  ".join(f"{cell:<{width}}" for cell, width in zip(row, widths, strict=True)).rstrip() for row in rows)
+    if still := [joint for joint in robot.layout.actuated if joint not in found]:
+        yield f"did not move, and keep the numbers of the table: {', '.join(still)}"
+
+
+def _cell(fit: JointFit, term: str) -> str:
+    """Return a number with half the width of its interval."""
+    return f"{fit.factors[term]:.4g} ± {fit.half[term]:.2g}" if term in fit.factors else "-"
+
+
+def run(options: Namespace) -> Iterator[str]:
+    """Identify as the command's options say, and yield what is printed."""
+    settings = load_settings()
+    table = given_table(options.robot, settings)
+    robot = describe(table)
+    out = options.out or Path(f"{robot.name.replace(' ', '_')}_identified.yaml")
+    if out.exists() and not options.force:
+        raise ConfigError(f"{out}: exists already; accepted: another --out, or --force")
+    meaning = load_section(options.map, LogMap) if options.map else None
+    logs = [read_free_log(path, robot, meaning, settings) for path in options.logs]
+    terms = (*TERMS, *(term for term in FURTHER if getattr(options, term)))
+    found, carried = identify(robot, logs, terms, settings, options.payload)
+    head = head_of(options.robot) if options.robot else []
+    made = f"friction and armature: from {', '.join(path.name for path in options.logs)}, by ./reproduce identify."
+    made_table = with_numbers(table, found)
+    made_table = with_payload(made_table, options.payload, carried) if carried else made_table
+    write_table(out, made_table, [*head, made])
+    load_section(out, RobotTable)
+    yield from told(found, robot, settings.robotlog.identify.held_out)
+    if carried:
+        place = ", ".join(f"{x:.3f} ± {half:.2g}" for x, half in zip(carried.com, carried.com_half, strict=True))
+        mass = f"{carried.mass:.4g} ± {carried.mass_half:.2g} kg"
+        yield f"payload of {options.payload}: {mass} with its centre at ({place}) m in the axes of that body"
+    yield f"written: {out}"
+
+
+def main(words: list[str]) -> int:
+    """Run the command; return its exit status."""
+    options = identify_parser().parse_args(words)
+    logging.getLogger(observer.__name__).setLevel(logging.WARNING)  # it tells of each segment
+    return printed(log, lambda: run(options))
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
