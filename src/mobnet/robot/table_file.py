@@ -1,6 +1,5 @@
 """A robot's table as a file: a line for each entry, with the comments that its source begins with."""
 
-import json
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
@@ -32,9 +31,9 @@ def _lines(values: dict[str, Any]) -> Iterator[str]:
     for key, value in values.items():
         if isinstance(value, dict) and value:
             yield f"{key}:"
-            yield from (f"  {name}: {flow(own, json.dumps)}" for name, own in value.items())
+            yield from (f"  {flow(name)}: {flow(own)}" for name, own in value.items())
         elif isinstance(value, list) and value and isinstance(value[0], dict):
             yield f"{key}:"
-            yield from (f"  - {flow(own, json.dumps)}" for own in value)
+            yield from (f"  - {flow(own)}" for own in value)
         else:
-            yield f"{key}: {flow(value, json.dumps)}"
+            yield f"{key}: {flow(value)}"

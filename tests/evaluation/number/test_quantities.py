@@ -19,6 +19,7 @@ EXAMPLES = {
     "above": ([5.0, 1.0, 3.0], 2.0),
     "least ratio": ([6.0, 9.0, 4.0, 3.0], 1.5),
     "gap ratio": ([1.0, 2.0, 7.0, 3.0], 0.25),
+    "gap difference": ([1.0, 2.0, 7.0, 3.0], -3.0),
     "trend": ([4.0, 3.0, 1.0, 0.0], -1.4),
     "share": ([0.75], 0.75),
 }
@@ -63,7 +64,7 @@ def test_numbers_without_a_unit_are_invariant_under_a_change_of_it(name: str, rn
     assert once == pytest.approx(often)
 
 
-@pytest.mark.parametrize("name", ["difference", "below", "above", "trend"])
+@pytest.mark.parametrize("name", ["difference", "gap difference", "below", "above", "trend"])
 def test_differences_are_invariant_under_an_offset_that_all_share(name: str, rng: np.random.Generator) -> None:
     means = rng.uniform(1.0, 9.0, TAKES[name][0])
     once, raised = (number(name, cells_of([mean + offset for mean in means])) for offset in (0.0, 5.0))
