@@ -16,7 +16,7 @@ from typing import TypeVar
 import numpy as np
 
 from mobnet.core.errors import DataError, not_accepted
-from mobnet.core.files import atomic_path, write_json
+from mobnet.core.files import atomic_path, sweep, write_json
 from mobnet.detection.threshold_file import read_thresholds
 from mobnet.export.contract import CONTRACT, Contract, ObserverContract, read_contract
 from mobnet.export.graph import graph_of
@@ -147,6 +147,7 @@ def run(options: Namespace) -> Iterator[str]:
             gravity_m_s2=settings.plant.gravity_m_s2,
         ),
     )
+    sweep(options.out)
     contract = export(networks, robot, run_time, [read_thresholds(path) for path in options.thresholds], options.out)
     model = export_model(options.out, robot, contract, networks, settings.detection.gate)
     yield from told(contract, networks, options.out)
