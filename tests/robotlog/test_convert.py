@@ -203,7 +203,7 @@ def test_a_row_that_comes_late_is_put_in_order_and_times_that_begin_anew_end_a_s
     np.testing.assert_array_equal(late.recording.sensed.q[:, 1], plain["q2"])
     episodes = made(columns_of(plain | {"time": np.r_[TIME[:150], TIME[:250]]}))
     assert episodes.recording.segments == ((0, 150), (150, ROWS))
-    assert episodes.hints[0].startswith("clock: times begin anew 1 times, first in row 150, as episodes do")
+    assert episodes.hints[0].startswith("clock: times begin anew in row 150, as those of episodes do")
     np.testing.assert_array_equal(episodes.recording.sensed.q[:, 1], plain["q2"])
 
 

@@ -65,7 +65,7 @@ def test_a_cut_last_row_is_left_out_with_a_hint(between, tmp_path):
     (tmp_path / "log.csv").write_text(text)
     columns = read_log(tmp_path / "log.csv")
     assert {len(column.values) for column in columns.values()} == {39}
-    assert re.search(r"^1 rows left out, which have \d fields in place of 7; the last", columns["time"].hint)
+    assert re.search(r"^1 row left out, with \d fields in place of 7; the last", columns["time"].hint)
 
 
 def test_columns_without_a_header_have_numbers_that_a_map_may_name(arm, settings, tmp_path):

@@ -156,7 +156,7 @@ def test_a_log_that_ends_early_is_read_as_far_as_it_is_whole(write, clean, obser
     np.testing.assert_allclose(found.recording.sensed.q[:, 1], clean["q.J2"][:rows], atol=1e-6)
     assert len(found.hints) == 1
     assert re.search(
-        r"ends early: read as far as it is whole|1 rows left out, .* the last row may be cut", found.hints[0]
+        r"ends early: read as far as it is whole|1 row left out, .* the last row may be cut", found.hints[0]
     )
 
 

@@ -2,6 +2,8 @@
 
 import json
 import shutil
+from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -14,7 +16,15 @@ from mobnet.detection.limb import OwnRecording
 from mobnet.estimation.label import foot_label
 from mobnet.estimation.low_pass import low_pass
 from mobnet.estimation.observe import read_wrenches
-from mobnet.estimation.own import RECORDING, OwnLog, Sampling, limb_of, read_log_folder, read_network_folder
+from mobnet.estimation.own import (
+    RECORDING,
+    OwnLog,
+    Sampling,
+    check_sampling,
+    limb_of,
+    read_log_folder,
+    read_network_folder,
+)
 from mobnet.learning.dataset import LimbData
 from mobnet.learning.deployed.networks import Prediction
 from mobnet.robot.nominal import NominalModel
@@ -162,3 +172,12 @@ def test_a_network_that_learned_the_external_torque_itself_is_taken_off_no_resid
     (tmp_path / "net" / "run.json").write_text(json.dumps(note | {"target": "external"}))
     with pytest.raises(DataError, match=r"run.json: target: 'external' is not accepted; accepted: uncertainty"):
         read_network_folder(tmp_path / "net", layout, settings)
+
+
+def test_logs_of_rates_that_differ_a_little_name_what_gives_them_one():
+    """A logger without a clock of its own writes 94.0, 95.3 and 95.0 rows a second."""
+    given = Sampling(94.0, 100.0, "sample")
+    with pytest.raises(
+        DataError, match=r"two: rate_hz: 95.3 is not accepted; .* one `rate_hz` in the maps of all logs"
+    ):
+        check_sampling(Path("two"), replace(given, rate_hz=95.3), given, Path("one"))

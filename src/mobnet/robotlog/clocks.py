@@ -57,7 +57,9 @@ def rising(path: Path, time_s: Array, bounds: RobotLog) -> Rising:
         DataError: there are less than two times, or most do not rise.
     """
     rows = np.flatnonzero(np.isfinite(time_s))
-    hints = [f"clock: no time in {len(time_s) - len(rows)} rows, which are left out"] * (len(rows) < len(time_s))
+    hints = [f"clock: {len(time_s) - len(rows)} of {len(time_s)} rows have no time, and are left out"] * (
+        len(rows) < len(time_s)
+    )
     own, steps = time_s[rows], np.diff(time_s[rows])
     if len(own) < 2 or np.mean(steps <= 0.0) > bounds.backward:
         row = int(rows[1:][steps <= 0.0][0]) if len(own) > 1 else 0
@@ -75,8 +77,9 @@ def rising(path: Path, time_s: Array, bounds: RobotLog) -> Rising:
     forward[anew] = own[anew - 1] - own[anew] + pause
     own = own + np.cumsum(forward)
     if len(anew):
-        text = "as episodes do: each begins a segment, and times count on"
-        hints.append(f"clock: times begin anew {len(anew)} times, first in row {rows[anew[0]]}, {text}")
+        more = f" and {len(anew) - 1} more" if len(anew) > 1 else ""
+        text = f"as those of episodes do: they count on after a pause of {pause:.3g} s, which ends a segment"
+        hints.append(f"clock: times begin anew in row {rows[anew[0]]}{more}, {text}")
     if back := int((np.diff(own) <= 0.0).sum()):
         text = "rows are put in order, and of two with one time the first is taken"
         hints.append(f"clock: {back} of {len(own)} times are not after the one before: {text}")

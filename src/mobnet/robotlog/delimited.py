@@ -211,7 +211,8 @@ def _separated(path: Path, layout: Layout, asked: Sequence[str]) -> dict[str, Co
 def _left_out(wrong: Sequence[int], fields: int) -> Iterator[str]:
     """Yield the hint on rows with another number of fields, which are left out."""
     if wrong:
-        yield f"{len(wrong)} rows left out, which have {wrong[0]} fields in place of {fields}; the last row may be cut"
+        rows = f"{len(wrong)} row{'s' * (len(wrong) > 1)} left out, with {wrong[0]} fields in place of {fields}"
+        yield f"{rows}; the last row may be cut"
 
 
 def _such_as(values: Sequence[Any]) -> str:
