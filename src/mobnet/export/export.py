@@ -14,14 +14,9 @@ from typing import TypeVar
 
 import numpy as np
 
-<<<<<<< HEAD
 from mobnet.core.errors import DataError, beyond, not_accepted, refuse_lines
-from mobnet.core.files import atomic_path, write_json
-from mobnet.detection.signals import MEAN
-=======
-from mobnet.core.errors import DataError, not_accepted
 from mobnet.core.files import atomic_path, sweep, write_json
->>>>>>> 24d1c05cf63fce80ec4b02c60067648d23a21933
+from mobnet.detection.signals import MEAN
 from mobnet.detection.threshold_file import read_thresholds
 from mobnet.estimation.own import OBSERVER, check_drives
 from mobnet.export.contract import CONTRACT, Contract, ObserverContract, read_contract
@@ -178,14 +173,9 @@ def run(options: Namespace) -> Iterator[str]:
             gravity_m_s2=settings.plant.gravity_m_s2,
         ),
     )
-<<<<<<< HEAD
     thresholds = [read_thresholds(path) for path in options.thresholds]
-    contract = export(networks, robot, run_time, thresholds, settings.detection.gate, options.out)
-=======
     sweep(options.out)
-    contract = export(networks, robot, run_time, [read_thresholds(path) for path in options.thresholds], options.out)
-    model = export_model(options.out, robot, contract, networks, settings.detection.gate)
->>>>>>> 24d1c05cf63fce80ec4b02c60067648d23a21933
+    contract = export(networks, robot, run_time, thresholds, settings.detection.gate, options.out)
     yield from told(contract, networks, options.out)
 
 
