@@ -43,7 +43,7 @@ def check_golden(*produced: Path) -> None:
 
 
 def _without_noise(text: str) -> str:
-    """Return a text with 0 for numbers of 1e-6 and below: differences of equal ones, which processors round otherwise."""
+    """Return a text with 0 for numbers below 1e-5: differences of equal ones, which each processor rounds its way."""
     return re.sub(r"(?<=,)-?\d(\.\d+)?e-(0[6-9]|[1-9]\d)(?=,|\n)", "0", text)
 
 

@@ -70,7 +70,7 @@ def _draw(axis: Axes, row: float, loss: Loss, look: Look, *, hollow: bool) -> No
     value, low, high = np.array(loss.number.range, dtype=np.float64)
     axis.plot([low, high], [row, row], color=look.colour, linewidth=1.6, solid_capstyle="butt")
     axis.plot(loss.runs, [row] * len(loss.runs), "|", color=look.colour, markersize=7.0, markeredgewidth=0.7)
-    filling = {"markerfacecolor": "white"} if hollow else {}
-    axis.plot([value], [row], marker=look.marker, color=look.colour, markersize=3.2, **filling)
+    filling = "white" if hollow else look.colour
+    axis.plot([value], [row], marker=look.marker, color=look.colour, markersize=3.2, markerfacecolor=filling)
     axis.annotate(loss.number.text(), (max(high, *loss.runs), row), (4.0, 0.0), textcoords="offset points",
                   va="center", fontsize=NUMBER_POINTS)  # fmt: skip
