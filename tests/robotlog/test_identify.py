@@ -15,6 +15,7 @@ from mobnet.detection.calibrate import main as calibrate
 from mobnet.estimation.observer import MomentumObserver
 from mobnet.robot.description import describe
 from mobnet.robot.nominal import NominalModel
+from mobnet.robot.table_file import head_of, write_table
 from mobnet.robotlog.detect import main as detect
 from mobnet.robotlog.identify import TERMS, FreeLog, identify, main, with_payload
 from mobnet.robotlog.observe import main as observe
@@ -260,3 +261,12 @@ def test_a_table_without_friction_has_the_digest_that_it_had(arm_table):
     assert dict(known.__repr_args__())["digest"] != "01d1e4d6c240170d"
     assert describe(arm_table).drives is None
     assert describe(known).drives is not None
+
+
+@pytest.mark.parametrize("name", ["tocabi", "g1", "panda"])
+def test_a_table_that_is_written_is_the_table_that_was_read(name, tmp_path):
+    source = ARM.parents[2] / "configs" / "robots" / f"{name}.yaml"
+    table = load_section(source, RobotTable)
+    write_table(tmp_path / "again.yaml", table, head_of(source))
+    assert load_section(tmp_path / "again.yaml", RobotTable) == table
+    assert (tmp_path / "again.yaml").read_text().splitlines()[0] == source.read_text().splitlines()[0]
