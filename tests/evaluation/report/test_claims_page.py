@@ -109,6 +109,23 @@ def browse(open_page: Callable[[Path, str], Browser], page: Path) -> Callable[[s
     return lambda fragment: open_page(page, fragment)
 
 
+def test_the_papers_statements_and_ours_have_a_bar_each(page: Path) -> None:
+    """And those of the paper are also counted by their first claims."""
+    text = " ".join(page.read_text().split())
+    paper, ours = text.split("<h2>Statements of the paper</h2>")[1].split(
+        "<h2>Our own statements, not in the paper</h2>"
+    )
+    statements = read_statements(GOLDEN)
+    for part, kinds in ((paper, {one.kind for one in statements} - {"ours"}), (ours, {"ours"})):
+        own = [one for one in statements if one.kind in kinds]
+        for verdict, count in verdict_counts(own).items():
+            assert (f">{count} {verdict}</span>" in part) == (count > 0)
+    first = Counter(one.first.verdict for one in statements if one.kind != "ours")
+    told = ", ".join(f"{first[verdict]} {verdict}" for verdict in VERDICTS if first[verdict])
+    assert f"By their first claim alone: {told}." in paper
+    assert "By their first claim alone" not in ours
+
+
 @with_browser
 def test_every_verdict_is_a_word_with_a_mark(browse: Callable[[str], Browser]) -> None:
     browser = browse("")

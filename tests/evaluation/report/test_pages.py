@@ -107,7 +107,14 @@ def test_the_first_page_shows_verdicts_errors_pictures_and_links(
     write_pages(folder)
     browser = open_page(folder / "pages" / "index.html")
     said = browser.value("document.body.innerText")
-    for text in ("title of index", "9 open", "1.2 (1.5)", "title of picture. First words of picture."):
+    for text in (
+        "title of index",
+        "9 open",
+        "statements of the paper, by verdict",
+        "By their first claim alone: ",
+        "1.2 (1.5)",
+        "title of picture. First words of picture.",
+    ):
         assert text in said
     assert "More of picture" not in said
     browser.until("document.querySelector('img').naturalWidth > 100", True)

@@ -146,10 +146,11 @@ def claims_page(claims_csv: Path, confidence: float, title: str, text: str, temp
         DataError: the file is missing or damaged.
     """
     statements = read_statements(claims_csv)
+    papers = [one for one in statements if one.kind != OURS]
     places = {place for statement in statements for place in statement.places}
     return rendered(
         template, title=title, text=text, confidence=confidence, statements=statements, kinds=SCORED, linked=True,
-        counts=verdict_counts([one for one in statements if one.kind != OURS]),
+        counts=verdict_counts(papers), firsts=first_counts(papers),
         ours=verdict_counts([one for one in statements if one.kind == OURS]),
         order={name: k for k, name in enumerate(VERDICTS)}, places=sorted(places, key=_order_of_place),
     )  # fmt: skip
@@ -158,6 +159,12 @@ def claims_page(claims_csv: Path, confidence: float, title: str, text: str, temp
 def verdict_counts(statements: Sequence[Statement]) -> dict[str, int]:
     """Return verdict -> how many statements have it."""
     found = Counter(statement.verdict for statement in statements)
+    return {verdict: found[verdict] for verdict in VERDICTS}
+
+
+def first_counts(statements: Sequence[Statement]) -> dict[str, int]:
+    """Return verdict -> how many statements would have it by their first claim alone."""
+    found = Counter(statement.first.verdict for statement in statements)
     return {verdict: found[verdict] for verdict in VERDICTS}
 
 

@@ -10,7 +10,7 @@ from markdown_it import MarkdownIt
 from mobnet.core.columns import OURS
 from mobnet.core.errors import DataError
 from mobnet.core.files import read_text
-from mobnet.evaluation.report.claims_page import read_statements, verdict_counts
+from mobnet.evaluation.report.claims_page import first_counts, read_statements, verdict_counts
 from mobnet.evaluation.report.html import rendered
 from mobnet.evaluation.report.readme import headline
 
@@ -41,7 +41,7 @@ def first_page(
     papers = [one for one in read_statements(claims_csv) if one.kind != OURS]
     shown = MarkdownIt("js-default").render(headline(table_dir)).strip()
     return rendered(
-        template, title=title, text=text, counts=verdict_counts(papers), linked=False,
+        template, title=title, text=text, counts=verdict_counts(papers), firsts=first_counts(papers), linked=False,
         headline=shown, pictures=[_picture(*pair) for pair in pictures], tables=tables,
     )  # fmt: skip
 
