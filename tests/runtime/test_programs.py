@@ -18,7 +18,9 @@ from .conftest import network_of, watching
 
 SAMPLES, MODELS = 100_000, 2000
 LIMBS = {"robot": ("V", "LL", "RL", "W", "LA", "RA"), "arm": ("A",)}
-ARITHMETIC = {"memcpy", "memset", "memcmp", "sin", "cos", "sincos", "sqrt", "fmin", "fmax", "exp", "tanh", "expf", "logf"}
+ARITHMETIC = {
+    "memcpy", "memset", "memcmp", "sin", "cos", "sincos", "sqrt", "fmin", "fmax", "exp", "tanh", "expf", "logf",
+}  # fmt: skip
 BY_COMPILERS = {"_GLOBAL_OFFSET_TABLE_", "__stack_chk_fail", "__memcpy_chk", "__memset_chk"}
 
 

@@ -29,9 +29,9 @@ def explanation(nominal: NominalModel, windows: Windows, bounds: RobotLog) -> It
             continue
         most = np.asarray(bounds.offset * nominal.robot.torque_limits[k])
         numbers, offset = friction_fit(asked.terms[:, k], (windows.torque - asked.needed)[:, [k]], most)
-        dry, viscous, rotor = numbers[:, 0]
+        dry, viscous, rotor = numbers[:, 0] + 0.0  # no minus before zero
         yield (
-            f"{names[k]}: friction of {dry:.3g} N m and {viscous:.3g} N m s/rad, rotor inertia of {rotor + 0.0:.3g} kg m^2, "
+            f"{names[k]}: friction of {dry:.3g} N m and {viscous:.3g} N m s/rad, rotor inertia of {rotor:.3g} kg m^2, "
             f"offset of {offset.item():.2g} N m explain {explained:.0%} of its square"
         )
     for mass in payloads(nominal, windows, asked, left, known):
