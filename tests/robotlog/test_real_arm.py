@@ -101,20 +101,21 @@ def ur10e(tmp_path_factory):
     return folder
 
 
-@pytest.mark.slow
-@pytest.mark.skipif(UR10E is None, reason="MOBNET_UR10E does not name the folder of the logs")
-def test_on_a_ur10e_friction_that_is_identified_makes_way_for_pushes(ur10e, settings, monkeypatch):
-    monkeypatch.chdir(ur10e)
-    before, found_before, _ = judged(Path("arm.yaml"), ur10e, CALM, PUSHES, settings)
-    words = ["--robot", "arm.yaml", "--map", "map.yaml", "--out", "known.yaml"]
-    assert identify([*(f"{name}.csv" for name in KNOWN), *words]) == 0
-    after, found, false = judged(Path("known.yaml"), ur10e, CALM, PUSHES, settings)
-    assert before[0] > 34.0
-    assert after[0] <= 4.5
-    assert after[1] <= 12.0
-    assert (after < before).all()
-    assert found >= 7 > found_before
-    assert false == 0
+if UR10E is not None:  # public logs without a licence, which users may fetch: no part of this project
+
+    @pytest.mark.slow
+    def test_on_a_ur10e_friction_that_is_identified_makes_way_for_pushes(ur10e, settings, monkeypatch):
+        monkeypatch.chdir(ur10e)
+        before, found_before, _ = judged(Path("arm.yaml"), ur10e, CALM, PUSHES, settings)
+        words = ["--robot", "arm.yaml", "--map", "map.yaml", "--out", "known.yaml"]
+        assert identify([*(f"{name}.csv" for name in KNOWN), *words]) == 0
+        after, found, false = judged(Path("known.yaml"), ur10e, CALM, PUSHES, settings)
+        assert before[0] > 34.0
+        assert after[0] <= 4.5
+        assert after[1] <= 12.0
+        assert (after < before).all()
+        assert found >= 7 > found_before
+        assert false == 0
 
 
 @pytest.fixture(scope="module")

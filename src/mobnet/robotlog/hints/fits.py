@@ -63,6 +63,8 @@ def unexplained(terms: Array, needed: Array, torque: Array, offset: Array) -> Ar
     """
     rest = torque - needed
     count = rest.shape[-2]
+    if count < BLOCKS:  # too few to try on some what was fitted to others
+        return np.ones((*rest.shape[:-2], rest.shape[-1]))
     late = (np.arange(count) * BLOCKS // count) % 2 == 1
     left = np.zeros((*rest.shape[:-2], rest.shape[-1]))
     for half in (late, ~late):
