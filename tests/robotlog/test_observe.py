@@ -193,7 +193,7 @@ WALKING = {
     "omega held": (lambda t: held(t, "v.omega", 5), "omega: 80% of the samples repeat the one before"),
     "late speeds": (
         lambda t: late(t, r"v\.[LRWN]", 8),
-        r"v of LL1, LL2, .* more: (7\.[5-9]\d?|8(\.[0-4]\d?)?) ms late against q",
+        r"v of LL1, LL2, .* more: (?:7\.[5-9]\d?|8(?:\.[0-4]\d?)?) ms late against q",
     ),
     "a foot's sensor that reads half": (lambda t: times(t, "wrench_left_foot", 0.5), "feet: their sensors carry 0.7"),
     "hip of the wrong sign": (lambda t: times(t, "tau_motor.LL3", -1.0), "LL3: tau_motor is of the wrong sign"),

@@ -138,7 +138,7 @@ MEANINGLESS: list[tuple[str, Any, str]] = [
     ("scales.default.robots.printed.seeds", [101], "below 101, the seeds of robots"),
     ("scales.default.robots.magic", {"epochs": 1}, "experiment: 'magic' is not accepted; accepted: .*printed"),
     (
-        "scales.default.reactions.cases.wall",
+        "scales.paper.reactions.cases.wall",
         {"runs": 1, "compared": 1, "longest_s": 9.0},
         "case: 'wall' is not acc.*door",
     ),

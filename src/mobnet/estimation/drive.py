@@ -2,7 +2,7 @@
 
 The law of a joint, of its velocity v and its motor's reported torque tau, is
 
-    tau_f = (coulomb + load |tau|) s + viscous v + offset,        and the joint gets        scale tau - tau_f.
+    tau_f = (coulomb + load abs(tau)) s + viscous v + offset,        and the joint gets        scale tau - tau_f.
 
 Coulomb and viscous friction and an offset are the model that is identified of robots since Swevers et al., "Dynamic
 model identification for industrial robots", IEEE Control Systems 27(5), 2007; a load term is that of harmonic drives.

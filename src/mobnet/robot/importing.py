@@ -40,7 +40,6 @@ class Imported:
         tree: the file, of the kind `kind`.
         robot: its links that the table holds.
         masses: those of each body, the base first.
-        hinges: the joints of the table in their order.
     """
 
     name: str
@@ -58,7 +57,7 @@ class Imported:
 
     @property
     def hinges(self) -> list[Joint]:
-        """Joints in the order of the table."""
+        """The joints of the table in their order."""
         return [body.joint for body in self.parts if body.joint is not None]
 
 

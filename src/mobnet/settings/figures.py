@@ -1,6 +1,5 @@
 """What figures show, those of detection and of reactions apart: one section for each."""
 
-from collections.abc import Mapping
 from typing import Annotated
 
 from pydantic import Field
@@ -94,11 +93,6 @@ class Figure17(Section):
     methods: base.MethodNames
     best_level: base.LevelName
     best: base.MethodNames
-
-    @property
-    def kinds(self) -> Mapping[str, str]:
-        """Each of all methods -> its kind, which has the name of the method that is best of it."""
-        return {**dict(zip(self.methods, self.best, strict=True)), **dict(zip(self.best, self.best, strict=True))}
 
 
 class Figure18(Section):

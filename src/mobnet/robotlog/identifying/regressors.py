@@ -4,7 +4,7 @@ Nothing touches the robot, so that the residual s of (O1) in note 0034 is what t
 `mobnet.estimation.drive`, a rotor of the inertia I and links whose numbers differ by delta from those of the table,
 -s is linear in what is unknown:
 
-    -s = coulomb sign + load |tau| sign + viscous v + offset + I dv/dt - (scale - 1) tau + Y delta.
+    -s = coulomb sign + load abs(tau) sign + viscous v + offset + I dv/dt - (scale - 1) tau + Y delta.
 
 Y is the regressor of the links' dynamics (Swevers et al., "Dynamic model identification for industrial robots", IEEE
 Control Systems 27(5), 2007). Both sides pass a low-pass without delay, which keeps the equation and takes away the

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from mobnet.core.columns import LOSSES
 from mobnet.evaluation.figures.style import COLUMN_INCH, Look, entitle, looks, save_figure, styled
 from mobnet.evaluation.measure.learning.losses import ENDS, Loss, losses_of
-from mobnet.evaluation.measure.learning.trainings import read_trainings, sound
+from mobnet.evaluation.measure.learning.trainings import kind_of_each, read_trainings, sound
 from mobnet.settings.figures import Figure17
 from mobnet.settings.runs import Statistics
 
@@ -32,7 +32,7 @@ def figure_17(settings: Figure17, folders: Sequence[Path], statistics: Statistic
     """
     trained = {method: sound(trainings) for method, trainings in read_trainings(folders).items()}
     losses = [loss for method, runs in trained.items() if runs for loss in losses_of(method, runs, statistics)]
-    figure = draw_losses([loss for loss in losses if loss.epoch is None], settings.kinds)
+    figure = draw_losses([loss for loss in losses if loss.epoch is None], kind_of_each(settings))
     save_figure(figure, figure_dir / "figure_17", LOSSES, [loss.record() for loss in losses])
 
 

@@ -17,6 +17,7 @@ from mobnet.core.errors import not_accepted, refuse
 from mobnet.core.files import METRICS, RUN, TIME, read_json
 from mobnet.core.notes import Count, FileName, Index, Names, Note, NotNegative, Positive, Text, read_note
 from mobnet.evaluation.number.rows import read_epochs
+from mobnet.settings.figures import Figure17
 from mobnet.settings.networks import CellKind
 from mobnet.settings.robot import GroupName
 
@@ -239,3 +240,9 @@ def read_trainings(folders: Iterable[Path]) -> dict[str, list[TrainedNetwork]]:
 def sound(trainings: Sequence[TrainedNetwork]) -> list[TrainedNetwork]:
     """Return the trainings that did not diverge."""
     return [training for training in trainings if not training.diverged]
+
+
+def kind_of_each(settings: Figure17) -> dict[str, str]:
+    """Return each method of Figure 17 -> its kind, which has the name of the method that is best of it."""
+    kinds = dict(zip(settings.methods, settings.best, strict=True))
+    return kinds | {best: best for best in settings.best}

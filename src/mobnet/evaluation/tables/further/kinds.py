@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from mobnet.core.columns import KINDS
-from mobnet.evaluation.measure.learning.trainings import MEASURES, TrainedNetwork, read_trainings, sound
+from mobnet.evaluation.measure.learning.trainings import MEASURES, TrainedNetwork, kind_of_each, read_trainings, sound
 from mobnet.evaluation.number.intervals import RunGrid, summarise
 from mobnet.evaluation.number.number import Number, number_text
 from mobnet.evaluation.tables.layout import GAP, RULE, Line, Table, with_intervals, write_table
@@ -35,7 +35,7 @@ def kinds(
     The kinds of Figure 17, which are the paper's, stand in an order of their own by each of its recipes; below them
     stand our own variants.
     """
-    found, variants, kinds = read_trainings(folders), settings.variants, figure_17.kinds
+    found, variants, kinds = read_trainings(folders), settings.variants, kind_of_each(figure_17)
     measured = {method: measures_of(found[method], statistics) for method in (*kinds, *variants)}
     parts = [by_loss(methods, measured) for methods in (figure_17.methods, figure_17.best)]
     ranks: dict[str, int] = {}
