@@ -22,6 +22,7 @@ from mobnet.robot.plant import robot_spec
 REPO = Path(__file__).parents[3]
 ALARM = {"detector": "MOB-Net-ratio", "at": START + 24, "named": "left knee, front"}
 READY = "document.querySelector('#still').hidden && document.querySelector('#result').textContent.length > 0"
+SLOWER = 4.0  # is a slow processor
 SIZES = {"wide": (1280, 900), "narrow": (400, 900)}
 pytestmark = with_browser
 
@@ -339,26 +340,34 @@ def test_without_decompression_there_is_a_message_and_every_number(browse, page)
         browser.tell("Page.removeScriptToEvaluateOnNewDocument", identifier=script["identifier"])
 
 
-def median(browser: Browser, script: str, count: int = 21) -> float:
-    """Return the median time of a script [ms], the least of five: other programs take their share of the machine."""
-    loop = (
-        f"(() => {{ const found = []; for (let k = 0; k < {count}; k++) {{ const from = performance.now(); {script};"
-        "found.push(performance.now() - from); } return found.sort((a, b) => a - b)[found.length >> 1]; })()"
-    )
-    return min(browser.value(loop) for _ in range(5))
+def script_ms(browser: Browser, script: str, count: int = 21) -> float:
+    """Return the mean time of the processor that a script takes [ms], the least of five.
+
+    Other programs take their share of the machine, so that a clock would measure them too.
+    """
+    browser.tell("Performance.enable", timeDomain="threadTicks")
+    found = []
+    for _ in range(5):
+        before = busy_s(browser)
+        browser.value(f"for (let k = 0; k < {count}; k++) {{ {script}; }}")
+        found.append(1000.0 * (busy_s(browser) - before) / count)
+    browser.tell("Performance.disable")
+    return min(found)
+
+
+def busy_s(browser: Browser) -> float:
+    """Return for how long the page has used the processor [s]."""
+    metrics = browser.tell("Performance.getMetrics")["metrics"]
+    return next(metric["value"] for metric in metrics if metric["name"] == "TaskDuration")
 
 
 def test_a_frame_takes_two_milliseconds_of_script(browse):
     browser = browse("#zoom=4")
-    assert median(browser, "state.t = 0.5 + 0.02 * k; drawPage(sceneOf(state.scene)); draw()") <= 2.0
+    assert script_ms(browser, "state.t = 0.5 + 0.02 * k; drawPage(sceneOf(state.scene)); draw()") <= 2.0
 
 
 def test_a_slider_redraws_in_fifty_milliseconds_on_a_slow_machine(browse):
-    """All lines over all of the scene, at a quarter of the processor's speed."""
+    """All lines over all of the scene, on a processor of a quarter of this one's speed."""
     browser = browse("#zoom=4")
-    browser.tell("Emulation.setCPUThrottlingRate", rate=4)
-    try:
-        assert median(browser, "change({ gain: 20 + 5 * (k % 30) })") <= 50.0
-        assert median(browser, "change({ threshold: 5 + k })") <= 50.0
-    finally:
-        browser.tell("Emulation.setCPUThrottlingRate", rate=1)
+    assert SLOWER * script_ms(browser, "change({ gain: 20 + 5 * (k % 30) })") <= 50.0
+    assert SLOWER * script_ms(browser, "change({ threshold: 5 + k })") <= 50.0
