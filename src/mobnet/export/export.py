@@ -15,7 +15,7 @@ from typing import TypeVar
 import numpy as np
 
 from mobnet.core.errors import DataError, beyond, not_accepted, refuse_lines
-from mobnet.core.files import atomic_path, sweep, write_json
+from mobnet.core.files import atomic_path, check_place, sweep, write_json
 from mobnet.detection.signals import MEAN
 from mobnet.detection.threshold_file import read_thresholds
 from mobnet.estimation.own import OBSERVER, check_drives
@@ -158,6 +158,7 @@ def told(contract: Contract, networks: Sequence[Trained], out: Path) -> Iterator
 
 def run(options: Namespace) -> Iterator[str]:
     """Export networks as the command's options say, and yield what is printed."""
+    check_place(options.out)
     settings = load_settings()
     robot = given_robot(options.robot, settings)
     networks = [read_trained(folder, robot.layout) for folder in options.network]

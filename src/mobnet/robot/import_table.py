@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from mobnet.core.errors import ConfigError, DataError, refusal
-from mobnet.core.files import write_text
+from mobnet.core.files import check_place, write_text
 from mobnet.core.flow import flow
 from mobnet.robot.description import RobotDescription, describe
 from mobnet.robot.import_checks import differences
@@ -88,6 +88,7 @@ def run(options: Namespace) -> Iterator[str]:
     out = options.out or Path(f"{options.file.stem}.yaml")
     if out.exists() and not options.force:
         raise ConfigError(f"{out}: exists already; accepted: another --out, or --force")
+    check_place(out.parent)
     text, lines = in_child(lambda: made(options), SECONDS, str(options.file))
     write_text(out, text)
     yield from lines

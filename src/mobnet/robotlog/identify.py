@@ -13,6 +13,7 @@ from itertools import chain, count
 from pathlib import Path
 
 from mobnet.core.errors import ConfigError, DataError, not_accepted
+from mobnet.core.files import check_place
 from mobnet.core.recording import SensedRecording
 from mobnet.estimation import observer
 from mobnet.estimation.own import RECORDING, read_log_folder
@@ -186,6 +187,7 @@ def run(options: Namespace) -> Iterator[str]:
     out = options.out or Path(f"{robot.name.replace(' ', '_')}_identified.yaml")
     if out.exists() and not options.force:
         raise ConfigError(f"{out}: exists already; accepted: another --out, or --force")
+    check_place(out.parent)
     meaning = load_section(options.map, LogMap) if options.map else None
     logs = [read_free_log(path, robot, meaning, settings) for path in options.logs]
     terms = (*TERMS, *(term for term in FURTHER if getattr(options, term)))

@@ -14,7 +14,7 @@ import numpy as np
 
 from mobnet.core.code import ROOT
 from mobnet.core.errors import DataError, not_accepted
-from mobnet.core.files import RUN, read_json, sweep, write_json
+from mobnet.core.files import RUN, check_place, read_json, sweep, write_json
 from mobnet.estimation.own import OwnLog, check_drives, limb_of, read_log_folder, refuse_twice
 from mobnet.learning.deployed.networks import load_network
 from mobnet.learning.device import own_device
@@ -92,11 +92,12 @@ def run(options: Namespace) -> list[str]:
         raise DataError(not_accepted("--epochs", epochs, ["a whole number from 1"]))
     table = given_table(options.robot, settings)
     limb = limb_of(table.layout, options.limb)
+    out = options.out or Path(f"{limb}_net")
+    check_place(out)
     logs = [read_log_folder(folder, table.layout) for folder in options.folders]
     refuse_twice(logs, "else what is held out trains too")
     for one in logs:
         check_drives(one.folder, one.sampling.drives, describe(table))
-    out = options.out or Path(f"{limb}_net")
     sweep(out)
     sweep(out / STATE)
     return learn(settings, table, logs, limb, options.labels, epochs, out, force=options.force)
