@@ -1,6 +1,7 @@
 """Panels show the arrays given, errors stand on a scale of their own, and equal arrays give equal files."""
 
 import csv
+import re
 from pathlib import Path
 
 import matplotlib as mpl
@@ -13,7 +14,7 @@ from mobnet.evaluation.compare.curves import Panel, TorqueCurve
 from mobnet.evaluation.compare.errors import ZERO, compared
 from mobnet.evaluation.figures.drawing.compared import bars_of, draw_columns, draw_leg, draw_stack
 from mobnet.evaluation.figures.drawing.curves import draw_panel, held, table_of
-from mobnet.evaluation.figures.style import COLUMN_INCH, PAGE_INCH, UNDATED, save_figure, shortened
+from mobnet.evaluation.figures.style import COLUMN_INCH, PAGE_INCH, UNDATED, save_figure, shortened, with_stable_names
 from mobnet.evaluation.number.files import write_csv
 from mobnet.evaluation.number.number import Number
 
@@ -167,6 +168,16 @@ def test_equal_arrays_give_equal_files_without_dates(tmp_path: Path, panel: Pane
 def test_a_drawing_loses_digits_of_its_paths_alone() -> None:
     svg = '<path d="M 1.23456 -7.891 L 10 0.5" style="stroke-width: 0.8125"/><g transform="scale(0.0655)"/>'
     assert shortened(svg) == svg.replace("1.23456", "1.23").replace("7.891", "7.89")
+
+
+def test_clip_paths_are_named_by_what_is_drawn_and_not_by_the_last_digits_of_their_corners() -> None:
+    svg = '<g clip-path="url(#p{0})"/><clipPath id="p{0}"><i x="{2}"/></clipPath><g clip-path="url(#p{1})"/><i id="p"/>'
+    one = with_stable_names(svg.format("0123456789", "abcdefabcd", 1.5))
+    assert with_stable_names(svg.format("abcdefabcd", "0000000000", 1.5)) == one
+    names = re.findall(r"clip-[0-9a-f]{8}-\d", one)
+    assert names == [names[0], names[0], f"{names[0][:-1]}1"]
+    assert '<i id="p"/>' in one
+    assert names[0] not in with_stable_names(svg.format("0123456789", "abcdefabcd", 2.5))
 
 
 def test_every_text_is_six_points_high_or_more_and_lies_on_the_page(panel: Panel) -> None:

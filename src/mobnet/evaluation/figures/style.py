@@ -1,5 +1,6 @@
 """What all figures share: the look of each method, sizes, the legend, and a saver whose files never change."""
 
+import hashlib
 import logging
 import re
 from collections.abc import Iterable, Mapping, Sequence
@@ -34,6 +35,7 @@ STYLE: dict[Any, Any] = {
 styled = mpl.rc_context(STYLE)  # decorates functions that draw
 COLUMN_INCH, PAGE_INCH = 3.4, 7.0  # width of one column of the paper and of two
 LETTERS = "abcdefghijkl"
+CLIP = re.compile(r"(?:(?<=id=\")|(?<=url\(#))p[0-9a-f]{10}\b")  # name of an area that a drawing is cut to
 PATHS, DIGITS = re.compile(r' d="[^"]*"'), re.compile(r"(\.\d\d)\d+")
 UNDATED: Mapping[str, dict[str, Any]] = {  # ending of a picture -> what would make equal pictures differ
     ".pdf": {"CreationDate": None, "Producer": None},
@@ -170,10 +172,23 @@ def save_figure(figure: Figure, stem: Path, columns: Sequence[str], rows: Iterab
             with atomic_path(stem.with_suffix(suffix)) as temporary:
                 figure.savefig(temporary, format=suffix[1:], metadata=metadata)
                 if suffix == ".svg":
-                    temporary.write_text(shortened(temporary.read_text(encoding="utf-8")), encoding="utf-8")
+                    svg = temporary.read_text(encoding="utf-8")
+                    temporary.write_text(with_stable_names(shortened(svg)), encoding="utf-8")
     log.info("%s.pdf: %d panels", stem, len(figure.axes))
 
 
 def shortened(svg: str) -> str:
     """Return a drawing whose paths have two digits behind the point, a hundredth of 1/72 inch: half as many bytes."""
     return PATHS.sub(lambda path: DIGITS.sub(r"\1", path[0]), svg)
+
+
+def with_stable_names(svg: str) -> str:
+    """Return a drawing whose clip paths are named by what is drawn and by their order.
+
+    Matplotlib names them by their corners, of which the last digits differ from process to process. A page may hold
+    several drawings, so that their names differ.
+    """
+    order = {name: k for k, name in enumerate(dict.fromkeys(CLIP.findall(svg)))}
+    numbered = CLIP.sub(lambda found: str(order[found[0]]), svg)
+    digest = hashlib.sha256(numbered.encode()).hexdigest()[:8]
+    return CLIP.sub(lambda found: f"clip-{digest}-{order[found[0]]}", svg)
