@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from mobnet.core.errors import ConfigError, not_accepted
+from mobnet.core.joints import JointLayout
 from mobnet.settings.asked import Asked, asked_by
 from mobnet.settings.methods import Method, Sweep, swept_name
 from mobnet.settings.networks import Learning, Network, Training
@@ -22,6 +23,11 @@ class Catalogue:
 
     settings: Settings
     given: tuple[ByTest, ByTest] | None = None
+
+    @cached_property
+    def layout(self) -> JointLayout:
+        """The robot's joints and limbs, made once."""
+        return self.settings.layout
 
     @cached_property
     def asked(self) -> tuple[Asked, ...]:
@@ -78,8 +84,8 @@ class Catalogue:
     def _limbs_of(self, shown: set[str], methods: Names) -> Names:
         """Return the limbs of what is shown of some methods."""
         if not any(self.method(self.network_source_of(name)).limbs for name in methods):
-            return tuple(self.settings.layout.groups)
-        groups = self.settings.layout.groups.items()
+            return tuple(self.layout.groups)
+        groups = self.layout.groups.items()
         return tuple(limb for limb, joints in groups if limb in shown or shown.intersection(joints))
 
     @cached_property
@@ -130,7 +136,7 @@ class Catalogue:
 
         A method with networks estimates those joints of the test's limbs that they predict, any other method all.
         """
-        layout, networks = self.settings.layout, self.settings.robot.networks
+        layout, networks = self.layout, self.settings.robot.networks
         limbs = self.method(self.network_source_of(method)).limbs
         known = layout.limbs(group for limb in limbs for group in networks[limb].joints) or layout.names
         held = layout.limbs(self.limbs.get(scenario, {}).get(level, layout.groups))

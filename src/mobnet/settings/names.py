@@ -1,6 +1,7 @@
 """Names in a section that must exist elsewhere: found by the marks of the fields that hold them."""
 
 from collections.abc import Collection, Iterable, Iterator, Mapping
+from functools import cache
 from types import NoneType, UnionType
 from typing import Annotated, Any, Union, cast, get_args, get_origin
 
@@ -28,8 +29,7 @@ def uses(value: Any, kind: Any, place: Place = ()) -> Iterator[Use]:
             yield from ((place, mark.kind, value) for mark in args[1:] if isinstance(mark, Named))
         yield from uses(value, args[0], place)
     elif isinstance(value, BaseModel):
-        for name, field in type(value).model_fields.items():
-            inner = Annotated[field.annotation, *field.metadata] if field.metadata else field.annotation
+        for name, inner in _named_fields(type(value)).items():
             yield from uses(getattr(value, name), inner, (*place, name))
     elif origin in (Union, UnionType):
         yield from _union_uses(value, args, place)
@@ -52,3 +52,18 @@ def _union_uses(value: Any, kinds: tuple[Any, ...], place: Place) -> Iterator[Us
         if bare is not NoneType and isinstance(origin, type) and isinstance(value, origin):
             yield from uses(value, kind, place)
             return
+
+
+@cache
+def _named_fields(section: type[BaseModel]) -> dict[str, Any]:
+    """Return the fields of a section in which a name may stand -> their kinds; most others are numbers."""
+    fields = section.model_fields.items()
+    kinds = {name: Annotated[field.annotation, *field.metadata, None] for name, field in fields}
+    return {name: kind for name, kind in kinds.items() if _may_name(kind)}
+
+
+def _may_name(kind: Any) -> bool:
+    """Return whether a value of an annotated kind may hold a name."""
+    if kind is Any or (isinstance(kind, type) and issubclass(kind, BaseModel)):
+        return True  # its own fields are looked at when a value is
+    return any(isinstance(part, Named) or _may_name(part) for part in get_args(kind))

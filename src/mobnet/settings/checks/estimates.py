@@ -31,7 +31,7 @@ def asked_problems(catalogue: Catalogue) -> Iterator[Problem]:
 
 def _estimate_faults(catalogue: Catalogue, one: Asked) -> Iterator[str]:
     """Yield joints that are shown of a run and that its method does not estimate."""
-    groups, held = catalogue.settings.layout.groups, catalogue.estimated(one.method, one.scenario, one.level)
+    groups, held = catalogue.layout.groups, catalogue.estimated(one.method, one.scenario, one.level)
     missing = [joint for name in one.shown for joint in groups.get(name, (name,)) if joint not in held]
     if missing and not (one.partly and held):
         yield misfit(one.method, f"methods that estimate {missing[0]} in {one.scenario}, {one.level}")
