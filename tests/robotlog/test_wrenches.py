@@ -157,7 +157,8 @@ def test_a_point_that_is_none_or_that_nothing_moves_is_refused(name, line, panda
 
 def test_observe_writes_wrenches_of_points_and_bodies(clean, stored, saying, tmp_path):
     words = ("--robot", "tests/data/arm.yaml", "--wrench", "lower", "--wrench", "upper", "--out", tmp_path / "made")
-    status, lines = saying(observe, stored(clean[:2000]), *words)
+    log = stored(clean[:2000])
+    status, lines = saying(observe, log, *words)
     assert status == 0
     assert lines[-1] == f"written: {tmp_path / 'made' / 'wrench'}.parquet"
     array, note = read_array(tmp_path / "made" / "wrench")
@@ -165,3 +166,5 @@ def test_observe_writes_wrenches_of_points_and_bodies(clean, stored, saying, tmp
     assert names[:6] == [f"{part}_{axis}.lower" for part in ("force", "told_force") for axis in "xyz"]
     assert array.shape == (2000, 12)
     assert (note["method"], note["rate_hz"], note["columns"][0]["unit"]) == ("MOB", 1000.0, "N")
+    assert saying(observe, log, "--robot", "tests/data/arm.yaml", "--out", tmp_path / "made")[0] == 0
+    assert not list((tmp_path / "made").glob("wrench*"))  # of another run

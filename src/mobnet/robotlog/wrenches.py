@@ -16,7 +16,7 @@ from mobnet.core.columns import Column
 from mobnet.core.errors import ConfigError, not_accepted
 from mobnet.core.estimator import Estimate
 from mobnet.core.recording import Recording, SensedRecording
-from mobnet.core.store import write_array
+from mobnet.core.store import files_of, write_array
 from mobnet.robot.nominal import NominalModel
 from mobnet.robot.point_jacobian import point_jacobian
 from mobnet.robot.wrench import carrier_of
@@ -140,7 +140,9 @@ def wrench_table(found: Sequence[Wrenches]) -> tuple[NDArray[np.float32], list[C
 
 
 def write_wrenches(found: Sequence[Wrenches], recording: SensedRecording | Recording, method: str, out: Path) -> None:
-    """Write the wrenches of a recording by a method into a folder, if there are any."""
+    """Write the wrenches of a recording by a method into a folder; where there are none, those of before go."""
+    for file in files_of(out / WRENCH):
+        file.unlink(missing_ok=True)
     if found:
         array, columns = wrench_table(found)
         write_array(out / WRENCH, array, columns, {"rate_hz": recording.rate_hz, "method": method}, recording.segments)
@@ -154,7 +156,8 @@ def told_wrenches(found: Sequence[Wrenches], numbers: WrenchEstimate, out: Path)
         yield f"wrench at {one.place.name}, world axes: force of {force:.3g} N{beside}, root mean square"
         if not moment:
             count = one.place.moved_by
-            yield f"  {count} joint{'s' * (count != 1)} of the limb move it: a moment there is taken as none"
+            moving = "1 joint of the limb moves" if count == 1 else f"{count} joints of the limb move"
+            yield f"  {moving} it: a moment there is taken as none"
         unsure = np.asarray(one.told < numbers.told)
         never = np.atleast_1d(unsure.all(axis=0))
         if never.any():
