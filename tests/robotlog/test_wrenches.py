@@ -7,6 +7,7 @@ import numpy as np
 import pinocchio as pin
 import pytest
 
+from mobnet.check import main as check
 from mobnet.core.errors import ConfigError
 from mobnet.core.estimator import Estimate
 from mobnet.core.store import read_array
@@ -166,5 +167,7 @@ def test_observe_writes_wrenches_of_points_and_bodies(clean, stored, saying, tmp
     assert names[:6] == [f"{part}_{axis}.lower" for part in ("force", "told_force") for axis in "xyz"]
     assert array.shape == (2000, 12)
     assert (note["method"], note["rate_hz"], note["columns"][0]["unit"]) == ("MOB", 1000.0, "N")
+    own = ("--robot", "tests/data/arm.yaml", "--rate", "1000")
+    assert check([str(tmp_path / "made" / "wrench.parquet"), *own]) == 0
     assert saying(observe, log, "--robot", "tests/data/arm.yaml", "--out", tmp_path / "made")[0] == 0
     assert not list((tmp_path / "made").glob("wrench*"))  # of another run

@@ -5,7 +5,7 @@ nothing of a direction, as near a singular pose, the damping gives zero in place
 deviation is that of not knowing it, and `told` says so.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -23,6 +23,7 @@ from mobnet.robot.wrench import carrier_of
 from mobnet.settings.robotlog import WrenchEstimate
 
 NAMES = tuple(f"{part}_{axis}" for part in ("force", "moment") for axis in "xyz")
+WRENCH_SIGNALS = {f"{kind}{name}" for kind in ("", "std_", "told_") for name in NAMES}
 UNITS = ("N", "N", "N", "N m", "N m", "N m")
 WRENCH = "wrench"  # array in the folder of a log
 BLOCK_ROWS = 8192  # that are worked on at once
@@ -137,6 +138,12 @@ def wrench_table(found: Sequence[Wrenches]) -> tuple[NDArray[np.float32], list[C
         arrays.append(one.told)
         columns += [(f"told_{name}.{one.place.name}", "-", "world") for name, _ in own]
     return np.concatenate(arrays, axis=1), columns
+
+
+def wrench_columns(places: Iterable[str]) -> list[str]:
+    """Return the columns that an array of wrenches at some points has at least."""
+    signals = [f"{kind}force_{axis}" for kind in ("", "told_") for axis in "xyz"]
+    return [f"{signal}.{place}" for place in sorted(places) for signal in signals]
 
 
 def write_wrenches(found: Sequence[Wrenches], recording: SensedRecording | Recording, method: str, out: Path) -> None:
