@@ -51,6 +51,7 @@ from mobnet.plan.plan import make_plan
 from mobnet.plan.precision import with_precision
 from mobnet.plan.stamps import Stamped
 from mobnet.robotlog.formats import FORMATS
+from mobnet.robotlog.wrenches import WRENCH_SIGNALS, wrench_columns
 from mobnet.running.accounts import AccountNote, read_account
 from mobnet.running.words import KINDS, check_parser
 from mobnet.settings.limb_thresholds import LimbThresholds
@@ -142,7 +143,7 @@ def _kind(path: Path, against: Against) -> str:
 
 
 def _array(path: Path, against: Against) -> str:
-    """Check a recording, residual, estimate or motion, of whose files one is given."""
+    """Check a recording, residual, estimate, wrench or motion, of whose files one is given."""
     stem = path.with_suffix("")
     note, noted = read_array_note(file_of(stem, NOTE)), file_of(stem, NOTE)
     names = [column["name"] for column in note["columns"]]
@@ -172,6 +173,8 @@ def kind_of(noted: Path, names: Sequence[str], layout: JointLayout) -> tuple[str
     if EXTERNAL in signals:
         joints = [joint for joint in layout.names if held & set(named(EXTERNAL, [joint]) + named(STD, [joint]))]
         return "estimate", [name for signal in (EXTERNAL, STD) if signal in signals for name in named(signal, joints)]
+    if signals <= WRENCH_SIGNALS:
+        return "wrench", wrench_columns({name.partition(".")[2] for name in held})
     if signals == {"q_ref"}:
         return "motion", [name for name in named("q_ref", layout.actuated) if name in held]
     raise UnknownKindError(noted, "columns", list(names))

@@ -124,6 +124,20 @@ def test_flags_stand_at_the_pushes_and_nowhere_else(made):
     assert (made / "new" / "flags.png").stat().st_size > 10_000
 
 
+def test_the_wrench_has_standard_deviations_where_the_network_has_them(made, monkeypatch):
+    monkeypatch.chdir(made)
+    words = (
+        "--robot arm.yaml --map map.yaml --network arm_net --thresholds arm_thresholds.yaml --wrench lower --out pulled"
+    )
+    assert run("detect", "new.csv", *words.split()) == 0
+    array, note = read_array(Path("pulled/wrench"))
+    names = [column["name"] for column in note["columns"]]
+    signals = ("force", "std_force", "told_force")
+    assert names == [f"{signal}_{axis}.lower" for signal in signals for axis in "xyz"]
+    assert (array[:, 3:6] > 0.0).all()
+    assert note["method"] == "MOB-Net"
+
+
 def test_the_page_of_robots_has_the_same_log_and_the_same_network(made, monkeypatch, caplog):
     monkeypatch.chdir(made)
     caplog.set_level(logging.INFO)

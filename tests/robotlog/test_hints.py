@@ -173,6 +173,13 @@ def test_each_mistake_has_a_hint_that_names_it(name, clean, hints):
     assert all("beyond" in hint for hint in named), named  # and it names nothing else but values beyond limits
 
 
+@pytest.mark.parametrize("size", [0.0, 1e-300, 1e-150, 1e12])
+@pytest.mark.parametrize("signal", ["q", "v", "tau_motor"])
+@pytest.mark.parametrize("joints", [["J1"], BOTH], ids="+".join)
+def test_numbers_of_any_size_give_hints_without_a_warning(joints, signal, size, clean, hints):
+    assert isinstance(hints(changed(clean[::10], joints, [signal], lambda column: size * column)), tuple)
+
+
 @pytest.mark.parametrize(("rate_hz", "late_ms"), DELAYS)
 def test_a_delay_is_told_within_half_a_sample(rate_hz, late_ms, clean, hints):
     t = clean["time"].to_numpy()

@@ -107,6 +107,17 @@ def test_what_a_killed_observe_left_is_swept_and_a_refused_log_leaves_nothing(cl
     assert not (tmp_path / "none").exists()
 
 
+@pytest.mark.parametrize("largest", [1e14, 1e29])
+def test_a_huge_speed_has_a_folder_or_a_line_that_names_it(largest, clean, stored, say, tmp_path):
+    log = stored(clean[:500].assign(**{"v.J2": np.r_[clean["v.J2"][:499], largest]}))
+    status, lines = say(log, "--robot", "tests/data/arm.yaml", "--out", tmp_path / "made")
+    if largest < 1e15:
+        assert (status, (tmp_path / "made" / "estimate.parquet").exists()) == (0, True)
+    else:
+        (line,) = lines
+        assert re.search(r"column 'v.J2', sample 499: 1e\+29 is not accepted; accepted: numbers up to 1e\+15", line)
+
+
 @pytest.mark.parametrize("make", [os.mkfifo, lambda path: path.symlink_to("/dev/zero")], ids=["pipe", "device"])
 def test_a_pipe_and_a_device_are_no_log(make, say, tmp_path):
     make(tmp_path / "log.csv")

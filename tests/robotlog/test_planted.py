@@ -1,12 +1,9 @@
 """Mistakes planted into an arm's log are named, and no other joint or mistake: 14 of them, on two kinds of torques.
 
 The arm is a made-up stand-in for a real one: its links weigh a tenth more than its table says, and its drives have
-friction and rotor inertia that the table lacks. A UR10e's own log is tried where there is one: MOBNET_UR10E names a
-folder with `log.csv`, whose columns are the time, and then q, v, motor current, its target and the target torque of
-each joint without a header, `gains.csv`, a line of the drives' gains [N m/A], and the robot's table `ur10e.yaml`.
+friction and rotor inertia that the table lacks. A UR10e's own log is tried where there is one (`made_ur10e`).
 """
 
-import os
 import re
 from pathlib import Path
 
@@ -14,6 +11,7 @@ import numpy as np
 import pinocchio as pin
 import pytest
 from made_mistakes import PLANTED, Log, fault_of
+from made_ur10e import GAINS, UR10E, ur10e_rows, write_ur10e_table
 
 from mobnet.robot.description import describe
 from mobnet.robot.dynamics import inverse_dynamics
@@ -28,7 +26,7 @@ DRY, VISCOUS, ROTOR = 0.06, 0.05, 0.01  # shares of a motor's largest torque: [N
 NOISE = {"q": 1e-5, "v": 2e-3, "torque": 2e-3}  # [rad], [rad/s], share of a motor's largest torque
 CARRIED_M = (0.0, 0.0, 0.2)  # in the frame of the last link
 MIDDLE = (0.0, -0.6, 0.0, -1.6, 0.0, 1.8, 0.0)  # pose about which the arm moves [rad]
-REAL = os.environ.get("MOBNET_UR10E")
+REAL = "20_02_12-40sec_12harm"  # log of a UR10e
 KINDS = ("of the controller", "of currents")  # the first without friction
 
 
@@ -104,21 +102,25 @@ def test_a_planted_mistake_is_named_and_nothing_else(kind, name, arm_logs, panda
     assert fault_of(name, log, panda.layout.actuated, hints) == ""
 
 
-if REAL is not None:  # public logs without a licence, which users may fetch: no part of this project
+if UR10E is not None:
+
+    @pytest.fixture(scope="module")
+    def ur10e(tmp_path_factory):
+        path = tmp_path_factory.mktemp("ur10e") / "arm.yaml"
+        write_ur10e_table(path)
+        return describe(load_section(path, RobotTable))
 
     @pytest.mark.parametrize("name", PLANTED)
     @pytest.mark.parametrize("kind", KINDS)
-    def test_a_mistake_planted_into_a_real_log_is_named(kind, name, settings, tmp_path):
-        folder = Path(str(REAL))
-        robot = describe(load_section(folder / "ur10e.yaml", RobotTable))
-        columns = np.loadtxt(folder / "log.csv", delimiter=",")
+    def test_a_mistake_planted_into_a_real_log_is_named(kind, name, ur10e, settings, tmp_path):
+        columns = ur10e_rows(REAL)
         columns = columns[np.diff(columns[:, 0], prepend=-np.inf) > 0]
         t = np.arange(columns[0, 0], columns[-1, 0], 1 / RATE_HZ)[: round(SECONDS * RATE_HZ)]
         q, v, current, _, target = np.split(
             np.stack([np.interp(t, columns[:, 0], x) for x in columns.T[1:]], axis=1), 5, 1
         )
-        torque = target if kind == KINDS[0] else current * np.loadtxt(folder / "gains.csv", delimiter=",")
-        log, joints = Log(q, v, torque, RATE_HZ, base=0, shoulder=1, elbow=2), robot.layout.actuated
+        torque = target if kind == KINDS[0] else current * GAINS
+        log, joints = Log(q, v, torque, RATE_HZ, base=0, shoulder=1, elbow=2), ur10e.layout.actuated
         PLANTED[name].spoil(log).table(joints).to_parquet(tmp_path / "log.parquet")
-        hints = observe_log(tmp_path / "log.parquet", robot, None, "sample", 100.0, 9.81, settings.robotlog).hints
+        hints = observe_log(tmp_path / "log.parquet", ur10e, None, "sample", 100.0, 9.81, settings.robotlog).hints
         assert fault_of(name, log, joints, hints) == ""

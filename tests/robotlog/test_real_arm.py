@@ -1,23 +1,20 @@
 """What `identify` gains on an arm whose torques are motor currents: a UR10e's public logs, or a stand-in for them.
 
-The logs are those of github.com/shamilmamedov/dynamic_calibration, which have no licence: they are not in this project.
-MOBNET_UR10E names the folder of that repository where somebody has it. Torques are currents times the drive gains that
-the repository's paper estimates. The files hold times, positions, velocities, currents and more at about 94 Hz, without
-a header. In two logs a person pushes the standing arm, at times that were read off the currents.
+The logs are those of `made_ur10e`. In two of them a person pushes the standing arm, at times that were read off the
+currents.
 """
 
-import os
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
+from made_ur10e import GAINS, UR10E, ur10e_rows, write_ur10e_table
 
 from mobnet.detection.chain import low_passed, make_chain
 from mobnet.estimation.observer import MomentumObserver
 from mobnet.robot.dynamics import inverse_dynamics
 from mobnet.robot.given import given_robot
-from mobnet.robot.import_table import main as import_table
 from mobnet.robot.nominal import NominalModel
 from mobnet.robotlog.identify import main as identify
 from mobnet.robotlog.observe import converted_log
@@ -25,8 +22,6 @@ from mobnet.settings.load import load_section
 from mobnet.settings.robotlog import LogMap
 
 ARM = Path(__file__).parents[1] / "data" / "arm.yaml"
-UR10E = os.environ.get("MOBNET_UR10E")
-GAINS = [14.87, 13.26, 11.13, 10.62, 11.03, 11.47]  # N m/A
 KNOWN = (
     "20_02_12-50sec_12harm", "20_02_19_14harm50sec", "20_02_10-30sec_12harm", "20_02_06-20sec_10harm",
     "20_02_05-20sec_12harm", "20_02_10-20sec_7harm",
@@ -90,18 +85,15 @@ def judged(table, folder, calm, pushes, settings):
 @pytest.fixture(scope="module")
 def ur10e(tmp_path_factory):
     """A folder with the table, the logs that are used and their map."""
-    folder, source = tmp_path_factory.mktemp("ur10e"), Path(UR10E)
+    folder = tmp_path_factory.mktemp("ur10e")
     for name in (*KNOWN, *CALM, *PUSHES):
-        (path,) = source.glob(f"dataset_ur10e/*/ur-{name}.csv")
-        rows = [line.split(",") for line in path.read_text().splitlines() if line.strip()]
-        write_csv(folder / f"{name}.csv", np.array(rows, dtype=float), 6)
+        write_csv(folder / f"{name}.csv", ur10e_rows(name), 6)
     write_map(folder / "map.yaml", GAINS)
-    words = [str(source / "URe/urdf/ur10e.urdf"), "--base", "fixed", "--out", str(folder / "arm.yaml")]
-    assert import_table(words) == 0
+    write_ur10e_table(folder / "arm.yaml")
     return folder
 
 
-if UR10E is not None:  # public logs without a licence, which users may fetch: no part of this project
+if UR10E is not None:
 
     @pytest.mark.slow
     def test_on_a_ur10e_friction_that_is_identified_makes_way_for_pushes(ur10e, settings, monkeypatch):

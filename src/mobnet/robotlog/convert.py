@@ -25,7 +25,7 @@ SI = {  # unit -> in SI units
     "g": 9.80665, "kN": 1e3, "ms": 1e-3, "us": 1e-6, "ns": 1e-9,
 }  # fmt: skip
 BLOCK_ROWS = 2048  # of columns that become rows
-LARGEST = 1e30  # number of a signal in SI units: a recording holds numbers of single precision
+LARGEST = 1e15  # number of a signal in SI units: with the square of a speed a residual is one of single precision
 
 
 @dataclass(frozen=True)

@@ -15,10 +15,12 @@ from mobnet.estimation.estimate import write_estimate
 from mobnet.estimation.own import ESTIMATE, OwnNetwork, Sampling, check_sampling, read_network_folder
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.given import given_robot
+from mobnet.robot.nominal import NominalModel
 from mobnet.robotlog.detected import Detected, check_thresholds, detect_log
 from mobnet.robotlog.flags import COLUMNS
 from mobnet.robotlog.learning_words import detect_parser
 from mobnet.robotlog.plot_flags import plot_flags
+from mobnet.robotlog.wrenches import place_of, told_wrenches, wrenches_of, write_wrenches
 from mobnet.running.printed import printed
 from mobnet.settings.limb_thresholds import LimbThresholds
 from mobnet.settings.load import load_section, load_settings
@@ -69,12 +71,18 @@ def run(options: Namespace) -> Iterator[str]:
     if network:
         given = Sampling(found.rate_hz, found.gain_hz, found.torque, found.drives)
         check_sampling(options.thresholds, given, network.sampling, network.folder)
+    nominal = NominalModel(robot)
+    places = [place_of(nominal, name, found.joints) for name in dict.fromkeys(options.wrench)]
     out = options.out or Path(f"{options.log.stem}_detected")
     check_place(out)
     sweep(out)
     made = detect_log(options.log, robot, meaning, network, found, settings)
+    read, numbers = made.observed.converted.recording, settings.robotlog.wrench
+    wrenches = [wrenches_of(nominal, place, read.sensed.q, made.estimate, numbers) for place in places]
     write_detected(made, robot, network, found, out)
+    write_wrenches(wrenches, read, found.method, out)
     yield from told(made, out)
+    yield from told_wrenches(wrenches, numbers, out)
 
 
 def main(words: list[str]) -> int:

@@ -16,6 +16,7 @@ import numpy as np
 from mobnet.core.arrays import Array
 from mobnet.core.columns import EXTERNAL, recording_columns, torque_columns
 from mobnet.core.errors import beyond, refuse_lines
+from mobnet.core.estimator import Estimate
 from mobnet.core.files import check_place, sweep
 from mobnet.core.joints import JointLayout
 from mobnet.core.notes import read_array_note
@@ -48,6 +49,7 @@ from mobnet.robotlog.plot import plot_residual
 from mobnet.robotlog.pushes import pushed_rows
 from mobnet.robotlog.tool import with_tool
 from mobnet.robotlog.words import observe_parser
+from mobnet.robotlog.wrenches import Place, Wrenches, place_of, told_wrenches, wrenches_of, write_wrenches
 from mobnet.running.printed import printed
 from mobnet.settings.base import GAIN_HZ, TorqueKind
 from mobnet.settings.load import load_section, load_settings
@@ -244,12 +246,23 @@ def run(options: Namespace) -> Iterator[str]:
     refuse_lines(beyond("--gain", gain_hz, GAIN_HZ))
     torque = options.torque or (meaning.torque if meaning else "sample")
     bounds, gravity = settings.robotlog, settings.plant.gravity_m_s2
+    places = [place_of(NominalModel(robot), name) for name in dict.fromkeys(options.wrench)]
     out = options.out or Path(f"{options.log.stem}_observed")
     check_place(out)
     sweep(out)
     found = observe_log(options.log, robot, meaning, torque, gain_hz, gravity, bounds)
+    wrenches = [_wrench(found, robot, place, bounds) for place in places]
     write_observed(found, robot, gain_hz, torque, out)
+    write_wrenches(wrenches, found.converted.recording, OBSERVER, out)
     yield from told(found, robot, out)
+    yield from told_wrenches(wrenches, bounds.wrench, out)
+
+
+def _wrench(found: Observed, robot: RobotDescription, place: Place, bounds: RobotLog) -> Wrenches:
+    """Return what the residual of the joints of a place tells of a wrench there."""
+    residual = found.residual[:, robot.layout.columns(place.joints)]
+    q = found.converted.recording.sensed.q
+    return wrenches_of(NominalModel(robot), place, q, Estimate(residual), bounds.wrench)
 
 
 def main(words: list[str]) -> int:

@@ -5,8 +5,9 @@ from pathlib import Path
 
 MANIFEST = Path("results/MANIFEST.sha256")
 KINDS = (
-    "a recording, residual, estimate or motion (.parquet with its .json), weights.safetensors, run.json, metrics.csv, "
-    "scores, what detectors find, a fit, an account of a job, a file of configs, a robot's table, a folder of these"
+    "a recording, residual, estimate, wrench or motion (.parquet with its .json), weights.safetensors, run.json, "
+    "metrics.csv, scores, what detectors find, a fit, an account of a job, a file of configs, a robot's table, "
+    "a folder of these"
 )
 RESULTS = {  # command -> what it does with the results of a run
     "verify": "List the missing, changed and unexpected files of a run, by its manifest.",

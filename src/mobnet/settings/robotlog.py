@@ -153,6 +153,21 @@ class LogLearning(Section):
     worse: Annotated[Positive, Field(ge=1)]
 
 
+class WrenchEstimate(Section):
+    """How an external wrench follows from torques of joints (note 0048).
+
+    Attributes:
+        torque_error: error of an external torque without a standard deviation, as a share of its motor's largest one.
+        force_n, moment_nm: a force and a moment that are large, beside which others are small [N], [N m].
+        told: share of a component that comes from the torques, below which it counts as not told.
+    """
+
+    torque_error: InnerShare
+    force_n: Annotated[Positive, Field(ge=10, le=1e5)]
+    moment_nm: Annotated[Positive, Field(ge=1, le=1e4)]
+    told: InnerShare
+
+
 class RobotLog(Section):
     """How a log becomes a recording, and when a hint is given; hints are no errors.
 
@@ -183,6 +198,7 @@ class RobotLog(Section):
         weight: share of the robot's weight by which the feet's mean vertical force may differ.
         learn: how a network learns from it.
         identify: how friction and rotor inertia are found in it.
+        wrench: how an external wrench follows from torques.
         settle_s: time after the start of a segment in which a limb without swings is not watched [s].
         flag_gap_s: two stretches above a threshold that are closer are one flag [s].
         percentiles: share of the rates of false alarms of recordings drawn anew that the interval of a limb that is
@@ -214,6 +230,7 @@ class RobotLog(Section):
     weight: InnerShare
     learn: LogLearning
     identify: Identification
+    wrench: WrenchEstimate
     percentiles: InnerShare
     settle_s: Seconds
     flag_gap_s: Seconds

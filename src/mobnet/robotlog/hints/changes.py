@@ -10,7 +10,7 @@ from scipy.optimize import linear_sum_assignment
 
 from mobnet.core.arrays import Array
 from mobnet.robot.nominal import NominalModel
-from mobnet.robotlog.hints.fits import friction_fit, unexplained
+from mobnet.robotlog.hints.fits import TINY, friction_fit, unexplained
 from mobnet.robotlog.hints.payload import payloads
 from mobnet.robotlog.hints.windows import Asked, Windows, repeated, size_of
 from mobnet.settings.robotlog import RobotLog
@@ -22,7 +22,6 @@ FINER = np.geomspace(1 / 1.1, 1.1, 41)
 UNITS = {"mN m": 1e-3, "kN m": 1e3}
 APART_RAD = np.radians(15.0)  # between zeros of a joint that are tried
 LEAST_RAD = np.radians(12.0)  # shift of a zero below which friction may be the cause
-TINY = np.finfo(float).tiny
 LEAST_CARRIED = 2  # joints that a mass at the end of an arm loads
 LEAST_ORDER = 3  # joints that stand in another order; two are exchanged
 

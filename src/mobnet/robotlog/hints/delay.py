@@ -12,7 +12,7 @@ from mobnet.robot.dynamics import momentum_and_beta
 from mobnet.robot.nominal import NominalModel
 from mobnet.robot.wrench import feet_torque
 from mobnet.robotlog.hints.columns import held_share, listed
-from mobnet.robotlog.hints.fits import dissipation, positive_fit
+from mobnet.robotlog.hints.fits import dissipation, positive_fit, quotient
 from mobnet.settings.base import TorqueKind
 from mobnet.settings.robotlog import RobotLog
 
@@ -140,9 +140,9 @@ def _unexplained(terms: Array, given: Array) -> Array:
     """
     shares = []
     for own, torque in zip(np.moveaxis(terms, 1, 0), np.moveaxis(given, 2, 0), strict=True):
-        size, cross = np.maximum(np.square(torque).sum(axis=0), np.finfo(float).tiny), own.T @ torque
+        size, cross = np.square(torque).sum(axis=0), own.T @ torque
         explained = [(sign * cross * positive_fit(own, sign * torque)).sum(axis=0) for sign in (1.0, -1.0)]
-        shares.append(np.maximum(1.0 - np.maximum(*explained) / size, EXACT))
+        shares.append(np.maximum(1.0 - quotient(np.maximum(*explained), size), EXACT))
     return np.array(shares)
 
 

@@ -13,6 +13,15 @@ from mobnet.core.arrays import Array
 STEADY = 0.05  # speed at which dry friction has turned round [rad/s]
 BLOCKS = 10  # of windows, each half of which is explained by what was fitted to the other half
 SMALL = 1e-12  # share added to squares, so that a joint at rest has numbers, too
+TINY = np.finfo(float).tiny
+
+
+def quotient(part: Array, whole: Array) -> Array:
+    """Return part / whole, whole not below zero; beside a whole as good as nothing it ends at a size of 1 / SMALL.
+
+    A joint whose torque is zero in a log, or whose unit is far off, would leave the range of numbers otherwise.
+    """
+    return part / np.maximum(np.maximum(whole, SMALL * np.abs(part)), TINY)
 
 
 def dissipation(speed: Array, change: Array) -> Array:
@@ -32,7 +41,7 @@ def positive_fit(terms: Array, targets: Array) -> Array:
     count = terms.shape[-1]
     across = np.swapaxes(terms, -1, -2)
     gram, cross = across @ terms, across @ targets
-    gram += (SMALL * gram.max(axis=(-1, -2), keepdims=True) + np.finfo(float).tiny) * np.eye(count)
+    gram += (SMALL * gram.max(axis=(-1, -2), keepdims=True) + TINY) * np.eye(count)
     chosen = np.array(list(product((0.0, 1.0), repeat=count)))  # (choices, p)
     both = chosen[:, :, None] * chosen[:, None, :]
     own = gram[..., None, :, :] * both + (1 - chosen)[:, :, None] * np.eye(count)
@@ -70,4 +79,4 @@ def unexplained(terms: Array, needed: Array, torque: Array, offset: Array) -> Ar
     for half in (late, ~late):
         numbers, constant = friction_fit(terms[..., ~half, :], rest[..., ~half, :], offset)
         left += np.square(rest[..., half, :] - terms[..., half, :] @ numbers - constant).sum(axis=-2)
-    return left / np.maximum(np.square(torque).sum(axis=-2), np.finfo(float).tiny)
+    return quotient(left, np.square(torque).sum(axis=-2))

@@ -9,6 +9,7 @@ from mobnet.core.arrays import Array
 from mobnet.core.contract import BEYOND_SPEED
 from mobnet.core.joints import JointLayout
 from mobnet.robotlog.hints.columns import listed
+from mobnet.robotlog.hints.fits import quotient
 from mobnet.settings.robotlog import RobotLog
 
 MOVES_RAD = 0.005  # mean turn in a window below which a joint tells nothing
@@ -37,7 +38,7 @@ def motion_hints(
     size = np.sqrt(np.maximum(np.square(change).mean(axis=0), np.square(integral).mean(axis=0)))
     moves = size > MOVES_RAD
     match = _correlation(change, integral)
-    slope = (change * integral).sum(axis=0) / np.maximum(np.square(integral).sum(axis=0), np.finfo(float).tiny)
+    slope = quotient((change * integral).sum(axis=0), np.square(integral).sum(axis=0))
     if moves.any() and _are_exchanged(change, integral, turns(v, q, spans, rate_hz, bounds.window_s), moves, bounds):
         yield f"q and v of {listed(joints, moves)}: v changes by the integral of q, and not q by that of v: exchanged"
         return
@@ -89,7 +90,7 @@ def _are_exchanged(
     """Return whether all joints that move follow the other signal, whose changes and integrals (W, nu) are `other`."""
 
     def fits(change: Array, integral: Array) -> NDArray[np.bool_]:
-        slope = (change * integral).sum(axis=0) / np.maximum(np.square(integral).sum(axis=0), np.finfo(float).tiny)
+        slope = quotient((change * integral).sum(axis=0), np.square(integral).sum(axis=0))
         return (np.diag(_correlation(change, integral)) >= ALIKE) & (np.abs(slope - 1) < bounds.factor)
 
     return bool((fits(*other)[moves] & ~fits(change, integral)[moves]).all())
@@ -105,4 +106,4 @@ def _meaning(slope: float, rate_hz: float, bounds: RobotLog) -> str:
 def _correlation(one: NDArray[np.floating], other: NDArray[np.floating]) -> Array:
     """Return the correlation without means of each column of one with each of another, (n, n)."""
     sizes = np.outer(np.linalg.norm(one, axis=0), np.linalg.norm(other, axis=0))
-    return one.T @ other / np.maximum(sizes, np.finfo(float).tiny)
+    return quotient(one.T @ other, sizes)

@@ -10,6 +10,7 @@ from scipy.optimize import lsq_linear
 from mobnet.core.arrays import Array
 from mobnet.robot.linkage import linkage_of
 from mobnet.robot.nominal import NominalModel
+from mobnet.robotlog.hints.fits import quotient
 from mobnet.robotlog.hints.windows import Asked, Windows, size_of
 
 PLACE_M = 0.1  # from the link's origin, at which a mass is tried
@@ -41,7 +42,7 @@ def payloads(
         return []
     own = list(joints)
     rest = (windows.torque - asked.needed)[:, own]
-    weight = 1.0 / np.maximum(np.sqrt(left) * size_of(windows.torque), np.finfo(float).tiny)[own]
+    weight = quotient(np.ones(len(own)), (np.sqrt(left) * size_of(windows.torque))[own])
     friction = np.zeros((*rest.shape, len(own), asked.terms.shape[-1]))  # of each joint alone
     friction[:, np.arange(len(own)), np.arange(len(own))] = asked.terms[:, own]
     found = []

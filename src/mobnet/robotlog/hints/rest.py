@@ -5,7 +5,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from mobnet.robot.nominal import NominalModel
-from mobnet.robotlog.hints.fits import friction_fit
+from mobnet.robotlog.hints.fits import friction_fit, quotient
 from mobnet.robotlog.hints.payload import payloads
 from mobnet.robotlog.hints.windows import Windows, known_joints, left_of, size_of
 from mobnet.settings.robotlog import RobotLog
@@ -20,9 +20,7 @@ def explanation(nominal: NominalModel, windows: Windows, bounds: RobotLog) -> It
     if not known:
         return
     left = left_of(asked, windows.torque, nominal, bounds, range(len(names)))
-    plain = np.square(
-        size_of(windows.torque - asked.needed) / np.maximum(size_of(windows.torque), np.finfo(float).tiny)
-    )
+    plain = np.square(quotient(size_of(windows.torque - asked.needed), size_of(windows.torque)))
     for k in known:
         explained = 1 - left[k] / plain[k]
         if plain[k] < bounds.floor or explained < HALF:

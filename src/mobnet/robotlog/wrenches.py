@@ -1,0 +1,181 @@
+"""The external wrench at a point of a limb, from the torques of its joints: `--wrench NAME` (note 0048).
+
+Damped least squares: of the wrenches that explain the torques within their errors, the smallest. Where the joints feel
+nothing of a direction, as near a singular pose, the damping gives zero in place of a huge number, the standard
+deviation is that of not knowing it, and `told` says so.
+"""
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mobnet.core.columns import Column
+from mobnet.core.errors import ConfigError, not_accepted
+from mobnet.core.estimator import Estimate
+from mobnet.core.recording import Recording, SensedRecording
+from mobnet.core.store import files_of, write_array
+from mobnet.robot.nominal import NominalModel
+from mobnet.robot.point_jacobian import point_jacobian
+from mobnet.robot.wrench import carrier_of
+from mobnet.settings.robotlog import WrenchEstimate
+
+NAMES = tuple(f"{part}_{axis}" for part in ("force", "moment") for axis in "xyz")
+WRENCH_SIGNALS = {f"{kind}{name}" for kind in ("", "std_", "told_") for name in NAMES}
+UNITS = ("N", "N", "N", "N m", "N m", "N m")
+WRENCH = "wrench"  # array in the folder of a log
+BLOCK_ROWS = 8192  # that are worked on at once
+
+
+@dataclass(frozen=True)
+class Place:
+    """A point of a body, at a place (3,) [m] in its frame, and the joints of its limb, of which so many move it."""
+
+    name: str
+    body: str
+    pos: tuple[float, float, float]
+    joints: tuple[str, ...]
+    moved_by: int
+
+    @property
+    def parts(self) -> int:
+        """How many numbers of a wrench are estimated: fewer than six joints cannot tell a moment from a force."""
+        return len(NAMES) if self.moved_by >= len(NAMES) else len(NAMES) // 2
+
+
+@dataclass(frozen=True)
+class Wrenches:
+    """Wrenches at a point in world axes: each is (T, 3) [N], or with moments (T, 6) [N], [N m].
+
+    Attributes:
+        mean: force, and moment about the point.
+        std: standard deviations, where the torques have them.
+        told: share of each number that comes from the torques [-]; the rest of it is taken as none.
+    """
+
+    place: Place
+    mean: NDArray[np.float32]
+    std: NDArray[np.float32] | None
+    told: NDArray[np.float32]
+
+
+def place_of(nominal: NominalModel, name: str, joints: Sequence[str] | None = None) -> Place:
+    """Return the point of the robot's table, or the origin of the body, of a name.
+
+    Joints are those of the limb that carries it; other ones may be given.
+
+    Raises:
+        ConfigError: there is no such point or body, or none of the joints moves it.
+    """
+    robot, origin = nominal.robot, (0.0, 0.0, 0.0)
+    known = {body.name: (body.name, origin) for body in robot.bodies}
+    known |= {point.name: (point.body, point.pos) for point in robot.points}
+    if name not in known:
+        points = [point.name for point in robot.points]
+        raise ConfigError(not_accepted("--wrench", name, [*points, *(body.name for body in robot.bodies)]))
+    body, pos = known[name]
+    carrier = carrier_of(robot, body)[0]
+    limbs = {joint: limb for limb, own in robot.layout.groups.items() for joint in own}
+    own = tuple(joints or (robot.layout.limb(limbs[carrier]) if carrier in limbs else ()))
+    if carrier is None or carrier not in own:
+        moved = [row.name for row in robot.bodies if carrier_of(robot, row.name)[0] in (joints or limbs)]
+        raise ConfigError(not_accepted("--wrench, what joints of the limb move", name, moved))
+    ahead = _joints_ahead(nominal, carrier)
+    return Place(name, body, pos, own, len([joint for joint in own if joint in ahead]))
+
+
+def _joints_ahead(nominal: NominalModel, joint: str) -> list[str]:
+    """Return a joint and those that carry it."""
+    joints, link = nominal.robot.layout.actuated, 1 + nominal.robot.layout.actuated.index(joint)
+    found = []
+    while link > 0:
+        found.append(joints[link - 1])
+        link = int(nominal.linkage.links[link]["parent"])
+    return found
+
+
+def wrenches_of(
+    nominal: NominalModel, place: Place, q: NDArray[np.floating], torque: Estimate, numbers: WrenchEstimate
+) -> Wrenches:
+    """Return the wrenches that explain external torques of the place's joints (T, n) [N m] at positions (T, nq).
+
+    Errors of joints are taken as independent, with the standard deviations of the torques, or, where they have none,
+    with a share of the largest torque of each.
+    """
+    columns = [nominal.robot.layout.actuated.index(joint) for joint in place.joints]
+    usual = numbers.torque_error * nominal.robot.torque_limits[columns]
+    large = np.repeat([numbers.force_n, numbers.moment_nm], 3)[: place.parts]
+    shape = (len(q), place.parts)
+    mean, std, told = (np.empty(shape, dtype=np.float32) for _ in range(3))
+    for start in range(0, len(q), BLOCK_ROWS):
+        rows = slice(start, start + BLOCK_ROWS)
+        error = usual if torque.std is None else torque.std[rows].astype(np.float64)
+        jacobian = point_jacobian(nominal, place.body, place.pos, q[rows])[:, : place.parts, columns]
+        # In units of the large wrench, and torques in those of their errors
+        units = large[:, None] * jacobian / np.broadcast_to(error, (len(jacobian), len(columns)))[:, None, :]
+        covariance = np.linalg.inv(units @ np.swapaxes(units, 1, 2) + np.eye(place.parts))
+        seen = units @ (torque.tau_ext[rows] / error)[..., None]
+        mean[rows] = large * (covariance @ seen)[..., 0]
+        variance = np.diagonal(covariance, axis1=1, axis2=2)
+        std[rows] = large * np.sqrt(variance)
+        told[rows] = np.clip(1.0 - variance, 0.0, 1.0)
+    return Wrenches(place, mean, None if torque.std is None else std, told)
+
+
+def wrench_table(found: Sequence[Wrenches]) -> tuple[NDArray[np.float32], list[Column]]:
+    """Return the array (T, n) and the columns of wrenches at several points."""
+    arrays: list[NDArray[np.float32]] = []
+    columns: list[Column] = []
+    for one in found:
+        own = list(zip(NAMES, UNITS, strict=True))[: one.place.parts]
+        arrays.append(one.mean)
+        columns += [(f"{name}.{one.place.name}", unit, "world") for name, unit in own]
+        if one.std is not None:
+            arrays.append(one.std)
+            columns += [(f"std_{name}.{one.place.name}", unit, "world") for name, unit in own]
+        arrays.append(one.told)
+        columns += [(f"told_{name}.{one.place.name}", "-", "world") for name, _ in own]
+    return np.concatenate(arrays, axis=1), columns
+
+
+def wrench_columns(places: Iterable[str]) -> list[str]:
+    """Return the columns that an array of wrenches at some points has at least."""
+    signals = [f"{kind}force_{axis}" for kind in ("", "told_") for axis in "xyz"]
+    return [f"{signal}.{place}" for place in sorted(places) for signal in signals]
+
+
+def write_wrenches(found: Sequence[Wrenches], recording: SensedRecording | Recording, method: str, out: Path) -> None:
+    """Write the wrenches of a recording by a method into a folder; where there are none, those of before go."""
+    for file in files_of(out / WRENCH):
+        file.unlink(missing_ok=True)
+    if found:
+        array, columns = wrench_table(found)
+        write_array(out / WRENCH, array, columns, {"rate_hz": recording.rate_hz, "method": method}, recording.segments)
+
+
+def told_wrenches(found: Sequence[Wrenches], numbers: WrenchEstimate, out: Path) -> Iterator[str]:
+    """Yield what is printed of wrenches: their sizes, where the joints do not tell them, and the file."""
+    for one in found:
+        force, *moment = (_size(part) for part in np.split(one.mean, one.place.parts // 3, axis=1))
+        beside = "".join(f" and moment of {size:.3g} N m" for size in moment)
+        yield f"wrench at {one.place.name}, world axes: force of {force:.3g} N{beside}, root mean square"
+        if not moment:
+            count = one.place.moved_by
+            moving = "1 joint of the limb moves" if count == 1 else f"{count} joints of the limb move"
+            yield f"  {moving} it: a moment there is taken as none"
+        unsure = np.asarray(one.told < numbers.told)
+        never = np.atleast_1d(unsure.all(axis=0))
+        if never.any():
+            names = ", ".join(name for name, is_so in zip(NAMES, never, strict=False) if is_so)
+            yield f"  the joints never tell {names}: what is written of it is as good as nothing"
+        if singular := float(unsure[:, ~never].any(axis=1).mean()):
+            yield f"  near a singular pose in {singular:.2%} of the samples: see the columns told_..."
+    if found:
+        yield f"written: {out / WRENCH}.parquet"
+
+
+def _size(vectors: NDArray[np.float32]) -> float:
+    """Return the root mean square length of vectors (T, 3)."""
+    return float(np.sqrt(np.square(vectors, dtype=np.float64).sum(axis=1).mean()))
