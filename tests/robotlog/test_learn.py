@@ -193,7 +193,7 @@ def test_a_log_never_suffices_where_sigma_holds_another_share_of_the_errors(sett
 
 @pytest.fixture
 def held_arm(arm):
-    """A minute of the arm that sways, held out: positions, and a function of errors' sizes that plants pushes into it."""
+    """Return a function of the sizes of errors that plants pushes into a minute in which the arm sways."""
     rate_hz, rows = 200.0, 12_000
     t, rng = np.arange(rows)[:, None] / rate_hz, np.random.default_rng(0)
     q, noise = 0.5 * np.sin(t * [1.0, 1.7]), rng.normal(size=(rows, 2))

@@ -23,8 +23,8 @@ from mobnet.robot.nominal import NominalModel
 from mobnet.settings.detection import Detector, Signal
 from mobnet.settings.settings import Settings
 
-SIGNALS: tuple[Signal, ...] = MEAN, RATIO  # of a network
-NETWORKS = tuple(NETWORK.format(signal) for signal in SIGNALS)
+NETWORKS = NETWORK.format(MEAN), NETWORK.format(RATIO)
+WATCHED: Mapping[str, Signal] = {BARE: MEAN, ALONE: MEAN, NETWORKS[0]: MEAN, NETWORKS[1]: RATIO}
 
 
 @dataclass(frozen=True)
@@ -81,11 +81,10 @@ def planted_check(
         return None
     count = len(observers)
     names = [*(BARE, ALONE)[-count:], *NETWORKS]
-    signals: list[Signal] = [*(MEAN,) * count, *SIGNALS]
-    estimates = [*map(Estimate, observers), *(network,) * len(SIGNALS)]
+    estimates = [*map(Estimate, observers), *(network,) * len(NETWORKS)]
     found = dict[str, int]()
-    for name, signal, estimate in zip(names, signals, estimates, strict=True):
-        watched = Watched(Detector(method=settings.detection.gate.method, signals=(signal,)))
+    for name, estimate in zip(names, estimates, strict=True):
+        watched = Watched(Detector(method=settings.detection.gate.method, signals=(WATCHED[name],)))
         low = setup.low_passed(watched.of(estimate, leg.command), segments)
         thresholds = np.abs(low[gate.watched]).max(axis=0)
         hits = found_pushes(setup, watched, thresholds, [leg], [estimate], planted)
