@@ -21,6 +21,7 @@ from mobnet.detection.limb_report import beside, report, thresholds_of
 from mobnet.detection.signals import MEAN, RATIO, STD
 from mobnet.detection.threshold_file import write_thresholds
 from mobnet.detection.words import SIGNALS, calibrate_parser
+from mobnet.estimation import observer
 from mobnet.estimation.own import (
     OwnLog,
     OwnNetwork,
@@ -169,6 +170,7 @@ def _check(options: Namespace) -> None:
 def main(words: Sequence[str]) -> int:
     """Run the command; return its exit status."""
     options = calibrate_parser().parse_args(words)
+    logging.getLogger(observer.__name__).setLevel(logging.WARNING)  # it tells of each segment
     return printed(log, lambda: run(options))
 
 

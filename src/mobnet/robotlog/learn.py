@@ -18,6 +18,7 @@ from mobnet.core.arrays import Array
 from mobnet.core.code import ROOT
 from mobnet.core.errors import DataError, not_accepted
 from mobnet.core.files import METRICS, RUN, read_json, sweep, write_json
+from mobnet.estimation import observer
 from mobnet.estimation.own import (
     OwnLog,
     check_drives,
@@ -141,6 +142,7 @@ def run(options: Namespace) -> list[str]:
 def main(words: list[str]) -> int:
     """Run the command; return its exit status."""
     options = learn_parser().parse_args(words)
+    logging.getLogger(observer.__name__).setLevel(logging.WARNING)  # it tells of each segment
     return printed(log, lambda: run(options), "stopped; the same words go on from the last whole epoch")
 
 

@@ -53,7 +53,7 @@ class PlantedCheck:
         shares = ", ".join(
             f"{name.replace(',', ' by its')} {count / self.pushes:.0%}" for name, count in self.found.items()
         )
-        return f"of {self.pushes} pushes planted there, found without a false alarm: {shares}"
+        return f"of {self.pushes} pushes planted there, found without a false alarm: {shares}; kept: {self.kept}"
 
 
 def planted_check(
