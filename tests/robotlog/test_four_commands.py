@@ -299,6 +299,32 @@ def test_a_map_whose_torques_are_others_than_those_of_the_thresholds_is_refused(
     assert "mean.yaml: torque: 'mean' is not accepted; accepted: sample, that of arm_thresholds.yaml" in caplog.text
 
 
+def test_pushes_are_planted_and_the_detector_that_finds_most_is_kept_and_named(made, monkeypatch, caplog):
+    monkeypatch.chdir(made)
+    caplog.set_level(logging.INFO)
+    assert run("calibrate", "free", *OWN, "--network", "arm_net", "--out", "kept.yaml") == 0
+    said = "\n".join(caplog.messages)
+    counts = dict(re.findall(r"^  (observer|network, mean|network, ratio) +(\d+) +\d+%$", said, re.MULTILINE))
+    assert list(counts) == ["observer", "network, mean", "network, ratio"]
+    (kept,) = re.findall("^kept, as it finds most: (.*)$", said, re.MULTILINE)
+    assert int(counts[kept]) == max(map(int, counts.values()))
+    assert f"network, {read_thresholds(Path('kept.yaml')).signal}" == kept
+    planted = json.loads(Path("arm_net/run.json").read_text())["planted"]
+    assert list(planted["found"]) == list(counts)
+    assert planted["kept"].startswith("network")
+
+
+def test_thresholds_of_the_observer_alone_leave_the_network_out(made, monkeypatch, caplog):
+    """The same words go on where `calibrate` kept the observer."""
+    monkeypatch.chdir(made)
+    caplog.set_level(logging.INFO)
+    assert run("calibrate", "free", *OWN, "--out", "alone.yaml") == 0
+    words = "new.csv", *OWN, "--thresholds", "alone.yaml", "--out", "alone"
+    assert run("detect", *words, "--network", "arm_net") == 0
+    assert "alone.yaml are thresholds of the observer alone: the network is not used" in caplog.text
+    assert read_array(Path("alone/estimate"))[1]["network"] is None
+
+
 def test_a_log_of_another_robot_is_one_line(made, monkeypatch, caplog):
     monkeypatch.chdir(made)
     assert run("learn", "train", "--robot", ARM.parents[2] / "configs" / "robots" / "panda.yaml") == 1

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from mobnet.core.errors import ConfigError, DataError
+from mobnet.core.estimator import Estimate
 from mobnet.core.recording import read_sensed, write_recording
 from mobnet.core.store import footer_hash
 from mobnet.demo import DATA
@@ -29,9 +30,10 @@ from mobnet.learning.dataset import LimbData
 from mobnet.learning.deployed.networks import Prediction
 from mobnet.robot.nominal import NominalModel
 from mobnet.robot.wrench import point_torque
-from mobnet.robotlog.free_check import free_check, lines_of
+from mobnet.robotlog.free_check import Course, course_of, free_check, held_out, lines_of
 from mobnet.robotlog.labels import label_of, limb_data
 from mobnet.robotlog.observe import main as observe
+from mobnet.robotlog.planted_check import planted_check
 from mobnet.robotlog.training import filled, training_of
 from mobnet.settings.networks import Limb
 
@@ -137,10 +139,27 @@ def test_a_short_log_fills_its_batches(settings, arm_table):
 
 
 class Half:
-    """A network that predicts half of the residual, which is its only input, with a sigma of its own."""
+    """A network that predicts half of the residual, which is its only input; its sigma holds a share of the errors."""
+
+    def __init__(self, holds=0.68):
+        self.holds = holds
 
     def run_all(self, lanes):
-        return [Prediction(0.5 * lane, np.full_like(lane, 0.5)) for lane in lanes]
+        held = [np.arange(len(lane))[:, None] % 100 < 100 * self.holds for lane in lanes]
+        return [
+            Prediction(0.5 * x, np.where(own, 1.1, 0.1) * np.abs(0.5 * x)) for x, own in zip(lanes, held, strict=True)
+        ]
+
+
+def made_check(settings, size=1.0, network=None):
+    x = np.float32(np.where(np.arange(1000) % 2, 1.0, -1.0))[:, None]
+    x[800:] *= size
+    data, numbers = LimbData(x, x, ((0, 1000),), ("x",), ("J1",), 100.0), settings.robotlog.learn
+    held = held_out(network or Half(), data, 800)
+    return free_check(held, data, 0.2 * np.ones((1000, 1)), 800, ["N m"], numbers.margin)
+
+
+FALLS = Course(kept=40, epochs=40, loss=-1.5, last=-1.5)
 
 
 @pytest.mark.parametrize(("size", "told"), [
@@ -148,14 +167,74 @@ class Half:
     (3.0, ["the log suffices: no", "outside the range of training, most often x", "3.0 times that on data"]),
 ])  # fmt: skip
 def test_the_check_measures_what_is_held_out_and_says_whether_the_log_suffices(size, told, settings):
-    x = np.float32(np.where(np.arange(1000) % 2, 1.0, -1.0))[:, None]
-    x[800:] *= size
-    data, numbers = LimbData(x, x, ((0, 1000),), ("x",), ("J1",), 100.0), settings.robotlog.learn
-    found = free_check(Half(), data, 0.2 * np.ones((1000, 1)), 800, ["N m"], numbers.margin)
+    found = made_check(settings, size)
     assert (found.seconds, found.zero[0]) == (pytest.approx(2.0), pytest.approx(0.2))
     assert (found.observer[0], found.network[0], found.seen[0]) == pytest.approx((size, size / 2, 0.5))
-    text = "\n".join(lines_of(found, "free", numbers))
+    text = "\n".join(lines_of(found, "free", settings.robotlog.learn, FALLS))
     assert all(line in text for line in told), text
+
+
+def test_a_log_never_suffices_while_the_validation_rises(settings, tmp_path):
+    """As on the logs of a UR10e: epoch 1 of 40 is kept, and the loss rises from 1.2 to 18.5."""
+    rows = "\n".join(f"{k + 1},{1.2 + 0.44 * k}" for k in range(40))
+    (tmp_path / "metrics.csv").write_text(f"epoch,validation_loss\n{rows}\n")
+    course = course_of(tmp_path / "metrics.csv", kept=1)
+    text = "\n".join(lines_of(made_check(settings), "free", settings.robotlog.learn, course))
+    assert "the log suffices: no" in text
+    assert "the validation rises after epoch 1 of 40, which is kept, from 1.20 to 18.36: the network learns" in text
+
+
+def test_a_log_never_suffices_where_sigma_holds_another_share_of_the_errors(settings):
+    found = made_check(settings, network=Half(holds=0.41))
+    text = "\n".join(lines_of(found, "free", settings.robotlog.learn, FALLS))
+    assert "the log suffices: no" in text
+    assert "sigma holds 41% to 41% of the errors in place of 68%, wrong at J1: record more varied motion" in text
+
+
+@pytest.fixture
+def held_arm(arm):
+    """Return a function of the sizes of errors that plants pushes into a minute in which the arm sways."""
+    rate_hz, rows = 200.0, 12_000
+    t, rng = np.arange(rows)[:, None] / rate_hz, np.random.default_rng(0)
+    q, noise = 0.5 * np.sin(t * [1.0, 1.7]), rng.normal(size=(rows, 2))
+
+    def check(settings, observers, network, std):
+        sampling = Sampling(rate_hz, GAIN_HZ, "sample")
+        estimate = Estimate(network * noise, std * np.ones_like(noise))
+        errors = [size * noise for size in observers]
+        return planted_check(NominalModel(arm), "A", sampling, q, ((0, rows),), estimate, errors, settings)
+
+    return check
+
+
+@pytest.mark.parametrize(("observers", "network", "kept"), [
+    ((20.0, 4.0), 2.0, "network, mean"), ((20.0, 4.0), 8.0, "observer"), ((4.0, 8.0), 6.0, "observer without the"),
+])  # fmt: skip
+def test_of_nothing_formula_and_network_the_one_is_kept_that_finds_most_planted_pushes(
+    observers, network, kept, settings, held_arm
+):
+    found = held_arm(settings, observers, network, 1.0)
+    assert found.kept.startswith(kept)
+    assert found.pushes >= settings.robotlog.planted
+    assert found.has_network == kept.startswith("network")
+    assert found.note()["kept"] == found.kept
+    assert found.line().startswith(
+        f"of {found.pushes} pushes planted there, found without a false alarm: observer with"
+    )
+    text = "\n".join(lines_of(made_check(settings), "free", settings.robotlog.learn, FALLS, found))
+    assert found.line() in text
+    assert ("the log suffices: yes" in text) == found.has_network
+
+
+def test_a_table_without_friction_has_one_observer_and_a_short_part_no_pushes(settings, held_arm, arm):
+    found = held_arm(settings, (4.0,), 2.0, 1.0)
+    assert list(found.found) == ["observer", "network, mean", "network, ratio"]
+    none = np.zeros((50, 2))
+    sampling = Sampling(200.0, GAIN_HZ, "sample")
+    short = planted_check(
+        NominalModel(arm), "A", sampling, none, ((0, 50),), Estimate(none, none + 1), [none], settings
+    )
+    assert short is None
 
 
 def test_the_limb_is_the_only_one_or_has_to_be_named(layout, arm):

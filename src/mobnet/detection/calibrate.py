@@ -9,16 +9,19 @@ import logging
 import math
 import sys
 from argparse import Namespace
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from mobnet.core.errors import DataError, not_accepted, refuse_lines
 from mobnet.core.files import check_place, sweep
+from mobnet.detection.choice import ALONE, BARE, NETWORK, Tried, best_of, lines_of, tried_on_pushes
 from mobnet.detection.limb import OwnRecording, calibrate_limb
 from mobnet.detection.limb_report import beside, report, thresholds_of
 from mobnet.detection.signals import MEAN, RATIO, STD
 from mobnet.detection.threshold_file import write_thresholds
 from mobnet.detection.words import SIGNALS, calibrate_parser
+from mobnet.estimation import observer
 from mobnet.estimation.own import (
     OwnLog,
     OwnNetwork,
@@ -30,10 +33,12 @@ from mobnet.estimation.own import (
     read_log_folder,
     read_network_folder,
     refuse_twice,
+    without_friction,
 )
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.given import given_robot
 from mobnet.running.printed import printed
+from mobnet.settings.detection import Signal
 from mobnet.settings.load import load_settings
 from mobnet.settings.settings import Settings
 
@@ -105,17 +110,44 @@ def run(options: Namespace) -> list[str]:
         return list(report(found, settings.detection.thresholds.confidence))
     network = read_network_folder(options.network, robot.layout, settings) if options.network else None
     limb, logs = limb_of(robot.layout, options.limb, network), read_folders(options, robot, network)
-    own = estimated(logs, robot, limb, network, settings)
-    signal = options.signal or (RATIO if network else MEAN)
-    found = calibrate_limb(own, robot, limb, signal, options.rate, settings)
-    lines = list(report(found, settings.detection.thresholds.confidence))
-    if network and found.signal != STD:
-        alone = estimated(logs, robot, limb, None, settings)
-        lines += beside(found, calibrate_limb(alone, robot, limb, MEAN, options.rate, settings))
+    tried = list(_tried(logs, robot, limb, network, options, settings))
+    alone, kept, told = next(one for one in tried if one.name == ALONE), tried[-1], list[str]()
+    if len(tried) > 1 and kept.found.signal != STD:  # a push does not change what a network expects of its error
+        total, counts = tried_on_pushes(tried, logs[0].sampling.gain_hz, settings)
+        tried = [replace(one, pushes=count) for one, count in zip(tried, counts, strict=True)]
+        kept = best_of(tried, alone.found)
+        told = list(lines_of(tried, kept, total))
+    lines = list(report(kept.found, settings.detection.thresholds.confidence))
+    if kept.network and kept.found.signal != STD:
+        lines += beside(kept.found, alone.found)
+    lines += told
     if options.out:
-        write_thresholds(options.out, thresholds_of(found, options.rate, settings, logs[0].sampling, network))
+        made = thresholds_of(kept.found, options.rate, settings, logs[0].sampling, kept.network)
+        write_thresholds(options.out, made)
         lines.append(f"written: {options.out}")
     return lines
+
+
+def _tried(
+    logs: Sequence[OwnLog], robot: RobotDescription, limb: str, network: OwnNetwork | None, options: Namespace,
+    settings: Settings,
+) -> Iterator[Tried]:  # fmt: skip
+    """Yield the calibrated detectors among which one is kept, the observer's and then those of a network.
+
+    Where a signal is given, it is kept.
+    """
+
+    def calibrated(name: str, logs: Sequence[OwnLog], network: OwnNetwork | None, signal: Signal, keep: bool) -> Tried:
+        own = estimated(logs, robot, limb, network, settings)
+        return Tried(name, calibrate_limb(own, robot, limb, signal, options.rate, settings), own, network, keep)
+
+    if robot.friction:
+        bare = without_friction(logs, robot, settings.plant.gravity_m_s2)
+        yield calibrated(BARE, bare, None, MEAN, keep=False)
+    yield calibrated(ALONE, logs, None, MEAN, keep=not (network and options.signal))
+    if network:
+        for signal in (options.signal,) if options.signal else (MEAN, RATIO):
+            yield calibrated(NETWORK.format(signal), logs, network, signal, keep=True)
 
 
 def _check(options: Namespace) -> None:
@@ -138,6 +170,7 @@ def _check(options: Namespace) -> None:
 def main(words: Sequence[str]) -> int:
     """Run the command; return its exit status."""
     options = calibrate_parser().parse_args(words)
+    logging.getLogger(observer.__name__).setLevel(logging.WARNING)  # it tells of each segment
     return printed(log, lambda: run(options))
 
 

@@ -68,6 +68,7 @@ class LimbCalibration:
         always: the windows; None of a leg that is watched in its swings.
         felt: torque of each joint that reaches its threshold in most samples (n,) [N m].
         forces: point -> the least force that is found there, along each axis of its body or from one side [N].
+        limbs: it in each recording.
     """
 
     setup: LimbSetup
@@ -78,6 +79,7 @@ class LimbCalibration:
     always: AlwaysWatched | None
     felt: Array
     forces: Mapping[str, Array]
+    limbs: tuple[LegRecording, ...] = ()
 
     @property
     def least(self) -> Array:
@@ -118,7 +120,7 @@ def calibrate_limb(
     felt = thresholds * (np.concatenate(stds) if stds else np.ones((len(poses), len(thresholds))))
     forces = {} if signal == STD else _forces(setup, poses, felt, settings)
     usual = np.quantile(felt, setup.detection.sensitivity.share, axis=0)
-    return LimbCalibration(setup, signal, thresholds, promises[WANTED], walk.first, always, usual, forces)
+    return LimbCalibration(setup, signal, thresholds, promises[WANTED], walk.first, always, usual, forces, tuple(legs))
 
 
 def _check_rates(own: Sequence[OwnRecording], contact_s: float) -> None:

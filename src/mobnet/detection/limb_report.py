@@ -48,7 +48,7 @@ def beside(found: LimbCalibration, alone: LimbCalibration) -> Iterator[str]:
     what, share = "forces" if found.forces else "torques", found.over(alone)
     yield from ("", f"smallest {what} with the network over those of the observer alone: {share:.0%}, geometric mean")
     if share >= 1.0:
-        yield "the network does not help this detector: calibrate without --network, or learn from more logs"
+        yield "the network does not help this detector with short pushes: learn from more logs"
 
 
 def _along(found: LimbCalibration) -> str:

@@ -17,7 +17,7 @@ def calibrate_parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("folders", type=Path, nargs="*", metavar="FOLDER", help="what `./reproduce observe` wrote")
     parser.add_argument("--network", type=Path, metavar="NET", help="what `learn` wrote (default: the observer alone)")
-    usual = "mean, with --network ratio"
+    usual = "mean; with --network what finds most planted pushes, of the network or of the observer"
     parser.add_argument("--signal", help=f"{', '.join(SIGNALS)} of the estimate (default: {usual})")
     parser.add_argument("--recording", type=Path, action="append", default=[], help="recording; may be given again")
     parser.add_argument("--estimate", type=Path, action="append", default=[], help="its estimate by any method")

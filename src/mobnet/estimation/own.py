@@ -1,7 +1,7 @@
 """A log of one's own as `./reproduce observe` wrote it, a network that `./reproduce learn` made, and estimates."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -198,6 +198,18 @@ def estimator_of(
     nominal = NominalModel(robot, gravity_m_s2=gravity_m_s2)
     observer = MomentumObserver(nominal, sampling.gain_hz, sampling.rate_hz, sampling.torque)
     return ResidualEstimator(observer, robot.layout, network.networks if network else None)
+
+
+def without_friction(logs: Sequence[OwnLog], robot: RobotDescription, gravity_m_s2: float) -> list[OwnLog]:
+    """Return logs with the residual of an observer that does not know the friction of the robot's table."""
+    nominal, found = NominalModel(replace(robot, friction={}), gravity_m_s2=gravity_m_s2), list[OwnLog]()
+    for log in logs:
+        mob = MomentumObserver(nominal, log.sampling.gain_hz, log.sampling.rate_hz, log.sampling.torque)
+        residual = np.empty(log.residual.shape, dtype=np.float32)
+        for span in log.recording.spans():
+            residual[span] = mob.residual(log.recording.sensed[span])
+        found.append(replace(log, residual=residual))
+    return found
 
 
 def estimates_of(logs: Sequence[OwnLog], estimator: ResidualEstimator, joints: Sequence[str]) -> list[Estimate]:

@@ -64,6 +64,9 @@ def run(options: Namespace) -> Iterator[str]:
     meaning = load_section(options.map, LogMap) if options.map else None
     network = read_network_folder(options.network, robot.layout, settings) if options.network else None
     found = read_thresholds(options.thresholds)
+    if network and found.network is None:  # `calibrate` keeps the observer where that finds more
+        network = None
+        yield f"{options.thresholds} are thresholds of the observer alone: the network is not used"
     check_thresholds(options.thresholds, found, robot, network)
     if meaning and "torque" in meaning.model_fields_set and meaning.torque != found.torque:
         accepted = [f"{found.torque}, that of {options.thresholds}"]

@@ -4,20 +4,52 @@ Errors are those of the external torque against its label. In free motion the tr
 has no error there: then the question is by how much the network's error is below that of the observer.
 """
 
+import csv
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array
+from mobnet.core.estimator import Estimate
 from mobnet.learning.dataset import LimbData
-from mobnet.learning.deployed.networks import Deployed
+from mobnet.learning.deployed.networks import Runnable
 from mobnet.learning.gaussian import coverage
+from mobnet.learning.streams import Span
+from mobnet.robotlog.planted_check import PlantedCheck
 from mobnet.settings.robotlog import LogLearning
 
 SHARES = (0.68, 0.95)  # of errors within the interval that sigma gives
+
+
+@dataclass(frozen=True)
+class Held:
+    """A network on the part of some logs that is held out, all of it laid end to end.
+
+    Attributes:
+        rows: of the logs (T,).
+        segments: contiguous stretches (start, end) of the part's own rows.
+        estimate: errors of the external torque and their standard deviation (T, n) [N, N m].
+        seen: errors on as long a part that trained it (S, n) [N, N m].
+    """
+
+    rows: NDArray[np.intp]
+    segments: tuple[Span, ...]
+    estimate: Estimate
+    seen: NDArray[Any]
+
+
+@dataclass(frozen=True)
+class Course:
+    """What a training did on its validation: which of its epochs is kept, and the loss (22) of that and of the last."""
+
+    kept: int
+    epochs: int
+    loss: float
+    last: float
 
 
 @dataclass(frozen=True)
@@ -53,40 +85,55 @@ class FreeCheck:
         return {name: value.tolist() if isinstance(value, np.ndarray) else value for name, value in vars(self).items()}
 
 
-def free_check(
-    network: Deployed, data: LimbData, label: Array, cut: int, units: Sequence[str], margin: float
-) -> FreeCheck:
-    """Try a network on the samples from a row on.
-
-    Args:
-        network: the network.
-        data: of the whole logs; targets are the residual less the label.
-        label: external torque of the joints that is known (N, n) [N, N m].
-        cut: first row that is held out.
-        units: of the joints' torques (n,).
-        margin: share of an input's range by which it may lie outside.
-    """
+def held_out(network: Runnable, data: LimbData, cut: int) -> Held:
+    """Run a network on the samples from a row on, and on as many before it."""
     held = [(max(start, cut), end) for start, end in data.segments if end > cut]
     length = sum(end - start for start, end in held)
     first = next((start for start, end in data.segments if start < cut <= end), 0)
     spans = [*held, (max(first, cut - length), cut)]
     found = network.run_all([data.inputs[start:end] for start, end in spans])
     errors = [data.targets[a:b] - one.mean for (a, b), one in zip(spans, found, strict=True)]
-    assert all(one.std is not None for one in found)
-    std: NDArray[Any] = np.concatenate([one.std for one in found[:-1]])  # pyright: ignore[reportArgumentType, reportCallIssue]
+    stds = [one.std for one in found[:-1] if one.std is not None]
+    ends = np.cumsum([end - start for start, end in held]).tolist()
+    segments = tuple(zip([0, *ends[:-1]], ends, strict=True))
     rows = np.concatenate([np.arange(a, b) for a, b in held])
+    return Held(rows, segments, Estimate(np.concatenate(errors[:-1]), np.concatenate(stds)), errors[-1])
+
+
+def free_check(held: Held, data: LimbData, label: Array, cut: int, units: Sequence[str], margin: float) -> FreeCheck:
+    """Measure what a network did on the part of logs that is held out.
+
+    Args:
+        held: the network on that part.
+        data: of the whole logs; targets are the residual less the label.
+        label: external torque of the joints that is known (N, n) [N, N m].
+        cut: first row that is held out.
+        units: of the joints' torques (n,).
+        margin: share of an input's range by which it may lie outside.
+    """
+    rows, errors, std = held.rows, held.estimate.tau_ext, held.estimate.std
+    assert std is not None
     low, high = data.inputs[:cut].min(axis=0), data.inputs[:cut].max(axis=0)
     beyond = np.maximum(low - data.inputs[rows], data.inputs[rows] - high) > margin * (high - low)
     often = beyond.mean(axis=0)
     return FreeCheck(
-        data.joints, tuple(units), length / data.rate_hz, _size(label[rows]), _size(data.targets[rows]),
-        _size(np.concatenate(errors[:-1])), _size(errors[-1]), coverage(np.concatenate(errors[:-1]), std, SHARES),
+        data.joints, tuple(units), len(rows) / data.rate_hz, _size(label[rows]), _size(data.targets[rows]),
+        _size(errors), _size(held.seen), coverage(errors, std, SHARES),
         float(beyond.any(axis=1).mean()), data.input_names[int(np.argmax(often))] if often.any() else "",
     )  # fmt: skip
 
 
-def lines_of(found: FreeCheck, labels: str, numbers: LogLearning) -> Iterator[str]:
-    """Yield what the command prints of a check by some labels."""
+def course_of(metrics: Path, kept: int) -> Course:
+    """Read the course of a training from `metrics.csv`, of whose epochs one is kept."""
+    rows = list(csv.DictReader(metrics.read_text(encoding="utf-8").splitlines()))
+    losses = [float(row["validation_loss"]) for row in rows]
+    return Course(kept, len(rows), losses[kept - 1], losses[-1])
+
+
+def lines_of(
+    found: FreeCheck, labels: str, numbers: LogLearning, course: Course, planted: PlantedCheck | None = None
+) -> Iterator[str]:
+    """Yield what the command prints of a check by some labels, of a training, and of pushes planted into that part."""
     what = "free-motion check" if labels == "free" else f"check by the labels {labels!r}"
     yield f"{what}, the last {found.seconds:.0f} s, which the network never saw: root mean square errors"
     width = max(map(len, ("joint", *found.joints)))
@@ -94,7 +141,11 @@ def lines_of(found: FreeCheck, labels: str, numbers: LogLearning) -> Iterator[st
     for k, joint in enumerate(found.joints):
         sizes = f"{found.zero[k]:9.3f}{found.observer[k]:10.3f}{found.network[k]:9.3f} {found.units[k]:<4}"
         yield f"  {joint:<{width}} {sizes}{found.covered[0, k]:16.0%}{found.covered[1, k]:9.0%}"
-    faults = list(_faults(found, numbers))
+    if planted:
+        yield planted.line()
+    faults = [*_faults(found, numbers), *_faults_of_course(found, course, numbers)]
+    if planted and not planted.has_network:
+        faults.append("a detector with the network does not find more than one without it: record for longer")
     yield f"the log suffices: {'yes' if not faults else 'no'}"
     yield from (f"  {fault}" for fault in faults)
 
@@ -111,6 +162,21 @@ def _faults(found: FreeCheck, numbers: LogLearning) -> Iterator[str]:
         yield f"the error is {ratio:.1f} times that on data that trained the network: record for longer"
     if worse := [joint for k, joint in enumerate(found.joints) if found.network[k] >= found.observer[k]]:
         yield f"the network's error is not below the observer's at {', '.join(worse)}: keep the observer alone there"
+
+
+def _faults_of_course(found: FreeCheck, course: Course, numbers: LogLearning) -> Iterator[str]:
+    """Yield what a training and its standard deviation say against a log."""
+    if course.last > course.loss + numbers.rises:
+        yield (
+            f"the validation rises after epoch {course.kept} of {course.epochs}, which is kept, from {course.loss:.2f} "
+            f"to {course.last:.2f}: the network learns this log by heart, record for longer"
+        )
+    held = found.covered[0]
+    if wrong := [joint for joint, own in zip(found.joints, held, strict=True) if abs(own - SHARES[0]) > numbers.sigma]:
+        yield (
+            f"sigma holds {held.min():.0%} to {held.max():.0%} of the errors in place of {SHARES[0]:.0%}, wrong at "
+            f"{', '.join(wrong)}: record more varied motion"
+        )
 
 
 def _size(values: NDArray[Any]) -> Array:

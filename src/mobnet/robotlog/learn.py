@@ -9,13 +9,25 @@ import sys
 from argparse import Namespace
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
+from mobnet.core.arrays import Array
 from mobnet.core.code import ROOT
 from mobnet.core.errors import DataError, not_accepted
-from mobnet.core.files import RUN, check_place, read_json, sweep, write_json
-from mobnet.estimation.own import OwnLog, check_drives, limb_of, read_log_folder, refuse_twice
+from mobnet.core.files import METRICS, RUN, check_place, read_json, sweep, write_json
+from mobnet.estimation import observer
+from mobnet.estimation.own import (
+    OwnLog,
+    check_drives,
+    limb_of,
+    read_log_folder,
+    refuse_twice,
+    without_friction,
+)
+from mobnet.learning.dataset import LimbData
 from mobnet.learning.deployed.networks import load_network
 from mobnet.learning.device import own_device
 from mobnet.learning.job import TrainingJob
@@ -24,9 +36,10 @@ from mobnet.plan.precision import with_precision
 from mobnet.robot.description import describe
 from mobnet.robot.given import given_table
 from mobnet.robot.nominal import NominalModel
-from mobnet.robotlog.free_check import free_check, lines_of
+from mobnet.robotlog.free_check import Held, course_of, free_check, held_out, lines_of
 from mobnet.robotlog.labels import before, check_labels, label_of, limb_data
 from mobnet.robotlog.learning_words import learn_parser
+from mobnet.robotlog.planted_check import PlantedCheck, planted_check
 from mobnet.robotlog.training import filled, training_of
 from mobnet.running.printed import printed
 from mobnet.settings.load import load_settings
@@ -62,11 +75,35 @@ def learn(
     columns, units = robot.layout.columns(data.joints), [robot.layout.unit(joint) for joint in data.joints]
     label = np.concatenate(known)[:, columns]
     numbers = settings.robotlog.learn
-    found = free_check(load_network(out), data, label, cut, units, numbers.margin)
+    held = held_out(load_network(out), data, cut)
+    found = free_check(held, data, label, cut, units, numbers.margin)
+    planted = _planted(logs, nominal, limb, data, label, held, settings)
+    note = read_json(out / RUN)
+    course = course_of(out / METRICS, note["best"]["epoch"])
     learned = {"folders": [str(one.folder) for one in logs], "recordings": [one.footer for one in logs]}
     told = {**learned, "labels": labels, **first.note(), "check": found.note()}
-    write_json(out / RUN, {**read_json(out / RUN), **told})
-    return [*lines_of(found, labels, numbers), f"written: {out}"]
+    told |= {"planted": planted.note()} if planted else {}
+    write_json(out / RUN, {**note, **told})
+    return [*lines_of(found, labels, numbers, course, planted), f"written: {out}"]
+
+
+def _planted(
+    logs: Sequence[OwnLog], nominal: NominalModel, limb: str, data: LimbData, label: Array, held: Held,
+    settings: Settings,
+) -> PlantedCheck | None:  # fmt: skip
+    """Return which detectors of a limb find pushes that are planted into what is held out.
+
+    There is none of a network of several limbs, or of a part that is too short.
+    """
+    robot, gravity = nominal.robot, settings.plant.gravity_m_s2
+    if data.joints != robot.layout.limb(limb):
+        return None
+    observers: list[NDArray[Any]] = [data.targets[held.rows]]
+    if robot.friction:
+        bare = np.concatenate([one.residual for one in without_friction(logs, robot, gravity)])
+        observers.insert(0, bare[held.rows][:, robot.layout.columns(data.joints)] - label[held.rows])
+    q = np.concatenate([one.recording.sensed.q for one in logs])[held.rows]
+    return planted_check(nominal, limb, logs[0].sampling, q, held.segments, held.estimate, observers, settings)
 
 
 def _is_new(fingerprint: str, out: Path, *, force: bool) -> bool:
@@ -106,6 +143,7 @@ def run(options: Namespace) -> list[str]:
 def main(words: list[str]) -> int:
     """Run the command; return its exit status."""
     options = learn_parser().parse_args(words)
+    logging.getLogger(observer.__name__).setLevel(logging.WARNING)  # it tells of each segment
     return printed(log, lambda: run(options), "stopped; the same words go on from the last whole epoch")
 
 

@@ -141,6 +141,8 @@ class LogLearning(Section):
         margin: share of an input's range in training by which it may lie outside.
         outside: share of the samples held out with an input further outside above which the log does not suffice.
         worse: the same for the error on what is held out over that on as long a part that trained it.
+        rises: the same for the validation loss (22) of the last epoch less that of the one kept.
+        sigma: the same for the share of the errors within sigma, by which it differs from that of a Gaussian.
     """
 
     cell: NetworkName
@@ -151,6 +153,8 @@ class LogLearning(Section):
     margin: Share
     outside: InnerShare
     worse: Annotated[Positive, Field(ge=1)]
+    rises: Positive
+    sigma: InnerShare
 
 
 class WrenchEstimate(Section):
@@ -199,6 +203,7 @@ class RobotLog(Section):
         learn: how a network learns from it.
         identify: how friction and rotor inertia are found in it.
         wrench: how an external wrench follows from torques.
+        planted: so many pushes at least are planted into logs of free motion, to see which detector finds most.
         settle_s: time after the start of a segment in which a limb without swings is not watched [s].
         flag_gap_s: two stretches above a threshold that are closer are one flag [s].
         percentiles: share of the rates of false alarms of recordings drawn anew that the interval of a limb that is
@@ -231,6 +236,7 @@ class RobotLog(Section):
     learn: LogLearning
     identify: Identification
     wrench: WrenchEstimate
+    planted: Count
     percentiles: InnerShare
     settle_s: Seconds
     flag_gap_s: Seconds

@@ -1,0 +1,74 @@
+"""Which detector of a limb finds most pushes at one rate of false alarms: without friction, with it, with a network."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from mobnet.core.estimator import Estimate
+from mobnet.detection.limb import LimbCalibration, OwnRecording
+from mobnet.detection.planted import Pushing, found_pushes, plant
+from mobnet.detection.signals import Watched
+from mobnet.estimation.own import OwnNetwork
+from mobnet.robot.nominal import NominalModel
+from mobnet.settings.detection import Detector
+from mobnet.settings.settings import Settings
+
+BARE, ALONE, NETWORK = "observer without the table's friction", "observer", "network, {}"
+SEED = 0  # of the pushes
+
+
+@dataclass(frozen=True)
+class Tried:
+    """A detector of a limb, calibrated for a rate of false alarms on estimates, and how many of the pushes it finds.
+
+    Only one that `may_be_kept` is written. The detector has a network, or is that of the observer.
+    """
+
+    name: str
+    found: LimbCalibration
+    own: Sequence[OwnRecording]
+    network: OwnNetwork | None = None
+    may_be_kept: bool = True
+    pushes: int = 0
+
+
+def pushing_of(settings: Settings) -> Pushing:
+    """Return the pushes that are planted."""
+    return Pushing(settings.robotlog.planted, settings.free_motion.pushes, settings.robotlog.flag_gap_s)
+
+
+def tried_on_pushes(tried: Sequence[Tried], gain_hz: float, settings: Settings) -> tuple[int, list[int]]:
+    """Return how many pushes are planted into the recordings that calibrated detectors, and how many each one finds.
+
+    The gain is that of the observer, K_0 [1/s].
+    """
+    first = tried[0]
+    nominal = NominalModel(first.found.setup.robot, gravity_m_s2=settings.plant.gravity_m_s2)
+    poses = [one.read.sensed.q for one in first.own]
+    planted = plant(first.found.setup, nominal, gain_hz, first.found.limbs, poses, pushing_of(settings), SEED)
+    counts = list[int]()
+    for one in tried:
+        watched = Watched(Detector(method=settings.detection.gate.method, signals=(one.found.signal,)))
+        estimates = [Estimate(own.estimate.tau_ext, own.estimate.std) for own in one.own]
+        setup, limbs = one.found.setup, one.found.limbs
+        hits = found_pushes(setup, watched, one.found.thresholds, limbs, estimates, planted)
+        counts.append(int(np.count_nonzero(hits)))
+    return sum(len(one.spans) for one in planted), counts
+
+
+def best_of(tried: Sequence[Tried], alone: LimbCalibration) -> Tried:
+    """Return the detector that is kept: the one that finds most pushes, and of equals the smaller forces."""
+    kept = [one for one in tried if one.may_be_kept]
+    return max(kept, key=lambda one: (one.pushes, -one.found.over(alone)))
+
+
+def lines_of(tried: Sequence[Tried], kept: Tried, total: int) -> Iterator[str]:
+    """Yield how many of all pushes each detector finds, and which is kept."""
+    width = max(len(one.name) for one in tried)
+    yield from ("", f"found of {total} pushes that are planted into these logs, at this rate of false alarms:")
+    for one in tried:
+        yield f"  {one.name:<{width}} {one.pushes:6d} {one.pushes / max(total, 1):5.0%}"
+    yield f"kept, as it finds most: {kept.name}"
+    better = [one.name for one in tried if not one.may_be_kept and one.pushes > kept.pushes]
+    yield from (f"the {name} finds more: take a table without `friction`" for name in better)

@@ -1,0 +1,98 @@
+"""Pushes that are planted into recordings that nothing pushes, and which detector is kept by what it finds of them."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from mobnet.core.estimator import Estimate
+from mobnet.core.recording import Sensed, SensedRecording
+from mobnet.detection.choice import ALONE, BARE, NETWORK, SEED, Tried, best_of, lines_of, pushing_of, tried_on_pushes
+from mobnet.detection.limb import OwnRecording, calibrate_limb
+from mobnet.detection.planted import found_pushes, plant
+from mobnet.detection.signals import Watched
+from mobnet.robot.nominal import NominalModel
+from mobnet.settings.detection import Detector
+
+SECONDS, RATE_HZ, GAIN_HZ, RATE_PER_H = 240, 100.0, 100.0, 60.0
+ROWS = round(SECONDS * RATE_HZ)
+
+
+@pytest.fixture(scope="module")
+def quick(settings):
+    """The settings with fewer recordings drawn anew."""
+    numbers = settings.detection.thresholds.model_copy(update={"resamples": 20})
+    return settings.model_copy(update={"detection": settings.detection.model_copy(update={"thresholds": numbers})})
+
+
+@pytest.fixture(scope="module")
+def tried(arm, quick):
+    """Return a function that calibrates a detector on noise of a size [N m] while the arm sways, in two segments."""
+    t, none = np.arange(ROWS)[:, None] / RATE_HZ, np.zeros((ROWS, 0))
+    q, zero = 0.5 * np.sin(t * [1.0, 1.7]), np.zeros((ROWS, 2))
+    sensed = Sensed(q, zero, none, zero, zero, swing=none, command=none, landing=none)
+    read = SensedRecording(sensed, ((0, ROWS // 2), (ROWS // 2, ROWS)), RATE_HZ, {"absent": ["swing", "landing"]})
+    noise = np.random.default_rng(0).normal(size=(ROWS, 2))
+
+    def make(size, name=ALONE, **options):
+        own = [OwnRecording(Path("log"), read, Estimate(size * noise, np.ones((ROWS, 2))))]
+        return Tried(name, calibrate_limb(own, arm, "A", "mean", RATE_PER_H, quick), own, **options)
+
+    return make
+
+
+def test_pushes_have_the_sizes_and_times_of_a_simulated_log_and_stay_in_their_segments(tried, arm, quick):
+    one, nominal = tried(1.0), NominalModel(arm)
+    poses = [own.read.sensed.q for own in one.own]
+    planted = plant(one.found.setup, nominal, GAIN_HZ, one.found.limbs, poses, pushing_of(quick), SEED)
+    again = plant(one.found.setup, nominal, GAIN_HZ, one.found.limbs, poses, pushing_of(quick), SEED)
+    assert sum(len(own.spans) for own in planted) >= quick.robotlog.planted
+    assert all((own.torque == other.torque).all() for own, other in zip(planted, again, strict=True))
+    high = quick.free_motion.pushes.torque_share[1]
+    late = round(quick.robotlog.flag_gap_s * RATE_HZ)
+    for own in planted:
+        for start, end in own.spans:
+            load = np.abs(own.torque[start:end] / arm.torque_limits).max()
+            assert 0.0 < load <= high  # some are limited by the arm's weight
+            assert any(first <= start and end <= last for first, last in one.own[0].read.segments)
+        short, long = (quick.free_motion.pushes.short_s[0] * RATE_HZ, quick.free_motion.pushes.long_s[1] * RATE_HZ)
+        assert all(short - 1 <= end - start <= long + late + 1 for start, end in own.spans)
+
+
+def test_an_estimate_without_error_finds_every_push_and_a_high_threshold_none(tried, arm, quick):
+    one = tried(1.0)
+    poses = [own.read.sensed.q for own in one.own]
+    planted = plant(one.found.setup, NominalModel(arm), GAIN_HZ, one.found.limbs, poses, pushing_of(quick), SEED)
+    watched, perfect = Watched(Detector(method="MOB", signals=("mean",))), [Estimate(np.zeros((ROWS, 2)))]
+    for threshold, share in ((1e-3, 1.0), (1e6, 0.0)):
+        thresholds = np.full(2, threshold)
+        hits = found_pushes(one.found.setup, watched, thresholds, one.found.limbs, perfect, planted)
+        assert hits.mean() == share
+
+
+def test_the_detector_is_kept_that_finds_most_at_the_same_rate_of_false_alarms(tried, quick):
+    rows = [tried(40.0, BARE, may_be_kept=False), tried(16.0), tried(8.0, NETWORK.format("mean"))]
+    total, counts = tried_on_pushes(rows, GAIN_HZ, quick)
+    assert total >= quick.robotlog.planted
+    assert counts == sorted(counts)
+    assert counts[0] < counts[1] < counts[2] <= total
+    rows = [replace(one, pushes=count) for one, count in zip(rows, counts, strict=True)]
+    kept = best_of(rows, rows[1].found)
+    assert kept.name == "network, mean"
+    told = list(lines_of(rows, kept, total))
+    assert told[-1] == "kept, as it finds most: network, mean"
+    assert [line.split()[-2] for line in told[2:5]] == [str(count) for count in counts]
+
+
+def test_of_detectors_that_find_as_many_the_one_is_kept_that_feels_less(tried):
+    rows = [replace(tried(4.0), pushes=7), replace(tried(2.0, NETWORK.format("mean")), pushes=7)]
+    assert best_of(rows, rows[0].found).name == "network, mean"
+
+
+def test_a_table_whose_friction_hides_pushes_is_told_and_not_kept(tried):
+    rows = [replace(tried(1.0, BARE, may_be_kept=False), pushes=9), replace(tried(2.0), pushes=7)]
+    kept = best_of(rows, rows[1].found)
+    assert kept.name == ALONE
+    *_, last = lines_of(rows, kept, 10)
+    assert last == "the observer without the table's friction finds more: take a table without `friction`"
