@@ -109,8 +109,10 @@ def test_the_run_can_be_priced_by_its_own_accounts(unbroken, plan):
 
 
 def test_second_call_does_nothing(unbroken):
-    _, status, used = os.wait4(reproduce(unbroken).pid, 0)
-    assert status == 0
+    run = reproduce(unbroken)
+    _, status, used = os.wait4(run.pid, 0)
+    run.returncode = os.waitstatus_to_exitcode(status)
+    assert run.returncode == 0
     assert used.ru_utime + used.ru_stime < NO_OP_S
     assert "Nothing to be done" in told(unbroken)
 
