@@ -42,7 +42,7 @@ def plot_residual(
         for start, end in pushes:
             axis.axvspan(start / read.rate_hz, end / read.rate_hz, color="C1", alpha=0.3, linewidth=0)
         axis.plot(rows / read.rate_hz, values, linewidth=0.7)
-        axis.set_title(joint, loc="left")
+        axis.set_title(joint, loc="left", y=1.0)  # a place of its own: else the ticks of all panels are measured for it
         axis.set_ylabel(f"[{layout.unit(joint)}]")
     axes[-1].set_xlim(0, len(residual) / read.rate_hz)
     axes[-1].set_xlabel("time [s]")
