@@ -141,7 +141,9 @@ def test_the_wrench_has_standard_deviations_where_the_network_has_them(made, mon
 def test_the_page_of_robots_has_the_same_log_and_the_same_network(made, monkeypatch, caplog):
     monkeypatch.chdir(made)
     caplog.set_level(logging.INFO)
-    first, second = lines_of(NEW_ROBOT.read_text(), "observe", "learn")
+    first, with_wrench, second = lines_of(NEW_ROBOT.read_text(), "observe", "learn")
+    assert run(*with_wrench.split()) == 0
+    assert Path("new/wrench.parquet").exists()
     assert first == lines_of(GUIDE.read_text(), "observe")[0]
     assert run(*second.split(), *SHORT) == 0
     assert "arm_net: already trained from these logs in this way" in caplog.text
