@@ -24,7 +24,7 @@ from .clicks import choose, explain, show, text_of_frame
 from .cluster import cluster_in
 
 SMOKE = ("--config", "scale=smoke")
-NO_OP = 6.0  # times that the start of Snakemake alone takes; 4.2 to 5.4 were measured, 10 s where nothing else runs
+NO_OP = 8.0  # times that the start of Snakemake alone takes; 4.2 to 5.4 were measured, 10 s where nothing else runs
 KILLS = 5
 LONGEST_S = 20.0
 MADE = ("results", "tables", "figures", "paper", ".snakemake")
