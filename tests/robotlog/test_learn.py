@@ -6,8 +6,10 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 import pytest
 
+from mobnet.core.columns import Epoch
 from mobnet.core.errors import ConfigError, DataError
 from mobnet.core.estimator import Estimate
 from mobnet.core.recording import read_sensed, write_recording
@@ -176,8 +178,9 @@ def test_the_check_measures_what_is_held_out_and_says_whether_the_log_suffices(s
 
 def test_a_log_never_suffices_while_the_validation_rises(settings, tmp_path):
     """As on the logs of a UR10e: epoch 1 of 40 is kept, and the loss rises from 1.2 to 18.5."""
-    rows = "\n".join(f"{k + 1},{1.2 + 0.44 * k}" for k in range(40))
-    (tmp_path / "metrics.csv").write_text(f"epoch,validation_loss\n{rows}\n")
+    epochs = [Epoch(k + 1, 1.0, 1.2 + 0.44 * k, 3.0, 0.01, 1.0, 1) for k in range(40)]
+    rows = [vars(epoch) for epoch in epochs]
+    pd.DataFrame(rows).to_csv(tmp_path / "metrics.csv", index=False)
     course = course_of(tmp_path / "metrics.csv", kept=1)
     text = "\n".join(lines_of(made_check(settings), "free", settings.robotlog.learn, course))
     assert "the log suffices: no" in text

@@ -6,12 +6,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from mobnet.core.estimator import Estimate
-from mobnet.detection.limb import LimbCalibration, OwnRecording
+from mobnet.detection.limb import LimbCalibration, OwnRecording, watched_signal
 from mobnet.detection.planted import Pushing, found_pushes, plant
-from mobnet.detection.signals import Watched
 from mobnet.estimation.own import OwnNetwork
 from mobnet.robot.nominal import NominalModel
-from mobnet.settings.detection import Detector
 from mobnet.settings.settings import Settings
 
 BARE, ALONE, NETWORK = "observer without the table's friction", "observer", "network, {}"
@@ -49,7 +47,7 @@ def tried_on_pushes(tried: Sequence[Tried], gain_hz: float, settings: Settings) 
     planted = plant(first.found.setup, nominal, gain_hz, first.found.limbs, poses, pushing_of(settings), SEED)
     counts = list[int]()
     for one in tried:
-        watched = Watched(Detector(method=settings.detection.gate.method, signals=(one.found.signal,)))
+        watched = watched_signal(one.found.signal, settings)
         estimates = [Estimate(own.estimate.tau_ext, own.estimate.std) for own in one.own]
         setup, limbs = one.found.setup, one.found.limbs
         hits = found_pushes(setup, watched, one.found.thresholds, limbs, estimates, planted)

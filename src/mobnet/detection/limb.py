@@ -93,6 +93,11 @@ class LimbCalibration:
         return float(np.exp(np.mean(np.log(self.least[finite] / other.least[finite]))))
 
 
+def watched_signal(signal: Signal, settings: Settings) -> Watched:
+    """Return what a detector of a limb watches: one signal of an estimate."""
+    return Watched(Detector(method=settings.detection.gate.method, signals=(signal,)))
+
+
 def calibrate_limb(
     own: Sequence[OwnRecording], robot: RobotDescription, limb: str, signal: Signal, rate_per_h: float,
     settings: Settings,
@@ -107,7 +112,7 @@ def calibrate_limb(
     _check_rates(own, settings.detection.sensitivity.contact_s)
     rate_hz, walks = own[0].read.rate_hz, limb in robot.layout.legs.values() and _walks(own)
     setup = _wanting(setup_of(settings.detection, robot, limb, rate_hz, walks=walks), rate_per_h, settings)
-    watched = Watched(Detector(method=settings.detection.gate.method, signals=(signal,)))
+    watched = watched_signal(signal, settings)
     always, legs = _watched(setup, watched, own, settings)
     # Nothing is tried here on what is held out, so that all swings calibrate.
     walk = QuietWalk.of(setup, "", legs, [one.estimate for one in own], share=1.0)

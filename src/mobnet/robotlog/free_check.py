@@ -4,7 +4,6 @@ Errors are those of the external torque against its label. In free motion the tr
 has no error there: then the question is by how much the network's error is below that of the observer.
 """
 
-import csv
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -15,6 +14,7 @@ from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array
 from mobnet.core.estimator import Estimate
+from mobnet.evaluation.number.rows import read_epochs
 from mobnet.learning.dataset import LimbData
 from mobnet.learning.deployed.networks import Runnable
 from mobnet.learning.gaussian import coverage
@@ -125,9 +125,8 @@ def free_check(held: Held, data: LimbData, label: Array, cut: int, units: Sequen
 
 def course_of(metrics: Path, kept: int) -> Course:
     """Read the course of a training from `metrics.csv`, of whose epochs one is kept."""
-    rows = list(csv.DictReader(metrics.read_text(encoding="utf-8").splitlines()))
-    losses = [float(row["validation_loss"]) for row in rows]
-    return Course(kept, len(rows), losses[kept - 1], losses[-1])
+    epochs, _ = read_epochs(metrics)
+    return Course(kept, len(epochs), epochs[kept - 1].validation_loss, epochs[-1].validation_loss)
 
 
 def lines_of(

@@ -3,6 +3,8 @@
 import argparse
 from pathlib import Path
 
+from mobnet.robotlog.words import add_wrench
+
 LABELS = {
     "free": "nothing touched the limb: its external torque is zero",
     "feet": "sensors in the feet",
@@ -41,9 +43,6 @@ def detect_parser() -> argparse.ArgumentParser:
     parser.add_argument("--map", type=Path, help="what its columns mean (default: columns named as in docs/data.md)")
     parser.add_argument("--network", type=Path, metavar="NET", help="what `learn` wrote (default: the observer alone)")
     parser.add_argument("--thresholds", type=Path, required=True, metavar="FILE", help="what `calibrate --out` wrote")
-    parser.add_argument(
-        "--wrench", action="append", default=[], metavar="NAME",
-        help="also write the external wrench at a point or body of the table (repeat for several)",
-    )  # fmt: skip
+    add_wrench(parser)
     parser.add_argument("--out", type=Path, help="folder of what is made (default: LOG's name with _detected, here)")
     return parser

@@ -14,13 +14,14 @@ from numpy.typing import NDArray
 from mobnet.core.estimator import Estimate
 from mobnet.detection.always import always_on, setup_of
 from mobnet.detection.choice import ALONE, BARE, NETWORK, SEED, pushing_of
+from mobnet.detection.limb import watched_signal
 from mobnet.detection.planted import found_pushes, plant
-from mobnet.detection.signals import MEAN, RATIO, Watched
+from mobnet.detection.signals import MEAN, RATIO
 from mobnet.detection.swings import Spans
 from mobnet.detection.watch import LegRecording
 from mobnet.estimation.own import Sampling
 from mobnet.robot.nominal import NominalModel
-from mobnet.settings.detection import Detector, Signal
+from mobnet.settings.detection import Signal
 from mobnet.settings.settings import Settings
 
 NETWORKS = NETWORK.format(MEAN), NETWORK.format(RATIO)
@@ -84,7 +85,7 @@ def planted_check(
     estimates = [*map(Estimate, observers), *(network,) * len(NETWORKS)]
     found = dict[str, int]()
     for name, estimate in zip(names, estimates, strict=True):
-        watched = Watched(Detector(method=settings.detection.gate.method, signals=(WATCHED[name],)))
+        watched = watched_signal(WATCHED[name], settings)
         low = setup.low_passed(watched.of(estimate, leg.command), segments)
         thresholds = np.abs(low[gate.watched]).max(axis=0)
         hits = found_pushes(setup, watched, thresholds, [leg], [estimate], planted)

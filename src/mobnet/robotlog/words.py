@@ -21,9 +21,14 @@ def observe_parser() -> argparse.ArgumentParser:
         help="whether torques are samples at the ticks or means over the intervals before them (default: the map's)",
     )  # fmt: skip
     parser.add_argument("--gain", type=float, metavar="K", help="gain of the observer [1/s] (default: that of configs)")
+    add_wrench(parser)
+    parser.add_argument("--out", type=Path, help="folder of what is made (default: LOG's name with _observed, here)")
+    return parser
+
+
+def add_wrench(parser: argparse.ArgumentParser) -> None:
+    """Add the option by which `observe` and `detect` also write wrenches."""
     parser.add_argument(
         "--wrench", action="append", default=[], metavar="NAME",
         help="also write the external wrench at a point or body of the table (repeat for several)",
     )  # fmt: skip
-    parser.add_argument("--out", type=Path, help="folder of what is made (default: LOG's name with _observed, here)")
-    return parser

@@ -6,6 +6,7 @@ from types import NoneType, UnionType
 from typing import Annotated, Any, Union, cast, get_args, get_origin
 
 from pydantic import BaseModel
+from pydantic.fields import FieldInfo
 
 from mobnet.core.errors import not_accepted
 from mobnet.settings.base import Named
@@ -54,11 +55,16 @@ def _union_uses(value: Any, kinds: tuple[Any, ...], place: Place) -> Iterator[Us
             return
 
 
+def kind_of(field: FieldInfo) -> Any:
+    """Return the annotated kind of a field's values, with its marks."""
+    return Annotated[field.annotation, *field.metadata, None]  # which has one mark at least
+
+
 @cache
 def _named_fields(section: type[BaseModel]) -> dict[str, Any]:
     """Return the fields of a section in which a name may stand -> their kinds; most others are numbers."""
     fields = section.model_fields.items()
-    kinds = {name: Annotated[field.annotation, *field.metadata, None] for name, field in fields}
+    kinds = {name: kind_of(field) for name, field in fields}
     return {name: kind for name, kind in kinds.items() if _may_name(kind)}
 
 

@@ -3,7 +3,7 @@
 from collections.abc import Collection, Iterator, Mapping
 from functools import partial
 from itertools import chain
-from typing import Annotated, Any
+from typing import Any
 
 from pydantic import BaseModel, ValidationError
 
@@ -17,7 +17,7 @@ from mobnet.settings.checks.sizes import size_problems
 from mobnet.settings.checks.surrogate import surrogate_problems
 from mobnet.settings.checks.walking import walking_problems
 from mobnet.settings.methods import swept_names
-from mobnet.settings.names import Use, unknown, uses
+from mobnet.settings.names import Use, kind_of, unknown, uses
 from mobnet.settings.networks import Learning, Network
 from mobnet.settings.reading import Place, Problem
 from mobnet.settings.settings import Settings
@@ -67,8 +67,7 @@ def _changed_uses(settings: Settings) -> Iterator[Use]:
     for name, method in settings.methods.items():
         for key, value in method.network.items():
             if key in Network.model_fields:
-                field, place = Network.model_fields[key], ("methods", name, "network", key)
-                yield from uses(value, Annotated[field.annotation, *field.metadata, None], place)
+                yield from uses(value, kind_of(Network.model_fields[key]), ("methods", name, "network", key))
 
 
 def refused_changes(catalogue: Catalogue) -> Iterator[Refused]:
