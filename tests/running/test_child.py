@@ -1,5 +1,6 @@
 """A process for what a library does with a stranger's file: its answer, its error, its crash, and its time."""
 
+import mmap
 import os
 import signal
 import time
@@ -32,4 +33,12 @@ def test_a_crash_and_a_process_without_end_are_one_line():
 
 def test_more_memory_than_it_may_take_is_one_line():
     with pytest.raises(DataError, match=r"more than 4 GiB of memory"):
-        in_child(lambda: np.empty(MEMORY_BYTES, np.uint8).nbytes, 10.0, "x")
+        in_child(lambda: np.empty(2 * MEMORY_BYTES, np.uint8).nbytes, 10.0, "x")
+
+
+def test_what_was_loaded_before_takes_nothing_of_its_memory():
+    held = mmap.mmap(-1, MEMORY_BYTES)  # address space of this process, of which no page is used
+    try:
+        assert in_child(lambda: np.empty(MEMORY_BYTES // 2, np.uint8).nbytes, 10.0, "x") == MEMORY_BYTES // 2
+    finally:
+        held.close()

@@ -9,14 +9,16 @@ from collections.abc import Callable
 from multiprocessing.connection import Connection
 from typing import Any, TypeVar
 
+import psutil
+
 from mobnet.core.errors import DataError
 
-MEMORY_BYTES = 4 * 2**30  # that the process may take
+MEMORY_BYTES = 4 * 2**30  # that the process may take beside what it was started with
 Made = TypeVar("Made")
 
 
 def in_child(make: Callable[[], Made], seconds: float, what: str) -> Made:
-    """Return what a function makes in a child process, within a time [s] and a fixed memory; it must be picklable.
+    """Return what a function makes in a child process, within a time [s] and a memory of its own; it must be picklable.
 
     Raises:
         Exception: the one that the function raised.
@@ -49,9 +51,11 @@ def _send(make: Callable[[], Any], sender: Connection) -> None:
     faulthandler.disable()  # a crash is told in one line
     signal.signal(signal.SIGINT, signal.SIG_DFL)  # so is the end that a user asks for, elsewhere
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+    # The address space of the process that asks came along, and is large where much was loaded or read before.
+    bytes_at_most = psutil.Process().memory_info().vms + MEMORY_BYTES
     _, most = resource.getrlimit(resource.RLIMIT_AS)
-    if most == resource.RLIM_INFINITY or most > MEMORY_BYTES:
-        resource.setrlimit(resource.RLIMIT_AS, (MEMORY_BYTES, most))
+    if most == resource.RLIM_INFINITY or most > bytes_at_most:
+        resource.setrlimit(resource.RLIMIT_AS, (bytes_at_most, most))
     try:
         answer = True, make()
     except MemoryError:
