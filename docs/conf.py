@@ -17,6 +17,7 @@ html_last_updated_fmt = None  # the same pages on every day
 myst_enable_extensions = ["colon_fence"]
 myst_heading_anchors = 4  # as code hosts make them
 autodoc_member_order = "bysource"
+toc_object_entries = False  # menus show modules: with every function in them a third of the build is their copies
 autodoc_typehints_format = "short"
 default_role = "code"  # what docstrings set in single backticks
 napoleon_google_docstring, napoleon_numpy_docstring = True, False

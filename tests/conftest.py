@@ -20,7 +20,8 @@ from mobnet.plan.precision import with_precision
 from mobnet.robot.description import describe, for_walking
 from mobnet.robot.nominal import NominalModel
 from mobnet.settings.catalogue import Catalogue
-from mobnet.settings.load import load_section, load_settings
+from mobnet.settings.lab import load_section
+from mobnet.settings.load import load_settings
 from mobnet.settings.robot import RobotTable
 
 ROOT = Path(__file__).parents[1]

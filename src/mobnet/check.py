@@ -50,15 +50,16 @@ from mobnet.plan.places import scale_of
 from mobnet.plan.plan import make_plan
 from mobnet.plan.precision import with_precision
 from mobnet.plan.stamps import Stamped
+from mobnet.robot.given import given_table
 from mobnet.robotlog.formats import FORMATS
 from mobnet.robotlog.wrenches import WRENCH_SIGNALS, wrench_columns
 from mobnet.running.accounts import AccountNote, read_account
 from mobnet.running.words import KINDS, check_parser
+from mobnet.settings.lab import Lab, load_lab, load_section
 from mobnet.settings.limb_thresholds import LimbThresholds
-from mobnet.settings.load import load_section, load_settings
+from mobnet.settings.load import load_settings
 from mobnet.settings.reading import read_yaml
 from mobnet.settings.robot import RobotTable
-from mobnet.settings.settings import Settings
 
 FITS = {FrictionNote: read_friction, DahlNote: read_dahl}
 NOTES = (ArrayNote, TrainingNote, AccountNote, *FITS)
@@ -99,19 +100,19 @@ class Against:
     rate: float | None = None
 
     @cached_property
-    def settings(self) -> Settings:
-        """The configuration."""
-        return load_settings()
+    def lab(self) -> Lab:
+        """What the configuration says of the robot and its recordings."""
+        return load_lab()
 
     @cached_property
     def layout(self) -> JointLayout:
         """The robot's joints."""
-        return load_section(self.robot, RobotTable).layout if self.robot else self.settings.layout
+        return given_table(self.robot, self.lab).layout
 
     @cached_property
     def rate_hz(self) -> float:
         """Samples per second of recordings [Hz]."""
-        return self.rate or self.settings.rates.data_hz
+        return self.rate or self.lab.rates.data_hz
 
 
 def check(path: Path, against: Against) -> str:
@@ -122,9 +123,11 @@ def check(path: Path, against: Against) -> str:
     """
     kind = _kind(path, against)
     place = path.absolute()
-    name = str(place.relative_to(ROOT)) if place.is_relative_to(ROOT / "results") else ""
-    if (scale := scale_of(name)) in against.settings.scales:
-        refuse_lines(stamped_at(scale).foreign([name]))
+    if place.is_relative_to(ROOT / "results"):
+        name = str(place.relative_to(ROOT))
+        scale = scale_of(name)
+        if scale in load_settings().scales:
+            refuse_lines(stamped_at(scale).foreign([name]))
     return kind
 
 

@@ -13,7 +13,8 @@ from mobnet.learning.train import train_on
 from mobnet.robot.description import describe
 from mobnet.robot.nominal import NominalModel
 from mobnet.settings.catalogue import Catalogue
-from mobnet.settings.load import ROOT, load_section
+from mobnet.settings.lab import load_section
+from mobnet.settings.load import ROOT
 from mobnet.settings.robot import RobotTable
 from mobnet.simulation.free_run import Numbers, record_motion
 

@@ -6,9 +6,10 @@ import pytest
 from made_steps import arguments
 
 from mobnet.core.errors import DataError
-from mobnet.plan import precision
+from mobnet.learning import precision
+from mobnet.learning.precision import of_processor
 from mobnet.plan.plan import make_plan
-from mobnet.plan.precision import PLACE, of_processor, record_precision, with_precision
+from mobnet.plan.precision import PLACE, record_precision, with_precision
 from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.load import load_settings
 from mobnet.settings.settings import Settings
@@ -28,10 +29,10 @@ def processor(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def test_the_format_is_bfloat16_where_the_processor_computes_in_it(processor: Path) -> None:
-    assert of_processor(processor) == "float32"  # a system that describes none
+    assert of_processor() == "float32"  # a system that describes none
     for flags, name in (("fpu avx512f", "float32"), ("fpu avx512_bf16", "bfloat16"), ("amx_bf16 fpu", "bfloat16")):
         processor.write_text(f"flags\t\t: {flags}\n")
-        assert of_processor(processor) == name
+        assert of_processor() == name
 
 
 def test_what_one_machine_recorded_another_one_keeps(asked: Settings, processor: Path, tmp_path: Path) -> None:

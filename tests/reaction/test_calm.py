@@ -27,7 +27,7 @@ def test_false_alarms_come_at_the_wanted_rate_and_each_joint_has_its_share(setti
     rng, hours = np.random.default_rng(0), 20.0
     thresholds = calibrated(settings, [noise(rng, 0.5), noise(rng, 0.5)])
     alarms = np.abs(noise(rng, hours)) > thresholds
-    windows = alarms.reshape(-1, round(RATE_HZ * settings.reaction.window_s), 2).any(axis=1)
+    windows = alarms.reshape(-1, round(RATE_HZ * settings.detection.window_s), 2).any(axis=1)
     assert windows.any(axis=1).sum() / hours == pytest.approx(20.0, rel=0.6)
     assert thresholds[1] / thresholds[0] == pytest.approx(3.0, rel=0.15)
 

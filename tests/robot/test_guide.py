@@ -5,7 +5,7 @@ import re
 from pathlib import Path
 
 from mobnet.robot.import_table import main as import_table
-from mobnet.settings.load import load_section
+from mobnet.settings.lab import load_section
 from mobnet.settings.robot import RobotTable
 
 ROOT = Path(__file__).parents[2]

@@ -17,7 +17,7 @@ from mobnet.robot.import_inertia import balanced, is_rigid
 from mobnet.robot.import_table import main, robot_of_text, table_text
 from mobnet.robot.importing import import_robot
 from mobnet.robot.plant import robot_spec
-from mobnet.settings.load import load_section
+from mobnet.settings.lab import load_section
 from mobnet.settings.robot import RobotTable
 
 ARM = Path("tests/data/arm.urdf")

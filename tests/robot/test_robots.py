@@ -17,7 +17,7 @@ from mobnet.robot.dynamics import bias, mass_matrix
 from mobnet.robot.nominal import NominalModel
 from mobnet.robot.plant import robot_spec, sole_name
 from mobnet.robot.wrench import feet_torque
-from mobnet.settings.load import load_section
+from mobnet.settings.lab import load_section
 from mobnet.settings.robot import RobotTable
 
 ROOT = Path(__file__).parents[2]

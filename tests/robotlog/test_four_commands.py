@@ -26,7 +26,7 @@ from mobnet.robotlog.flags import stretches
 from mobnet.robotlog.learn import main as learn
 from mobnet.robotlog.observe import converted_log
 from mobnet.robotlog.observe import main as observe
-from mobnet.settings.load import load_section
+from mobnet.settings.lab import load_section
 from mobnet.settings.robotlog import LogMap
 
 pytestmark = pytest.mark.slow

@@ -7,7 +7,7 @@ import numpy as np
 
 from mobnet.robotlog.convert import convert
 from mobnet.robotlog.formats import FORMATS, read_log
-from mobnet.settings.load import load_section
+from mobnet.settings.lab import load_section
 from mobnet.settings.robotlog import LogMap
 
 PAGE = Path("docs/robots.md")

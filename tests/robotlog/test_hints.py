@@ -10,7 +10,7 @@ from mobnet.robot.description import describe
 from mobnet.robot.dynamics import gravity
 from mobnet.robot.nominal import NominalModel
 from mobnet.robotlog.observe import observe_log
-from mobnet.settings.load import load_section
+from mobnet.settings.lab import load_section
 from mobnet.settings.robot import RobotTable
 
 ARM = Path("tests/data/arm.yaml")

@@ -20,7 +20,7 @@ from mobnet.robotlog.detect import main as detect
 from mobnet.robotlog.identify import TERMS, FreeLog, identify, main, with_payload
 from mobnet.robotlog.observe import main as observe
 from mobnet.settings.checks.robot import robot_problems
-from mobnet.settings.load import load_section
+from mobnet.settings.lab import load_section
 from mobnet.settings.parts import FrictionRow
 from mobnet.settings.robot import RobotTable
 

@@ -12,7 +12,7 @@ from mcap.writer import Writer
 from mobnet.core.errors import DataError
 from mobnet.robotlog.formats import column_names, read_log
 from mobnet.robotlog.observe import converted_log, observe_log
-from mobnet.settings.load import load_section
+from mobnet.settings.lab import load_section
 from mobnet.settings.robotlog import LogMap
 
 ROWS = 2000

@@ -17,7 +17,7 @@ from mobnet.robot.description import describe
 from mobnet.robot.dynamics import inverse_dynamics
 from mobnet.robot.nominal import NominalModel
 from mobnet.robotlog.observe import observe_log
-from mobnet.settings.load import load_section
+from mobnet.settings.lab import load_section
 from mobnet.settings.robot import RobotTable
 
 RATE_HZ, SECONDS, WAVES = 100.0, 40.0, 6

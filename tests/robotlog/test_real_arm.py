@@ -18,7 +18,7 @@ from mobnet.robot.given import given_robot
 from mobnet.robot.nominal import NominalModel
 from mobnet.robotlog.identify import main as identify
 from mobnet.robotlog.observe import converted_log
-from mobnet.settings.load import load_section
+from mobnet.settings.lab import load_section
 from mobnet.settings.robotlog import LogMap
 
 ARM = Path(__file__).parents[1] / "data" / "arm.yaml"

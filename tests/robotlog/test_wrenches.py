@@ -17,7 +17,7 @@ from mobnet.robot.point_jacobian import point_jacobian
 from mobnet.robot.wrench import carrier_of
 from mobnet.robotlog.observe import main as observe
 from mobnet.robotlog.wrenches import place_of, told_wrenches, wrenches_of
-from mobnet.settings.load import load_section
+from mobnet.settings.lab import load_section
 from mobnet.settings.robot import RobotTable
 
 ROWS = 400

@@ -8,7 +8,8 @@ import pytest
 import yaml
 
 from mobnet.core.errors import ConfigError
-from mobnet.settings.load import CONFIGS, PARTS, load_settings
+from mobnet.settings.lab import CONFIGS
+from mobnet.settings.load import PARTS, load_settings
 from mobnet.settings.reading import read_yaml
 from mobnet.settings.settings import Settings
 

@@ -9,7 +9,8 @@ from typing import Any
 
 import pytest
 
-from mobnet.settings.load import CONFIGS, load_settings
+from mobnet.settings.lab import CONFIGS
+from mobnet.settings.load import load_settings
 
 from .mutations import FILES, LONGEST_S, VALUES, Load, dumped, refusal
 

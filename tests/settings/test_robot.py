@@ -8,7 +8,7 @@ import pytest
 import yaml
 
 from mobnet.core.errors import ConfigError
-from mobnet.settings.load import load_section
+from mobnet.settings.lab import load_section
 from mobnet.settings.reading import read_yaml
 from mobnet.settings.robot import RobotTable
 

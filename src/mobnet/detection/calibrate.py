@@ -39,8 +39,7 @@ from mobnet.robot.description import RobotDescription
 from mobnet.robot.given import given_robot
 from mobnet.running.printed import printed
 from mobnet.settings.detection import Signal
-from mobnet.settings.load import load_settings
-from mobnet.settings.settings import Settings
+from mobnet.settings.lab import Lab, load_lab
 
 log = logging.getLogger(__name__)
 MANY = 100_000  # samples above which progress is told
@@ -69,7 +68,7 @@ def read_folders(options: Namespace, robot: RobotDescription, network: OwnNetwor
 
 
 def estimated(
-    logs: Sequence[OwnLog], robot: RobotDescription, limb: str, network: OwnNetwork | None, settings: Settings
+    logs: Sequence[OwnLog], robot: RobotDescription, limb: str, network: OwnNetwork | None, settings: Lab
 ) -> list[OwnRecording]:
     """Return logs with the estimate of a limb: the observer's, or less what a network predicts."""
     _progress(logs, "estimating the external torque" + (" less what the network predicts" if network else ""))
@@ -98,7 +97,7 @@ def of_files(options: Namespace, robot: RobotDescription, limb: str) -> list[Own
 def run(options: Namespace) -> list[str]:
     """Calibrate as the command's options say, and return what is printed."""
     _check(options)
-    settings = load_settings()
+    settings = load_lab()
     if options.out:
         check_place(options.out.parent)
         sweep(options.out.parent)
@@ -130,7 +129,7 @@ def run(options: Namespace) -> list[str]:
 
 def _tried(
     logs: Sequence[OwnLog], robot: RobotDescription, limb: str, network: OwnNetwork | None, options: Namespace,
-    settings: Settings,
+    settings: Lab,
 ) -> Iterator[Tried]:  # fmt: skip
     """Yield the calibrated detectors among which one is kept, the observer's and then those of a network.
 

@@ -10,7 +10,7 @@ from mobnet.detection.limb import LimbCalibration, OwnRecording, watched_signal
 from mobnet.detection.planted import Pushing, found_pushes, plant
 from mobnet.estimation.own import OwnNetwork
 from mobnet.robot.nominal import NominalModel
-from mobnet.settings.settings import Settings
+from mobnet.settings.lab import Lab
 
 BARE, ALONE, NETWORK = "observer without the table's friction", "observer", "network, {}"
 SEED = 0  # of the pushes
@@ -31,12 +31,12 @@ class Tried:
     pushes: int = 0
 
 
-def pushing_of(settings: Settings) -> Pushing:
+def pushing_of(settings: Lab) -> Pushing:
     """Return the pushes that are planted."""
     return Pushing(settings.robotlog.planted, settings.free_motion.pushes, settings.robotlog.flag_gap_s)
 
 
-def tried_on_pushes(tried: Sequence[Tried], gain_hz: float, settings: Settings) -> tuple[int, list[int]]:
+def tried_on_pushes(tried: Sequence[Tried], gain_hz: float, settings: Lab) -> tuple[int, list[int]]:
     """Return how many pushes are planted into the recordings that calibrated detectors, and how many each one finds.
 
     The gain is that of the observer, K_0 [1/s].

@@ -23,7 +23,7 @@ from mobnet.detection.watch import LegRecording, LegSetup, LimbSetup, read_estim
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.nominal import NominalModel
 from mobnet.settings.detection import Detector, Signal
-from mobnet.settings.settings import Settings
+from mobnet.settings.lab import Lab
 
 WANTED = "wanted"  # the only rule of thresholds
 CONTACT_SAMPLES = 2  # of the shortest collision that a rate of samples shows
@@ -93,14 +93,14 @@ class LimbCalibration:
         return float(np.exp(np.mean(np.log(self.least[finite] / other.least[finite]))))
 
 
-def watched_signal(signal: Signal, settings: Settings) -> Watched:
+def watched_signal(signal: Signal, settings: Lab) -> Watched:
     """Return what a detector of a limb watches: one signal of an estimate."""
     return Watched(Detector(method=settings.detection.gate.method, signals=(signal,)))
 
 
 def calibrate_limb(
     own: Sequence[OwnRecording], robot: RobotDescription, limb: str, signal: Signal, rate_per_h: float,
-    settings: Settings,
+    settings: Lab,
 ) -> LimbCalibration:  # fmt: skip
     """Calibrate a detector of a limb on recordings that nothing pushes.
 
@@ -150,7 +150,7 @@ def _walks(own: Sequence[OwnRecording]) -> bool:
     return not expected
 
 
-def _wanting(setup: LimbSetup, rate_per_h: float, settings: Settings) -> LimbSetup:
+def _wanting(setup: LimbSetup, rate_per_h: float, settings: Lab) -> LimbSetup:
     """Return a setup with one wanted rate of false alarms [1/h]."""
     numbers = setup.detection.thresholds.model_copy(update={"rates_per_h": {WANTED: rate_per_h}})
     if not isinstance(setup, LegSetup):
@@ -159,18 +159,18 @@ def _wanting(setup: LimbSetup, rate_per_h: float, settings: Settings) -> LimbSet
 
 
 def _watched(
-    setup: LimbSetup, watched: Watched, own: Sequence[OwnRecording], settings: Settings
+    setup: LimbSetup, watched: Watched, own: Sequence[OwnRecording], settings: Lab
 ) -> tuple[AlwaysWatched | None, Sequence[LegRecording]]:
     """Return the windows of a limb where it is always watched, and it in recordings as its detector sees it."""
     if isinstance(setup, LegSetup):
         return None, [setup.record(one.path, one.read, one.estimate.tau_ext) for one in own]
     paths, read, estimates = zip(*((one.path, one.read, one.estimate) for one in own), strict=True)
-    lengths = settings.reaction.window_s, settings.robotlog.settle_s
+    lengths = settings.detection.window_s, settings.robotlog.settle_s
     always = always_watched(setup, watched, paths, read, estimates, *lengths)
     return always, always.limbs
 
 
-def _forces(setup: LimbSetup, poses: Array, thresholds: Array, settings: Settings) -> dict[str, Array]:
+def _forces(setup: LimbSetup, poses: Array, thresholds: Array, settings: Lab) -> dict[str, Array]:
     """Return point -> least force that is found, from one side (1,) or along three axes (3,) [N]."""
     if isinstance(setup, LegSetup):
         return {point: np.array([force]) for point, force in found_forces(setup, poses, thresholds).items()}

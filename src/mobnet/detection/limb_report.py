@@ -10,8 +10,8 @@ from mobnet.detection.limb import LimbCalibration
 from mobnet.detection.points import AXES
 from mobnet.estimation.own import LEARNED, OBSERVER, OwnNetwork, Sampling
 from mobnet.settings.base import THRESHOLD
+from mobnet.settings.lab import Lab
 from mobnet.settings.limb_thresholds import LimbThresholds
-from mobnet.settings.settings import Settings
 
 NOTHING = 1e-3  # share of the expected rate below which one counts as zero
 
@@ -63,7 +63,7 @@ def _forces(found: LimbCalibration) -> Iterator[str]:
 
 
 def thresholds_of(
-    found: LimbCalibration, rate_per_h: float, settings: Settings, sampling: Sampling, network: OwnNetwork | None
+    found: LimbCalibration, rate_per_h: float, settings: Lab, sampling: Sampling, network: OwnNetwork | None
 ) -> LimbThresholds:
     """Return the section of a limb's thresholds, made for a rate of false alarms [1/h].
 

@@ -5,8 +5,8 @@ from pathlib import Path
 from mobnet.core.errors import ConfigError, not_accepted
 from mobnet.core.files import write_text
 from mobnet.core.flow import flow
+from mobnet.settings.lab import load_section
 from mobnet.settings.limb_thresholds import LimbThresholds
-from mobnet.settings.load import load_section
 
 HEADER = "# Thresholds of a limb, by ./reproduce calibrate (docs/detection.md). SI units, rates of alarms per hour."
 

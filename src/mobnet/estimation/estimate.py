@@ -25,8 +25,8 @@ from mobnet.plan.work import TOGETHER_S
 from mobnet.robot.description import describe
 from mobnet.running.stage import Stage
 from mobnet.settings.methods import Observer
-from mobnet.settings.plant import Level
 from mobnet.settings.robot import RobotTable
+from mobnet.settings.surrogate import Level
 
 log = logging.getLogger(__name__)
 

@@ -17,8 +17,8 @@ from mobnet.robot.description import RobotDescription, describe
 from mobnet.robot.nominal import NominalModel
 from mobnet.settings.base import TorqueKind
 from mobnet.settings.methods import Observer
-from mobnet.settings.plant import Level
 from mobnet.settings.robot import RobotTable
+from mobnet.settings.surrogate import Level
 
 CARRIED = ("scenario", "level", "seed")  # what a recording says of itself and its residual repeats
 log = logging.getLogger(__name__)

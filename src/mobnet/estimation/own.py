@@ -22,9 +22,9 @@ from mobnet.learning.deployed.limbs import LimbNetworks, load_limb_networks
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.nominal import NominalModel
 from mobnet.settings.base import GAIN_HZ, RATE_HZ, GainHz, RateHz, TorqueKind
+from mobnet.settings.lab import Lab
 from mobnet.settings.methods import Target
 from mobnet.settings.robot import GroupName
-from mobnet.settings.settings import Settings
 
 RECORDING, ESTIMATE = "recording", "estimate"  # arrays in the folder of a log
 DRIVES = "drives"  # key of a note: digest of the friction that the observer knew
@@ -139,7 +139,7 @@ def read_log_folder(folder: Path, layout: JointLayout) -> OwnLog:
     return OwnLog(folder, recording, residual, sampling, footer_hash(file_of(stems[0], ARRAY)))
 
 
-def read_network_folder(folder: Path, layout: JointLayout, settings: Settings) -> OwnNetwork:
+def read_network_folder(folder: Path, layout: JointLayout, settings: Lab) -> OwnNetwork:
     """Read a trained network; one of the workflow has the sampling of the configuration.
 
     Raises:

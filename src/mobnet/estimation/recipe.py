@@ -21,9 +21,9 @@ from mobnet.robot.description import describe
 from mobnet.settings.base import Section
 from mobnet.settings.faults import problems
 from mobnet.settings.methods import Method, Observer
-from mobnet.settings.plant import Level
 from mobnet.settings.reading import dotted
 from mobnet.settings.robot import RobotTable
+from mobnet.settings.surrogate import Level
 
 Kind = TypeVar("Kind", bound=Section)
 

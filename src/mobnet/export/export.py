@@ -31,8 +31,8 @@ from mobnet.robot.given import given_robot
 from mobnet.running.printed import printed
 from mobnet.settings.base import GAIN_HZ, RATE_HZ, TorqueKind
 from mobnet.settings.detection import SwingGate
+from mobnet.settings.lab import load_lab
 from mobnet.settings.limb_thresholds import LimbThresholds
-from mobnet.settings.load import load_settings
 
 log = logging.getLogger(__name__)
 SAMPLES, SEED = 1000, 1  # of the random inputs on which a file is compared with its network
@@ -159,7 +159,7 @@ def told(contract: Contract, networks: Sequence[Trained], out: Path) -> Iterator
 def run(options: Namespace) -> Iterator[str]:
     """Export networks as the command's options say, and yield what is printed."""
     check_place(options.out)
-    settings = load_settings()
+    settings = load_lab()
     robot = given_robot(options.robot, settings)
     networks = [read_trained(folder, robot.layout) for folder in options.network]
     notes, own = [one.run for one in networks], settings.observer

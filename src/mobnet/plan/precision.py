@@ -5,16 +5,13 @@ training is, and a node of another kind of processor makes the same network.
 """
 
 from pathlib import Path
-from typing import Literal
 
 from mobnet.core.files import read_json, write_json
 from mobnet.core.notes import Note, checked
+from mobnet.learning.precision import AUTO, Precision, in_precision, of_processor
 from mobnet.settings.settings import Settings
 
-AUTO, PLACE = "auto", Path("state") / "precision.json"  # below the results of a scale
-PROCESSOR = Path("/proc/cpuinfo")
-UNITS = {"avx512_bf16", "amx_bf16"}  # a CPU with one of these multiplies bfloat16 several times faster than float32
-Precision = Literal["float32", "bfloat16"]
+PLACE = Path("state") / "precision.json"  # below the results of a scale
 
 
 class PrecisionNote(Note):
@@ -29,31 +26,23 @@ def with_precision(settings: Settings, results: Path) -> Settings:
     Raises:
         DataError: the record is damaged.
     """
-    name = _recorded(results) or of_processor(PROCESSOR)
+    name = _recorded(results) or of_processor()
     methods = {
         method: row.model_copy(update={"learning": {**row.learning, "precision": name}})
         for method, row in settings.methods.items()
         if row.learning.get("precision") == AUTO
     }
-    learning = settings.learning
-    if learning.precision == AUTO:
-        learning = learning.model_copy(update={"precision": name})
+    learning = in_precision(settings.learning, name)
     return settings.model_copy(update={"learning": learning, "methods": {**settings.methods, **methods}})
 
 
 def record_precision(results: Path) -> None:
     """Record what `auto` stands for in the results of a scale, if it is not recorded yet."""
     if _recorded(results) is None:
-        write_json(results / PLACE, {"auto": of_processor(PROCESSOR)})
+        write_json(results / PLACE, {"auto": of_processor()})
 
 
 def _recorded(results: Path) -> Precision | None:
     """Return the recorded format, if there is one."""
     path = results / PLACE
     return checked(path, read_json(path), PrecisionNote).auto if path.exists() else None
-
-
-def of_processor(described: Path) -> Precision:
-    """Return bfloat16 where a processor, as Linux describes it, computes in it."""
-    flags = set(described.read_text(encoding="utf-8").split()) if described.exists() else set[str]()
-    return "bfloat16" if flags & UNITS else "float32"

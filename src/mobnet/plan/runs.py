@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from mobnet.settings.methods import Method
-from mobnet.settings.plant import Level
+from mobnet.settings.surrogate import Level
 
 
 @dataclass(frozen=True)

@@ -94,13 +94,13 @@ def _limbs(robot: Robot, limbs: Mapping[str, Sequence[Array]]) -> Iterator[Thres
 
 def limb_thresholds(robot: Robot, signals: Sequence[Array]) -> Array:
     """Return the thresholds of a limb's signals (n,) from these (T, n) in segments, behind the low-pass."""
-    numbers, window = robot.detection.thresholds, round(robot.reaction.window_s * robot.rate_hz)
+    numbers, window = robot.detection.thresholds, round(robot.detection.window_s * robot.rate_hz)
     parts = [np.abs(own[: len(own) // window * window]).reshape(-1, window, own.shape[1]) for own in signals]
     largest = np.concatenate([part.max(axis=1) for part in parts])
     episodes = np.repeat(np.arange(len(parts)), [len(part) for part in parts])
     scale = np.quantile(largest, numbers.scale_quantile, axis=0)
     rate_per_h = numbers.rates_per_h[robot.reaction.ours.rule]
-    walked_s = len(largest) * robot.reaction.window_s
+    walked_s = len(largest) * robot.detection.window_s
     found = calibrate((largest / scale).max(axis=1), episodes.tolist(), walked_s, rate_per_h, numbers)
     return found.factor * scale
 

@@ -3,12 +3,11 @@
 from pathlib import Path
 
 from mobnet.robot.description import RobotDescription, describe
-from mobnet.settings.load import load_section
+from mobnet.settings.lab import Lab, load_section
 from mobnet.settings.robot import RobotTable
-from mobnet.settings.settings import Settings
 
 
-def given_table(path: Path | None, settings: Settings) -> RobotTable:
+def given_table(path: Path | None, settings: Lab) -> RobotTable:
     """Return the table of a file, or that of the configuration where none is given.
 
     Raises:
@@ -17,7 +16,7 @@ def given_table(path: Path | None, settings: Settings) -> RobotTable:
     return load_section(path, RobotTable) if path else settings.robot
 
 
-def given_robot(path: Path | None, settings: Settings) -> RobotDescription:
+def given_robot(path: Path | None, settings: Lab) -> RobotDescription:
     """Return the robot of a table's file, or that of the configuration where none is given.
 
     Raises:

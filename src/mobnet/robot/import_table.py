@@ -17,7 +17,7 @@ from mobnet.robot.import_words import import_parser
 from mobnet.robot.importing import BASE_LIMB, VIRTUAL, Imported, check_base, import_robot
 from mobnet.running.child import in_child
 from mobnet.running.printed import printed
-from mobnet.settings.load import load_section
+from mobnet.settings.lab import load_section
 from mobnet.settings.robot import RobotTable
 
 log = logging.getLogger(__name__)

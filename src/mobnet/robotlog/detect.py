@@ -22,8 +22,8 @@ from mobnet.robotlog.learning_words import detect_parser
 from mobnet.robotlog.plot_flags import plot_flags
 from mobnet.robotlog.wrenches import place_of, told_wrenches, wrenches_of, write_wrenches
 from mobnet.running.printed import printed
+from mobnet.settings.lab import load_lab, load_section
 from mobnet.settings.limb_thresholds import LimbThresholds
-from mobnet.settings.load import load_section, load_settings
 from mobnet.settings.robotlog import LogMap
 
 log = logging.getLogger(__name__)
@@ -59,7 +59,7 @@ def told(made: Detected, out: Path) -> Iterator[str]:
 
 def run(options: Namespace) -> Iterator[str]:
     """Detect as the command's options say, and yield what is printed."""
-    settings = load_settings()
+    settings = load_lab()
     robot = given_robot(options.robot, settings)
     meaning = load_section(options.map, LogMap) if options.map else None
     network = read_network_folder(options.network, robot.layout, settings) if options.network else None

@@ -22,9 +22,9 @@ from mobnet.robotlog.flags import Flag, flags_of
 from mobnet.robotlog.observe import Observed, observe_log
 from mobnet.robotlog.pushes import Found, found_pushes
 from mobnet.settings.detection import Detector
+from mobnet.settings.lab import Lab
 from mobnet.settings.limb_thresholds import LimbThresholds
 from mobnet.settings.robotlog import LogMap
-from mobnet.settings.settings import Settings
 
 
 @dataclass(frozen=True)
@@ -56,7 +56,7 @@ def check_thresholds(path: Path, found: LimbThresholds, robot: RobotDescription,
 
 def detect_log(
     path: Path, robot: RobotDescription, meaning: LogMap | None, network: OwnNetwork | None, found: LimbThresholds,
-    settings: Settings,
+    settings: Lab,
 ) -> Detected:  # fmt: skip
     """Estimate the external torque of a limb in a log, and flag what lies above its thresholds.
 

@@ -28,11 +28,10 @@ from mobnet.robotlog.observe import converted_log
 from mobnet.running.printed import printed
 from mobnet.settings.base import TorqueKind
 from mobnet.settings.identification import Identification
-from mobnet.settings.load import load_section, load_settings
+from mobnet.settings.lab import Lab, load_lab, load_section
 from mobnet.settings.parts import BodyRow, FrictionRow
 from mobnet.settings.robot import RobotTable
 from mobnet.settings.robotlog import LogMap
-from mobnet.settings.settings import Settings
 
 log = logging.getLogger(__name__)
 TERMS = ("coulomb", "viscous", "offset", "armature")
@@ -50,7 +49,7 @@ class FreeLog:
     torque: TorqueKind
 
 
-def read_free_log(path: Path, robot: RobotDescription, meaning: LogMap | None, settings: Settings) -> FreeLog:
+def read_free_log(path: Path, robot: RobotDescription, meaning: LogMap | None, settings: Lab) -> FreeLog:
     """Read a folder that `./reproduce observe` wrote, or a log itself.
 
     Raises:
@@ -65,7 +64,7 @@ def read_free_log(path: Path, robot: RobotDescription, meaning: LogMap | None, s
 
 
 def identify(
-    robot: RobotDescription, logs: Sequence[FreeLog], terms: Sequence[str], settings: Settings,
+    robot: RobotDescription, logs: Sequence[FreeLog], terms: Sequence[str], settings: Lab,
     payload: str | None = None,
 ) -> tuple[dict[str, JointFit], Payload | None]:  # fmt: skip
     """Return the numbers of the joints that move in logs of free motion, and the payload of a body.
@@ -181,7 +180,7 @@ def _cell(fit: JointFit, term: str) -> str:
 
 def run(options: Namespace) -> Iterator[str]:
     """Identify as the command's options say, and yield what is printed."""
-    settings = load_settings()
+    settings = load_lab()
     table = given_table(options.robot, settings)
     robot = describe(table)
     out = options.out or Path(f"{robot.name.replace(' ', '_')}_identified.yaml")

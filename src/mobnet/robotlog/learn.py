@@ -15,7 +15,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array
-from mobnet.core.code import ROOT
 from mobnet.core.errors import DataError, not_accepted
 from mobnet.core.files import METRICS, RUN, check_place, read_json, sweep, write_json
 from mobnet.estimation import observer
@@ -32,7 +31,6 @@ from mobnet.learning.deployed.networks import load_network
 from mobnet.learning.device import own_device
 from mobnet.learning.job import TrainingJob
 from mobnet.learning.train import train_on
-from mobnet.plan.precision import with_precision
 from mobnet.robot.description import describe
 from mobnet.robot.given import given_table
 from mobnet.robot.nominal import NominalModel
@@ -42,9 +40,8 @@ from mobnet.robotlog.learning_words import learn_parser
 from mobnet.robotlog.planted_check import PlantedCheck, planted_check
 from mobnet.robotlog.training import filled, training_of
 from mobnet.running.printed import printed
-from mobnet.settings.load import load_settings
+from mobnet.settings.lab import Lab, load_lab
 from mobnet.settings.robot import RobotTable
-from mobnet.settings.settings import Settings
 
 log = logging.getLogger(__name__)
 STATE = "training"  # folder of the checkpoint, in that of the network
@@ -52,7 +49,7 @@ SEED = 0
 
 
 def learn(
-    settings: Settings, table: RobotTable, logs: Sequence[OwnLog], limb: str, labels: str, epochs: int, out: Path,
+    settings: Lab, table: RobotTable, logs: Sequence[OwnLog], limb: str, labels: str, epochs: int, out: Path,
     *, force: bool = False,
 ) -> list[str]:  # fmt: skip
     """Train a network of a limb on logs, or go on with it, and return what is printed of it.
@@ -89,7 +86,7 @@ def learn(
 
 def _planted(
     logs: Sequence[OwnLog], nominal: NominalModel, limb: str, data: LimbData, label: Array, held: Held,
-    settings: Settings,
+    settings: Lab,
 ) -> PlantedCheck | None:  # fmt: skip
     """Return which detectors of a limb find pushes that are planted into what is held out.
 
@@ -123,7 +120,7 @@ def _is_new(fingerprint: str, out: Path, *, force: bool) -> bool:
 def run(options: Namespace) -> list[str]:
     """Train a network as the command's options say, and return what is printed."""
     check_labels(options.labels)
-    settings = with_precision(load_settings(), ROOT / "results" / "default")
+    settings = load_lab()
     epochs = settings.robotlog.learn.epochs if options.epochs is None else options.epochs
     if epochs < 1:
         raise DataError(not_accepted("--epochs", epochs, ["a whole number from 1"]))

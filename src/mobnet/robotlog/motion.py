@@ -19,7 +19,7 @@ from mobnet.robot.description import RobotDescription
 from mobnet.robot.given import given_robot
 from mobnet.robotlog.motion_words import motion_parser
 from mobnet.running.printed import printed
-from mobnet.settings.load import load_settings
+from mobnet.settings.lab import load_lab
 from mobnet.simulation.free_run import Numbers, record_motion
 
 log = logging.getLogger(__name__)
@@ -65,7 +65,7 @@ def told(recording: Recording, robot: RobotDescription, out: Path, truth: bool) 
 
 def run(options: Namespace) -> Iterator[str]:
     """Simulate a log as the command's options say, and yield what is printed."""
-    settings = load_settings()
+    settings = load_lab()
     robot = given_robot(options.robot, settings)
     if options.out.suffix not in WRITERS:
         raise DataError(f"--out: {not_accepted('ending', options.out.suffix, WRITERS)}")

@@ -52,7 +52,7 @@ from mobnet.robotlog.words import observe_parser
 from mobnet.robotlog.wrenches import Place, Wrenches, place_of, told_wrenches, wrenches_of, write_wrenches
 from mobnet.running.printed import printed
 from mobnet.settings.base import GAIN_HZ, TorqueKind
-from mobnet.settings.load import load_section, load_settings
+from mobnet.settings.lab import load_lab, load_section
 from mobnet.settings.robotlog import LogMap, RobotLog
 
 log = logging.getLogger(__name__)
@@ -239,7 +239,7 @@ def _rates(clocks: Mapping[str, Array]) -> Iterator[str]:
 
 def run(options: Namespace) -> Iterator[str]:
     """Observe a log as the command's options say, and yield what is printed."""
-    settings = load_settings()
+    settings = load_lab()
     robot = given_robot(options.robot, settings)
     meaning = load_section(options.map, LogMap) if options.map else None
     gain_hz = settings.observer.gain_hz if options.gain is None else options.gain

@@ -22,7 +22,7 @@ from mobnet.detection.watch import LegRecording
 from mobnet.estimation.own import Sampling
 from mobnet.robot.nominal import NominalModel
 from mobnet.settings.detection import Signal
-from mobnet.settings.settings import Settings
+from mobnet.settings.lab import Lab
 
 NETWORKS = NETWORK.format(MEAN), NETWORK.format(RATIO)
 WATCHED: Mapping[str, Signal] = {BARE: MEAN, ALONE: MEAN, NETWORKS[0]: MEAN, NETWORKS[1]: RATIO}
@@ -59,7 +59,7 @@ class PlantedCheck:
 
 def planted_check(
     nominal: NominalModel, limb: str, sampling: Sampling, q: NDArray[Any], segments: Spans, network: Estimate,
-    observers: Sequence[NDArray[Any]], settings: Settings,
+    observers: Sequence[NDArray[Any]], settings: Lab,
 ) -> PlantedCheck | None:  # fmt: skip
     """Plant pushes into a part of logs, and return which detectors find them; None where it is too short for a push.
 

@@ -6,13 +6,13 @@ A network counts time in samples, so that it runs at the rate at which it learne
 from collections.abc import Sequence
 
 from mobnet.estimation.own import LEARNED
-from mobnet.settings.catalogue import Catalogue
+from mobnet.learning.precision import in_precision, of_processor
+from mobnet.settings.lab import Lab
 from mobnet.settings.networks import Coarse, Learning, Limb, Network, Training
 from mobnet.settings.robot import RobotTable
-from mobnet.settings.settings import Settings
 
 
-def training_of(settings: Settings, table: RobotTable, limb: str, labels: str, rate_hz: float, epochs: int) -> Training:
+def training_of(settings: Lab, table: RobotTable, limb: str, labels: str, rate_hz: float, epochs: int) -> Training:
     """Return how a limb's network learns from a log at a rate [Hz]: as MOB-Net's does, of the same cell.
 
     A limb without an entry in the table's `networks` sees its own joints.
@@ -23,7 +23,7 @@ def training_of(settings: Settings, table: RobotTable, limb: str, labels: str, r
     # observer, and take away every push with it.
     ports = ports.model_copy(update={"T": ()}) if labels == "free" else ports
     row = settings.networks.get(limb) or settings.networks[numbers.cell]
-    learning, horizon = Catalogue(settings).learned(LEARNED), row.horizon_steps
+    learning, horizon = in_precision(settings.learning, of_processor()), row.horizon_steps
     return Training(
         method=LEARNED, limb=limb, target="uncertainty", network=Network.model_validate({**vars(ports), **vars(row)}),
         learning=_at_rate(learning, rate_hz / settings.rates.data_hz), epochs=epochs,
@@ -41,7 +41,7 @@ def _at_rate(learning: Learning, ratio: float) -> Learning:
     return learning.model_copy(update={"coarse": coarse})
 
 
-def filled(training: Training, segments: Sequence[tuple[int, int]], settings: Settings) -> Training:
+def filled(training: Training, segments: Sequence[tuple[int, int]], settings: Lab) -> Training:
     """Return a training whose batches a log fills: of a short log, fewer lanes learn at once."""
     stride = max((phase.stride for phase in training.learning.coarse), default=1)
     horizons = sum(end - start for start, end in segments) // (training.network.horizon_steps * stride)

@@ -69,6 +69,7 @@ class Detection(Section):
 
     low_pass_hz: base.LowPassHz
     hold_s: base.Real = Field(ge=0.001, le=1)
+    window_s: base.Real = Field(ge=0.01, le=60)
     gate: SwingGate
     thresholds: Thresholds
     collisions: base.PushedName

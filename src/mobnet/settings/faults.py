@@ -1,12 +1,12 @@
 """What pydantic refuses, as one text for each fault at the place that was typed, with all that is accepted there."""
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import cache
-from typing import Any, cast
+from typing import Any, TypeVar, cast
 
 from pydantic import BaseModel, ValidationError
 
-from mobnet.core.errors import not_accepted
+from mobnet.core.errors import ConfigError, not_accepted
 from mobnet.settings.reading import Place
 
 Schema = dict[str, Any]
@@ -20,6 +20,30 @@ WORDS = {
     "null": "null",
 }
 BOUNDS = {"exclusiveMinimum": "above", "minimum": "from", "exclusiveMaximum": "below", "maximum": "to"}
+Kind = TypeVar("Kind", bound=BaseModel)
+
+
+def validated(kind: type[Kind], values: Mapping[str, Any], typed: object, told: Callable[[Place, str], str]) -> Kind:
+    """Return a section with these values; `told` makes a line of a place and a text.
+
+    Raises:
+        ConfigError: a line for each fault in the values as they were typed.
+    """
+    try:
+        return kind.model_validate(values)
+    except ValidationError as error:
+        raise ConfigError(once(told(*problem) for problem in problems(error, kind, typed))) from None
+
+
+def refuse_faults(lines: Iterable[str]) -> None:
+    """Raise a ConfigError of these lines, if there are any."""
+    if text := once(lines):
+        raise ConfigError(text)
+
+
+def once(lines: Iterable[str]) -> str:
+    """Return each line once: a fault behind a YAML alias is met at several places."""
+    return "\n".join(dict.fromkeys(lines))
 
 
 def problems(error: ValidationError, kind: type[BaseModel], given: object) -> Iterator[tuple[Place, str]]:

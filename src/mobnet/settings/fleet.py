@@ -3,9 +3,8 @@
 from typing import Any
 
 from mobnet.settings.catalogue import ByTest, Catalogue, Names
-from mobnet.settings.plant import Level
 from mobnet.settings.scales import Experiment
-from mobnet.settings.surrogate import Fleet, SurrogateRobot, Variant
+from mobnet.settings.surrogate import Fleet, Level, SurrogateRobot, Variant
 from mobnet.settings.trials import experiments_of
 
 FIRST_SEED = 101  # of the networks of the fleet's robots, one for each; all other networks have lower ones

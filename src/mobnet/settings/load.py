@@ -6,23 +6,19 @@ Reading and checking run in the workflow's own process: a job receives values, s
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, TypeVar, cast
-
-from pydantic import ValidationError
+from typing import Any, cast
 
 from mobnet.core.errors import ConfigError
-from mobnet.settings.base import Section
 from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.checks.robot import robot_problems
 from mobnet.settings.checks.sections import inconsistencies, refused_changes, unknown_names
 from mobnet.settings.claims import place_of, spelt_out
-from mobnet.settings.faults import problems
+from mobnet.settings.faults import problems, refuse_faults, validated
+from mobnet.settings.lab import CONFIGS
 from mobnet.settings.reading import Document, Place, Problem, dotted, read_override
-from mobnet.settings.robot import RobotTable
 from mobnet.settings.settings import Settings
 
 ROOT = Path(__file__).parents[3]
-CONFIGS = ROOT / "configs"
 PARTS: Mapping[str, tuple[str, ...]] = {  # file -> the sections that stand in it
     "config": ("scale", "seed", "robot", "published", "claims"),
     "plant": ("rates", "plant", "levels"),
@@ -44,7 +40,6 @@ PARTS: Mapping[str, tuple[str, ...]] = {  # file -> the sections that stand in i
 }  # fmt: skip
 NAMED_FILES = ("robot", "published", "claims")  # sections that stand in files which config.yaml names
 WITH_NULLS = ("published", "claims")  # null: the paper prints no number; a range has no bound
-Kind = TypeVar("Kind", bound=Section)
 Check = Callable[[Settings], Iterable[Problem]]
 
 
@@ -113,7 +108,7 @@ def load_settings(
             values[section] = files[section].values
     faults += [fault for document in documents for fault in document.faults]
     faults += [sources.told(place, text) for place, text in odd]
-    _refuse(faults)
+    refuse_faults(faults)
     # the sections of those files now stand in them, and an override of their paths is none of their values
     inner = {key: value for key, value in own.items() if key not in NAMED_FILES}
     return _checked(values, Sources(documents[0], {**homes, **files}, inner), further)
@@ -132,36 +127,14 @@ def _read(folder: Path) -> tuple[list[Document], dict[str, Document], list[str]]
                 faults.append(document.told((section,), text))
             files[section] = document
     if not all(document.is_readable for document in documents):  # only then are all sections there
-        _refuse(fault for document in documents for fault in document.faults)
+        refuse_faults(fault for document in documents for fault in document.faults)
     return documents, files, faults
-
-
-def load_section(path: Path, kind: type[Kind]) -> Kind:
-    """Read one section from a file of its own, such as a robot's table.
-
-    Raises:
-        ConfigError: the file, a key or a value is not accepted; one line for each of them.
-    """
-    document = Document(path)
-    _refuse(document.faults)
-    section = _validated(kind, document.values, document.values, document.told)
-    if isinstance(section, RobotTable):
-        _refuse(document.told(place, text) for place, text in robot_problems(section))
-    return section
-
-
-def _validated(kind: type[Kind], values: Mapping[str, Any], typed: object, told: Callable[[Place, str], str]) -> Kind:
-    """Return a section with these values, or raise a line for each fault in them as they were typed."""
-    try:
-        return kind.model_validate(values)
-    except ValidationError as error:
-        raise ConfigError(_lines(told(*problem) for problem in problems(error, kind, typed))) from None
 
 
 def _checked(values: Mapping[str, Any], sources: Sources, further: Check | None) -> Settings:
     """Return the configuration if every value, name and change in it is accepted."""
     typed = {**values, "claims": spelt_out(values.get("claims"))}
-    settings = _validated(Settings, values, typed, sources.told)
+    settings = validated(Settings, values, typed, sources.told)
     catalogue = Catalogue(settings)
     wrong: list[Problem] = [(("robot", *place), text) for place, text in robot_problems(settings.robot)]
     wrong += unknown_names(catalogue)
@@ -169,7 +142,7 @@ def _checked(values: Mapping[str, Any], sources: Sources, further: Check | None)
         wrong = list(_changes(catalogue))
     if not wrong:
         wrong = [*inconsistencies(catalogue), *(further(settings) if further else ())]
-    _refuse(sources.told(place, text) for place, text in wrong)
+    refuse_faults(sources.told(place, text) for place, text in wrong)
     return settings
 
 
@@ -190,14 +163,3 @@ def _laid_over(values: Mapping[str, Any], overrides: Mapping[str, Any]) -> dict[
         else:
             merged[key] = value
     return merged
-
-
-def _refuse(found: Iterable[str]) -> None:
-    """Raise these lines, if there are any."""
-    if lines := _lines(found):
-        raise ConfigError(lines)
-
-
-def _lines(found: Iterable[str]) -> str:
-    """Return each line once: a fault behind a YAML alias is met at several places."""
-    return "\n".join(dict.fromkeys(found))

@@ -1,13 +1,8 @@
-"""The simulated plant and its uncertainty levels (sections 4.3 and 5.1, Tables 3 and 4)."""
+"""The simulated plant (section 4.3, Tables 3 and 4)."""
 
-from typing import Annotated, Literal
+from pydantic import Field
 
-from pydantic import AfterValidator, Field
-
-from mobnet.settings.base import NotNegative, Real, Section, Whole, distinct
-from mobnet.settings.surrogate import FrictionTerm, SurrogateRobot
-
-Reading = Literal["none", "std", "swapped", "variance"]  # of Table 3
+from mobnet.settings.base import NotNegative, Real, Section, Whole
 
 
 class Rates(Section):
@@ -66,17 +61,3 @@ class Plant(Section):
     motor_limit_min_nm: NotNegative = Field(le=2000)
     noise: Noise
     own_noise: OwnNoise
-
-
-class Level(Section):
-    """An uncertainty level of section 5.1: which errors the plant has and what the observer's model gets wrong.
-
-    With a `surrogate`, the plant is a surrogate robot; `labels` says what networks learn the external torque from.
-    """
-
-    friction: Annotated[tuple[FrictionTerm, ...], AfterValidator(distinct)]
-    noise: Reading
-    nominal_mass_ratio: Real = Field(ge=0.3, le=3)
-    base_state: Literal["true_state", "sensed"]
-    surrogate: SurrogateRobot | None = None
-    labels: Literal["truth", "foot_sensors"] = "truth"

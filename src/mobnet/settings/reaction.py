@@ -83,7 +83,6 @@ class Reaction(Section):
     cases: dict[base.LowerName, Case]
     after_s: base.Real = Field(ge=0.1, le=60)
     calm_s: base.Real = Field(ge=1, le=3600)
-    window_s: base.Real = Field(ge=0.01, le=60)
     gap_s: base.Real = Field(ge=0.001, le=1)
     touch_n: base.Real = Field(ge=0.1, le=100)
 

@@ -6,9 +6,7 @@ from pydantic import Field
 
 from mobnet.core.joints import JointLayout
 from mobnet.settings.base import (
-    Index,
     LowerName,
-    RobotNetworkName,
     RowName,
     ScaleName,
     Section,
@@ -26,29 +24,23 @@ from mobnet.settings.data import (
     Terrain,
     TrainingSet,
 )
-from mobnet.settings.detection import ContactPoint, Detection
 from mobnet.settings.evaluation import Evaluation
-from mobnet.settings.free_motion import FreeMotion
-from mobnet.settings.methods import Method, Observer, Sweep
-from mobnet.settings.networks import Learning, NetworkRow
-from mobnet.settings.plant import Level, Plant, Rates
+from mobnet.settings.lab import Lab
+from mobnet.settings.methods import Method, Sweep
+from mobnet.settings.plant import Plant, Rates
 from mobnet.settings.published import Published
 from mobnet.settings.reaction import Reaction
 from mobnet.settings.robot import RobotTable
-from mobnet.settings.robotlog import RobotLog
 from mobnet.settings.scales import Scale
-from mobnet.settings.surrogate import Fleet, Surrogate
+from mobnet.settings.surrogate import Fleet, Level, Surrogate
 from mobnet.settings.trials import Trials
 from mobnet.settings.walking import Walking
 
 
-class Settings(Section):
-    """Every number of the artifact, once; `seed` is the root of all random numbers, to which jobs add their names."""
+class Settings(Lab):
+    """Every number of the artifact, once; to `seed` jobs add their names."""
 
     scale: ScaleName
-    seed: Index
-    rates: Rates
-    plant: Plant
     levels: Annotated[dict[LowerName, Level], Field(min_length=1)]
     surrogate: Surrogate
     fleet: Fleet
@@ -62,21 +54,13 @@ class Settings(Section):
     scenarios: Annotated[dict[LowerName, Scenario], Field(min_length=1)]
     training_sets: Annotated[dict[LowerName, TrainingSet], Field(min_length=1)]
     recording: RecordingSettings
-    observer: Observer
-    networks: Annotated[dict[RobotNetworkName, NetworkRow], Field(min_length=1)]
-    learning: Learning
     methods: Annotated[dict[RowName, Method], Field(min_length=1)]
     sweeps: dict[Annotated[str, Field(pattern="^[a-z_]+$")], Sweep]
     development: Annotated[dict[LowerName, Development], Field(min_length=1)]
     trials: Trials
-    detection: Detection
-    contact_point: ContactPoint
     reaction: Reaction
-    robotlog: RobotLog
-    free_motion: FreeMotion
     evaluation: Evaluation
     scales: Annotated[dict[LowerName, Scale], Field(min_length=1)]
-    robot: RobotTable
     published: Published
     claims: dict[ClaimName, Claim]
 

@@ -1,4 +1,4 @@
-"""The surrogate robot: hidden drives, masses and sensor errors in place of the paper's robot (sections 5.2 to 7)."""
+"""Uncertainty levels (section 5.1), and surrogate robots: hidden drives, masses and errors of sensors (5.2 to 7)."""
 
 from typing import Annotated, Literal
 
@@ -30,6 +30,7 @@ Time = Annotated[Real, Field(ge=0, le=0.05)]  # of a drive or a sensor [s]
 Payload = Annotated[NotNegative, Field(le=50)]
 RunningTime = Range[Annotated[NotNegative, Field(le=360_000)]]
 FrictionTerm = Literal["stribeck", "load", "loss"]
+Reading = Literal["none", "std", "swapped", "variance"]  # of Table 3
 
 
 class Drive(Section):
@@ -114,6 +115,20 @@ class SurrogateRobot(Section):
     gain_ratio: Ratio = 1.0
     gait: CommandRanges = CommandRanges()
     payload_kg: Payload = 0.0
+
+
+class Level(Section):
+    """An uncertainty level of section 5.1: which errors the plant has and what the observer's model gets wrong.
+
+    With a `surrogate`, the plant is a surrogate robot; `labels` says what networks learn the external torque from.
+    """
+
+    friction: Annotated[tuple[FrictionTerm, ...], AfterValidator(distinct)]
+    noise: Reading
+    nominal_mass_ratio: Real = Field(ge=0.3, le=3)
+    base_state: Literal["true_state", "sensed"]
+    surrogate: SurrogateRobot | None = None
+    labels: Literal["truth", "foot_sensors"] = "truth"
 
 
 class Variant(Section):

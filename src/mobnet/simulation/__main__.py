@@ -20,7 +20,8 @@ from mobnet.robot.looks import dressed
 from mobnet.running.environment import quieten
 from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.checks.sections import accepted_names
-from mobnet.settings.load import CONFIGS, load_settings
+from mobnet.settings.lab import CONFIGS
+from mobnet.settings.load import load_settings
 from mobnet.settings.settings import Settings
 from mobnet.simulation.clip import check_ending, save_clip
 from mobnet.simulation.motion import make_motion

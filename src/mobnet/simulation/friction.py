@@ -8,7 +8,8 @@ from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array
 from mobnet.core.compilation import compiled
-from mobnet.settings.plant import FrictionTerm, Plant
+from mobnet.settings.plant import Plant
+from mobnet.settings.surrogate import FrictionTerm
 
 
 class PlantFriction(NamedTuple):

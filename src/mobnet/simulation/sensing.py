@@ -12,7 +12,8 @@ from mobnet.control.walker import Walker
 from mobnet.core.arrays import Array
 from mobnet.core.compilation import compiled, vector3
 from mobnet.robot.description import SIDES
-from mobnet.settings.plant import Level, Noise, Plant
+from mobnet.settings.plant import Noise, Plant
+from mobnet.settings.surrogate import Level
 
 
 class Sensors(NamedTuple):

@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 from mobnet.robot.description import SIDES, RobotDescription
 from mobnet.robot.plant import robot_spec, sole_name
 from mobnet.settings.data import Obstacle
-from mobnet.settings.plant import Level, Plant
+from mobnet.settings.plant import Plant
+from mobnet.settings.surrogate import Level
 from mobnet.simulation.obstacles import IMPEDANCE, add_obstacles, set_obstacles
 from mobnet.simulation.terrain import TERRAIN_GROUP, DrawnTerrain, add_terrain, top_of
 

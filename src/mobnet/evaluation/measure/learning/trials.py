@@ -16,8 +16,8 @@ from mobnet.evaluation.measure.learning.trainings import TrainedNetwork, read_tr
 from mobnet.plan.runs import Tried, TriedTask
 from mobnet.robot.description import describe
 from mobnet.settings.methods import Observer
-from mobnet.settings.plant import Level
 from mobnet.settings.robot import RobotTable
+from mobnet.settings.surrogate import Level
 
 
 @dataclass(frozen=True)
