@@ -26,7 +26,13 @@ def main() -> list[dict[str, float | str]]:
     """Return one row: CPU time [s] of a minute of recording by both ways, and their ratio over the turns."""
     settings = load_settings(overrides={"scale": "default"})
     robot, rate, observing = describe(settings.robot), settings.rates.data_hz, settings.observer
-    known = settings.levels[LEVEL], settings.plant.gravity_m_s2, observing.gain_hz, rate, observing.torque
+    known = (
+        settings.levels[LEVEL].nominal_mass_ratio,
+        settings.plant.gravity_m_s2,
+        observing.gain_hz,
+        rate,
+        observing.torque,
+    )
     observer, networks, sensed = observer_of(robot, *known), six_networks(settings), motion(robot.layout, rate)
     estimator, stretch = ResidualEstimator(observer, robot.layout, networks), Stretch(sensed, observer.residual(sensed))
     columns = robot.layout.columns(networks.joints)

@@ -52,7 +52,7 @@ def main() -> list[Row]:
     one_thread()
     settings = load_settings(overrides={"scale": "default"})
     layout, level, rate_hz = settings.layout, settings.levels[LEVEL], settings.rates.data_hz
-    known = describe(settings.robot), level, settings.plant.gravity_m_s2
+    known = describe(settings.robot), level.nominal_mass_ratio, settings.plant.gravity_m_s2
     observer = observer_of(*known, settings.observer.gain_hz, rate_hz, settings.observer.torque)
     estimator = Timed(ResidualEstimator(observer, layout, six_networks(settings)))
     handler = Timed(_handler(settings, rate_hz))

@@ -20,8 +20,9 @@ from mobnet.core.arrays import Array
 from mobnet.core.columns import COMMAND, FEET
 from mobnet.core.joints import NQ_BASE, JointLayout
 from mobnet.core.recording import Sensed
-from mobnet.estimation.observe import observe, observer_of
+from mobnet.estimation.observe import observer_of
 from mobnet.estimation.observer import MomentumObserver
+from mobnet.jobs.observing import observe
 from mobnet.robot.description import describe
 from mobnet.robot.dynamics import momentum_and_beta
 from mobnet.robot.nominal import NominalModel
@@ -40,7 +41,7 @@ def main() -> list[Row]:
     settings = load_settings()
     robot, rate, observing = describe(settings.robot), settings.rates.data_hz, settings.observer
     level, gravity = settings.levels[LEVEL], settings.plant.gravity_m_s2
-    observer = observer_of(robot, level, gravity, observing.gain_hz, rate, observing.torque)
+    observer = observer_of(robot, level.nominal_mass_ratio, gravity, observing.gain_hz, rate, observing.torque)
     sensed = motion(robot.layout, rate)
 
     pairs = {

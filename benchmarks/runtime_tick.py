@@ -52,7 +52,11 @@ def main() -> list[Row]:
 def write_six(path: Path, settings: Settings) -> None:
     """Write a model of the six networks with their first weights, and of a detector for each limb with motors."""
     robot, rate_hz, detection = describe(settings.robot), settings.rates.data_hz, settings.detection
-    known = settings.levels["all_uncertainty"], settings.plant.gravity_m_s2, settings.observer.gain_hz
+    known = (
+        settings.levels["all_uncertainty"].nominal_mass_ratio,
+        settings.plant.gravity_m_s2,
+        settings.observer.gain_hz,
+    )
     trainings = six_trainings(settings)
     detectors = []
     for limb in trainings:

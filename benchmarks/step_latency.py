@@ -41,7 +41,7 @@ def main() -> list[Row]:
     six = six_trainings(settings)
     models = {limb: model_of(training, layout) for limb, training in six.items()}
     networks = LimbNetworks([_network(six[limb], layout, model) for limb, model in models.items()], layout)
-    known = describe(settings.robot), level, settings.plant.gravity_m_s2
+    known = describe(settings.robot), level.nominal_mass_ratio, settings.plant.gravity_m_s2
     observer = observer_of(*known, settings.observer.gain_hz, settings.rates.data_hz, settings.observer.torque)
     whole_tick = ResidualEstimator(observer, layout, networks)
     ticks = [stepper(networks), stepper(whole_tick), _eager(six, layout, models)]

@@ -88,7 +88,8 @@ def _errors(
     """Yield the observer's errors and the largest torques of the left leg, `columns` (6,) of the velocity [N m]."""
     truth = recording.truth
     gravity, observer = settings.plant.gravity_m_s2, settings.observer
-    momentum = observer_of(robot, settings.levels[LEVEL], gravity, observer.gain_hz, recording.rate_hz, observer.torque)
+    ratio = settings.levels[LEVEL].nominal_mass_ratio
+    momentum = observer_of(robot, ratio, gravity, observer.gain_hz, recording.rate_hz, observer.torque)
     residual, low_passed = residual_and_truth(momentum, recording, truth.tau_ext)
     error = np.sqrt(np.mean((residual - low_passed)[:, columns] ** 2, axis=0))
     for joint, one, most in zip(robot.layout.limb(robot.feet["left"].limb), error, _largest(truth.tau_ext[:, columns]),

@@ -67,7 +67,7 @@ def recipe_of(settings):
 
     def recipe(name, level="all_uncertainty", **changes):
         methods = changes.pop("methods", Catalogue(settings).all_methods)
-        observing = settings.levels[level], settings.plant.gravity_m_s2, settings.observer
+        observing = settings.levels[level].nominal_mass_ratio, settings.plant.gravity_m_s2, settings.observer
         return Recipe(name, methods, settings.robot, *observing, RATE_HZ, **changes)
 
     return recipe

@@ -28,6 +28,7 @@ from mobnet.core.columns import (
 )
 from mobnet.core.detections import FILES as DETECTION_FILES
 from mobnet.core.detections import columns_of
+from mobnet.core.epochs import read_epochs
 from mobnet.core.errors import DataError, MobnetError, not_accepted, refuse, refuse_lines
 from mobnet.core.files import METRICS, RUN, check_regular, read_json, read_text
 from mobnet.core.joints import JointLayout
@@ -38,11 +39,11 @@ from mobnet.core.store import ARRAY, NOTE, check_rate, file_of, read_pieces
 from mobnet.detection.threshold_file import read_thresholds
 from mobnet.estimation.kinds.dahl import DahlNote, read_dahl
 from mobnet.estimation.kinds.friction import FrictionNote, read_friction
-from mobnet.estimation.methods import method_problems
 from mobnet.evaluation.measure.learning.trainings import TrainingNote, read_training, read_training_note
 from mobnet.evaluation.measure.reaction.results import read_file
 from mobnet.evaluation.measure.registry import measure_problems
-from mobnet.evaluation.number.rows import read_detections, read_epochs, read_scores
+from mobnet.evaluation.number.rows import read_detections, read_scores
+from mobnet.jobs.method_problems import method_problems
 from mobnet.learning.deployed.limbs import LimbNetworks, check_limb
 from mobnet.learning.deployed.networks import deployed
 from mobnet.learning.deployed.weights import read_weights

@@ -8,8 +8,8 @@ from made_notes import network_note
 from safetensors.torch import save_file
 
 from mobnet.core.files import WEIGHTS
-from mobnet.estimation.fitting import write_fit
 from mobnet.estimation.methods import build_estimator
+from mobnet.jobs.fitting import write_fit
 from mobnet.learning.deployed.weights import NOTE
 from mobnet.learning.features import limb_inputs
 from mobnet.learning.model import build_network

@@ -10,7 +10,8 @@ import pytest
 import yaml
 
 from mobnet.estimation import kinds
-from mobnet.estimation.methods import build_estimator, method_problems
+from mobnet.estimation.methods import build_estimator
+from mobnet.jobs.method_problems import method_problems
 from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.load import load_settings
 

@@ -13,9 +13,9 @@ import pytest
 from mobnet.core.columns import EXTERNAL_LP, FEET, SWING, named, recording_columns
 from mobnet.core.recording import Truth, write_recording
 from mobnet.core.store import footer_hash, read_array
-from mobnet.estimation.estimate import estimate
 from mobnet.estimation.methods import kind_names
-from mobnet.estimation.observe import observe
+from mobnet.jobs.estimates import estimate
+from mobnet.jobs.observing import observe
 from mobnet.plan.parts import MethodRun
 from mobnet.running.stage import Stage
 from mobnet.settings.catalogue import Catalogue

@@ -31,6 +31,6 @@ def test_the_jobs_find_everything_compiled(settings):
     widths = (layout.nq, layout.nv, 3, layout.nu, layout.nu, len(FEET), len(COMMAND), len(FEET))
     rows = np.ones((20, sum(widths)), dtype=np.float32)  # a recording is read as views of one array
     sensed = Sensed(*np.split(rows, np.cumsum(widths)[:-1], axis=1))
-    observer_of(simulator.robot, settings.levels["robot_1"], 9.81, 50.0, 500.0).residual(sensed)
+    observer_of(simulator.robot, settings.levels["robot_1"].nominal_mass_ratio, 9.81, 50.0, 500.0).residual(sensed)
     bent(np.zeros(layout.nu), sensed.v[:, -layout.nu :], np.ones(layout.nu), 500.0)
     assert [list(function.signatures) for function in functions] == before

@@ -10,8 +10,8 @@ from mobnet.core.detections import FILES
 from mobnet.core.errors import DataError
 from mobnet.core.recording import Recording, write_recording
 from mobnet.core.store import write_array
-from mobnet.detection.detect import detect
 from mobnet.detection.leg import make_leg, unit_torques
+from mobnet.jobs.detect import detect
 from mobnet.plan.detection import Walk
 from mobnet.settings.detection import Detector
 

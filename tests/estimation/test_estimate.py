@@ -13,9 +13,10 @@ from mobnet.core.estimator import Estimate
 from mobnet.core.files import WEIGHTS
 from mobnet.core.store import read_array, write_array
 from mobnet.estimation import estimate as estimate_module
-from mobnet.estimation.estimate import Observed, estimate, rate_of, read_observed, run_segments, table_of
+from mobnet.estimation.estimate import Observed, rate_of, read_observed, run_segments, table_of
 from mobnet.estimation.methods import build_estimator
-from mobnet.estimation.observe import observe
+from mobnet.jobs.estimates import estimate
+from mobnet.jobs.observing import observe
 from mobnet.learning.deployed.weights import NOTE, STD_SCALE, Z_SCORES, std_scales
 from mobnet.plan.parts import MethodRun
 from mobnet.running.stage import Stage

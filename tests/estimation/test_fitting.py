@@ -4,8 +4,8 @@ import pytest
 
 from mobnet.core.errors import ConfigError
 from mobnet.core.files import read_json
-from mobnet.estimation.fitting import write_fit
 from mobnet.estimation.kinds.friction import read_friction
+from mobnet.jobs.fitting import write_fit
 from mobnet.settings.catalogue import Catalogue
 
 

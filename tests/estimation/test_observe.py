@@ -11,8 +11,9 @@ from mobnet.core.recording import Recording, write_recording
 from mobnet.core.store import read_array
 from mobnet.estimation.label import foot_label
 from mobnet.estimation.low_pass import low_pass
-from mobnet.estimation.observe import observe, observer_of
+from mobnet.estimation.observe import observer_of
 from mobnet.estimation.observer import MomentumObserver
+from mobnet.jobs.observing import observe
 from mobnet.robot.nominal import NominalModel
 
 RATE_HZ, GAIN_HZ = 1000.0, 100.0
@@ -84,7 +85,8 @@ def test_every_segment_starts_anew(run, recording, nominal, written, tmp_path):
 
 
 def test_level_picks_the_nominal_model(settings, robot):
-    made = {name: observer_of(robot, level, 9.81, GAIN_HZ, RATE_HZ) for name, level in settings.levels.items()}
+    ratios = {name: level.nominal_mass_ratio for name, level in settings.levels.items()}
+    made = {name: observer_of(robot, ratio, 9.81, GAIN_HZ, RATE_HZ) for name, ratio in ratios.items()}
     ratios = {name: observer.nominal.mass_ratio for name, observer in made.items()}
     lighter = {level for level, ratio in ratios.items() if ratio == pytest.approx(0.9)}
     assert lighter == {"all_uncertainty", "no_friction", "no_load_friction", "no_noise"}

@@ -5,8 +5,8 @@ from pathlib import Path
 
 import pytest
 
+from mobnet.jobs.trainings import train_all
 from mobnet.learning.dataset import load_limb_data
-from mobnet.learning.train import train_all
 from mobnet.plan.parts import Repetition
 from mobnet.running.stage import Stage
 from mobnet.settings.catalogue import Catalogue

@@ -9,6 +9,7 @@ import torch
 from mobnet.core.errors import DataError
 from mobnet.core.files import WEIGHTS
 from mobnet.core.store import read_array
+from mobnet.jobs.trainings import train_all
 from mobnet.learning.cells import Gru
 from mobnet.learning.dataset import load_limb_data
 from mobnet.learning.deployed.weights import GRU_TENSORS, read_weights
@@ -17,7 +18,6 @@ from mobnet.learning.model import LimbNetwork
 from mobnet.learning.optimisation import Samples, train_epoch
 from mobnet.learning.streams import deal
 from mobnet.learning.swings import free_rows, hanging
-from mobnet.learning.train import train_all
 from mobnet.learning.trainer import Trainer
 from mobnet.settings.catalogue import Catalogue
 

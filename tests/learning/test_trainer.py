@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 import torch
 
+from mobnet.core.epochs import read_epochs
 from mobnet.core.errors import TrainingError
 from mobnet.core.files import CHECKPOINT, METRICS
-from mobnet.evaluation.number.rows import read_epochs
 from mobnet.learning.job import PRECISIONS, TrainingJob
 from mobnet.learning.trainer import Trainer
 from mobnet.settings.networks import Coarse

@@ -16,7 +16,7 @@ from mobnet.core.columns import Epoch, Score, torque_columns
 from mobnet.core.errors import MobnetError
 from mobnet.core.recording import write_recording
 from mobnet.core.store import write_array
-from mobnet.estimation.observe import observe
+from mobnet.jobs.observing import observe
 
 RATE_HZ = 1000.0
 AGAINST = Against()  # reads the configuration once

@@ -25,7 +25,7 @@ from mobnet.core.columns import recording_columns, recording_width
 from mobnet.core.errors import DataError
 from mobnet.core.recording import Truth, read_sensed
 from mobnet.core.store import read_array, write_array
-from mobnet.estimation.estimate import estimate
+from mobnet.jobs.estimates import estimate
 from mobnet.learning.dataset import load_limb_data
 from mobnet.plan.parts import MethodRun
 from mobnet.running.stage import Stage

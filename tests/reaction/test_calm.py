@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from mobnet.core.errors import DataError
-from mobnet.reaction.calm import calm_parts, limb_thresholds
+from mobnet.jobs.calm import calm_parts, limb_thresholds
 
 RATE_HZ, HOUR_S = 10.0, 3600.0
 

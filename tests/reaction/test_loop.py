@@ -5,9 +5,9 @@ import numpy as np
 import pytest
 
 from mobnet.core.columns import recording_columns
+from mobnet.jobs.reaction_trial import angle_deg, contacts_of
 from mobnet.plan.jobs import walk_settings
 from mobnet.reaction.loop import columns_of, force_on, plan_steps, stop
-from mobnet.reaction.trial import angle_deg, contacts_of
 from mobnet.settings.load import load_settings
 from mobnet.simulation.simulator import Simulator
 

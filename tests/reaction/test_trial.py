@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
+from mobnet.jobs.reaction_trial import angle_deg, contacts_of, impulse_ns, trial_of
 from mobnet.reaction.handler import Reacted
 from mobnet.reaction.loop import Course
-from mobnet.reaction.trial import angle_deg, contacts_of, impulse_ns, trial_of
 from mobnet.settings.reaction import Watch
 
 RATE_HZ = 1000.0

@@ -65,7 +65,7 @@ def test_importing_changes_nothing(tmp_path):
 
 
 DRAWN = """
-from mobnet.simulation import __main__ as command
+from mobnet import look as command
 command._look = lambda _: 0
 command.main([])
 import matplotlib.font_manager

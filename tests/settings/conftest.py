@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from mobnet.estimation.methods import method_problems
+from mobnet.jobs.method_problems import method_problems
 from mobnet.settings import load
 from mobnet.settings.load import load_settings
 from mobnet.settings.reading import Document

@@ -14,7 +14,7 @@ from mobnet.core.columns import FEET
 from mobnet.core.errors import SimulationError
 from mobnet.core.recording import read_recording
 from mobnet.core.store import read_array
-from mobnet.estimation.observe import observe
+from mobnet.jobs.observing import observe
 from mobnet.settings.data import RecordingSettings
 from mobnet.settings.settings import WalkSettings
 from mobnet.simulation.record import collect, record

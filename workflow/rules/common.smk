@@ -11,7 +11,7 @@ from snakemake.logging import logger as snakemake_logger
 from snakemake.settings.enums import RerunTrigger
 
 from mobnet.core.errors import MobnetError, refuse_lines
-from mobnet.estimation.methods import method_problems
+from mobnet.jobs.method_problems import method_problems
 from mobnet.evaluation.measure.registry import measure_problems
 from mobnet.evaluation.report.paper import missing_packages
 from mobnet.plan.disk import check_places, check_space

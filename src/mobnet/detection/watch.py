@@ -17,7 +17,6 @@ from mobnet.core.store import NOTE, file_of, read_array
 from mobnet.detection.chain import Chain, low_passed, make_chain
 from mobnet.detection.detector import Alarm, GateSignal, LegGate, run_segments
 from mobnet.detection.swings import Spans, segment_of, swings_of
-from mobnet.plan.detection import Walk
 from mobnet.robot.description import RobotDescription
 from mobnet.settings.detection import Detection
 
@@ -109,9 +108,9 @@ class LegSetup(LimbSetup):
         walked = tuple(terrains[segment_of(swing, read.segments)] for swing in swings)
         return LegRecording(path, read.segments, read.sensed.command, self.gate.watch(read, tau), swings, walked)
 
-    def recordings(self, walk: Walk) -> Iterator[LegRecording]:
-        """Yield the leg in the recordings of a walk; not where the gate's method does not estimate it."""
-        for path, stem in zip(walk.recordings, walk.estimates[self.detection.gate.method], strict=True):
+    def recordings(self, paths: Sequence[Path], estimates: Sequence[Path]) -> Iterator[LegRecording]:
+        """Yield the leg in recordings, with estimates of the gate's method; not where that does not estimate it."""
+        for path, stem in zip(paths, estimates, strict=True):
             if estimate := read_estimate(stem, self.joints):
                 yield self.record(path, read_sensed(path, self.robot.layout), estimate.tau_ext)
 

@@ -23,7 +23,6 @@ from mobnet.settings.faults import problems
 from mobnet.settings.methods import Method, Observer
 from mobnet.settings.reading import dotted
 from mobnet.settings.robot import RobotTable
-from mobnet.settings.surrogate import Level
 
 Kind = TypeVar("Kind", bound=Section)
 
@@ -52,7 +51,7 @@ class Recipe:
         name: the method's name.
         methods: the method and, if it runs on another one, that one too, by name.
         robot: the robot's table.
-        level: uncertainty level of section 5.1, which says how wrong the observer's nominal model is.
+        mass_ratio: masses of the observer's nominal model over those of the table (section 5.1).
         gravity_m_s2: acceleration of gravity [m/s^2].
         observing: the observer's settings.
         rate_hz: samples per second [Hz].
@@ -63,7 +62,7 @@ class Recipe:
     name: str
     methods: Mapping[str, Method]
     robot: RobotTable
-    level: Level
+    mass_ratio: float
     gravity_m_s2: float
     observing: Observer
     rate_hz: float
@@ -109,7 +108,7 @@ class Recipe:
         from mobnet.estimation.observe import observer_of
 
         gain_hz, torque = self.observing.gain_hz, self.observing.torque
-        return observer_of(describe(self.robot), self.level, self.gravity_m_s2, gain_hz, self.rate_hz, torque)
+        return observer_of(describe(self.robot), self.mass_ratio, self.gravity_m_s2, gain_hz, self.rate_hz, torque)
 
     def limb_networks(self) -> LimbNetworks | None:
         """Return the method's networks side by side, or None if it names no limbs."""

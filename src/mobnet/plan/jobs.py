@@ -56,9 +56,7 @@ class Jobs:
             "motions": motions,
         }
         own = {f"{out}{NOTE}": (seed, duration_s) for seed, duration_s, out in motions}
-        return self._staged(
-            name, Job(Call("mobnet.simulation.motion:make_motions", arguments), (), (), own, ("motions",))
-        )
+        return self._staged(name, Job(Call("mobnet.jobs.motions:make_motions", arguments), (), (), own, ("motions",)))
 
     def collect(self, name: str, scenario: str, level: str, seeds: Sequence[int]) -> Job:
         """Return recordings of a scenario at a level, and the observer's residuals of them."""
@@ -71,9 +69,7 @@ class Jobs:
         }
         inputs = _read([shard.motion for shard in shards])
         own = {f"{stem}{NOTE}": shard for shard in shards for stem in (shard.recording, shard.residual)}
-        return self._staged(
-            name, Job(Call("mobnet.estimation.walks:collect_walks", arguments), inputs, (), own, ("shards",))
-        )
+        return self._staged(name, Job(Call("mobnet.jobs.walks:collect_walks", arguments), inputs, (), own, ("shards",)))
 
     def _shard(self, scenario: str, level: str, seed: int) -> Shard:
         """Return one recording of a scenario."""
@@ -106,7 +102,7 @@ class Jobs:
             "training": training,
             "out": (out := self.files.results / "fits" / f"{method}.json"),
         }
-        call, kinds = Call("mobnet.estimation.fitting:write_fit", arguments), self._kinds(method)
+        call, kinds = Call("mobnet.jobs.fitting:write_fit", arguments), self._kinds(method)
         return Job(call, _read(training), kinds, {str(out): code_hash(*kinds)})
 
     def train(self, name: str, networks: Sequence[NetworkName]) -> Job:
@@ -134,7 +130,7 @@ class Jobs:
         elif learning.learning.labels == "swing":
             swings = self.settings.evaluation.changed
             arguments |= {"margins": (swings.lift_off_s, swings.landing_s)}
-        function = "mobnet.estimation.train_gray:train_gray" if fitted else "mobnet.learning.train:train_all"
+        function = "mobnet.jobs.train_gray:train_gray" if fitted else "mobnet.jobs.trainings:train_all"
         own = {f"{repetition.out}/{RUN}": repetition for repetition in repetitions}
         return self._staged(name, Job(Call(function, arguments), inputs, (), own, ("networks",)))
 
@@ -168,7 +164,7 @@ class Jobs:
             for run, method, code in each
             for out, *pair in zip(run.outs, recordings, residuals, strict=True)
         }
-        call = Call("mobnet.estimation.estimate:estimate", arguments)
+        call = Call("mobnet.jobs.estimates:estimate", arguments)
         return self._staged(name, Job(call, inputs, kinds, own, ("runs", "recordings", "residuals")))
 
     def _run(self, method: str, network_seed: int, scenario: str, level: str) -> MethodRun:
@@ -202,7 +198,7 @@ class Jobs:
             "out": self.files.results / "detection",
         }
         own = dict.fromkeys(map(str, detection_files(self.files).values()), ())
-        return Job(Call("mobnet.detection.detect:detect", arguments), _read(walks), (), own)
+        return Job(Call("mobnet.jobs.detect:detect", arguments), _read(walks), (), own)
 
     def watch(self) -> Job:
         """Return the thresholds of a robot's limbs that are watched all the time, and of its feet's sensors."""
@@ -220,7 +216,7 @@ class Jobs:
         }
         inputs = _read([*quiet, run.fitted, [folder / WEIGHTS for folder in run.networks.values()]])
         kinds = self._kinds(method)
-        return Job(Call("mobnet.reaction.calm:watch", arguments), inputs, kinds, {str(out): code_hash(*kinds)})
+        return Job(Call("mobnet.jobs.calm:watch", arguments), inputs, kinds, {str(out): code_hash(*kinds)})
 
     def react(self, cases: Sequence[str]) -> Job:
         """Return the walks of a robot in some cases, with all that is compared there."""
@@ -251,7 +247,7 @@ class Jobs:
         kinds = tuple(dict.fromkeys(kind for method in methods for kind in self._kinds(method)))
         stamps = {str(one.out): code_hash(*kinds) for one in walks}
         noted = {f"{one.course}{NOTE}": () for one in walks if one.course}
-        return Job(Call("mobnet.reaction.react:react", arguments), inputs, kinds, {**stamps, **noted})
+        return Job(Call("mobnet.jobs.react:react", arguments), inputs, kinds, {**stamps, **noted})
 
     def _loaded(self, method: str) -> MethodRun:
         """Return a method with all of its networks that are trained, the first of each limb, to run in a loop."""

@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array
+from mobnet.core.epochs import read_epochs
 from mobnet.core.estimator import Estimate
-from mobnet.evaluation.number.rows import read_epochs
 from mobnet.learning.dataset import LimbData
 from mobnet.learning.deployed.networks import Runnable
 from mobnet.learning.gaussian import coverage

@@ -27,11 +27,10 @@ from mobnet.robotlog.identifying.regressors import Windows, columns_of, moved, t
 from mobnet.robotlog.observe import converted_log
 from mobnet.running.printed import printed
 from mobnet.settings.base import TorqueKind
-from mobnet.settings.identification import Identification
 from mobnet.settings.lab import Lab, load_lab, load_section
 from mobnet.settings.parts import BodyRow, FrictionRow
 from mobnet.settings.robot import RobotTable
-from mobnet.settings.robotlog import LogMap
+from mobnet.settings.robotlog import Identification, LogMap
 
 log = logging.getLogger(__name__)
 TERMS = ("coulomb", "viscous", "offset", "armature")

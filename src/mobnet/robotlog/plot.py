@@ -9,7 +9,7 @@ from mobnet.core.arrays import Array
 from mobnet.core.files import atomic_path
 from mobnet.core.joints import JointLayout
 from mobnet.core.recording import Recording
-from mobnet.evaluation.figures.style import PAGE_INCH, styled
+from mobnet.core.style import PAGE_INCH, styled
 from mobnet.robotlog.flags import stretches
 
 MOST_POINTS = 4000  # of a line: more than a page shows

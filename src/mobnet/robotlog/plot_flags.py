@@ -7,7 +7,7 @@ import numpy as np
 
 from mobnet.core.arrays import Array
 from mobnet.core.files import atomic_path
-from mobnet.evaluation.figures.style import PAGE_INCH, styled
+from mobnet.core.style import PAGE_INCH, styled
 from mobnet.robotlog.flags import Flag
 from mobnet.robotlog.plot import MOST_POINTS, PANEL_INCH
 from mobnet.settings.limb_thresholds import LimbThresholds

@@ -11,6 +11,7 @@ from mobnet.settings.base import (
     Positive,
     RateHz,
     Real,
+    Rising,
     Seconds,
     Section,
     Share,
@@ -19,7 +20,6 @@ from mobnet.settings.base import (
     TorqueKind,
     Vector3,
 )
-from mobnet.settings.identification import Identification
 
 Unit = Literal[
     "rad", "deg", "rad/s", "deg/s", "rpm", "N m", "mN m", "kN m", "A", "m", "mm", "m/s", "m/s^2", "g", "N", "kN", "s",
@@ -170,6 +170,40 @@ class WrenchEstimate(Section):
     force_n: Annotated[Positive, Field(ge=10, le=1e5)]
     moment_nm: Annotated[Positive, Field(ge=1, le=1e4)]
     told: InnerShare
+
+
+class Identification(Section):
+    """How a log becomes a joint's numbers.
+
+    Attributes:
+        low_pass_hz: corner of the low-pass without delay behind which everything is fitted [Hz].
+        window_s: length of the windows, one of which at a time is left out for the intervals [s].
+        least_windows: fewest windows with which anything is identified.
+        held_out: share of the windows, the last ones of each log, on which the fit is tried that does not know them.
+        folds: parts of the other windows, each of which is held out once to choose the smooth sign of a joint.
+        smoothing_rad_s: widths of the smooth sign of which a joint takes the best [rad/s].
+        breakaway_rad: angles of Dahl's law, the same [rad].
+        gain: share by which Dahl's law must lower the error on the parts held out.
+        mass_share: standard deviation of the share by which a link's mass and inertia differ from those of the table.
+        com_m: the same of its centre of mass, along each axis [m].
+        payload_kg_m3: density of a payload, which is taken for a ball [kg/m^3].
+        least_speed_rad_s: root mean square speed below which a joint did not move [rad/s].
+        confidence: nominal one of the intervals.
+    """
+
+    low_pass_hz: Annotated[Positive, Field(le=1000)]
+    window_s: Seconds
+    least_windows: Annotated[Count, Field(ge=10)]
+    held_out: Annotated[InnerShare, Field(le=0.5)]
+    folds: Annotated[Count, Field(ge=2, le=50)]
+    smoothing_rad_s: Rising[Annotated[Positive, Field(ge=1e-4, le=20)]]
+    breakaway_rad: Rising[Annotated[Positive, Field(ge=1e-5, le=1)]]
+    gain: InnerShare
+    mass_share: InnerShare
+    com_m: Annotated[Positive, Field(le=1)]
+    payload_kg_m3: Annotated[Positive, Field(ge=10, le=30_000)]
+    least_speed_rad_s: Positive
+    confidence: InnerShare
 
 
 class RobotLog(Section):

@@ -66,7 +66,7 @@ def test_on_the_observer_it_estimates_the_torque_before_the_low_pass(settings, r
     row = Method(kind="kalman", of="MOB", options={"momentum_nms": 1e-6, "walk_nm": 1e3})
     recipe = recipe_of("quick", "ideal", methods={"MOB": settings.methods["MOB"], "quick": row})
     recording = made_up(0, 0.3)
-    given = settings.levels["ideal"], settings.plant.gravity_m_s2, GAIN_HZ, RATE_HZ
+    given = settings.levels["ideal"].nominal_mass_ratio, settings.plant.gravity_m_s2, GAIN_HZ, RATE_HZ
     residual = observer_of(describe(settings.robot), *given).residual(recording.sensed)
     pole = exact_pole(GAIN_HZ, RATE_HZ)
     raw = np.diff(residual, axis=0, prepend=0.0) * pole / (1 - pole) + residual

@@ -10,11 +10,12 @@ import pytest
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from mobnet.core.style import COLUMN_INCH, PAGE_INCH
 from mobnet.evaluation.compare.curves import Panel, TorqueCurve
 from mobnet.evaluation.compare.errors import ZERO, compared
 from mobnet.evaluation.figures.drawing.compared import bars_of, draw_columns, draw_leg, draw_stack
 from mobnet.evaluation.figures.drawing.curves import draw_panel, held, table_of
-from mobnet.evaluation.figures.style import COLUMN_INCH, PAGE_INCH, UNDATED, save_figure, shortened, with_stable_names
+from mobnet.evaluation.figures.style import UNDATED, save_figure, shortened, with_stable_names
 from mobnet.evaluation.number.files import write_csv
 from mobnet.evaluation.number.number import Number
 

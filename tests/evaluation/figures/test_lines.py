@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from matplotlib.axes import Axes
 
+from mobnet.core.style import COLUMN_INCH, PAGE_INCH
 from mobnet.evaluation.figures.drawing.lines import Line, LinePanel, draw_lines
-from mobnet.evaluation.figures.style import COLUMN_INCH, PAGE_INCH
 from mobnet.evaluation.number.number import Number
 
 

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
+from mobnet.core.style import COLUMN_INCH, PAGE_INCH
 from mobnet.evaluation.compare.curves import Panel, TorqueCurve
 from mobnet.evaluation.figures.drawing.named_bars import NamedBar
 from mobnet.evaluation.figures.drawing.pushes import PushGroup, draw_hits, draw_step
-from mobnet.evaluation.figures.style import COLUMN_INCH, PAGE_INCH
 from mobnet.evaluation.number.number import Number
 
 TIME = np.linspace(-0.1, 0.2, 31)

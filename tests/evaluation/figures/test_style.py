@@ -8,7 +8,8 @@ import pytest
 from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 
-from mobnet.evaluation.figures.style import KINDS, LOOKS, PAGE_INCH, PALETTE, STYLE, Look, legend, looks
+from mobnet.core.style import PAGE_INCH, STYLE
+from mobnet.evaluation.figures.style import KINDS, LOOKS, PALETTE, Look, legend, looks
 from mobnet.settings.settings import Settings
 
 

@@ -14,26 +14,11 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from mobnet.core.files import atomic_path
+from mobnet.core.style import COLUMN_INCH, PAGE_INCH, STYLE
 from mobnet.evaluation.number.files import Field, write_csv
 
 log = logging.getLogger(__name__)
 
-STYLE: dict[Any, Any] = {
-    "font.size": 8,
-    "axes.labelsize": 8,
-    "axes.titlesize": 8,
-    "legend.fontsize": 7,
-    "axes.spines.top": False,
-    "axes.spines.right": False,
-    "axes.linewidth": 0.6,
-    "lines.linewidth": 0.9,
-    "hatch.linewidth": 0.5,
-    "pdf.fonttype": 42,
-    "svg.hashsalt": "mobnet",  # names of parts of a drawing, the same in every run
-    "savefig.dpi": 200,
-}
-styled = mpl.rc_context(STYLE)  # decorates functions that draw
-COLUMN_INCH, PAGE_INCH = 3.4, 7.0  # width of one column of the paper and of two
 LETTERS = "abcdefghijkl"
 CLIP = re.compile(r"(?:(?<=id=\")|(?<=url\(#))p[0-9a-f]{10}\b")  # name of an area that a drawing is cut to
 PATHS, DIGITS = re.compile(r' d="[^"]*"'), re.compile(r"(\.\d\d)\d+")

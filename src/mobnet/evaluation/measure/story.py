@@ -131,10 +131,10 @@ class StoredPush:
         networks = {limb: self.folder / network_place(source, limb)} if catalogue.method(source).limbs else {}
         fit = self.folder / fit_place(fitted) if catalogue.method(fitted).fitted else None
         methods = {name: catalogue.method(name) for name in (method, fitted)}
-        level, gravity = settings.levels[self.story.level], settings.plant.gravity_m_s2
+        ratio, gravity = settings.levels[self.story.level].nominal_mass_ratio, settings.plant.gravity_m_s2
         rate_hz = self.recording.rate_hz
         return build_estimator(
-            Recipe(method, methods, settings.robot, level, gravity, settings.observer, rate_hz, networks, fit)
+            Recipe(method, methods, settings.robot, ratio, gravity, settings.observer, rate_hz, networks, fit)
         )
 
     def estimate(self, method: str) -> Estimate:

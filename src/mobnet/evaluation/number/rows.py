@@ -1,16 +1,16 @@
 """Files of rows that jobs hand on: errors of runs, epochs of trainings, and what detectors find."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import fields
 from operator import attrgetter
 from pathlib import Path
 from typing import Any, cast
 
-from mobnet.core.columns import JOINT_ERROR, Epoch, Score
+from mobnet.core.columns import Score
 from mobnet.core.detections import FILES, PARTS, UNNAMED
-from mobnet.core.errors import ConfigError, refuse_lines
+from mobnet.core.errors import ConfigError
 from mobnet.core.metrics import metric_of
-from mobnet.core.rows import parse_field, read_rows, read_texts, refuse_rows
+from mobnet.core.rows import read_rows, refuse_rows
 
 KEY = attrgetter(*(field.name for field in fields(Score) if field.name != "value"))  # what names a score, unit last
 ENDS = (("start_s", "end_s"), ("low", "high"), ("found", "collisions"))  # of rows of detectors, smaller one first
@@ -29,38 +29,6 @@ def read_scores(*paths: Path) -> list[Score]:
         refuse_rows(path, _score_faults(rows))
         found += rows
     return found
-
-
-def read_epochs(path: Path) -> tuple[tuple[Epoch, ...], dict[str, tuple[float, ...]]]:
-    """Read the epochs of a training, and joint -> its error in each of them (E,) [N, N m].
-
-    A training of an earlier version has no errors of joints.
-
-    Raises:
-        DataError: the file is missing or damaged, or a row is not accepted; one line for each fault.
-    """
-    rows = read_rows(path, Epoch)
-    refuse_rows(path, _epoch_faults(rows))
-    return tuple(rows), _joint_errors(path)
-
-
-def _joint_errors(path: Path) -> dict[str, tuple[float, ...]]:
-    """Return joint -> its error in each epoch (E,) [N, N m], as read_epochs does."""
-    faults, found = list[str](), dict[str, tuple[float, ...]]()
-    lines = [*enumerate(read_texts(path), start=2)]
-    for name in lines[0][1] if lines else ():
-        if name.startswith(prefix := JOINT_ERROR.format("")):
-            values = [parse_field(row[name], float, f"{path}:{line}: {name}", faults) for line, row in lines]
-            found[name.removeprefix(prefix)] = tuple(values)
-    refuse_lines(faults)
-    refuse_rows(path, _below_zero({JOINT_ERROR.format(joint): values for joint, values in found.items()}))
-    return found
-
-
-def _below_zero(columns: Mapping[str, Sequence[float]]) -> Iterator[Fault]:
-    """Yield the numbers of some columns that are below zero."""
-    for name, values in columns.items():
-        yield from ((k, name, value, "0 or more") for k, value in enumerate(values) if value < 0.0)
 
 
 def read_detections(path: Path, name: str) -> list[Any]:
@@ -116,12 +84,3 @@ def _score_faults(rows: Sequence[Score]) -> Iterator[Fault]:
         # a limb with forces and torques has two means of what has no unit of a joint, such as %
         if first != k and not (row.joint == "avg" and len(metric.units) == 1):
             yield k, "row", ", ".join(map(str, key[:-1])), f"once; it stands in line {first + 2} already"
-
-
-def _epoch_faults(rows: Sequence[Epoch]) -> Iterator[Fault]:
-    """Yield epochs that are not counted from 1, and numbers below zero."""
-    for k, row in enumerate(rows):
-        if row.epoch != k + 1:
-            yield k, "epoch", row.epoch, str(k + 1)
-    names = ("validation_rmse", "rate", "gradient_norm")
-    yield from _below_zero({name: [getattr(row, name) for row in rows] for name in names})

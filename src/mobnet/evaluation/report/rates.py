@@ -12,8 +12,8 @@ from scipy.optimize import nnls
 from mobnet.core.errors import DataError
 from mobnet.core.notes import Note, NotNegative, Positive, Text
 from mobnet.evaluation.report.compute import HOUR_S
+from mobnet.learning.precision import PROCESSOR
 from mobnet.plan.plan import Plan
-from mobnet.plan.precision import PROCESSOR
 from mobnet.plan.work import Work
 from mobnet.running.logs import Account
 

@@ -21,8 +21,8 @@ from mobnet.settings.settings import Settings
 SEEDS = Path("docs/results/seeds.json")
 KINDS = "mobnet/estimation/kinds"
 CODE = (  # what learns, estimates, detects and reacts; the modules of estimators, which are imported by name, are added
-    "mobnet.learning.train", "mobnet.estimation.estimate", "mobnet.detection.calibrate", "mobnet.detection.detect",
-    "mobnet.reaction.calm", "mobnet.reaction.react",
+    "mobnet.learning.train", "mobnet.estimation.estimate", "mobnet.detection.calibrate", "mobnet.jobs.detect",
+    "mobnet.jobs.calm", "mobnet.jobs.react",
 )  # fmt: skip
 # Sections that change no method: what is shown, printed and claimed, trials apart from the published results, what
 # belongs to other robots, and the scales, of which the lengths of trainings are added.

@@ -18,9 +18,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from mobnet.core.columns import Epoch
+from mobnet.core.epochs import read_epochs
 from mobnet.core.errors import DataError
 from mobnet.core.files import CHECKPOINT, METRICS, PARTIAL
-from mobnet.evaluation.number.rows import read_epochs
 from mobnet.evaluation.report.wandb_runs import begin, put, rows
 
 if TYPE_CHECKING:

@@ -22,7 +22,7 @@ from scipy.stats import t
 from mobnet.core.arrays import Array
 from mobnet.robotlog.identifying.payload import NUMBERS, START, Payload, linearised, parameters, payload_of
 from mobnet.robotlog.identifying.regressors import LINK, Columns, Windows, together
-from mobnet.settings.identification import Identification
+from mobnet.settings.robotlog import Identification
 
 FREE = ("offset", "scale")  # of either sign: errors of a sensor, which dissipate nothing
 DAHL = "breakaway"

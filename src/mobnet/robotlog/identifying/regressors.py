@@ -26,7 +26,7 @@ from mobnet.estimation.observer import MomentumObserver
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.nominal import NominalModel
 from mobnet.settings.base import TorqueKind
-from mobnet.settings.identification import Identification
+from mobnet.settings.robotlog import Identification
 
 OVERSAMPLED = 4.0  # samples of what is fitted, over the corner of the low-pass
 ORDER = 2  # of that low-pass, which runs forwards and backwards

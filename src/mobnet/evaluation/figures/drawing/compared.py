@@ -11,11 +11,12 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from mobnet.core.columns import JOINT_ERRORS
+from mobnet.core.style import COLUMN_INCH, PAGE_INCH, styled
 from mobnet.evaluation.compare.curves import Panel, TorqueCurve
 from mobnet.evaluation.compare.errors import Compared
 from mobnet.evaluation.figures.drawing.curves import FROM_LIFT_OFF, draw_panel, table_of
 from mobnet.evaluation.figures.drawing.named_bars import BAR_INCH, NamedBar, draw_named_bars
-from mobnet.evaluation.figures.style import COLUMN_INCH, PAGE_INCH, entitle, legend, looks, save_figure, styled
+from mobnet.evaluation.figures.style import entitle, legend, looks, save_figure
 from mobnet.evaluation.number.files import Field, write_csv
 from mobnet.evaluation.number.number import Number
 

@@ -13,9 +13,10 @@ from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array
 from mobnet.core.files import atomic_path
+from mobnet.core.style import PAGE_INCH, STYLE, styled
 from mobnet.evaluation.compare.curves import TRUTH, Panel, TorqueCurve
 from mobnet.evaluation.figures.drawing.curves import draw_panel
-from mobnet.evaluation.figures.style import PAGE_INCH, STYLE, entitle, legend, looks, styled
+from mobnet.evaluation.figures.style import entitle, legend, looks
 
 HEIGHT_INCH, WIDTHS = 4.4, (1.3, 1.0)  # of the figure; of its columns, side by side
 LINE = 9  # from one line of a note to the next [points]

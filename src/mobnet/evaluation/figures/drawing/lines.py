@@ -9,7 +9,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from mobnet.evaluation.figures.style import STYLE, Look, entitle, legend, looks, stacked, styled
+from mobnet.core.style import STYLE, styled
+from mobnet.evaluation.figures.style import Look, entitle, legend, looks, stacked
 from mobnet.evaluation.number.number import Number
 
 PANEL_INCH, LEGEND_INCH = 1.6, 0.45  # height of a panel and of the legend above all

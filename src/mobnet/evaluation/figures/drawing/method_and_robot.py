@@ -9,12 +9,13 @@ from matplotlib.figure import Figure
 
 from mobnet.core.arrays import Array
 from mobnet.core.joints import JointLayout
+from mobnet.core.style import COLUMN_INCH, PAGE_INCH, styled
 from mobnet.evaluation.figures.drawing.diagram import SUM_RADIUS, Box, draw_box, draw_path, draw_sum, sheet
 from mobnet.evaluation.figures.drawing.ground import draw_ground, draw_shadow
 from mobnet.evaluation.figures.drawing.pushed import draw_force, standing
 from mobnet.evaluation.figures.drawing.robot import place_of, poses_of, projection, solids_of
 from mobnet.evaluation.figures.drawing.robot_parts import LIMBS, axes_of, draw_axes, draw_limbs, draw_note
-from mobnet.evaluation.figures.style import COLUMN_INCH, PAGE_INCH, save_figure, styled
+from mobnet.evaluation.figures.style import save_figure
 from mobnet.robot.description import RobotDescription, describe
 from mobnet.robot.looks import dressed
 from mobnet.settings.data import Push

@@ -8,10 +8,11 @@ from typing import Any
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from mobnet.core.style import COLUMN_INCH, PAGE_INCH, styled
 from mobnet.evaluation.compare.curves import Panel
 from mobnet.evaluation.figures.drawing.curves import draw_panel
 from mobnet.evaluation.figures.drawing.named_bars import BAR_INCH, NamedBar, draw_named_bars, draw_named_dots
-from mobnet.evaluation.figures.style import COLUMN_INCH, PAGE_INCH, entitle, legend, styled
+from mobnet.evaluation.figures.style import entitle, legend
 
 STEP_INCH, HIT_INCH = 1.6, 1.15  # height of curves in one column of the paper and in two
 REST_INCH, GROUP_INCH = 0.95, 0.66  # of legend and labels in one column; of titles and labels of a group in two

@@ -11,7 +11,8 @@ from matplotlib.figure import Figure
 
 from mobnet.core.columns import RESPONSE
 from mobnet.core.joints import JointLayout
-from mobnet.evaluation.figures.style import LETTERS, PAGE_INCH, STYLE, Look, legend, looks, save_figure, styled
+from mobnet.core.style import PAGE_INCH, STYLE, styled
+from mobnet.evaluation.figures.style import LETTERS, Look, legend, looks, save_figure
 from mobnet.evaluation.measure.estimates.bode import GAIN, PHASE, observer_response
 from mobnet.evaluation.number.files import Field
 from mobnet.evaluation.number.grid import Wanted

@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from mobnet.core.columns import COMMAND, COMMANDS
 from mobnet.core.joints import JointLayout
-from mobnet.evaluation.figures.style import beside, legend, save_figure, styled
+from mobnet.core.style import styled
+from mobnet.evaluation.figures.style import beside, legend, save_figure
 from mobnet.evaluation.measure.data.steps import CHOICES, KEYS, UNITS, bin_edges, bin_of, read_steps
 from mobnet.settings.data import Commands
 from mobnet.settings.figures import CommandsFigure

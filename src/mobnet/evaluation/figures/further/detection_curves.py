@@ -11,7 +11,8 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import StrMethodFormatter
 
 from mobnet.core.detections import COLLISION, HELD_OUT, CurvePoint, FreeSwing, Promise
-from mobnet.evaluation.figures.style import LOOKS, Look, beside, entitle, legend, save_figure, styled
+from mobnet.core.style import styled
+from mobnet.evaluation.figures.style import LOOKS, Look, beside, entitle, legend, save_figure
 from mobnet.evaluation.measure.detection.results import (
     MS,
     Detections,

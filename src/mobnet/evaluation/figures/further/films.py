@@ -13,9 +13,9 @@ from mobnet.core.arrays import Array
 from mobnet.core.columns import ESTIMATED, EXTERNAL, STD
 from mobnet.core.course import StoredCourse, read_course
 from mobnet.core.store import read_array
+from mobnet.core.style import styled
 from mobnet.evaluation.figures.drawing.robot import projection
 from mobnet.evaluation.figures.drawing.scene import FORCE, draw_scene
-from mobnet.evaluation.figures.style import styled
 from mobnet.robot.description import RobotDescription, describe
 from mobnet.robot.looks import dressed
 from mobnet.settings.data import Obstacle

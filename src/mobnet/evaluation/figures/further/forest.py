@@ -15,7 +15,8 @@ from matplotlib.figure import Figure
 
 from mobnet.core.claim_ranges import range_text
 from mobnet.core.columns import FOREST, SCORED, VERDICTS
-from mobnet.evaluation.figures.style import PAGE_INCH, STYLE, save_figure
+from mobnet.core.style import PAGE_INCH, STYLE
+from mobnet.evaluation.figures.style import save_figure
 from mobnet.evaluation.measure.claims.places import BEYOND_BOUND, OVER_PAPER, Place, Statement, statements_of
 from mobnet.evaluation.measure.claims.verdicts import Judged
 from mobnet.evaluation.number.number import Number

@@ -14,7 +14,8 @@ from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
 from mobnet.core.columns import RELIABILITY
-from mobnet.evaluation.figures.style import LETTERS, PAGE_INCH, PALETTE, STYLE, save_figure, styled
+from mobnet.core.style import PAGE_INCH, STYLE, styled
+from mobnet.evaluation.figures.style import LETTERS, PALETTE, save_figure
 from mobnet.evaluation.measure.learning.calibration import CoverageGrid
 from mobnet.settings.measures import CalibrationTable
 

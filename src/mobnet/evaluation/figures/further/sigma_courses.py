@@ -11,7 +11,8 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter, StrMethodFormatter
 
 from mobnet.core.columns import SIGMA
-from mobnet.evaluation.figures.style import PAGE_INCH, Look, entitle, legend, looks, save_figure, styled
+from mobnet.core.style import PAGE_INCH, styled
+from mobnet.evaluation.figures.style import Look, entitle, legend, looks, save_figure
 from mobnet.evaluation.measure.estimates.sigma import COVER, MEMORY, STD
 from mobnet.evaluation.number.files import Field
 from mobnet.evaluation.number.lookup import Lookup

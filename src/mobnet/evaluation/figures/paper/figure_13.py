@@ -11,8 +11,9 @@ from mobnet.core.detections import Collision
 from mobnet.core.errors import DataError, not_accepted
 from mobnet.core.recording import read_sensed
 from mobnet.core.store import read_array
+from mobnet.core.style import styled
 from mobnet.evaluation.figures.drawing.robot import draw_robot, lowest, place_of, projection
-from mobnet.evaluation.figures.style import beside, entitle, save_figure, styled
+from mobnet.evaluation.figures.style import beside, entitle, save_figure
 from mobnet.evaluation.measure.detection.results import Detections, rows_of
 from mobnet.robot.description import RobotDescription, describe
 from mobnet.robot.looks import dressed

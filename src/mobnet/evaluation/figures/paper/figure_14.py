@@ -7,7 +7,8 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from mobnet.core.detections import Collision
-from mobnet.evaluation.figures.style import Look, beside, entitle, legend, looks, save_figure, styled
+from mobnet.core.style import styled
+from mobnet.evaluation.figures.style import Look, beside, entitle, legend, looks, save_figure
 from mobnet.evaluation.measure.detection.results import MS, Detections, owners, rows_of
 from mobnet.evaluation.number.files import Field
 from mobnet.settings.detection import Detection

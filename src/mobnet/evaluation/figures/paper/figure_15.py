@@ -11,8 +11,9 @@ from mobnet.core.columns import PUSH, STD, SWING, foot_of, named
 from mobnet.core.detections import Collision, Threshold
 from mobnet.core.joints import JointLayout
 from mobnet.core.store import read_array
+from mobnet.core.style import styled
 from mobnet.evaluation.figures.drawing.curves import mark_flag
-from mobnet.evaluation.figures.style import beside, entitle, legend, looks, save_figure, styled
+from mobnet.evaluation.figures.style import beside, entitle, legend, looks, save_figure
 from mobnet.evaluation.measure.detection.results import Detections, rows_of
 from mobnet.settings.detection import Detection
 from mobnet.settings.detection_tables import Figure15

@@ -10,7 +10,8 @@ from matplotlib.figure import Figure
 from mobnet.core.arrays import Array
 from mobnet.core.reactions import Trial
 from mobnet.core.store import read_array
-from mobnet.evaluation.figures.style import LOOKS, beside, entitle, legend, save_figure, styled
+from mobnet.core.style import styled
+from mobnet.evaluation.figures.style import LOOKS, beside, entitle, legend, save_figure
 from mobnet.evaluation.measure.detection.results import MS
 from mobnet.evaluation.measure.reaction.results import (
     FALLS,

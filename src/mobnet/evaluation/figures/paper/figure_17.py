@@ -11,7 +11,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from mobnet.core.columns import LOSSES
-from mobnet.evaluation.figures.style import COLUMN_INCH, Look, entitle, looks, save_figure, styled
+from mobnet.core.style import COLUMN_INCH, styled
+from mobnet.evaluation.figures.style import Look, entitle, looks, save_figure
 from mobnet.evaluation.measure.learning.losses import ENDS, Loss, losses_of
 from mobnet.evaluation.measure.learning.trainings import kind_of_each, read_trainings, sound
 from mobnet.settings.figures import Figure17

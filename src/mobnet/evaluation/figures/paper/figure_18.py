@@ -11,8 +11,9 @@ from matplotlib.figure import Figure
 
 from mobnet.core.columns import LIMB_ERRORS
 from mobnet.core.joints import JointLayout
+from mobnet.core.style import styled
 from mobnet.evaluation.compare.rmse import PUSHED
-from mobnet.evaluation.figures.style import entitle, legend, looks, save_figure, stacked, styled
+from mobnet.evaluation.figures.style import entitle, legend, looks, save_figure, stacked
 from mobnet.evaluation.measure.estimates.scores import AVERAGE
 from mobnet.evaluation.number.grid import Wanted, number_of
 from mobnet.evaluation.number.number import Number

@@ -12,8 +12,9 @@ from matplotlib.lines import Line2D
 
 from mobnet.core.columns import PLANES, foot_of
 from mobnet.core.joints import JointLayout
+from mobnet.core.style import PAGE_INCH, STYLE, styled
 from mobnet.evaluation.compare.windows import pushed_of
-from mobnet.evaluation.figures.style import PAGE_INCH, STYLE, entitle, save_figure, styled
+from mobnet.evaluation.figures.style import entitle, save_figure
 from mobnet.evaluation.measure.data.conditional import HALF
 from mobnet.evaluation.measure.data.planes import TESTS, Plane, plane_of, read_samples
 from mobnet.settings.figures import Figure19

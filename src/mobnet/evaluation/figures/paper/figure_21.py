@@ -12,9 +12,10 @@ from mobnet.control.kinematics import empty_pose, tree_of, update
 from mobnet.core.arrays import Array
 from mobnet.core.course import StoredCourse, read_course
 from mobnet.core.joints import N_VIRTUAL
+from mobnet.core.style import COLUMN_INCH, styled
 from mobnet.evaluation.figures.drawing.scene import PAD, draw_arrow, solid_of
 from mobnet.evaluation.figures.drawing.solids import outline_of
-from mobnet.evaluation.figures.style import COLUMN_INCH, legend, save_figure, styled
+from mobnet.evaluation.figures.style import legend, save_figure
 from mobnet.robot.description import SIDES, RobotDescription, describe
 from mobnet.settings.data import Obstacle
 from mobnet.settings.reaction_tables import Figure21

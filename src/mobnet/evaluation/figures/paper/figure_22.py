@@ -6,9 +6,10 @@ from pathlib import Path
 from matplotlib.figure import Figure
 
 from mobnet.core.course import StoredCourse, read_course
+from mobnet.core.style import PAGE_INCH, styled
 from mobnet.evaluation.figures.drawing.robot import projection
 from mobnet.evaluation.figures.drawing.scene import draw_scene
-from mobnet.evaluation.figures.style import PAGE_INCH, entitle, save_figure, styled
+from mobnet.evaluation.figures.style import entitle, save_figure
 from mobnet.evaluation.number.files import Field
 from mobnet.robot.description import describe
 from mobnet.robot.looks import dressed

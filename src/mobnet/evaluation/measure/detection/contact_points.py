@@ -18,11 +18,11 @@ from mobnet.core.errors import DataError
 from mobnet.core.estimator import Estimate
 from mobnet.core.recording import read_sensed
 from mobnet.core.store import read_array
-from mobnet.detection.collisions import Hit, hits_of
 from mobnet.detection.contact import ContactFinder
 from mobnet.detection.watch import read_estimate
 from mobnet.estimation.low_pass import low_pass
 from mobnet.evaluation.measure.detection.results import rows_of
+from mobnet.jobs.collisions import Hit, hits_of
 from mobnet.plan.detection import Detections
 from mobnet.plan.runs import Run
 from mobnet.robot.description import RobotDescription

@@ -13,10 +13,10 @@ from typing import Annotated, Any, Literal
 from pydantic import Field
 
 from mobnet.core.columns import Epoch
+from mobnet.core.epochs import read_epochs
 from mobnet.core.errors import not_accepted, refuse
 from mobnet.core.files import METRICS, RUN, TIME, read_json
 from mobnet.core.notes import Count, FileName, Index, Names, Note, NotNegative, Positive, Text, read_note
-from mobnet.evaluation.number.rows import read_epochs
 from mobnet.settings.figures import Figure17
 from mobnet.settings.networks import CellKind
 from mobnet.settings.robot import GroupName

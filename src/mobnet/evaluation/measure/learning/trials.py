@@ -71,7 +71,7 @@ def read_walks(known: Known, task: TriedTask, rate_hz: float) -> Walks:
 
 def outcome_of(tried: Tried, known: Known, walks: Walks) -> Outcome:
     """Run a variant on all walks side by side."""
-    given = known.robot, walks.level, known.gravity_m_s2, known.observer
+    given = known.robot, walks.level.nominal_mass_ratio, known.gravity_m_s2, known.observer
     recipe = Recipe(tried.name, tried.methods, *given, rate_of(walks.read), tried.networks, tried.fitted)
     estimator = build_estimator(recipe)
     columns = [estimator.joints.index(joint) for joint in walks.joints]

@@ -18,12 +18,12 @@ from mobnet.core.store import write_array
 from mobnet.detection.detector import LegDetector
 from mobnet.detection.signals import Watched
 from mobnet.detection.watch import LegSetup
+from mobnet.jobs.calm import FORCE
+from mobnet.jobs.reacting_robot import Robot
+from mobnet.jobs.reaction_trial import trial_of
 from mobnet.plan.parts import CaseWalks, MethodRun
-from mobnet.reaction.calm import FORCE
 from mobnet.reaction.handler import Handler, Watcher
 from mobnet.reaction.loop import Course, walk_with
-from mobnet.reaction.robot import Robot
-from mobnet.reaction.trial import trial_of
 from mobnet.reaction.watchers import FootWatcher, LegWatcher, LimbWatcher, OwnLegWatcher
 from mobnet.settings.detection import Detection
 from mobnet.settings.methods import Observer

@@ -1,4 +1,4 @@
-"""Walk a scenario and look at it: `python -m mobnet.simulation --help`."""
+"""Walk a scenario and look at it: `python -m mobnet.look --help`."""
 
 import argparse
 import contextlib
@@ -14,6 +14,7 @@ from pathlib import Path
 from mobnet.control.upper_body import UpperBody
 from mobnet.core.code import ROOT
 from mobnet.core.errors import ConfigError, DrawingError, MobnetError, not_accepted
+from mobnet.jobs.motions import make_motion
 from mobnet.plan.jobs import walk_settings
 from mobnet.robot.description import WalkingRobot
 from mobnet.robot.looks import dressed
@@ -24,7 +25,6 @@ from mobnet.settings.lab import CONFIGS
 from mobnet.settings.load import load_settings
 from mobnet.settings.settings import Settings
 from mobnet.simulation.clip import check_ending, save_clip
-from mobnet.simulation.motion import make_motion
 from mobnet.simulation.record import REPORT_WALL_S, read_motion
 from mobnet.simulation.render import Pixels, draw_frames, picture_model, save_picture
 from mobnet.simulation.simulator import Simulator
@@ -56,7 +56,7 @@ def main(words: list[str] | None = None) -> int:
 
 
 def _parse(words: list[str] | None) -> argparse.Namespace:
-    parser = argparse.ArgumentParser(prog="python -m mobnet.simulation", description=DESCRIPTION)
+    parser = argparse.ArgumentParser(prog="python -m mobnet.look", description=DESCRIPTION)
     parser.add_argument("--scenario", default="forward_walk", help="key of `scenarios` (%(default)s)")
     parser.add_argument("--level", default="all_uncertainty", help="key of `levels` (%(default)s)")
     parser.add_argument("--terrain", help="key of `terrain`; without it, one of the scenario's is drawn")

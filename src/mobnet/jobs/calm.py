@@ -21,8 +21,8 @@ from mobnet.core.rows import csv_text
 from mobnet.detection.calibration import unit_of
 from mobnet.detection.thresholds import calibrate
 from mobnet.detection.watch import LegSetup
+from mobnet.jobs.reacting_robot import Robot
 from mobnet.plan.parts import MethodRun
-from mobnet.reaction.robot import Robot
 from mobnet.reaction.watchers import some
 from mobnet.settings.detection import Detection
 from mobnet.settings.methods import Observer

@@ -8,8 +8,8 @@ import matplotlib.image
 import pytest
 from PIL import Image
 
+from mobnet import look as command
 from mobnet.core.errors import DrawingError
-from mobnet.simulation import __main__ as command
 from mobnet.simulation import render
 
 ROOT = Path(__file__).parents[2]

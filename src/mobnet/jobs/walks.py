@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from mobnet.core.store import files_of
-from mobnet.estimation.observe import observe
+from mobnet.jobs.observing import observe
 from mobnet.plan.parts import Shard
 from mobnet.running.stage import Stage
 from mobnet.settings.methods import Observer

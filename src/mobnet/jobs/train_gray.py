@@ -11,7 +11,7 @@ from mobnet.core.joints import JointLayout
 from mobnet.core.store import read_array, spans_and_rate
 from mobnet.estimation.kinds.friction import FittedFriction, read_friction
 from mobnet.estimation.low_pass import low_pass
-from mobnet.learning.train import train_all
+from mobnet.jobs.trainings import train_all
 from mobnet.plan.parts import Repetition
 from mobnet.running.stage import Stage
 from mobnet.settings.methods import Observer

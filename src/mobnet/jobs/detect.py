@@ -19,7 +19,8 @@ from mobnet.detection.calibration import (
     quiet_rows,
     threshold_rows,
 )
-from mobnet.detection.trial import (
+from mobnet.detection.watch import LegSetup, read_estimate
+from mobnet.jobs.detector_trial import (
     LegHits,
     candidates_of,
     collision_rows,
@@ -28,7 +29,6 @@ from mobnet.detection.trial import (
     hit_legs,
     unpushed_rows,
 )
-from mobnet.detection.watch import LegSetup, read_estimate
 from mobnet.plan.detection import Walk
 from mobnet.robot.description import describe
 from mobnet.settings.detection import Detection
@@ -65,7 +65,8 @@ def _try_leg(setup: LegSetup, walks: Mapping[str, Walk], rows: Rows) -> None:
     """Add the rows of a leg: its collisions, then what each detector of a method that estimates it makes of them."""
     settings = setup.detection
     # One gate for all detectors, or they would differ by when they watch and not by their signals alone.
-    legs = {name: list(setup.recordings(walk)) for name, walk in walks.items()}
+    gated = setup.detection.gate.method
+    legs = {name: list(setup.recordings(walk.recordings, walk.estimates[gated])) for name, walk in walks.items()}
     hits = {name: hit_legs(setup, walks[name], legs[name]) for name in (settings.collisions, settings.sweep)}
     for name, hit in hits.items():
         rows["collisions"] += collision_rows(setup, name, hit)

@@ -63,7 +63,8 @@ class Robot:
         run, settings = self.runs[method], self.settings
         networks = {limb: folder for limb, folder in run.networks.items() if not limbs or limb in limbs}
         gravity, own = settings.plant.gravity_m_s2, (networks, run.fitted)
-        recipe = Recipe(method, run.methods, settings.robot, settings.level, gravity, self.observer, self.rate_hz, *own)
+        known = settings.robot, settings.level.nominal_mass_ratio, gravity, self.observer
+        recipe = Recipe(method, run.methods, *known, self.rate_hz, *own)
         return build_estimator(recipe)
 
     def columns(self, limb: str) -> NDArray[Any]:

@@ -13,11 +13,11 @@ from mobnet.core.estimator import Estimate
 from mobnet.core.recording import read_sensed
 from mobnet.core.store import read_array
 from mobnet.detection.calibration import CalibratedDetector, swing_ratios
-from mobnet.detection.collisions import Hit, hits_of
 from mobnet.detection.detector import ALARM_RATIO
 from mobnet.detection.isolation import name_push
 from mobnet.detection.leg import unit_torques
 from mobnet.detection.watch import LegRecording, LegSetup
+from mobnet.jobs.collisions import Hit, hits_of
 from mobnet.plan.detection import Walk
 
 
