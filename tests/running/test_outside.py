@@ -4,6 +4,7 @@ What a process opens is seen below Python, as a library in C++ may write and ask
 """
 
 import json
+import shutil
 import sys
 
 import c_library
@@ -13,7 +14,9 @@ import pytest
 
 from mobnet.commands.words import COMMANDS
 from mobnet.core.code import ROOT
+from mobnet.core.errors import ConfigError
 from mobnet.running.environment import child_environment
+from mobnet.settings.load import load_settings
 
 pytestmark = [
     pytest.mark.slow,
@@ -34,13 +37,15 @@ CHAIN = (  # each with its module, as the commands of `./reproduce`
     ("mobnet.detection.calibrate", "free", *ROBOT, "--network", "net", "--out", "thresholds.yaml"),
     ("mobnet.robotlog.detect", "train.csv", *ROBOT, *NETWORK, "--out", "found"),
     ("mobnet.export.export", "net", *ROBOT, "--thresholds", "thresholds.yaml", "--out", "run_time"),
-    ("mobnet.check", "arm.yaml", "net/weights.safetensors", "--robot", str(ARM)),
-    ("mobnet.demo", "--out", "demo.png"),
+    ("mobnet.check", "arm.yaml", "net/weights.safetensors", "thresholds.yaml", "--robot", str(ARM)),
 )
-MADE = {
-    "made.yaml", "motion.csv", "train", "free", "net", "thresholds.yaml", "found", "run_time", "demo.png",
-}  # fmt: skip
+MADE = {"made.yaml", "motion.csv", "train", "free", "net", "thresholds.yaml", "found", "run_time"}
+# Two functions read the configuration; both get the folder that is given.
 RUN = """import importlib, json, sys
+from pathlib import Path
+from mobnet.settings import lab, load
+lab.load_lab.__defaults__ = (Path(sys.argv[2]),)
+load.load_settings.__defaults__ = (Path(sys.argv[2]), None, None)
 for module, *words in json.loads(sys.argv[1]):
     assert importlib.import_module(module).main(words) == 0, module
 """
@@ -63,6 +68,19 @@ def lab(tmp_path_factory):
     return folder
 
 
+@pytest.fixture(scope="module")
+def broken(tmp_path_factory):
+    """A configuration in which a claim, a figure and a scenario are wrong, as the paper's authors may leave it."""
+    folder = tmp_path_factory.mktemp("project") / "configs"
+    shutil.copytree(ROOT / "configs", folder)
+    for name in ("claims", "evaluation", "data", "scales", "walking"):
+        path = folder / f"{name}.yaml"
+        path.write_text(path.read_text() + "\nno_such_section: 1\n")
+    with pytest.raises(ConfigError, match="no_such_section"):
+        load_settings(folder)
+    return folder
+
+
 def elsewhere(found):
     """Return what a command that must succeed wrote elsewhere, and whom it called."""
     done, written, called = found
@@ -70,15 +88,25 @@ def elsewhere(found):
     return written, called
 
 
-def test_the_commands_and_the_example_write_and_send_nothing_elsewhere(watched, lab):
-    """From a robot's file to a program of one's own, whose user has set nothing up."""
+def test_the_commands_and_the_example_write_and_send_nothing_elsewhere(watched, lab, broken):
+    """From a robot's file to a program of one's own, whose user has set nothing up.
+
+    Nothing of it needs the configuration of the paper's experiments, which cannot be read here.
+    """
     variables = child_environment(ROOT)
     before = {path.name for path in lab.iterdir()}
-    assert elsewhere(watched(sys.executable, "-P", "-c", RUN, json.dumps(CHAIN), folder=lab, **variables)) == ([], [])
+    words = (sys.executable, "-P", "-c", RUN, json.dumps(CHAIN), broken)
+    assert elsewhere(watched(*words, folder=lab, **variables)) == ([], [])
     assert {path.name for path in lab.iterdir()} == before | MADE
     arrays = "train/recording", "train/estimate"
     assert elsewhere(watched(sys.executable, "-I", EXAMPLE, "run_time", *arrays, folder=lab)) == ([], [])
     assert {path.name for path in lab.iterdir()} == before | MADE
+
+
+def test_the_demo_writes_and_sends_nothing_elsewhere(watched, tmp_path):
+    words = (sys.executable, "-P", "-m", "mobnet.demo", "--out", "demo.png")
+    assert elsewhere(watched(*words, folder=tmp_path, **child_environment(ROOT))) == ([], [])
+    assert (tmp_path / "demo.png").exists()
 
 
 def test_a_program_that_runs_exported_networks_writes_and_sends_nothing(watched):
