@@ -17,7 +17,8 @@ from mobnet.robotlog.columns import Column, check_memory
 
 LOOKED_BYTES = 2**20  # of a file in which its layout is looked for
 LOOKED_ROWS = 100  # in which a decimal comma is looked for
-BLOCK_BYTES = 4 * 2**20  # that are read together
+FIRST_BYTES = 4 * 2**20  # in which the kinds of columns are looked for
+BLOCK_BYTES = 2**20  # that are read together
 SPACES = ""  # in place of a separator: any number of spaces
 SEPARATORS = (";", "\t", ",", SPACES)  # in the order tried: a comma may stand in numbers, a space in names
 COMMENTS = ("#", "%", "//", "sep=")  # first characters of lines that are no rows
@@ -185,8 +186,9 @@ def _separated(path: Path, layout: Layout, asked: Sequence[str]) -> dict[str, Co
 
     parse = arrow.ParseOptions(delimiter=layout.separator, invalid_row_handler=leave_out)
     read = arrow.ReadOptions(
-        column_names=list(layout.names), skip_rows=layout.lead, block_size=BLOCK_BYTES, encoding=layout.encoding
-    )
+        column_names=list(layout.names), skip_rows=layout.lead, block_size=FIRST_BYTES, encoding=layout.encoding,
+        use_threads=False,
+    )  # fmt: skip
     empty = [*arrow.ConvertOptions().null_values, " "]
     kept = {"include_columns": asked, "null_values": empty, "decimal_point": layout.decimal}
     with arrow.open_csv(path, read, parse, arrow.ConvertOptions(**kept)) as file:
@@ -194,6 +196,7 @@ def _separated(path: Path, layout: Layout, asked: Sequence[str]) -> dict[str, Co
     # Columns of a stated type are read in two thirds of the time of those whose type Arrow looks for.
     kinds = {f.name: pa.float64() if _is_loose(f.type) else f.type for f in first}
     wrong.clear()
+    read.block_size = BLOCK_BYTES
     with arrow.open_csv(path, read, parse, arrow.ConvertOptions(**kept, column_types=kinds)) as file:
         held = [k for k, kind in enumerate(file.schema.types) if is_numeric(kind)]
         texts = [k for k in range(len(file.schema)) if k not in held]
