@@ -52,7 +52,7 @@ def test_shares_count_every_sample(values):
 
 
 @pytest.mark.parametrize(("table", "joint"), [("tests/data/arm.yaml", 0), ("configs/robots/tocabi.yaml", 3)])
-def test_five_angles_of_a_joint_tell_all_others(table, joint):
+def test_five_angles_of_a_joint_tell_all_others(table, joint, settings):
     robot = describe(load_section(Path(table), RobotTable))
     nominal, rng = NominalModel(robot), np.random.default_rng(1)
     layout = robot.layout
@@ -60,7 +60,7 @@ def test_five_angles_of_a_joint_tell_all_others(table, joint):
     none = np.zeros((4, layout.nu))
     loads = {side: rng.normal(size=(4, 11, 6)) for side in robot.feet}
     windows = Windows(q, v, none, none, loads, 0.1)
-    seen = Seen(nominal, None, windows, windows.asked(nominal), none[0], (), (), ())
+    seen = Seen(nominal, settings.robotlog, windows, windows.asked(nominal), none[0], (), (), ())
     by_angle = _needed_by_angle(seen, windows, joint)
     for shift in (-2.0, 0.0, 0.3):
         turned = q.copy()

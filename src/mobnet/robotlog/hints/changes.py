@@ -255,7 +255,7 @@ def _needed_by_angle(seen: Seen, windows: Windows, i: int) -> Array:
     many = repeated(windows, WAVES)
     many.q[..., i - len(seen.left)] += np.repeat(angles, count)[:, None]
     needed = many.needed(seen.nominal)[:, i] - many.beside[:, i]
-    return np.linalg.solve(_waves(angles), needed.reshape(WAVES, count))
+    return np.linalg.solve(_waves(angles), needed.reshape(WAVES, count)).astype(np.float64, copy=False)
 
 
 def _waves(angles: Array) -> Array:

@@ -88,9 +88,15 @@ def unexplained(terms: Array, needed: Array, torque: Array, offset: Array) -> Ar
     count = rest.shape[-2]
     if count < BLOCKS:  # too few to try on some what was fitted to others
         return np.ones((*rest.shape[:-2], rest.shape[-1]))
-    late = (np.arange(count) * BLOCKS // count) % 2 == 1
+    is_late = (np.arange(count) * BLOCKS // count) % 2 == 1
+    early, late = np.flatnonzero(~is_late), np.flatnonzero(is_late)
+    if len(early) == len(late):  # both at once: most of the time is that of calls
+        pairs = [(np.stack([early, late]), np.stack([late, early]))]
+    else:
+        pairs = [(fitted[None], tried[None]) for fitted, tried in ((early, late), (late, early))]
     left = np.zeros((*rest.shape[:-2], rest.shape[-1]))
-    for half in (late, ~late):
-        numbers, constant = friction_fit(terms[..., ~half, :], rest[..., ~half, :], offset)
-        left += np.square(rest[..., half, :] - terms[..., half, :] @ numbers - constant).sum(axis=-2)
+    for fitted, tried in pairs:
+        numbers, constant = friction_fit(terms[..., fitted, :], rest[..., fitted, :], np.asarray(offset)[..., None])
+        error = rest[..., tried, :] - terms[..., tried, :] @ numbers - constant
+        left += np.square(error).sum(axis=-2).sum(axis=-2)
     return quotient(left, np.square(torque).sum(axis=-2))
