@@ -1,5 +1,6 @@
 """The observer against closed forms: (10), second order in time, linearity, symmetry, the law of its noise."""
 
+import tracemalloc
 from dataclasses import replace
 
 import numpy as np
@@ -80,6 +81,27 @@ def test_batch_equals_the_recursion_and_stepping(nominal, observer, pushed):
         state, residual = observer.step(state, sensed[k])
         rows.append(residual)
     np.testing.assert_allclose(rows, batch, atol=1e-9)
+
+
+def test_blocks_of_samples_change_no_bit(observer, pushed, monkeypatch):
+    sensed, _ = pushed(RATE_HZ)
+    whole = observer.residual(sensed)
+    monkeypatch.setattr("mobnet.estimation.observer.BLOCK_ROWS", 7)
+    out = np.empty(whole.shape)
+    assert observer.residual(sensed, out) is out
+    np.testing.assert_array_equal(out, whole)
+
+
+def test_needs_little_memory_beside_its_result(observer, pushed):
+    sensed, _ = pushed(RATE_HZ)
+    rows = np.resize(np.arange(len(sensed)), 20_000)
+    many = Sensed(*(getattr(sensed, name)[rows] for name in Sensed.__dataclass_fields__))
+    observer.residual(many[:10])
+    tracemalloc.start()
+    result = observer.residual(many)
+    most = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert most < 2 * result.nbytes
 
 
 def test_is_the_form_of_bledt_2018(nominal, observer, pushed):

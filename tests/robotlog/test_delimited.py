@@ -37,6 +37,7 @@ KINDS = {
     "an index of pandas": "\n".join([f",{HEADER}", *(f"{k},{line}" for k, line in enumerate(LINES))]),
     "quotes": "\n".join(",".join(f'"{part}"' for part in line.split(",")) for line in PLAIN),
     "old line ends": "\r\n".join(PLAIN) + "\r\n\r\n",
+    "line ends of old Macs": "\r".join(PLAIN) + "\r",
 }
 
 

@@ -27,15 +27,14 @@ def low_pass(x: NDArray[Any], gain_hz: float, rate_hz: float) -> Array:
     The values of x are means over each sample, the gain is K_0 of (7) [1/s].
     """
     # (O6): it starts as the residual does, which cannot know what touched the robot before its first sample.
-    start_at_zero = np.array(x, dtype=np.float64)
+    start_at_zero = np.array(x, dtype=np.float64, order="C")
     start_at_zero[:1] = 0.0
-    return filtered(start_at_zero, exact_pole(gain_hz, rate_hz))
+    return filter_in_place(start_at_zero, exact_pole(gain_hz, rate_hz))
 
 
-def filtered(x: Array, pole: float) -> Array:
-    """Return y_k = pole y_{k-1} + (1 - pole) x_k along time, (T, ...), y_{-1} = 0."""
+def filter_in_place(x: Array, pole: float) -> Array:
+    """Replace x (T, ...), contiguous, by y_k = pole y_{k-1} + (1 - pole) x_k along time, y_{-1} = 0, and return it."""
     from mobnet.estimation.first_order import decay  # numba: the workflow imports kinds before it starts
 
-    y = np.array(x, dtype=np.float64, order="C")
-    decay(y.reshape(-1), max(y[:1].size, 1), pole)
-    return y
+    decay(np.reshape(x, -1, copy=False), max(x[:1].size, 1), pole)
+    return x

@@ -14,12 +14,13 @@ from mobnet.core.arrays import Array
 from mobnet.core.errors import ConfigError, DataError, not_accepted
 from mobnet.core.recording import Sensed
 from mobnet.estimation.drive import drives_of
-from mobnet.estimation.low_pass import exact_pole, filtered
+from mobnet.estimation.low_pass import exact_pole, filter_in_place
 from mobnet.robot.dynamics import momentum_and_beta
 from mobnet.robot.nominal import NominalModel
 from mobnet.settings.base import TorqueKind
 
 LOGGED_ROWS = 100_000  # samples between two messages of progress
+BLOCK_ROWS = 2_000  # samples worked on together: larger arrays would not fit into the processor's cache
 log = logging.getLogger(__name__)
 
 
@@ -105,8 +106,10 @@ class MomentumObserver:
         before = self.drives.init() if bend is None else bend
         return self.drives.run(before, v[:, self._motors], torque, self.rate_hz)
 
-    def residual(self, sensed: Sensed) -> Array:
+    def residual(self, sensed: Sensed, out: Array | None = None) -> Array:
         """Return r of (9) over one contiguous stretch, (T, nv) [N] and [N m]; equal to stepping through it.
+
+        It is written into `out`, contiguous rows, where that is given.
 
         Raises:
             DataError: positions, velocities or torques do not fit the model.
@@ -115,27 +118,46 @@ class MomentumObserver:
         accepted = [(len(sensed), width) for width in (layout.nq, layout.nv, layout.nu)]
         if shapes != accepted:
             raise DataError(f"samples q, v, tau_motor of shapes {shapes}; accepted: {accepted}")
-        p, beta = self._terms(sensed)
-        # (O5) once more: the first row stays zero, and the low-pass from zero is then the recursion (O4) of `step`.
-        raw = np.zeros_like(p)
-        raw[1:] = np.diff(p, axis=0) * self.rate_hz - (beta[1:] + beta[:-1]) / 2
-        applied = self._mean_torque(sensed.tau_motor[1:], sensed.tau_motor[:-1])
-        _, friction = self._friction(None, sensed.v, sensed.tau_motor)
+        residual = np.empty(sensed.v.shape) if out is None else out
+        state = self.init()
+        for start in range(0, len(sensed), BLOCK_ROWS):
+            block = sensed[start : start + BLOCK_ROWS]
+            state = self._write_raw(state, block, residual[start : start + BLOCK_ROWS])
+            done = start + len(block)
+            if done % LOGGED_ROWS == 0 or done == len(sensed):
+                log.info("momentum of %d of %d samples", done, len(sensed))
+        # (O5) once more: the first row is zero, and the low-pass from zero is then the recursion (O4) of `step`.
+        return filter_in_place(residual, self.pole)
+
+    def _write_raw(self, state: ObserverState, block: Sensed, raw: Array) -> ObserverState:
+        """Write what (O4) filters for successive samples into `raw` (n, nv) [N], [N m]; return the state after them."""
+        p, beta = momentum_and_beta(self.nominal, block.q, block.v)
+        bend, friction = self._friction(state.bend, block.v, block.tau_motor)
+        last_friction = None if friction is None else friction[-1]
+        after = ObserverState(p[-1], beta[-1], None, block.tau_motor[-1], bend, last_friction)
+        torque = block.tau_motor
+        if state.momentum is None or state.beta is None or state.torque is None:
+            raw[0] = 0.0
+            raw = raw[1:]
+        else:
+            p, beta = _behind(state.momentum, p), _behind(state.beta, beta)
+            torque = _behind(state.torque, torque)
+            friction = None if friction is None or state.friction is None else _behind(state.friction, friction)
+        np.subtract(p[1:], p[:-1], out=raw)
+        raw *= self.rate_hz
+        raw -= (beta[1:] + beta[:-1]) / 2
+        applied = self._mean_torque(torque[1:], torque[:-1])
         if self.drives is not None and friction is not None:
             applied = self.drives.scale * applied - (friction[1:] + friction[:-1]) / 2
-        raw[1:, self._motors] -= applied
-        return filtered(raw, self.pole)
+        raw[:, self._motors] -= applied
+        return after
 
     def _mean_torque(self, now: NDArray[Any], before: NDArray[Any]) -> NDArray[Any]:
         """Return u_k from the motors' torque logged at t_k and at t_{k-1}, (..., nu) [N m]."""
         # (O2): a value at the tick taken for the mean would be half a sample late.
         return now if self.torque == "mean" else np.add(now, before, dtype=np.float64) / 2
 
-    def _terms(self, sensed: Sensed) -> tuple[Array, Array]:
-        """Return p and beta (T, nv) each, telling of progress on long stretches."""
-        p, beta = np.empty(sensed.v.shape), np.empty(sensed.v.shape)
-        for start in range(0, len(sensed), LOGGED_ROWS):
-            rows = slice(start, start + LOGGED_ROWS)
-            p[rows], beta[rows] = momentum_and_beta(self.nominal, sensed.q[rows], sensed.v[rows])
-            log.info("momentum of %d of %d samples", min(rows.stop, len(sensed)), len(sensed))
-        return p, beta
+
+def _behind(last: NDArray[Any], rows: NDArray[Any]) -> NDArray[Any]:
+    """Return rows (n, k) behind the one before them (k,), (n + 1, k)."""
+    return np.concatenate([last[None], rows])

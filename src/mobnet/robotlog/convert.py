@@ -18,13 +18,13 @@ from mobnet.robotlog.clocks import Rising, Segments, Timed, at, common_ticks, co
 from mobnet.robotlog.columns import Column, Columns, near_names
 from mobnet.robotlog.hints.columns import listed
 from mobnet.robotlog.meaning import given_signals, is_truth, resolved
+from mobnet.robotlog.pieces import pieces
 from mobnet.settings.robotlog import LogMap, RobotLog, Signal
 
 SI = {  # unit -> in SI units
     "deg": np.pi / 180, "deg/s": np.pi / 180, "rpm": 2 * np.pi / 60, "mN m": 1e-3, "kN m": 1e3, "mm": 1e-3,
     "g": 9.80665, "kN": 1e3, "ms": 1e-3, "us": 1e-6, "ns": 1e-9,
 }  # fmt: skip
-BLOCK_ROWS = 2048  # of columns that become rows
 LARGEST = 1e15  # number of a signal in SI units: with the square of a speed a residual is one of single precision
 
 
@@ -66,7 +66,10 @@ def convert(path: Path, columns: Columns, meaning: LogMap, layout: JointLayout, 
     ]
     if meaning.clock.stamp == "header":
         hints += stamp_hints((columns[signal.columns[0]] for signal in given.values()), bounds)
-    signals = {name: _timed(path, columns, signal, meaning, clock, bounds) for name, signal in given.items()}
+    free = {"q": layout.nq - layout.nu, "v": layout.nv - layout.nu}  # for the base: one copy of a long signal less
+    signals = {
+        name: _timed(path, columns, signal, meaning, clock, bounds, free.get(name, 0)) for name, signal in given.items()
+    }
     _turn_base(path, signals, given)
     rate_hz = meaning.rate_hz or rate_of(signals["q"].time_s)
     clocks = {name: signal.time_s for name, signal in signals.items()}
@@ -97,8 +100,13 @@ def _reading_hints(columns: Columns) -> Iterator[str]:
         yield f"no number in {count} of {rows} rows of {listed(names)}: {text}"
 
 
-def _timed(path: Path, columns: Columns, signal: Signal, meaning: LogMap, clock: Rising, bounds: RobotLog) -> Timed:
-    """Return a signal in SI units with its clock: the times of the column with most numbers that the others cover."""
+def _timed(
+    path: Path, columns: Columns, signal: Signal, meaning: LogMap, clock: Rising, bounds: RobotLog, free: int = 0
+) -> Timed:
+    """Return a signal in SI units with its clock: the times of the column with most numbers that the others cover.
+
+    So many columns before it are left free, and zero.
+    """
     own = [_own(path, name, columns[name], meaning, clock) for name in signal.columns]
     time_s = max((column_time for column_time, _ in own), key=len)
     for other, _ in own:
@@ -109,15 +117,23 @@ def _timed(path: Path, columns: Columns, signal: Signal, meaning: LogMap, clock:
         raise DataError(f"{path}: {text}; accepted: two or more")
     parts = [part if np.array_equal(other, time_s) else np.interp(time_s, other, part) for other, part in own]
     scale, sign, offset = (np.asarray(part) for part in (signal.scale, signal.sign, signal.offset))
-    values, factor = np.empty((len(time_s), len(parts))), scale * SI.get(signal.unit or "-", 1.0)
-    for start in range(0, len(values), BLOCK_ROWS):  # which fit into the processor's cache
-        rows = slice(start, start + BLOCK_ROWS)
-        values[rows] = sign * (factor * np.stack([part[rows] for part in parts], axis=1) - offset)
-    if max(-values.min(), values.max()) > LARGEST:
+    factor = scale * SI.get(signal.unit or "-", 1.0)
+    whole = np.empty((len(time_s), free + len(parts)))
+    whole[:, :free] = 0.0
+    values = whole[:, free:]
+    largest = 0.0
+    for rows in pieces(0, len(values)):
+        own = np.stack([part[rows] for part in parts], axis=1, dtype=np.float64)
+        own *= factor
+        own -= offset
+        own *= sign
+        largest = max(largest, float(own.max()), -float(own.min()))
+        values[rows] = own
+    if largest > LARGEST:
         row, k = np.unravel_index(int(np.abs(values).argmax()), values.shape)
         what = f"column {signal.columns[k]!r}, sample {row}"
         raise DataError(f"{path}: {not_accepted(what, float(values[row, k]), [f'numbers up to {LARGEST:g}'])}")
-    return Timed(time_s - signal.delay_s if signal.delay_s else time_s, values)
+    return Timed(time_s - signal.delay_s if signal.delay_s else time_s, whole)
 
 
 def _own(path: Path, name: str, column: Column, meaning: LogMap, clock: Rising) -> tuple[Array, NDArray[Any]]:
@@ -200,7 +216,10 @@ def _turned(signal: Timed, quaternion: Timed, meaning: Signal) -> Timed:
 def _recording(
     values: Mapping[str, Array], layout: JointLayout, segments: Segments, rate_hz: float
 ) -> tuple[Recording, tuple[str, ...]]:
-    """Return the recording of signals (T, n) in SI units, and the signals that it lacks."""
+    """Return the recording of signals (T, n) in SI units, and the signals that it lacks.
+
+    Positions and velocities of the joints stand behind columns that are free for the base.
+    """
     rows = len(values["q"])
     fields = recording_columns(layout)
 
@@ -211,12 +230,11 @@ def _recording(
     wanted |= {foot: foot.removesuffix("_foot") in layout.legs for foot in FEET}
     absent = ("tau_ext", *(name for name, has in wanted.items() if has and name not in values))
     place = values.get("position", np.zeros((rows, 3)))
-    base_q, base_v = (
-        ([place, values["quaternion"]], [values["velocity"], values["omega"]]) if layout.virtual else ([], [])
-    )
-    q, v = (np.concatenate([*base, values.pop(name)], axis=1) for name, base in (("q", base_q), ("v", base_v)))
+    q, v = values["q"], values["v"]
     if layout.virtual:
-        q[:, 3:7] /= np.linalg.norm(q[:, 3:7], axis=1)[:, None]
+        q[:, :3] = place
+        q[:, 3:7] = values["quaternion"] / np.linalg.norm(values["quaternion"], axis=1)[:, None]
+        v[:, :3], v[:, 3:6] = values["velocity"], values["omega"]
     motor = values["tau_motor"]
     sensed = Sensed(
         q=q, v=v,
@@ -226,7 +244,7 @@ def _recording(
     truth = Truth(
         tau_ext=np.zeros((rows, layout.nv)), wrench_left_foot=given("left_foot", "wrench_left_foot"),
         wrench_right_foot=given("right_foot", "wrench_right_foot"), contact=np.zeros((rows, len(fields["contact"]))),
-        pushed=np.zeros((rows, 1)), tau_random=np.zeros_like(motor), tau_push=np.zeros((rows, layout.nv)),
+        pushed=np.zeros((rows, 1)), tau_random=np.zeros(motor.shape), tau_push=np.zeros((rows, layout.nv)),
         push=np.zeros((rows, len(fields["push"]))),
     )  # fmt: skip
     meta = {"scenario": "log", "level": "robot", "seed": 0, ABSENT: list(absent)}

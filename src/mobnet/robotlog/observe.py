@@ -21,7 +21,7 @@ from mobnet.core.files import check_place, sweep
 from mobnet.core.joints import JointLayout
 from mobnet.core.notes import read_array_note
 from mobnet.core.recording import Recording
-from mobnet.core.store import GROUP_ROWS, NOTE, array_writer, file_of, write_array
+from mobnet.core.store import NOTE, array_writer, file_of, write_array
 from mobnet.estimation import observer
 from mobnet.estimation.own import DRIVES, ESTIMATE, OBSERVER, RECORDING
 from mobnet.robot.description import RobotDescription
@@ -45,6 +45,7 @@ from mobnet.robotlog.hints.rest import explanation
 from mobnet.robotlog.hints.torque import torque_hints
 from mobnet.robotlog.hints.windows import known_joints, windows_of
 from mobnet.robotlog.meaning import default_map, resolved, wanted_columns
+from mobnet.robotlog.pieces import pieces, root_mean_square
 from mobnet.robotlog.plot import plot_residual
 from mobnet.robotlog.pushes import pushed_rows
 from mobnet.robotlog.tool import with_tool
@@ -96,7 +97,7 @@ def observe_log(
     _progress(rows, f"{rows} samples read")
     residual = np.empty(read.sensed.v.shape)
     for span in read.spans():
-        residual[span] = mob.residual(read.sensed[span])
+        mob.residual(read.sensed[span], residual[span])
     _progress(rows, "residual computed; looking for what is wrong with the log")
     hints, explained = looked_at(converted, nominal, torque, gravity_m_s2, bounds)
     return Observed(converted, residual, tuple(hints), tuple(explained))
@@ -196,8 +197,7 @@ def _write_recording(stem: Path, recording: Recording, layout: JointLayout) -> N
     columns = recording_columns(layout)
     fields = {**vars(recording.sensed), **vars(recording.truth)}
     with array_writer(stem, [column for group in columns.values() for column in group]) as writer:
-        for first in range(0, len(recording.sensed), GROUP_ROWS):
-            rows = slice(first, first + GROUP_ROWS)
+        for rows in pieces(0, len(recording.sensed)):
             writer.append(np.concatenate([fields[name][rows] for name in columns], axis=1))
         writer.close({"rate_hz": recording.rate_hz, **recording.meta}, recording.segments)
 
@@ -213,8 +213,7 @@ def told(found: Observed, robot: RobotDescription, out: Path) -> Iterator[str]:
         yield f"rates of the log: {', '.join(_rates(found.converted.clocks))}"
     if absent := [name for name in found.converted.absent if name != EXTERNAL]:
         yield f"not in the log, and zero in the recording: {', '.join(absent)}"
-    size = np.sqrt(np.square(found.residual).mean(axis=0))
-    motor = np.sqrt(np.square(read.sensed.tau_motor).mean(axis=0))
+    size, motor = root_mean_square(found.residual), root_mean_square(read.sensed.tau_motor)
     yield "residual: what the model does not explain, root mean square beside that of the motor"
     width = max(map(len, robot.layout.names))
     for k, (name, value) in enumerate(zip(robot.layout.names, size, strict=True)):

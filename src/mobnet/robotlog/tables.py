@@ -53,7 +53,9 @@ def parquet_columns(path: Path, wanted: Collection[str]) -> dict[str, Column]:
                 found[name] = Column(np.ascontiguousarray(lists[part.array][:, part.number]))
             elif is_numeric(kinds[part.array]):
                 # One at a time: a whole table of Arrow's would stay beside the columns.
-                found[name] = Column(numbers(file.read([part.array]).column(part.array).combine_chunks()))
+                found[name] = Column(
+                    numbers(file.read([part.array], use_threads=False).column(part.array).combine_chunks())
+                )
             else:
                 found[name] = Column(np.empty(0), found=str(kinds[part.array]))
         return found

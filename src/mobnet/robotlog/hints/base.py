@@ -9,6 +9,7 @@ from mobnet.core.motion import turn, turned
 from mobnet.core.recording import Sensed
 from mobnet.robot.nominal import NominalModel
 from mobnet.robot.wrench import feet_torque
+from mobnet.robotlog.pieces import pieces
 from mobnet.settings.robotlog import RobotLog
 
 G = 9.80665  # standard gravity [m/s^2], the unit in which accelerometers are sold
@@ -42,7 +43,11 @@ def weight_hints(
     """Yield hints on the feet's sensors, side -> (T, 6) [N], [N m]: their mean vertical force must carry the weight."""
     if not wrenches or len(wrenches) < len(nominal.robot.feet):
         return
-    lifted = float(feet_torque(nominal, sensed.q, wrenches)[:, 2].mean())
+    carried = np.empty(len(sensed))
+    for rows in pieces(0, len(sensed)):
+        loads = {side: wrench[rows] for side, wrench in wrenches.items()}
+        carried[rows] = feet_torque(nominal, sensed.q[rows], loads)[:, 2]
+    lifted = float(carried.mean())
     weight = nominal.robot.mass * gravity_m_s2
     if abs(lifted / weight - 1) > bounds.weight:
         means = {side: float(np.linalg.norm(wrench[:, :3], axis=1).mean()) for side, wrench in wrenches.items()}

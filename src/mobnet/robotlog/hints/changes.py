@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -22,6 +23,7 @@ FINER = np.geomspace(1 / 1.1, 1.1, 41)
 UNITS = {"mN m": 1e-3, "kN m": 1e3}
 APART_RAD = np.radians(15.0)  # between zeros of a joint that are tried
 LEAST_RAD = np.radians(12.0)  # shift of a zero below which friction may be the cause
+WAVES = 5  # numbers that tell how the torque of a joint depends on its own angle
 LEAST_CARRIED = 2  # joints that a mass at the end of an arm loads
 LEAST_ORDER = 3  # joints that stand in another order; two are exchanged
 
@@ -226,30 +228,54 @@ def zero_changes(seen: Seen, thin: Windows) -> Iterator[Moved]:
     rests.
     """
     nu = len(seen.left)
+    asked = thin.asked(seen.nominal)
     for i in seen.few:
+        by_angle = _needed_by_angle(seen, thin, i)
+        left = partial(_left_by_shifts, seen, asked, thin.torque, by_angle, i)
         best, apart = 0.0, APART_RAD
         tried = np.arange(-np.pi, np.pi, apart)
         while apart > LEAST_RAD / 20:
-            best = float(tried[int(np.argmin(_left_by_shifts(seen, thin, i, tried, seen.offset(i))))])
+            best = float(tried[int(np.argmin(left(tried, seen.offset(i))))])
             tried, apart = best + apart * np.linspace(-1, 1, 7), apart / 3
-        both = _left_by_shifts(seen, thin, i, np.array([best, 0.0]), ANY)
+        both = left(np.array([best, 0.0]), ANY)
         if abs(best) > LEAST_RAD and _improves(float(both[0]), float(both[1]), seen.bounds):
             much = f"{-best:+.2f} rad ({np.degrees(-best):+.0f} degrees)"
             text = f"q reads {much} too much: another zero; give it as offset"
             yield _shifted(nu, i, best), (Change(text, (i,), 2, _unchanged),)
 
 
-def _left_by_shifts(seen: Seen, windows: Windows, i: int, shifts: Array, offset: Array) -> Array:
+def _needed_by_angle(seen: Seen, windows: Windows, i: int) -> Array:
+    """Return what joint i needs in windows as a sum of waves of a shift of its positions, (WAVES, W) [N m].
+
+    Behind a joint nothing sees its angle but by the turn of what comes from before it: momentum has that turn once, and
+    C^T v - g at most twice. Five angles tell all.
+    """
+    count = len(windows.q)
+    angles = 2 * np.pi * np.arange(WAVES) / WAVES
+    many = repeated(windows, WAVES)
+    many.q[..., i - len(seen.left)] += np.repeat(angles, count)[:, None]
+    needed = many.needed(seen.nominal)[:, i] - many.beside[:, i]
+    return np.linalg.solve(_waves(angles), needed.reshape(WAVES, count)).astype(np.float64, copy=False)
+
+
+def _waves(angles: Array) -> Array:
+    """Return a constant, and cosine and sine of angles (n,) [rad] and of twice the angles, (n, WAVES)."""
+    one = np.ones(len(angles))
+    return np.stack([one, np.cos(angles), np.sin(angles), np.cos(2 * angles), np.sin(2 * angles)], axis=-1)
+
+
+def _left_by_shifts(
+    seen: Seen, asked: Asked, torque: Array, by_angle: Array, i: int, shifts: Array, offset: Array
+) -> Array:
     """Return what joint i would leave unexplained if its positions were shifted by numbers (n,) [rad], (n,).
 
-    The offset of its torque is at most so large [N m].
+    `asked` is what windows with torques (W, nu) ask for as they are, `by_angle` what the joint needs by the shift. The
+    offset of its torque is at most so large [N m].
     """
-    count, many = len(shifts), repeated(windows, len(shifts))
-    many.q[..., i - len(seen.left)] += np.repeat(shifts, len(windows.q))[:, None]
-    asked = many.asked(seen.nominal)
-    needed, torque = (values[:, i].reshape(count, -1, 1) for values in (asked.needed, many.torque))
-    terms = asked.terms[:, i].reshape(count, *windows.q.shape[:1], -1)
-    return unexplained(terms, needed, torque, np.full(count, offset))[:, 0]
+    count = len(shifts)
+    needed = (_waves(shifts) @ by_angle)[..., None]
+    terms = np.broadcast_to(asked.terms[:, i], (count, *asked.terms[:, i].shape))
+    return unexplained(terms, needed, torque[:, [i]], np.full(count, offset))[:, 0]
 
 
 def feet_changes(seen: Seen) -> Iterator[Moved]:

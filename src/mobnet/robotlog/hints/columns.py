@@ -10,6 +10,7 @@ from mobnet.core.arrays import Array
 from mobnet.core.contract import rule_of
 from mobnet.core.joints import JointLayout
 from mobnet.core.recording import Sensed
+from mobnet.robotlog.pieces import pieces, ranges
 from mobnet.settings.robotlog import RobotLog
 
 TURN = 2 * np.pi  # beyond which an angle of a joint may be in degrees
@@ -25,7 +26,8 @@ def column_hints(sensed: Sensed, joints: Sequence[str], bounds: RobotLog) -> Ite
     """Yield hints on the columns of motors, (T, nu) each."""
     first = sensed.q.shape[1] - len(joints), sensed.v.shape[1] - len(joints)
     signals = {"q": sensed.q[:, first[0] :], "v": sensed.v[:, first[1] :], "tau_motor": sensed.tau_motor}
-    changes = {name: np.ptp(values, axis=0) > 0.0 for name, values in signals.items()}
+    ends = {name: ranges(values) for name, values in signals.items()}
+    changes = {name: low < high for name, (low, high) in ends.items()}
     for name, values in signals.items():
         others = np.any([changes[other] for other in ("q", "v") if other != name], axis=0)
         still = ~changes[name] & others  # a joint that rests has nothing to change
@@ -40,10 +42,11 @@ def column_hints(sensed: Sensed, joints: Sequence[str], bounds: RobotLog) -> Ite
         late = (held > bounds.held) & changes[name]
         if late.any():
             yield f"{name} of {listed(joints, late)}: {_repeats(held[late].max())}"
-    clipped = np.array([_clipped(column) for column in signals["tau_motor"].T])
+    clipped = _clipped(signals["tau_motor"], *ends["tau_motor"])
     cut = clipped > bounds.clipped
     if cut.any():
-        largest = ", ".join(f"{value:.4g}" for value in np.abs(signals["tau_motor"][:, cut]).max(axis=0)[:FEW])
+        sizes = np.maximum(*map(np.abs, ends["tau_motor"]))
+        largest = ", ".join(f"{value:.4g}" for value in sizes[cut][:FEW])
         yield (
             f"tau_motor of {listed(joints, cut)}: {clipped[cut].max():.1%} of the samples stand at the largest value "
             f"({largest} N m): clipped by the log or the drive"
@@ -61,7 +64,7 @@ def limit_hints(sensed: Sensed, layout: JointLayout) -> Iterator[str]:
     """Yield hints on joints whose position, speed or torque is beyond the wide bounds of `mobnet.core.contract`."""
     joints = layout.actuated
     for signal, values in (("q", sensed.q), ("v", sensed.v), ("tau_motor", sensed.tau_motor)):
-        own = np.abs(values[:, -len(joints) :]).max(axis=0)
+        own = np.maximum(*map(np.abs, ranges(values[:, -len(joints) :])))
         rules = [rule_of(f"{signal}.{joint}", layout) for joint in joints]
         most = np.array([max(abs(rule.low), abs(rule.high)) for rule in rules])
         far = own > most
@@ -113,16 +116,28 @@ def _repeats(share: float) -> str:
 
 def held_share(speed: NDArray[np.floating]) -> NDArray[np.float64]:
     """Return the share of samples that repeat the one before, where the joint moves (n,)."""
-    same, moves = speed[1:] == speed[:-1], speed[1:] != 0.0
-    return (same & moves).sum(axis=0) / np.maximum(moves.sum(axis=0), 1)
+    held, moved = np.zeros((2, speed.shape[1]), dtype=np.intp)
+    for rows in pieces(1, len(speed)):
+        now, before = speed[rows], speed[rows.start - 1 : rows.stop - 1]
+        moves = now != 0.0
+        moved += np.count_nonzero(moves, axis=0)
+        held += np.count_nonzero((now == before) & moves, axis=0)
+    return held / np.maximum(moved, 1)
 
 
-def _clipped(torque: NDArray[np.floating]) -> float:
-    """Return the share of samples at the largest or at the smallest value of a torque (T,), whichever is more."""
-    if np.ptp(torque) == 0.0:
-        return 0.0
-    counts = [int((torque == end).sum()) for end in (torque.max(), torque.min())]
-    return max(counts) / len(torque) if max(counts) >= LEAST_CLIPPED else 0.0
+def _clipped(
+    torque: NDArray[np.floating], low: NDArray[np.floating], high: NDArray[np.floating]
+) -> NDArray[np.float64]:
+    """Return the share of samples at the largest or at the smallest value of torques (T, n), whichever is more, (n,).
+
+    The smallest and the largest values are (n,) each.
+    """
+    at_low, at_high = np.zeros((2, torque.shape[1]), dtype=np.intp)
+    for rows in pieces(0, len(torque)):
+        at_low += np.count_nonzero(torque[rows] == low, axis=0)
+        at_high += np.count_nonzero(torque[rows] == high, axis=0)
+    count = np.maximum(at_low, at_high)
+    return np.where((low < high) & (count >= LEAST_CLIPPED), count / len(torque), 0.0)
 
 
 def _together(clocks: Mapping[str, Array]) -> Iterator[tuple[str, Array]]:

@@ -4,6 +4,7 @@ No table has them in full, and without them a mistake that looks like friction w
 and inertia take no torque away from what moves a joint, so that a torque of the wrong sign cannot hide in them.
 """
 
+from functools import cache
 from itertools import product
 
 import numpy as np
@@ -29,7 +30,14 @@ def dissipation(speed: Array, change: Array) -> Array:
 
     `speed` [rad/s] and `change`, its derivative [rad/s^2], are (...).
     """
-    return np.stack([np.tanh(speed / STEADY), speed, change], axis=-1)
+    terms = np.empty((*speed.shape, 3))
+    terms[..., 0], terms[..., 1], terms[..., 2] = dry(speed), speed, change
+    return terms
+
+
+def dry(speed: Array) -> Array:
+    """Return the smooth sign of speeds [rad/s], which dry friction multiplies."""
+    return np.tanh(speed / STEADY)
 
 
 def positive_fit(terms: Array, targets: Array) -> Array:
@@ -42,14 +50,20 @@ def positive_fit(terms: Array, targets: Array) -> Array:
     across = np.swapaxes(terms, -1, -2)
     gram, cross = across @ terms, across @ targets
     gram += (SMALL * gram.max(axis=(-1, -2), keepdims=True) + TINY) * np.eye(count)
-    chosen = np.array(list(product((0.0, 1.0), repeat=count)))  # (choices, p)
-    both = chosen[:, :, None] * chosen[:, None, :]
-    own = gram[..., None, :, :] * both + (1 - chosen)[:, :, None] * np.eye(count)
+    chosen, both, others = _choices(count)
+    own = gram[..., None, :, :] * both + others
     wanted = cross[..., None, :, :] * chosen[:, :, None]
     numbers = np.linalg.solve(own, wanted)  # (..., choices, p, m), zero where not chosen
     explained = np.where((numbers >= 0.0).all(axis=-2), (numbers * wanted).sum(axis=-2), -np.inf)
     best = explained.argmax(axis=-2)[..., None, None, :]
     return np.take_along_axis(numbers, best, axis=-3)[..., 0, :, :]
+
+
+@cache
+def _choices(count: int) -> tuple[Array, Array, Array]:
+    """Return all choices among so many terms (c, p), the pairs in each, and ones for the others (c, p, p)."""
+    chosen = np.array(list(product((0.0, 1.0), repeat=count)))
+    return chosen, chosen[:, :, None] * chosen[:, None, :], (1 - chosen)[:, :, None] * np.eye(count)
 
 
 def friction_fit(terms: Array, rest: Array, offset: Array) -> tuple[Array, Array]:
@@ -74,9 +88,15 @@ def unexplained(terms: Array, needed: Array, torque: Array, offset: Array) -> Ar
     count = rest.shape[-2]
     if count < BLOCKS:  # too few to try on some what was fitted to others
         return np.ones((*rest.shape[:-2], rest.shape[-1]))
-    late = (np.arange(count) * BLOCKS // count) % 2 == 1
+    is_late = (np.arange(count) * BLOCKS // count) % 2 == 1
+    early, late = np.flatnonzero(~is_late), np.flatnonzero(is_late)
+    if len(early) == len(late):  # both at once: most of the time is that of calls
+        pairs = [(np.stack([early, late]), np.stack([late, early]))]
+    else:
+        pairs = [(fitted[None], tried[None]) for fitted, tried in ((early, late), (late, early))]
     left = np.zeros((*rest.shape[:-2], rest.shape[-1]))
-    for half in (late, ~late):
-        numbers, constant = friction_fit(terms[..., ~half, :], rest[..., ~half, :], offset)
-        left += np.square(rest[..., half, :] - terms[..., half, :] @ numbers - constant).sum(axis=-2)
+    for fitted, tried in pairs:
+        numbers, constant = friction_fit(terms[..., fitted, :], rest[..., fitted, :], np.asarray(offset)[..., None])
+        error = rest[..., tried, :] - terms[..., tried, :] @ numbers - constant
+        left += np.square(error).sum(axis=-2).sum(axis=-2)
     return quotient(left, np.square(torque).sum(axis=-2))

@@ -10,6 +10,7 @@ from mobnet.core.contract import BEYOND_SPEED
 from mobnet.core.joints import JointLayout
 from mobnet.robotlog.hints.columns import listed
 from mobnet.robotlog.hints.fits import quotient
+from mobnet.robotlog.pieces import PIECE_ROWS, pieces
 from mobnet.settings.robotlog import RobotLog
 
 MOVES_RAD = 0.005  # mean turn in a window below which a joint tells nothing
@@ -63,23 +64,41 @@ def turns(q: Array, v: Array, spans: Sequence[slice], rate_hz: float, window_s: 
     for span in spans:
         own, speed = q[span], v[span]
         if len(own) > steps:
-            travelled = np.zeros(own.shape)
-            np.cumsum((speed[1:] + speed[:-1]) / (2 * rate_hz), axis=0, out=travelled[1:])
             change.append(np.diff(own[::steps], axis=0))
-            integral.append(np.diff(travelled[::steps], axis=0))
+            integral.append(np.diff(_travelled(speed, steps, rate_hz), axis=0))
     return np.concatenate(change), np.concatenate(integral)
+
+
+def _travelled(speed: Array, steps: int, rate_hz: float) -> Array:
+    """Return the integral of speeds (T, nu) [rad/s] from the first row to every so manieth one, (W + 1, nu) [rad]."""
+    last = (len(speed) - 1) // steps * steps
+    travelled, found = np.zeros(speed.shape[1]), [np.zeros((1, speed.shape[1]))]
+    for rows in pieces(0, last, steps * max(1, PIECE_ROWS // steps)):
+        sums = speed[rows.start + 1 : rows.stop + 1] + speed[rows]
+        sums /= 2 * rate_hz
+        sums[0] += travelled
+        np.cumsum(sums, axis=0, out=sums)
+        travelled = sums[-1]
+        found.append(sums[steps - 1 :: steps])
+    return np.concatenate(found)
 
 
 def jump_hints(q: Array, spans: Sequence[slice], rate_hz: float, layout: JointLayout) -> Iterator[str]:
     """Yield hints on positions of joints (T, nu) [rad] that jump from one sample to the next within a span."""
-    steps = np.concatenate([np.abs(np.diff(q[span], axis=0)) for span in spans])
-    usual = np.quantile(steps[:: max(1, len(steps) // LOOKED)], 0.99, axis=0)
+    before = np.concatenate([np.arange(span.start, span.stop - 1) for span in spans])
+    looked = before[:: max(1, len(before) // LOOKED)]
+    usual = np.quantile(np.abs(q[looked + 1] - q[looked]), 0.99, axis=0)
     speeds = np.array([layout.limits[joint].speed for joint in layout.actuated])
-    far = steps > np.maximum(JUMP * usual, BEYOND_SPEED * speeds / rate_hz)
-    for k in np.flatnonzero(far.any(axis=0)).tolist():
-        largest = float(steps[far[:, k], k].max())
+    most = np.maximum(JUMP * usual, BEYOND_SPEED * speeds / rate_hz)
+    counts, sizes = np.zeros(len(most), dtype=np.intp), np.zeros(len(most))
+    for span in spans:
+        for rows in pieces(span.start + 1, span.stop):
+            steps = np.abs(q[rows] - q[rows.start - 1 : rows.stop - 1])
+            counts += np.count_nonzero(steps > most, axis=0)
+            sizes = np.maximum(sizes, steps.max(axis=0))
+    for k in np.flatnonzero(counts).tolist():
+        largest, count = float(sizes[k]), int(counts[k])
         turn = ": wrapped at a full turn" if abs(largest / (2 * np.pi) - 1) < WRAPPED else ": samples are lost or wrong"
-        count = int(far[:, k].sum())
         times = f"{count} time{'s' * (count > 1)}"
         yield f"q of {layout.actuated[k]}: jumps {times}, by up to {largest:.3g} rad from one sample to the next{turn}"
 

@@ -16,7 +16,7 @@ from mobnet.core.recording import Sensed
 from mobnet.robot.dynamics import momentum_and_beta
 from mobnet.robot.nominal import NominalModel
 from mobnet.robot.wrench import feet_torque
-from mobnet.robotlog.hints.fits import dissipation, unexplained
+from mobnet.robotlog.hints.fits import dry, unexplained
 from mobnet.settings.base import TorqueKind
 from mobnet.settings.robotlog import RobotLog
 
@@ -48,8 +48,7 @@ class Windows:
     def asked(self, nominal: NominalModel) -> Asked:
         """Return what the motion needs of the motors, and what their friction and rotor inertia multiply."""
         speed = self.v[:, :, len(nominal.robot.layout.virtual) :]
-        terms = _mean(dissipation(speed, np.zeros(speed.shape)))
-        terms[..., -1] = (speed[:, -1] - speed[:, 0]) / self.period_s
+        terms = np.stack([_mean(dry(speed)), _mean(speed), (speed[:, -1] - speed[:, 0]) / self.period_s], axis=-1)
         return Asked(self.needed(nominal) - self.beside, terms)
 
     def needed(self, nominal: NominalModel) -> Array:
