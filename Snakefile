@@ -1,14 +1,14 @@
 # From an empty folder to every table and figure: collect -> train -> estimate -> score -> tables, paper.
 # `snakemake --cores 2` makes all of it at the scale that configs/config.yaml names; --config scale=smoke takes minutes.
-# What is made from what stands in src/mobnet/plan.
+# What is made from what stands in src/experiments/plan.
 
 import sys
 from pathlib import Path
 
 sys.path.insert(0, f"{workflow.basedir}/src")  # of this folder, whatever Python reads this file
 
-from mobnet.running.environment import fault_of_process
-from mobnet.running.run import prepare
+from experiments.running.environment import fault_of_process
+from experiments.running.run import prepare
 
 if fault := fault_of_process(Path(workflow.basedir)):
     sys.exit(fault)

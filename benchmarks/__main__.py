@@ -10,9 +10,9 @@ import importlib
 import sys
 from pathlib import Path
 
+from experiments.running.words import bench_parser
 from mobnet.core.files import atomic_path
-from mobnet.running.threads import one_thread
-from mobnet.running.words import bench_parser
+from mobnet.core.threads import one_thread
 
 NAMES = (
     "collect_speed",

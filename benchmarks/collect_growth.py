@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 from benchmarks.jobs import run
 
-from mobnet.plan.seeds import FIRST_TRAINING_SEED
+from experiments.plan.seeds import FIRST_TRAINING_SEED
 
 SCENARIO, SEED = "random_walk", FIRST_TRAINING_SEED
 LENGTHS_S = (60.0, 300.0, 900.0, 3600.0)  # simulated

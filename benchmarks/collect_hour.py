@@ -17,16 +17,16 @@ import numpy as np
 from benchmarks.__main__ import Row, misses, table
 from benchmarks.jobs import Cost, run
 
+from experiments.evaluation.measure.data.steps import KEYS, UNITS, bin_edges, bin_of, read_steps
+from experiments.evaluation.measure.data.upper_body import upper_body
+from experiments.evaluation.tables.further.data import commanded
+from experiments.plan.seeds import FIRST_TRAINING_SEED
+from experiments.settings.load import load_settings
+from experiments.settings.settings import Settings
 from mobnet.core.columns import COMMAND
 from mobnet.core.files import read_json
-from mobnet.evaluation.measure.data.steps import KEYS, UNITS, bin_edges, bin_of, read_steps
-from mobnet.evaluation.measure.data.upper_body import upper_body
-from mobnet.evaluation.tables.further.data import commanded
-from mobnet.plan.seeds import FIRST_TRAINING_SEED
 from mobnet.robot.description import describe
 from mobnet.robot.nominal import NominalModel
-from mobnet.settings.load import load_settings
-from mobnet.settings.settings import Settings
 
 SETS = {"motion": "random_motion", "walk": "random_walk"}  # the slower one goes first
 SEEDS, SECONDS, PROCESSES = 6, 600.0, 2

@@ -16,11 +16,11 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from experiments.plan.jobs import walk_settings
+from experiments.plan.seeds import FIRST_TRAINING_SEED
+from experiments.settings.load import load_settings
 from mobnet.core.compilation import compiled
-from mobnet.plan.jobs import walk_settings
-from mobnet.plan.seeds import FIRST_TRAINING_SEED
-from mobnet.settings.load import load_settings
-from mobnet.settings.settings import WalkSettings
+from mobnet.settings.walk import WalkSettings
 from mobnet.simulation.engine import LivePlant
 from mobnet.simulation.native import call_step
 from mobnet.simulation.record import collect

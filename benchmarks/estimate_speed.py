@@ -11,11 +11,11 @@ import numpy as np
 from benchmarks.observer_speed import LEVEL, motion
 from benchmarks.step_latency import six_networks
 
+from experiments.settings.load import load_settings
 from mobnet.core.estimator import Stretch
 from mobnet.estimation.kinds.residual import ResidualEstimator
 from mobnet.estimation.observe import observer_of
 from mobnet.robot.description import describe
-from mobnet.settings.load import load_settings
 
 RECORDINGS, ROUNDS = 15, 3
 MINUTE_S = 60.0

@@ -12,9 +12,9 @@ import time
 from pathlib import Path
 from typing import NamedTuple
 
-from mobnet.jobs.motions import make_motion
-from mobnet.plan.jobs import walk_settings
-from mobnet.settings.load import load_settings
+from experiments.jobs.motions import make_motion
+from experiments.plan.jobs import walk_settings
+from experiments.settings.load import load_settings
 from mobnet.simulation.record import collect
 
 ROOT = Path(__file__).parents[1]

@@ -9,19 +9,19 @@ from typing import Any
 import numpy as np
 from benchmarks.step_latency import six_networks
 
+from experiments.plan.jobs import walk_settings
+from experiments.settings.load import load_settings
+from experiments.settings.settings import Settings
+from mobnet.core.threads import one_thread
 from mobnet.detection.chain import make_chain
 from mobnet.detection.detector import LegDetector, LegGate
 from mobnet.detection.signals import Watched
 from mobnet.estimation.kinds.residual import ResidualEstimator
 from mobnet.estimation.observe import observer_of
-from mobnet.plan.jobs import walk_settings
 from mobnet.reaction.handler import Handler
 from mobnet.reaction.loop import walk_with
 from mobnet.reaction.watchers import LegWatcher, LimbWatcher
 from mobnet.robot.description import describe
-from mobnet.running.threads import one_thread
-from mobnet.settings.load import load_settings
-from mobnet.settings.settings import Settings
 from mobnet.simulation.simulator import Simulator
 
 SCENARIO, LEVEL, SEED = "walk_test", "sensor_noise", 1

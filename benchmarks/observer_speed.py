@@ -16,18 +16,18 @@ import numpy as np
 import pinocchio as pin
 from benchmarks.jobs import run
 
+from experiments.jobs.observing import observe
+from experiments.settings.load import load_settings
+from experiments.settings.settings import Settings
 from mobnet.core.arrays import Array
 from mobnet.core.columns import COMMAND, FEET
 from mobnet.core.joints import NQ_BASE, JointLayout
 from mobnet.core.recording import Sensed
 from mobnet.estimation.observe import observer_of
 from mobnet.estimation.observer import MomentumObserver
-from mobnet.jobs.observing import observe
 from mobnet.robot.description import describe
 from mobnet.robot.dynamics import momentum_and_beta
 from mobnet.robot.nominal import NominalModel
-from mobnet.settings.load import load_settings
-from mobnet.settings.settings import Settings
 
 LEVEL = "all_uncertainty"
 SAMPLES, ROUNDS = 5000, 5

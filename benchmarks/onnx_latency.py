@@ -8,6 +8,9 @@ from tempfile import TemporaryDirectory
 
 from benchmarks.step_latency import Row, model_of, row_of, six_networks, six_trainings, stepper, tensors_of, times_of
 
+from experiments.settings.load import load_settings
+from experiments.settings.settings import Settings
+from mobnet.core.threads import one_thread
 from mobnet.export.contract import ObserverContract
 from mobnet.export.export import RunTime, export
 from mobnet.export.session import load_exported
@@ -16,10 +19,7 @@ from mobnet.learning.deployed.limbs import LimbNetworks
 from mobnet.learning.deployed.weights import WeightsNote
 from mobnet.learning.features import limb_inputs
 from mobnet.robot.description import describe
-from mobnet.running.threads import one_thread
-from mobnet.settings.load import load_settings
 from mobnet.settings.networks import Training
-from mobnet.settings.settings import Settings
 
 
 def main() -> list[Row]:

@@ -12,6 +12,8 @@ from pathlib import Path
 import numpy as np
 from benchmarks.step_latency import six_trainings
 
+from experiments.settings.load import load_settings
+from experiments.settings.settings import Settings
 from mobnet.detection.chain import make_chain
 from mobnet.detection.detector import LegGate
 from mobnet.estimation.observe import observer_of
@@ -20,9 +22,7 @@ from mobnet.learning.deployed.weights import WeightsNote
 from mobnet.learning.features import limb_inputs
 from mobnet.learning.model import build_network
 from mobnet.robot.description import describe
-from mobnet.settings.load import load_settings
 from mobnet.settings.networks import Training
-from mobnet.settings.settings import Settings
 
 SOURCES = Path(__file__).parents[1] / "src" / "runtime"
 TICKS = 20_000

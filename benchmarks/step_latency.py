@@ -11,9 +11,13 @@ import numpy as np
 import torch
 from numpy.typing import NDArray
 
+from experiments.settings.catalogue import Catalogue
+from experiments.settings.load import load_settings
+from experiments.settings.settings import Settings
 from mobnet.core.columns import COMMAND, FEET
 from mobnet.core.joints import NQ_BASE, JointLayout
 from mobnet.core.recording import Sensed
+from mobnet.core.threads import one_thread
 from mobnet.estimation.kinds.residual import ResidualEstimator
 from mobnet.estimation.observe import observer_of
 from mobnet.learning.deployed.limbs import LimbNetworks
@@ -21,11 +25,7 @@ from mobnet.learning.deployed.networks import GruNetwork
 from mobnet.learning.features import limb_inputs, signals
 from mobnet.learning.model import LimbNetwork, build_network
 from mobnet.robot.description import describe
-from mobnet.running.threads import one_thread
-from mobnet.settings.catalogue import Catalogue
-from mobnet.settings.load import load_settings
 from mobnet.settings.networks import Training
-from mobnet.settings.settings import Settings
 
 TICKS, WARM_UP = 3000, 200
 TICK_S = 1e-3  # the robot's, section 4.1

@@ -16,6 +16,10 @@ import torch
 from torch import Tensor, nn
 from torch.utils.data import DataLoader, TensorDataset
 
+from experiments.plan.precision import with_precision
+from experiments.settings.catalogue import Catalogue
+from experiments.settings.load import load_settings
+from mobnet.core.threads import one_thread
 from mobnet.learning.features import limb_inputs
 from mobnet.learning.job import PRECISIONS, TrainingJob
 from mobnet.learning.losses import gaussian_loss
@@ -23,10 +27,6 @@ from mobnet.learning.model import LimbNetwork, build_network
 from mobnet.learning.optimisation import Samples, train_epoch
 from mobnet.learning.soap import optimizer_of
 from mobnet.learning.streams import epoch_plan
-from mobnet.plan.precision import with_precision
-from mobnet.running.threads import one_thread
-from mobnet.settings.catalogue import Catalogue
-from mobnet.settings.load import load_settings
 from mobnet.settings.networks import Optimizer
 
 UPDATES, ROUNDS = 40, 5  # updates in a turn, turns

@@ -15,12 +15,12 @@ import numpy as np
 from benchmarks.__main__ import Row, misses, table
 from numpy.typing import NDArray
 
+from experiments.plan.jobs import walk_settings
+from experiments.settings.load import load_settings
+from experiments.settings.settings import Settings
 from mobnet.core.recording import Recording, read_recording
 from mobnet.estimation.observe import observer_of, residual_and_truth
-from mobnet.plan.jobs import walk_settings
 from mobnet.robot.description import RobotDescription, describe
-from mobnet.settings.load import load_settings
-from mobnet.settings.settings import Settings
 from mobnet.simulation.record import collect
 
 LEVEL, SEEDS, SECONDS = "all_uncertainty", (501, 502), 300.0

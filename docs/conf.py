@@ -24,7 +24,7 @@ napoleon_google_docstring, napoleon_numpy_docstring = True, False
 nitpicky = True  # every reference must lead somewhere, but for
 nitpick_ignore_regex = [
     (r"py:.*", r"(?!mobnet\.).*"),  # types of Python and of packages: their documentation is on no disk
-    (r"py:.*", r"mobnet\.(settings|plan|running|control|commands|evaluation)\..*"),  # they have no page of modules
+    (r"py:.*", r"(mobnet\.(settings|control)|experiments)\..*"),  # they have no page of modules
     (r"py:.*", r"mobnet\..*\.(_\w+|Kind|Named|Robot|Row|State|Value)"),  # private names, names of types
 ]
 ARRAY = re.compile(r"~?numpy\.ndarray\[tuple\[[^][]*\], ~?numpy\.dtype\[[^][]*\]\]")

@@ -11,17 +11,17 @@ from browser import BROWSER, Browser
 from made_swings import unseen
 from numpy.typing import NDArray
 
+from experiments.plan.precision import with_precision
+from experiments.settings.catalogue import Catalogue
+from experiments.settings.load import load_settings
 from mobnet.core.columns import residual_columns
 from mobnet.core.joints import N_VIRTUAL, NQ_BASE, JointLayout
 from mobnet.core.recording import Recording, Sensed, write_recording
 from mobnet.core.store import write_array
 from mobnet.estimation.recipe import Recipe
-from mobnet.plan.precision import with_precision
 from mobnet.robot.description import describe, for_walking
 from mobnet.robot.nominal import NominalModel
-from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.lab import load_section
-from mobnet.settings.load import load_settings
 from mobnet.settings.robot import RobotTable
 
 ROOT = Path(__file__).parents[1]

@@ -12,8 +12,8 @@ from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
+from experiments.evaluation.number.files import write_csv
 from mobnet.core.columns import Score
-from mobnet.evaluation.number.files import write_csv
 
 GOLDEN = Path(__file__).parent / "golden"
 

@@ -6,6 +6,9 @@ from pathlib import Path
 
 import numpy as np
 
+from experiments.evaluation.measure.detection.results import CELLS
+from experiments.evaluation.number.files import write_csv
+from experiments.settings.settings import Settings
 from mobnet.core.detections import (
     CALIBRATION,
     COLLISION,
@@ -20,9 +23,6 @@ from mobnet.core.detections import (
     Threshold,
     columns_of,
 )
-from mobnet.evaluation.measure.detection.results import CELLS
-from mobnet.evaluation.number.files import write_csv
-from mobnet.settings.settings import Settings
 
 LEVELS = ("all_uncertainty", "robot_1")
 FOUND = {"MOB-Net-OR": 1.0, "MOB-Net-sigma": 0.5, "MOB": 0.0}  # detector -> share of the collisions it finds

@@ -5,11 +5,11 @@ from pathlib import Path
 import numpy as np
 from made_scores import JOINTS
 
+from experiments.plan.runs import Run
 from mobnet.core.columns import FEET, residual_columns, torque_columns
 from mobnet.core.joints import N_VIRTUAL, NQ_BASE, JointLayout
 from mobnet.core.recording import Recording, Sensed, Truth, write_recording
 from mobnet.core.store import write_array
-from mobnet.plan.runs import Run
 
 RATE_HZ = 100.0
 STEP_ROWS = 70  # rows in the air and rows on the ground of the made-up walk

@@ -5,10 +5,10 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from experiments.evaluation.report.explore_scenes import Shown
+from experiments.plan.runs import Run
+from experiments.plan.scenes import PageScene
 from mobnet.estimation.low_pass import low_pass
-from mobnet.evaluation.report.explore_scenes import Shown
-from mobnet.plan.runs import Run
-from mobnet.plan.scenes import PageScene
 from mobnet.robot.description import RobotDescription
 from mobnet.settings.data import Push
 

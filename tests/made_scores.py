@@ -4,12 +4,12 @@ import itertools
 from collections.abc import Iterable, Mapping
 from typing import Any
 
+from experiments.evaluation.measure.claims.cells import listed
+from experiments.settings.claims import Cell, Claim, numbers_of
+from experiments.settings.metrics import unit_of_metric
+from experiments.settings.tables import ErrorRow
 from mobnet.core.columns import Score
 from mobnet.core.joints import JointLayout
-from mobnet.core.metrics import unit_of_metric
-from mobnet.evaluation.measure.claims.cells import listed
-from mobnet.settings.claims import Cell, Claim, numbers_of
-from mobnet.settings.tables import ErrorRow
 
 JOINTS = [f"LL{i}" for i in range(1, 7)]
 FURTHER = ["zero", "MOB-fric-load", "MOB-Kalman", "MOB-Net-gray"]  # baselines, below the paper's methods

@@ -3,8 +3,8 @@
 from pathlib import Path
 from typing import Any
 
-from mobnet.plan.plan import Plan
-from mobnet.plan.steps import Step
+from experiments.plan.plan import Plan
+from experiments.plan.steps import Step
 
 
 def maker(plan: Plan, *place: str) -> Step:

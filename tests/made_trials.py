@@ -6,11 +6,11 @@ from pathlib import Path
 
 import numpy as np
 
+from experiments.evaluation.number.files import write_csv
 from mobnet.core.course import course_columns
 from mobnet.core.joints import JointLayout
 from mobnet.core.reactions import NONE, TRIALS, Trial
 from mobnet.core.store import write_array
-from mobnet.evaluation.number.files import write_csv
 
 HIT = Trial(
     case="foot", level="robot_1", seed=240, detector="MOB-Net-ratio", rule="reaction", wait_s=0.0, wrench="estimated",

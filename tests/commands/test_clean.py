@@ -5,7 +5,7 @@ import io
 
 import pytest
 
-from mobnet.commands.clean import clean
+from experiments.commands.clean import clean
 from mobnet.core.errors import CommandError
 
 PRODUCTS = ("results/smoke/a.parquet", "tables/t.csv", "tables/smoke/t.csv", "paper/main.pdf", ".snakemake/log/x")

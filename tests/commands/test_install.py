@@ -8,11 +8,11 @@ from pathlib import Path
 
 import pytest
 
-from mobnet.commands import install
-from mobnet.commands import tools as tooling
-from mobnet.commands.builds import wanted_build
-from mobnet.commands.setup import LOCKS
-from mobnet.commands.tell import is_unreachable
+from experiments.commands import install
+from experiments.commands import tools as tooling
+from experiments.commands.builds import wanted_build
+from experiments.commands.setup import LOCKS
+from experiments.commands.tell import is_unreachable
 from mobnet.core.errors import CommandError
 
 ROOT = Path(__file__).parents[2]

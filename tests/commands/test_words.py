@@ -2,9 +2,9 @@
 
 import pytest
 
-from mobnet.commands.words import APART, COMMANDS, in_order, parse
+from experiments.commands.words import APART, COMMANDS, in_order, parse
+from experiments.plan.places import check_scale, scale_of
 from mobnet.core.errors import CommandError, ConfigError
-from mobnet.plan.places import check_scale, scale_of
 
 
 @pytest.mark.parametrize(("words", "handed"), [

@@ -7,13 +7,13 @@ import torch
 from made_notes import network_note
 from safetensors.torch import save_file
 
+from experiments.jobs.fitting import write_fit
+from experiments.settings.catalogue import Catalogue
 from mobnet.core.files import WEIGHTS
 from mobnet.estimation.methods import build_estimator
-from mobnet.jobs.fitting import write_fit
 from mobnet.learning.deployed.weights import NOTE
 from mobnet.learning.features import limb_inputs
 from mobnet.learning.model import build_network
-from mobnet.settings.catalogue import Catalogue
 
 SECONDS, FIT_SECONDS = 0.15, 0.3
 INPUT_STD, TARGET_STD = 2.0, 10.0

@@ -28,14 +28,14 @@ from pathlib import Path
 
 import numpy as np
 
-from mobnet.core.metrics import metric_of
-from mobnet.evaluation.compare.pair import Pair
-from mobnet.evaluation.compare.scene import Scene
-from mobnet.evaluation.measure.estimates import run_errors
-from mobnet.evaluation.measure.estimates.scores import measured
-from mobnet.evaluation.measure.registry import measure_problems
-from mobnet.plan.plan import make_plan
-from mobnet.settings.load import load_settings
+from experiments.settings.metrics import metric_of
+from experiments.evaluation.compare.pair import Pair
+from experiments.evaluation.compare.scene import Scene
+from experiments.evaluation.measure.estimates import run_errors
+from experiments.evaluation.measure.estimates.scores import measured
+from experiments.evaluation.measure.registry import measure_problems
+from experiments.plan.plan import make_plan
+from experiments.settings.load import load_settings
 
 golden, example, names = Path(sys.argv[1]), sys.argv[2], sys.argv[3:]
 settings = load_settings(Path("configs"), {"scale": "smoke"})
@@ -151,7 +151,7 @@ def test_each_task_of_the_guide_touches_few_files():
     assert [block.file for block in SCENARIO] == [DATA, DATA]
     assert [[*yaml.safe_load(b.text)] for b in (*SCENARIO, *ERRORS)] == [["plates_walk"], ["plates"], ["roughness"]]
     assert [block.file for block in (*ERRORS, MEASURE[1])] == [EVALUATION] * 2
-    assert Path(MEASURE[0].file).parent == Path("src/mobnet/evaluation/measure/estimates")
+    assert Path(MEASURE[0].file).parent == Path("src/experiments/evaluation/measure/estimates")
     assert len({block.file for block in FIGURE if not block.file.startswith("tests/")}) == 3
 
 
@@ -164,7 +164,7 @@ def test_one_word_shows_a_new_method_in_table_07_and_runs_it(told):
 
 def test_the_measure_is_taken_where_its_entry_says(told):
     assert told["bias"] == [["bias", [2.0, 3.0], ["N", "N m"]]]
-    assert told["modules"][-1] == "mobnet.evaluation.measure.estimates.bias"
+    assert told["modules"][-1] == "experiments.evaluation.measure.estimates.bias"
     ((place, text),) = told["refused"]
     assert place == ["evaluation", "measures", "bias", "options", "after_s"]
     assert text == "-1.0 is not accepted; accepted: a number from 0"

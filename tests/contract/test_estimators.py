@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
+from experiments.settings.catalogue import Catalogue
+from experiments.settings.load import load_settings
 from mobnet.estimation.kinds.zero import ZeroEstimator
-from mobnet.settings.catalogue import Catalogue
-from mobnet.settings.load import load_settings
 
 from .checks import CHECKS, the_past_matters
 

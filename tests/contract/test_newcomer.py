@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 import yaml
 
+from experiments.jobs.method_problems import method_problems
+from experiments.settings.catalogue import Catalogue
+from experiments.settings.load import load_settings
 from mobnet.estimation import kinds
 from mobnet.estimation.methods import build_estimator
-from mobnet.jobs.method_problems import method_problems
-from mobnet.settings.catalogue import Catalogue
-from mobnet.settings.load import load_settings
 
 from .checks import CHECKS
 

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from scipy.stats import kstest
 
+from experiments.plan.jobs import walk_settings
 from mobnet.control.random_torque import advance_random_torque, make_exploration
 from mobnet.core.errors import ConfigError
-from mobnet.plan.jobs import walk_settings
 
 TICK_S, TICKS = 0.0005, 100_000
 P_VALUE = 1e-3

@@ -147,7 +147,7 @@ def test_code_that_does_not_exist_is_named(root: Path, name: str) -> None:
 
 def test_notes_of_provenance_do_not_count() -> None:
     assert [file.name for file in module_files("mobnet.core.files")] == ["__init__.py", "__init__.py", "files.py"]
-    assert not module_files("mobnet.running.provenance.provenance")
+    assert not module_files("mobnet.core.provenance.provenance")
 
 
 def test_without_a_lock_no_package_counts(root: Path) -> None:
@@ -190,7 +190,8 @@ def test_a_new_mujoco_counts_for_the_code_that_imports_it(tmp_path: Path, monkey
     monkeypatch.setattr(code, "LOCK", tmp_path / "lock")
     forget()
     assert {path for path in before if code_hash(path) != before[path]} == users
-    parts = {str(path.relative_to(code.SOURCE / "mobnet")) for path in users if path.is_relative_to(code.SOURCE)}
+    library = code.SOURCE / "mobnet"
+    parts = {str(path.relative_to(library)) for path in users if path.is_relative_to(library)}
     assert {"simulation/record.py", "robot/plant.py"} <= parts
     assert not {"estimation/observe.py", "learning/train.py", "control/walking.py"} & parts
 

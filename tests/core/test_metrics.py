@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 
+from experiments.settings.evaluation import Evaluation
+from experiments.settings.metrics import METRIC, METRICS, SECTIONS, metric_of, unit_of_metric
 from mobnet.core.errors import ConfigError
-from mobnet.core.metrics import METRIC, METRICS, SECTIONS, metric_of, unit_of_metric
-from mobnet.settings.evaluation import Evaluation
 
 GOLDEN = Path(__file__).parents[1] / "golden"
 MADE = ("factor", "gone", "share", "skill")  # by tables, of metrics

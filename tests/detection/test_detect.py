@@ -5,14 +5,14 @@ import pytest
 from csv_files import read_table
 from made_swings import AIR, GROUND, RATE_HZ, swinging, unseen
 
+from experiments.jobs.detect import detect
+from experiments.plan.detection import Walk
 from mobnet.core.columns import residual_columns, torque_columns
 from mobnet.core.detections import FILES
 from mobnet.core.errors import DataError
 from mobnet.core.recording import Recording, write_recording
 from mobnet.core.store import write_array
 from mobnet.detection.leg import make_leg, unit_torques
-from mobnet.jobs.detect import detect
-from mobnet.plan.detection import Walk
 from mobnet.settings.detection import Detector
 
 POINTS = ("left_foot_front", "left_foot_side", "left_ankle_front", "left_knee_side")

@@ -12,10 +12,10 @@ import pytest
 import yaml
 from links import broken
 
-from mobnet.commands.words import PARSERS, parse
-from mobnet.evaluation.report.readme import blocks
-from mobnet.plan.plan import make_plan
-from mobnet.settings.load import load_settings
+from experiments.commands.words import PARSERS, parse
+from experiments.evaluation.report.readme import blocks
+from experiments.plan.plan import make_plan
+from experiments.settings.load import load_settings
 
 ROOT = Path(__file__).parents[2]
 INDEX = ROOT / "docs" / "README.md"
@@ -128,12 +128,12 @@ def test_readme_citation_and_references_name_the_original_by_one_doi_and_the_ver
 
 
 def test_the_guide_draws_the_packages_as_the_import_linter_checks_them():
-    """Its arrows are the layers of the first contract, and its table names every package once."""
-    layers = PROJECT["tool"]["importlinter"]["contracts"][0]["layers"]
-    drawn = " -> ".join(re.sub(r"[()]", "", layer) for layer in layers)
+    """Its arrows are the layers of each wing, and its tables name every package once."""
+    contracts = PROJECT["tool"]["importlinter"]["contracts"]
+    layers = {one["containers"][0]: one["layers"] for one in contracts if one["type"] == "layers"}
     part = (ROOT / "CONTRIBUTING.md").read_text().split("\n## How it fits together\n")[1].split("\n## ")[0]
-    assert " ".join(re.findall(r"^ {4}(\w.*)$", part, re.MULTILINE)) == drawn
-    named = re.findall(r"`(\w+)`", "".join(re.findall(r"^\| (`.*?) \|", part, re.MULTILINE)))
-    assert sorted(named) == sorted(module.name for module in pkgutil.iter_modules([str(ROOT / "src" / "mobnet")]))
-    missing = {name for name in re.findall(r"\w+", drawn) if name not in named}
-    assert all(f"`{name}` does not exist yet" in part for name in missing)
+    for wing in ("mobnet", "experiments"):
+        assert re.findall(rf"^ {{4}}{wing}: (.*)$", part, re.MULTILINE) == [" -> ".join(layers[wing])]
+        (table,) = re.findall(rf"^\| package of `{wing}` \|.*\n.*\n((?:\| .*\n)+)", part, re.MULTILINE)
+        named = re.findall(r"`(\w+)`", "".join(re.findall(r"^\| (`.*?) \|", table, re.MULTILINE)))
+        assert sorted(named) == sorted(module.name for module in pkgutil.iter_modules([str(ROOT / "src" / wing)]))

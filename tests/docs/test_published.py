@@ -5,12 +5,12 @@ from pathlib import Path
 
 import pytest
 
+from experiments.evaluation.report.judge_again import judged_again
+from experiments.evaluation.tables.further.claims_table import record_of
+from experiments.settings.load import load_settings
 from mobnet.core.claim_ranges import apart, within
 from mobnet.core.columns import NOT_PRINTED, OURS
 from mobnet.core.rows import read_texts
-from mobnet.evaluation.report.judge_again import judged_again
-from mobnet.evaluation.tables.further.claims_table import record_of
-from mobnet.settings.load import load_settings
 
 ROOT = Path(__file__).parents[2]
 RESULTS = ROOT / "docs" / "results"

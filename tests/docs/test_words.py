@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 import yaml
 
-from mobnet.evaluation.report import readme
-from mobnet.settings.load import load_settings
+from experiments.evaluation.report import readme
+from experiments.settings.load import load_settings
 
 ROOT = Path(__file__).parents[2]
 LIST = yaml.safe_load((Path(__file__).parent / "words.yaml").read_text())

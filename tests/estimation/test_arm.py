@@ -6,13 +6,13 @@ import mujoco
 import numpy as np
 import pytest
 
+from experiments.jobs.observing import observe
 from mobnet.core.columns import recording_columns
 from mobnet.core.errors import ConfigError
 from mobnet.core.recording import Recording, Sensed, Truth, read_recording, read_sensed, write_recording
 from mobnet.core.store import read_array
 from mobnet.estimation.low_pass import low_pass
 from mobnet.estimation.observer import MomentumObserver
-from mobnet.jobs.observing import observe
 from mobnet.robot.dynamics import inverse_dynamics
 from mobnet.robot.nominal import NominalModel
 from mobnet.robot.plant import robot_spec

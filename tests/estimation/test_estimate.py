@@ -8,6 +8,10 @@ import pytest
 from made_notes import network_note
 from safetensors.numpy import save_file
 
+from experiments.jobs.estimates import estimate
+from experiments.jobs.observing import observe
+from experiments.plan.parts import MethodRun
+from experiments.running.stage import Stage
 from mobnet.core.errors import ConfigError, DataError
 from mobnet.core.estimator import Estimate
 from mobnet.core.files import WEIGHTS
@@ -15,11 +19,7 @@ from mobnet.core.store import read_array, write_array
 from mobnet.estimation import estimate as estimate_module
 from mobnet.estimation.estimate import Observed, rate_of, read_observed, run_segments, table_of
 from mobnet.estimation.methods import build_estimator
-from mobnet.jobs.estimates import estimate
-from mobnet.jobs.observing import observe
 from mobnet.learning.deployed.weights import NOTE, STD_SCALE, Z_SCORES, std_scales
-from mobnet.plan.parts import MethodRun
-from mobnet.running.stage import Stage
 
 
 @pytest.fixture

@@ -2,11 +2,11 @@
 
 import pytest
 
+from experiments.jobs.fitting import write_fit
+from experiments.settings.catalogue import Catalogue
 from mobnet.core.errors import ConfigError
 from mobnet.core.files import read_json
 from mobnet.estimation.kinds.friction import read_friction
-from mobnet.jobs.fitting import write_fit
-from mobnet.settings.catalogue import Catalogue
 
 
 def fit(settings, method, training, folder):

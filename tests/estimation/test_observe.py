@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from made_swings import unseen
 
+from experiments.jobs.observing import observe
 from mobnet.core.columns import residual_columns
 from mobnet.core.recording import Recording, write_recording
 from mobnet.core.store import read_array
@@ -13,7 +14,6 @@ from mobnet.estimation.label import foot_label
 from mobnet.estimation.low_pass import low_pass
 from mobnet.estimation.observe import observer_of
 from mobnet.estimation.observer import MomentumObserver
-from mobnet.jobs.observing import observe
 from mobnet.robot.nominal import NominalModel
 
 RATE_HZ, GAIN_HZ = 1000.0, 100.0

@@ -23,17 +23,17 @@ from made_scores import (
     table_scores,
 )
 
+from experiments.plan.call import call_of
+from experiments.plan.products import ERRORS, functions
+from experiments.plan.runs import Run
+from experiments.settings.claims import Claim
+from experiments.settings.evaluation import Evaluation
+from experiments.settings.measures import CalibrationTest
+from experiments.settings.settings import Settings
 from mobnet.core.columns import Epoch, Score
 from mobnet.core.files import write_json
 from mobnet.core.joints import JointLayout
 from mobnet.core.recording import Recording, read_recording, write_recording
-from mobnet.plan.call import call_of
-from mobnet.plan.products import ERRORS, functions
-from mobnet.plan.runs import Run
-from mobnet.settings.claims import Claim
-from mobnet.settings.evaluation import Evaluation
-from mobnet.settings.measures import CalibrationTest
-from mobnet.settings.settings import Settings
 
 OFF = {"all_uncertainty": 1.0, "exact_model": 0.8, "no_friction": 0.5, "no_load_friction": 1.0, "no_noise": 1.1}
 

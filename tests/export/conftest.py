@@ -8,7 +8,7 @@ import torch
 from made_notes import network_note, training_note
 from safetensors.torch import save_file
 
-from mobnet.demo import DATA
+from experiments.demo import DATA
 from mobnet.export.contract import ObserverContract
 from mobnet.export.export import RunTime, export
 from mobnet.export.trained import read_trained

@@ -9,7 +9,7 @@ import pyarrow.parquet as pq
 import pytest
 from made_weights import weights
 
-from mobnet.demo import DATA
+from experiments.demo import DATA
 from mobnet.estimation.own import LearnedNote
 from mobnet.export.export import export
 from mobnet.export.session import load_exported

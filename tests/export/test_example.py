@@ -11,11 +11,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from experiments.demo import DATA
 from mobnet.core.columns import EXTERNAL, named
 from mobnet.core.estimator import Estimate
 from mobnet.core.recording import read_sensed
 from mobnet.core.store import read_array
-from mobnet.demo import DATA
 from mobnet.detection.chain import make_chain
 from mobnet.detection.detector import ALARM_RATIO, GateSignal, run_over
 from mobnet.detection.signals import Watched

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from mobnet.demo import load
+from experiments.demo import load
 from mobnet.export.contract import Contract, NetworkContract
 from mobnet.export.export import main
 from mobnet.settings.limb_thresholds import LimbThresholds

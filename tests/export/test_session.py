@@ -6,17 +6,17 @@ import numpy as np
 import onnx
 import pytest
 
+from experiments.demo import DATA
+from experiments.evaluation.measure.story import StoredPush
+from experiments.settings.load import load_settings
 from mobnet.core.errors import DataError
 from mobnet.core.estimator import Estimate
-from mobnet.demo import DATA
 from mobnet.detection.detector import ALARM_RATIO, LegDetector
 from mobnet.detection.signals import Watched
 from mobnet.estimation.kinds.residual import ResidualEstimator
-from mobnet.evaluation.measure.story import StoredPush
 from mobnet.export.session import OnnxNetwork, load_exported
 from mobnet.learning.deployed.networks import load_network
 from mobnet.learning.features import signal_names, signals
-from mobnet.settings.load import load_settings
 
 BOUND = 1e-5  # of the target's standard deviation
 

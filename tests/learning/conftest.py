@@ -5,12 +5,12 @@ from pathlib import Path
 
 import pytest
 
-from mobnet.jobs.trainings import train_all
+from experiments.jobs.trainings import train_all
+from experiments.plan.parts import Repetition
+from experiments.running.stage import Stage
+from experiments.settings.catalogue import Catalogue
+from experiments.settings.settings import Settings
 from mobnet.learning.dataset import load_limb_data
-from mobnet.plan.parts import Repetition
-from mobnet.running.stage import Stage
-from mobnet.settings.catalogue import Catalogue
-from mobnet.settings.settings import Settings
 
 
 @dataclass(frozen=True)

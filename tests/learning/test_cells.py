@@ -4,9 +4,9 @@ import pytest
 import torch
 from torch import nn
 
+from experiments.settings.catalogue import Catalogue
 from mobnet.learning.cells import CELLS, Block, Lstm
 from mobnet.learning.model import build_network, parameter_count
-from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.networks import SIZES, NetworkCell
 
 STD_MIN = 1e-6

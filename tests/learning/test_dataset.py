@@ -5,11 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from experiments.settings.catalogue import Catalogue
 from mobnet.core.columns import residual_columns
 from mobnet.core.errors import DataError
 from mobnet.core.store import read_array, write_array
 from mobnet.learning.dataset import load_limb_data, scale_of
-from mobnet.settings.catalogue import Catalogue
 
 
 @pytest.fixture

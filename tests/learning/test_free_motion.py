@@ -3,6 +3,8 @@
 import numpy as np
 import pytest
 
+from experiments.settings.catalogue import Catalogue
+from experiments.settings.load import ROOT
 from mobnet.estimation.low_pass import filtered
 from mobnet.estimation.observer import MomentumObserver
 from mobnet.learning.dataset import LimbData
@@ -12,9 +14,7 @@ from mobnet.learning.job import TrainingJob
 from mobnet.learning.train import train_on
 from mobnet.robot.description import describe
 from mobnet.robot.nominal import NominalModel
-from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.lab import load_section
-from mobnet.settings.load import ROOT
 from mobnet.settings.robot import RobotTable
 from mobnet.simulation.free_run import Numbers, record_motion
 

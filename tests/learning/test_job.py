@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 import torch
 
+from experiments.settings.catalogue import Catalogue
 from mobnet.core.errors import ConfigError
 from mobnet.learning.job import PRECISIONS, TrainingJob, precision_name, precision_of
-from mobnet.settings.catalogue import Catalogue
 
 CPU, GPU = torch.device("cpu"), torch.device("cuda")
 
@@ -94,6 +94,6 @@ def test_a_named_format_is_that_format_and_a_gpu_computes_in_float32(name):
 
 
 def test_auto_names_no_format_of_a_training():
-    """What it stands for is decided once for all trainings (`mobnet.plan.precision`)."""
+    """What it stands for is decided once for all trainings (`experiments.plan.precision`)."""
     with pytest.raises(ConfigError, match=r"precision of a training: 'auto' is not accepted; accepted: bfloat"):
         precision_of("auto", CPU)

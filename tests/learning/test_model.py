@@ -3,10 +3,10 @@
 import pytest
 import torch
 
+from experiments.settings.catalogue import Catalogue
 from mobnet.learning.cells import Gru
 from mobnet.learning.features import limb_inputs
 from mobnet.learning.model import LimbNetwork, build_network, parameter_count, seeded
-from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.networks import NetworkCell
 
 SIZES = {"LL": 83712, "RL": 83712, "RA": 144816, "LA": 144816, "W": 152406, "V": 168012}  # Table 1

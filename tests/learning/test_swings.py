@@ -6,10 +6,11 @@ import numpy as np
 import pytest
 import torch
 
+from experiments.jobs.trainings import train_all
+from experiments.settings.catalogue import Catalogue
 from mobnet.core.errors import DataError
 from mobnet.core.files import WEIGHTS
 from mobnet.core.store import read_array
-from mobnet.jobs.trainings import train_all
 from mobnet.learning.cells import Gru
 from mobnet.learning.dataset import load_limb_data
 from mobnet.learning.deployed.weights import GRU_TENSORS, read_weights
@@ -19,7 +20,6 @@ from mobnet.learning.optimisation import Samples, train_epoch
 from mobnet.learning.streams import deal
 from mobnet.learning.swings import free_rows, hanging
 from mobnet.learning.trainer import Trainer
-from mobnet.settings.catalogue import Catalogue
 
 RATE_HZ, MARGINS = 1000.0, (0.09, 0.03)
 

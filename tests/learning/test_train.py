@@ -11,7 +11,7 @@ import time
 import pytest
 import torch
 
-from mobnet.check import Against, check
+from experiments.check import Against, check
 from mobnet.core.errors import TrainingError
 from mobnet.core.files import CHECKPOINT, METRICS, RUN, WEIGHTS
 from mobnet.learning.deployed.networks import load_network

@@ -11,12 +11,12 @@ import pyarrow.parquet as pq
 import pytest
 from made_notes import training_note
 
-from mobnet.check import Against, check
+from experiments.check import Against, check
+from experiments.jobs.observing import observe
 from mobnet.core.columns import Epoch, Score, torque_columns
 from mobnet.core.errors import MobnetError
 from mobnet.core.recording import write_recording
 from mobnet.core.store import write_array
-from mobnet.jobs.observing import observe
 
 RATE_HZ = 1000.0
 AGAINST = Against()  # reads the configuration once

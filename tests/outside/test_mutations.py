@@ -11,10 +11,10 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from tests.outside.conftest import told
 
+from experiments.evaluation.measure.learning.trainings import read_training
+from experiments.evaluation.number.rows import read_scores
 from mobnet.core.errors import DataError
 from mobnet.core.recording import read_recording
-from mobnet.evaluation.measure.learning.trainings import read_training
-from mobnet.evaluation.number.rows import read_scores
 
 FEW = settings(max_examples=60, deadline=None, suppress_health_check=list(HealthCheck))
 JUNK = st.one_of(

@@ -9,7 +9,7 @@ from made_notes import network_note
 from safetensors.numpy import load_file, save_file
 from tests.outside.conftest import AGAINST, refusal_of, refusals
 
-from mobnet.check import check
+from experiments.check import check
 from mobnet.core.errors import DataError
 from mobnet.learning.cells import build_cell
 from mobnet.learning.deployed.limbs import load_limb_networks

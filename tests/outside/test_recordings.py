@@ -20,16 +20,16 @@ from tests.outside.conftest import (
     without_footer,
 )  # fmt: skip
 
-from mobnet.check import check
+from experiments.check import check
+from experiments.jobs.estimates import estimate
+from experiments.plan.parts import MethodRun
+from experiments.running.stage import Stage
+from experiments.settings.catalogue import Catalogue
 from mobnet.core.columns import recording_columns, recording_width
 from mobnet.core.errors import DataError
 from mobnet.core.recording import Truth, read_sensed
 from mobnet.core.store import read_array, write_array
-from mobnet.jobs.estimates import estimate
 from mobnet.learning.dataset import load_limb_data
-from mobnet.plan.parts import MethodRun
-from mobnet.running.stage import Stage
-from mobnet.settings.catalogue import Catalogue
 
 ROWS, WIDTH = 1200, recording_width(AGAINST.layout)
 

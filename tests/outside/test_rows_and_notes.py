@@ -8,15 +8,15 @@ import pytest
 from made_detections import write_detections
 from tests.outside.conftest import AGAINST, refusal_of, refusals, set_at
 
-from mobnet.check import check
+from experiments.check import check
+from experiments.evaluation.measure.learning.trainings import read_training
+from experiments.evaluation.number.rows import read_scores
+from experiments.evaluation.report.runs_page import read_training_run
+from experiments.running.accounts import read_account
 from mobnet.core.detections import FILES as DETECTION_FILES
 from mobnet.core.errors import DataError
 from mobnet.estimation.kinds.dahl import read_dahl
 from mobnet.estimation.kinds.friction import read_friction
-from mobnet.evaluation.measure.learning.trainings import read_training
-from mobnet.evaluation.number.rows import read_scores
-from mobnet.evaluation.report.runs_page import read_training_run
-from mobnet.running.accounts import read_account
 
 RUNS = {
     **refusals(

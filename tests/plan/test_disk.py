@@ -6,10 +6,10 @@ from typing import NamedTuple
 
 import pytest
 
+from experiments.plan.disk import check_places, check_space, expected_bytes
+from experiments.plan.plan import Plan, make_plan
+from experiments.settings.load import load_settings
 from mobnet.core.errors import DataError
-from mobnet.plan.disk import check_places, check_space, expected_bytes
-from mobnet.plan.plan import Plan, make_plan
-from mobnet.settings.load import load_settings
 
 ARRAY = "results/smoke/recordings/forward_walk/ideal/s101.parquet"
 

@@ -4,9 +4,9 @@ from pathlib import Path
 
 import pytest
 
-from mobnet.plan.plan import Plan, make_plan
-from mobnet.plan.products import Product
-from mobnet.settings.load import load_settings
+from experiments.plan.plan import Plan, make_plan
+from experiments.plan.products import Product
+from experiments.settings.load import load_settings
 
 ROOT = Path(__file__).parents[2]
 

@@ -7,10 +7,10 @@ from typing import Any
 import pytest
 from made_steps import arguments, maker, recording
 
+from experiments.plan.plan import Plan, make_plan
+from experiments.plan.precision import with_precision
+from experiments.settings.load import load_settings
 from mobnet.core.errors import ConfigError
-from mobnet.plan.plan import Plan, make_plan
-from mobnet.plan.precision import with_precision
-from mobnet.settings.load import load_settings
 
 ROBOTS = ("robot_1", "robot_2", "robot_3")
 RESULTS = Path("results/smoke")

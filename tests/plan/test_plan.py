@@ -8,16 +8,16 @@ from typing import Any
 import pytest
 from made_steps import arguments, maker, recording
 
+from experiments.plan.call import Call, Job, call_of, parameters
+from experiments.plan.files import files_in
+from experiments.plan.needs import needs_of
+from experiments.plan.plan import Plan, make_plan
+from experiments.plan.products import Shown, shown
+from experiments.plan.runs import SweptSize
+from experiments.plan.steps import Step
+from experiments.settings.load import load_settings
+from experiments.settings.settings import Settings
 from mobnet.core.errors import ConfigError
-from mobnet.plan.call import Call, Job, call_of, parameters
-from mobnet.plan.files import files_in
-from mobnet.plan.needs import needs_of
-from mobnet.plan.plan import Plan, make_plan
-from mobnet.plan.products import Shown, shown
-from mobnet.plan.runs import SweptSize
-from mobnet.plan.steps import Step
-from mobnet.settings.load import load_settings
-from mobnet.settings.settings import Settings
 
 SCALES = ("smoke", "quick", "default", "paper")
 SOURCES = ("paper/main", "paper/refs", "docs", "src", "workflow")  # files of the repository that products read
@@ -303,15 +303,15 @@ def test_a_caption_is_optional() -> None:
 
 
 def test_a_call_takes_what_the_signature_names() -> None:
-    call = call_of("mobnet.plan.plan:make_plan", {"settings": 1, "other": 2})
+    call = call_of("experiments.plan.plan:make_plan", {"settings": 1, "other": 2})
     assert call.arguments == {"settings": 1}
-    assert parameters("mobnet.plan.call:call_of") == (("function", "available"), ())
+    assert parameters("experiments.plan.call:call_of") == (("function", "available"), ())
     with pytest.raises(ConfigError, match="make_plan: parameter: 'settings' is not accepted; accepted: other"):
-        call_of("mobnet.plan.plan:make_plan", {"other": 2})
+        call_of("experiments.plan.plan:make_plan", {"other": 2})
     with pytest.raises(
-        ConfigError, match=r"function of mobnet\.plan\.plan: 'unmake' is not accepted; accepted: make_plan"
+        ConfigError, match=r"function of experiments\.plan\.plan: 'unmake' is not accepted; accepted: make_plan"
     ):
-        parameters("mobnet.plan.plan:unmake")
+        parameters("experiments.plan.plan:unmake")
 
 
 def test_a_call_runs_its_function_and_its_fingerprint_tells_arguments_apart(tmp_path: Path) -> None:

@@ -5,14 +5,14 @@ from pathlib import Path
 import pytest
 from made_steps import arguments
 
+from experiments.plan.plan import make_plan
+from experiments.plan.precision import PLACE, record_precision, with_precision
+from experiments.settings.catalogue import Catalogue
+from experiments.settings.load import load_settings
+from experiments.settings.settings import Settings
 from mobnet.core.errors import DataError
 from mobnet.learning import precision
 from mobnet.learning.precision import of_processor
-from mobnet.plan.plan import make_plan
-from mobnet.plan.precision import PLACE, record_precision, with_precision
-from mobnet.settings.catalogue import Catalogue
-from mobnet.settings.load import load_settings
-from mobnet.settings.settings import Settings
 
 
 @pytest.fixture(scope="module")

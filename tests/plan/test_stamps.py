@@ -9,14 +9,14 @@ from typing import Any
 import pytest
 from made_notes import training_note
 
+from experiments.plan import call, steps
+from experiments.plan.plan import Plan, make_plan
+from experiments.plan.stamps import Stamped
+from experiments.plan.steps import Step
+from experiments.running.logs import Account
+from experiments.running.stamp import Stamps, is_note
+from experiments.settings.load import load_settings
 from mobnet.core.files import write_json
-from mobnet.plan import call, steps
-from mobnet.plan.plan import Plan, make_plan
-from mobnet.plan.stamps import Stamped
-from mobnet.plan.steps import Step
-from mobnet.running.logs import Account
-from mobnet.running.stamp import Stamps, is_note
-from mobnet.settings.load import load_settings
 
 RECORDING, OTHER = (f"results/smoke/recordings/random_walk/all_uncertainty/s{seed}.json" for seed in (1000, 1001))
 NETWORK = "results/smoke/networks/MOB-Net-LL-s0"
@@ -167,7 +167,7 @@ def test_files_of_another_configuration_are_told(name: str, root: Path) -> None:
 
 def test_files_of_other_code_are_told(root: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     hashed = call.code_hash
-    changed = "mobnet.learning.train"
+    changed = "experiments.jobs.trainings"
     monkeypatch.setattr(call, "code_hash", lambda *names: hashed(*names) + "x" * (changed in names))
     assert [line.partition(": ")[0] for line in told(plan_with(), root)] == [f"{NETWORK}/run.json"]
 

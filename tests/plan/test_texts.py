@@ -2,8 +2,8 @@
 
 from pathlib import Path
 
-from mobnet.plan.texts import text_problems
-from mobnet.settings.settings import Settings
+from experiments.plan.texts import text_problems
+from experiments.settings.settings import Settings
 
 PAPER = Path(__file__).parents[2] / "paper" / "main.tex"
 

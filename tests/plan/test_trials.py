@@ -5,14 +5,14 @@ from typing import Any
 
 import pytest
 
-from mobnet.commands.words import APART
+from experiments.commands.words import APART
+from experiments.evaluation.tables.further.falls import ALL
+from experiments.plan.plan import Plan, make_plan
+from experiments.plan.products import Product
+from experiments.plan.seeds import FIRST_TRAINING_SEED
+from experiments.settings.load import load_settings
+from experiments.settings.trials import compared, trial_name, tuned
 from mobnet.core.rows import read_texts
-from mobnet.evaluation.tables.further.falls import ALL
-from mobnet.plan.plan import Plan, make_plan
-from mobnet.plan.products import Product
-from mobnet.plan.seeds import FIRST_TRAINING_SEED
-from mobnet.settings.load import load_settings
-from mobnet.settings.trials import compared, trial_name, tuned
 
 FALLS = Path(__file__).parents[2] / "docs/trials/random_torque.csv"
 

@@ -2,10 +2,10 @@
 
 import pytest
 
-from mobnet.plan.plan import Plan, make_plan
-from mobnet.plan.work import TOGETHER_S, Work
-from mobnet.settings.catalogue import Catalogue
-from mobnet.settings.load import load_settings
+from experiments.plan.plan import Plan, make_plan
+from experiments.plan.work import TOGETHER_S, Work
+from experiments.settings.catalogue import Catalogue
+from experiments.settings.load import load_settings
 
 
 @pytest.fixture(scope="module")

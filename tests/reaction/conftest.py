@@ -3,16 +3,16 @@
 import numpy as np
 import pytest
 
+from experiments.plan.jobs import walk_settings
+from experiments.settings.load import load_settings
 from mobnet.detection.chain import make_chain
 from mobnet.detection.detector import LegDetector, LegGate
 from mobnet.detection.signals import Watched
 from mobnet.estimation.methods import build_estimator
-from mobnet.plan.jobs import walk_settings
 from mobnet.reaction.handler import Handler
 from mobnet.reaction.loop import walk_with
 from mobnet.reaction.watchers import LegWatcher, LimbWatcher
 from mobnet.settings.detection import Detector
-from mobnet.settings.load import load_settings
 from mobnet.simulation.simulator import Simulator
 
 RATE_HZ = 1000.0

@@ -5,8 +5,8 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from experiments.jobs.calm import calm_parts, limb_thresholds
 from mobnet.core.errors import DataError
-from mobnet.jobs.calm import calm_parts, limb_thresholds
 
 RATE_HZ, HOUR_S = 10.0, 3600.0
 

@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
+from experiments.plan.jobs import walk_settings
+from experiments.settings.load import load_settings
 from mobnet.core.estimator import Estimate
-from mobnet.plan.jobs import walk_settings
 from mobnet.reaction.feed_forward import FeedForward, swing_error
 from mobnet.reaction.handler import Handler
 from mobnet.reaction.loop import columns_of, walk_with
-from mobnet.settings.load import load_settings
 from mobnet.simulation.simulator import Simulator
 
 pytestmark = pytest.mark.sim

@@ -4,11 +4,11 @@ import mujoco
 import numpy as np
 import pytest
 
+from experiments.jobs.reaction_trial import angle_deg, contacts_of
+from experiments.plan.jobs import walk_settings
+from experiments.settings.load import load_settings
 from mobnet.core.columns import recording_columns
-from mobnet.jobs.reaction_trial import angle_deg, contacts_of
-from mobnet.plan.jobs import walk_settings
 from mobnet.reaction.loop import columns_of, force_on, plan_steps, stop
-from mobnet.settings.load import load_settings
 from mobnet.simulation.simulator import Simulator
 
 pytestmark = pytest.mark.sim

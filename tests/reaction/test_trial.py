@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from mobnet.jobs.reaction_trial import angle_deg, contacts_of, impulse_ns, trial_of
+from experiments.jobs.reaction_trial import angle_deg, contacts_of, impulse_ns, trial_of
 from mobnet.reaction.handler import Reacted
 from mobnet.reaction.loop import Course
 from mobnet.settings.reaction import Watch

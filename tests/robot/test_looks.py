@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from mobnet.evaluation.figures.drawing.robot import lowest
+from experiments.evaluation.figures.drawing.robot import lowest
+from experiments.settings.settings import Settings
 from mobnet.robot.description import WalkingRobot, describe
 from mobnet.robot.looks import dressed
 from mobnet.robot.plant import robot_spec
-from mobnet.settings.settings import Settings
 
 PHYSICS = (
     "nq", "nv", "nu", "nbody", "nsite", "nsensor", "body_mass", "body_inertia", "body_ipos", "body_iquat", "body_pos",

@@ -15,8 +15,8 @@ import pytest
 import yaml
 from made_arm import arm_log
 
-from mobnet.commands.main import MODULES
-from mobnet.commands.words import parse
+from experiments.commands.main import MODULES
+from experiments.commands.words import parse
 from mobnet.core.store import read_array
 from mobnet.detection.calibrate import main as calibrate
 from mobnet.detection.threshold_file import read_thresholds

@@ -9,12 +9,12 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from experiments.demo import DATA
 from mobnet.core.columns import Epoch
 from mobnet.core.errors import ConfigError, DataError
 from mobnet.core.estimator import Estimate
 from mobnet.core.recording import read_sensed, write_recording
 from mobnet.core.store import footer_hash
-from mobnet.demo import DATA
 from mobnet.detection.limb import OwnRecording
 from mobnet.estimation.label import foot_label
 from mobnet.estimation.low_pass import low_pass

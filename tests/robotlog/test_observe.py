@@ -9,15 +9,15 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from mobnet.check import main as check
+from experiments.check import main as check
+from experiments.plan.jobs import walk_settings
+from experiments.settings.load import load_settings
 from mobnet.core.columns import recording_columns
 from mobnet.core.recording import read_sensed
 from mobnet.core.store import read_array
 from mobnet.estimation.low_pass import low_pass
-from mobnet.plan.jobs import walk_settings
 from mobnet.robot.description import describe
 from mobnet.robotlog.observe import main, observe_log
-from mobnet.settings.load import load_settings
 from mobnet.simulation.simulator import Simulator
 
 RATE_HZ, WALKED_S = 1000, 12

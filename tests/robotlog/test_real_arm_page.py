@@ -9,7 +9,7 @@ import pinocchio as pin
 import pytest
 from made_ur10e import UR10E
 
-from mobnet.commands.words import parse
+from experiments.commands.words import parse
 from mobnet.detection.calibrate import main as calibrate
 from mobnet.robot.import_table import main as robot
 from mobnet.robotlog.detect import main as detect

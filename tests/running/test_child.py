@@ -8,8 +8,8 @@ import time
 import numpy as np
 import pytest
 
+from mobnet.core.child import MEMORY_BYTES, in_child
 from mobnet.core.errors import ConfigError, DataError
-from mobnet.running.child import MEMORY_BYTES, in_child
 
 
 def test_an_answer_and_an_error_come_back():

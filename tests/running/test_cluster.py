@@ -4,7 +4,7 @@ import os
 
 import pytest
 
-from mobnet.running.cluster import FEW, LOGS, failed_jobs, warm_cache
+from experiments.running.cluster import FEW, LOGS, failed_jobs, warm_cache
 
 HAD = {"train": {"mem_mb": 100, "runtime": 30}}
 HEADER = "  Command: python -m snakemake --target-jobs {job} --allowed-rules train --cores 2 --attempt {attempt}\n"

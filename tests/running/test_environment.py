@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
+from experiments.running.environment import CACHES, child_environment, fault_of_place, quieten
 from mobnet.core.code import ROOT
-from mobnet.running.environment import CACHES, child_environment, fault_of_place, quieten
 
 
 def test_caches_lie_inside_the_project_and_each_process_has_one_thread(tmp_path):
@@ -44,10 +44,11 @@ def note(event, arguments):
 
 
 sys.addaudithook(note)
-import mobnet, numba
+import experiments, mobnet, numba
 
-for module in pkgutil.walk_packages(mobnet.__path__, "mobnet."):
-    importlib.import_module(module.name)
+for package in (mobnet, experiments):
+    for module in pkgutil.walk_packages(package.__path__, f"{package.__name__}."):
+        importlib.import_module(module.name)
 cache = os.path.dirname(os.environ["NUMBA_CACHE_DIR"])
 assert numba.config.CACHE_DIR == os.environ["NUMBA_CACHE_DIR"], numba.config.CACHE_DIR
 assert dict(os.environ) == before, set(os.environ.items()) ^ set(before.items())
@@ -65,19 +66,19 @@ def test_importing_changes_nothing(tmp_path):
 
 
 DRAWN = """
-from mobnet import look as command
+from experiments import look as command
 command._look = lambda _: 0
 command.main([])
 import matplotlib.font_manager
 """
 CALLED = {
     "a picture": ["-c", DRAWN],
-    "check": ["-m", "mobnet.check", "README.md"],
+    "check": ["-m", "experiments.check", "README.md"],
     "calibrate": ["-m", "mobnet.detection.calibrate", "--recording", "x", "--estimate", "x"],
-    "demo": ["-m", "mobnet.demo", "--out", ".cache/demo.png"],
-    "compare": ["-m", "mobnet.evaluation.report.snapshot", "compare"],
-    "cost": ["-m", "mobnet.evaluation.report.cost", "--config", "scale=smoke"],
-    "schema": ["-m", "mobnet.settings"],
+    "demo": ["-m", "experiments.demo", "--out", ".cache/demo.png"],
+    "compare": ["-m", "experiments.evaluation.report.snapshot", "compare"],
+    "cost": ["-m", "experiments.evaluation.report.cost", "--config", "scale=smoke"],
+    "schema": ["-m", "experiments.settings"],
     "snakemake": ["-m", "snakemake", "-n", "--config", "scale=smoke", "--", "tables/smoke/table_01.csv"],
 }
 

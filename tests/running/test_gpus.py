@@ -5,8 +5,8 @@ import os
 
 import pytest
 
-from mobnet.running.gpus import claimed, gpus_seen
-from mobnet.running.lock import opened, taken
+from mobnet.core.gpus import claimed, gpus_seen
+from mobnet.core.lock import opened, taken
 
 CUDA, CPU = "2.13.0", "2.13.0+cpu"
 

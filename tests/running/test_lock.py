@@ -8,7 +8,7 @@ import sys
 
 import pytest
 
-from mobnet.running.lock import JOBS, LOCKS, RUN, begin_run, holder, job_prefix, sweep, warn_of_missing_locks
+from mobnet.core.lock import JOBS, LOCKS, RUN, begin_run, holder, job_prefix, sweep, warn_of_missing_locks
 
 HOLD = """
 import fcntl, sys, time
@@ -52,7 +52,7 @@ def test_a_job_of_an_earlier_run_ends_at_once_with_one_line(tmp_path, monkeypatc
     assert subprocess.run(words, capture_output=True, text=True, check=True).stdout == "works\n"
     before = os.environ[RUN]
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("mobnet.running.lock.LOCKS", {JOBS: ""})  # this process holds the other one
+        patch.setattr("mobnet.core.lock.LOCKS", {JOBS: ""})  # this process holds the other one
         begin_run(tmp_path)
     monkeypatch.setenv(RUN, before)
     done = subprocess.run(words, capture_output=True, text=True, check=False)

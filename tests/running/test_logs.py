@@ -8,13 +8,13 @@ import time
 
 import pytest
 
+from experiments.running.logs import Account, job
 from mobnet.core.errors import DataError
 from mobnet.core.files import read_json
-from mobnet.running.logs import Account, job
 
 GREEDY = """
 import subprocess, sys
-from mobnet.running.logs import job
+from experiments.running.logs import job
 with job(sys.argv[1]):
     subprocess.run([sys.executable, "-c", "bytearray(300 << 20); sum(range(10**7))"], check=True)
 """

@@ -12,11 +12,11 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from mobnet.commands.words import COMMANDS
+from experiments.commands.words import COMMANDS
+from experiments.running.environment import child_environment
+from experiments.settings.load import load_settings
 from mobnet.core.code import ROOT
 from mobnet.core.errors import ConfigError
-from mobnet.running.environment import child_environment
-from mobnet.settings.load import load_settings
 
 pytestmark = [
     pytest.mark.slow,
@@ -37,13 +37,14 @@ CHAIN = (  # each with its module, as the commands of `./reproduce`
     ("mobnet.detection.calibrate", "free", *ROBOT, "--network", "net", "--out", "thresholds.yaml"),
     ("mobnet.robotlog.detect", "train.csv", *ROBOT, *NETWORK, "--out", "found"),
     ("mobnet.export.export", "net", *ROBOT, "--thresholds", "thresholds.yaml", "--out", "run_time"),
-    ("mobnet.check", "arm.yaml", "net/weights.safetensors", "thresholds.yaml", "--robot", str(ARM)),
+    ("experiments.check", "arm.yaml", "net/weights.safetensors", "thresholds.yaml", "--robot", str(ARM)),
 )
 MADE = {"made.yaml", "motion.csv", "train", "free", "net", "thresholds.yaml", "found", "run_time"}
 # Two functions read the configuration; both get the folder that is given.
 RUN = """import importlib, json, sys
 from pathlib import Path
-from mobnet.settings import lab, load
+from mobnet.settings import lab
+from experiments.settings import load
 lab.load_lab.__defaults__ = (Path(sys.argv[2]),)
 load.load_settings.__defaults__ = (Path(sys.argv[2]), None, None)
 for module, *words in json.loads(sys.argv[1]):
@@ -104,7 +105,7 @@ def test_the_commands_and_the_example_write_and_send_nothing_elsewhere(watched, 
 
 
 def test_the_demo_writes_and_sends_nothing_elsewhere(watched, tmp_path):
-    words = (sys.executable, "-P", "-m", "mobnet.demo", "--out", "demo.png")
+    words = (sys.executable, "-P", "-m", "experiments.demo", "--out", "demo.png")
     assert elsewhere(watched(*words, folder=tmp_path, **child_environment(ROOT))) == ([], [])
     assert (tmp_path / "demo.png").exists()
 

@@ -13,8 +13,8 @@ import yte
 from snakemake import cli, profiles, workflow
 from snakemake.scheduling import job_scheduler
 
-from mobnet.running import patches
-from mobnet.running.patches import VERSIONS, by_kind
+from experiments.running import patches
+from experiments.running.patches import VERSIONS, by_kind
 
 
 @pytest.mark.parametrize("package", VERSIONS)

@@ -11,11 +11,11 @@ import time
 import pytest
 
 from mobnet.core.errors import DataError
-from mobnet.running.printed import STOPPED, printed
+from mobnet.core.printed import STOPPED, printed
 
 CODE = """
 import logging
-from mobnet.running.printed import printed
+from mobnet.core.printed import printed
 printed(logging.getLogger("own"), lambda: (f"line {k}" for k in range(100_000)))
 """
 
@@ -61,7 +61,7 @@ def test_errors_of_the_program_are_not_hidden():
 
 HELD_BACK = """
 import logging, signal, time
-from mobnet.running.printed import printed
+from mobnet.core.printed import printed
 print("ready", flush=True)
 time.sleep(0.3)  # as while packages are imported
 printed(logging.getLogger("own"), lambda: iter([time.sleep(20)]), "stopped, and so on")

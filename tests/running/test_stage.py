@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from mobnet.running.stage import Stage
+from experiments.running.stage import Stage
 
 
 @pytest.fixture

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from mobnet.running.environment import THREADED
+from experiments.running.environment import THREADED
 
 ROOT = Path(__file__).parents[2]
 DEPLOYED = """

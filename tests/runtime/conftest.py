@@ -7,17 +7,17 @@ import numpy as np
 import pytest
 from made_notes import network_note
 
+from experiments.evaluation.measure.story import StoredPush
+from experiments.settings.load import load_settings
 from mobnet.core.joints import N_VIRTUAL, NQ_BASE
 from mobnet.core.recording import Sensed
 from mobnet.detection.chain import make_chain
 from mobnet.estimation.observer import MomentumObserver
-from mobnet.evaluation.measure.story import StoredPush
 from mobnet.export.model_file import RuntimeDetector, RuntimeNetwork, write_model_file
 from mobnet.learning.deployed.weights import WeightsNote, read_weights, shapes
 from mobnet.learning.features import BASE_NAMES
 from mobnet.robot.description import describe
 from mobnet.robot.nominal import NominalModel
-from mobnet.settings.load import load_settings
 
 RATE_HZ, GAIN_HZ, GRAVITY = 1000.0, 100.0, 9.8
 LOW_PASS_HZ, HOLD_S = 15.0, 0.005

@@ -5,9 +5,9 @@ from pathlib import Path
 
 import pytest
 
-from mobnet.jobs.method_problems import method_problems
-from mobnet.settings import load
-from mobnet.settings.load import load_settings
+from experiments.jobs.method_problems import method_problems
+from experiments.settings import load
+from experiments.settings.load import load_settings
 from mobnet.settings.reading import Document
 
 from .mutations import FILES, Load

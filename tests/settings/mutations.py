@@ -9,9 +9,9 @@ from typing import Any
 
 import yaml
 
+from experiments.settings.load import NAMED_FILES, PARTS
 from mobnet.core.errors import ConfigError
 from mobnet.settings.lab import CONFIGS
-from mobnet.settings.load import NAMED_FILES, PARTS
 from mobnet.settings.reading import Place
 
 FILES = {name: CONFIGS / f"{name}.yaml" for name in (*PARTS, *NAMED_FILES) if name != "robot"}

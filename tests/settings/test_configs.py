@@ -7,16 +7,16 @@ from typing import get_args
 import numpy as np
 import pytest
 
+from experiments.settings.catalogue import Catalogue
+from experiments.settings.checks.claims import metrics_of
+from experiments.settings.checks.results import Results
+from experiments.settings.claims import Bounds, Cell, Claim, MadeNumber, TrainingMetric, numbers_of
+from experiments.settings.load import load_settings
+from experiments.settings.metrics import unit_of_metric
+from experiments.settings.published import ARCHITECTURE
+from experiments.settings.tables import ErrorTable
 from mobnet.core.joints import right_of
-from mobnet.core.metrics import unit_of_metric
-from mobnet.settings.catalogue import Catalogue
-from mobnet.settings.checks.claims import metrics_of
-from mobnet.settings.checks.results import Results
-from mobnet.settings.claims import Bounds, Cell, Claim, MadeNumber, TrainingMetric, numbers_of
-from mobnet.settings.load import load_settings
-from mobnet.settings.published import ARCHITECTURE
 from mobnet.settings.robot import WORLD
-from mobnet.settings.tables import ErrorTable
 
 SETTINGS = load_settings()
 RESULTS = Results(Catalogue(SETTINGS))

@@ -9,8 +9,8 @@ from typing import Any
 
 import pytest
 
+from experiments.settings.load import load_settings
 from mobnet.settings.lab import CONFIGS
-from mobnet.settings.load import load_settings
 
 from .mutations import FILES, LONGEST_S, VALUES, Load, dumped, refusal
 
@@ -328,7 +328,7 @@ def test_a_configuration_file_for_snakemake_is_refused(tmp_path: Path) -> None:
         (deep, ["--profile", str(tmp_path)], f"{path}: "),
     ):
         path.write_text(text)
-        run = [sys.executable, "-m", "mobnet.running.run", "-n", *words]
+        run = [sys.executable, "-m", "experiments.running.run", "-n", *words]
         done = subprocess.run(run, cwd=ROOT, capture_output=True, text=True, check=False)
         assert done.returncode == 1
         assert any(line.startswith(message) and "accepted: " in line for line in done.stderr.splitlines())

@@ -6,14 +6,14 @@ from pathlib import Path
 import pytest
 from pydantic import ValidationError
 
+from experiments.plan.seeds import FIRST_DEVELOPMENT_SEED, FIRST_TRAINING_SEED
+from experiments.settings import evaluation
+from experiments.settings.catalogue import Catalogue
+from experiments.settings.claims import TAKES, Claim
+from experiments.settings.settings import Settings
 from mobnet.core.errors import ConfigError
-from mobnet.plan.seeds import FIRST_DEVELOPMENT_SEED, FIRST_TRAINING_SEED
-from mobnet.settings import evaluation
-from mobnet.settings.catalogue import Catalogue
-from mobnet.settings.claims import TAKES, Claim
 from mobnet.settings.names import uses
 from mobnet.settings.reading import dotted
-from mobnet.settings.settings import Settings
 
 SECTIONS = Path(evaluation.__file__).parent
 # with properties that follow from the values and are never called by a job, or without sections

@@ -5,14 +5,14 @@ from pathlib import Path
 import pytest
 from csv_files import read_table
 
-from mobnet.evaluation.number.clusters import Place, rate_in, share_in
-from mobnet.plan.files import Files
-from mobnet.plan.reactions import sizes_of
-from mobnet.settings.catalogue import Catalogue
-from mobnet.settings.checks.outcomes import independent_part, is_met_by_a_rate, wilson
-from mobnet.settings.claims import Cell
-from mobnet.settings.load import load_settings
-from mobnet.settings.settings import Settings
+from experiments.evaluation.number.clusters import Place, rate_in, share_in
+from experiments.plan.files import Files
+from experiments.plan.reactions import sizes_of
+from experiments.settings.catalogue import Catalogue
+from experiments.settings.checks.outcomes import independent_part, is_met_by_a_rate, wilson
+from experiments.settings.claims import Cell
+from experiments.settings.load import load_settings
+from experiments.settings.settings import Settings
 
 ROOT = Path(__file__).parents[2]
 JUDGED = ("foot", "knee", "cart", "door")  # cases of which the paper tells that robots do not fall

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from pydantic import BaseModel
 
+from experiments.plan.jobs import walk_settings
+from experiments.settings.load import load_settings
+from experiments.settings.settings import Settings
 from mobnet.core.columns import recording_columns, recording_width
-from mobnet.plan.jobs import walk_settings
-from mobnet.settings.load import load_settings
-from mobnet.settings.settings import Settings
 from mobnet.simulation.simulator import Simulator
 from mobnet.simulation.start import start_standing
 

@@ -8,7 +8,7 @@ import matplotlib.image
 import pytest
 from PIL import Image
 
-from mobnet import look as command
+from experiments import look as command
 from mobnet.core.errors import DrawingError
 from mobnet.simulation import render
 

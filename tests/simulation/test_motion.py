@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
+from experiments.jobs.motions import make_motion, part_and_variant
+from experiments.plan.seeds import FIRST_TRAINING_SEED
 from mobnet.core.errors import SimulationError
 from mobnet.core.store import read_array
-from mobnet.jobs.motions import make_motion, part_and_variant
-from mobnet.plan.seeds import FIRST_TRAINING_SEED
 from mobnet.simulation.motion import band_limited, hand_targets, shoulder, smooth_step, working_range
 
 SECONDS = 12.0

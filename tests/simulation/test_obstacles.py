@@ -4,9 +4,9 @@ import mujoco
 import numpy as np
 import pytest
 
+from experiments.plan.jobs import walk_settings
+from experiments.settings.load import load_settings
 from mobnet.core.errors import ConfigError
-from mobnet.plan.jobs import walk_settings
-from mobnet.settings.load import load_settings
 from mobnet.simulation.obstacles import obstacle_force
 from mobnet.simulation.simulator import Simulator
 

@@ -26,7 +26,7 @@ ctypes.CDLL.__init__ = refuse
 from pathlib import Path
 from mobnet.core.errors import DrawingError
 from mobnet.robot.description import describe
-from mobnet.settings.load import load_settings
+from experiments.settings.load import load_settings
 from mobnet.simulation.render import save_picture
 from mobnet.simulation.terrain import DrawnTerrain
 robot = describe(load_settings().robot)

@@ -6,7 +6,7 @@ import tomllib
 
 import pytest
 
-from mobnet.evaluation.report import paper
+from experiments.evaluation.report import paper
 from mobnet.simulation import render
 
 from .conftest import ROOT

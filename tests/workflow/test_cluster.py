@@ -105,7 +105,7 @@ def test_a_controller_that_fails_and_returns_is_waited_for(cluster, project, tra
 def test_a_killed_run_started_again_ends_the_same(cluster, project, trained):
     run = start(cluster, project)
     wait_for_training(cluster, project)
-    cluster.ask("pkill", "-KILL", "-f", "mobnet.running.run")
+    cluster.ask("pkill", "-KILL", "-f", "experiments.running.run")
     run.wait(LONGEST_S)
     again = start(cluster, project)
     assert_ends_the_same(again, cluster, project, trained)
@@ -114,7 +114,7 @@ def test_a_killed_run_started_again_ends_the_same(cluster, project, trained):
 def test_ctrl_c_empties_the_queue(cluster, project):
     run = start(cluster, project)
     wait_for_training(cluster, project)
-    cluster.ask("pkill", "-INT", "-f", "mobnet.running.run")
+    cluster.ask("pkill", "-INT", "-f", "experiments.running.run")
     assert ended(run, cluster, project) != 0
     said = told(project)
     assert said.count("stopped; the same command goes on from here") == 1

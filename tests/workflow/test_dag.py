@@ -6,9 +6,9 @@ import sys
 
 import pytest
 
-from mobnet.evaluation.report.paper import missing_packages
-from mobnet.plan.plan import make_plan
-from mobnet.settings.load import load_settings
+from experiments.evaluation.report.paper import missing_packages
+from experiments.plan.plan import make_plan
+from experiments.settings.load import load_settings
 
 from .conftest import JOB, ROOT, job_of
 
@@ -42,7 +42,7 @@ def test_what_is_out_of_date_of_a_target_is_priced(snakemake):
     target, smoke = "tables/smoke/table_06.tex", ("--config", "scale=smoke")
     planned = snakemake("-n", "--quiet", "host", *smoke, "--", target)
     listed = re.findall(r"^ *(?:local)?rule (\w+):$", planned.stdout + planned.stderr, re.MULTILINE)
-    words = (sys.executable, "-m", "mobnet.evaluation.report.cost", target, *smoke)
+    words = (sys.executable, "-m", "experiments.evaluation.report.cost", target, *smoke)
     told = subprocess.run(words, cwd=ROOT, capture_output=True, text=True, check=True).stdout
     assert len(listed) > 0
     assert f"| all jobs | {len(listed)} |" in told

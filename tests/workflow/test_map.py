@@ -7,10 +7,10 @@ from typing import NamedTuple
 
 import pytest
 
+from experiments.plan.plan import make_plan
+from experiments.plan.products import CAPTIONS
+from experiments.settings.load import load_settings
 from mobnet.core.code import start_of
-from mobnet.plan.plan import make_plan
-from mobnet.plan.products import CAPTIONS
-from mobnet.settings.load import load_settings
 
 from .conftest import ROOT
 
@@ -102,7 +102,7 @@ def found(name):
     """Return whether a name is a file, a module or a key of the configuration."""
     if "/" in name:
         return (ROOT / name).exists()
-    if name.startswith("mobnet."):
+    if name.startswith(("mobnet.", "experiments.")):
         return start_of(name).is_file()
 
     def below(section, key):

@@ -11,11 +11,11 @@ from pathlib import Path
 import pytest
 from browser import with_browser
 
+from experiments.evaluation.report.pages import table_page, titled
+from experiments.evaluation.tables.layout import markdown_table
+from experiments.plan.products import CATEGORIES, TEMPLATES
+from experiments.settings.load import load_settings
 from mobnet.core.files import write_text
-from mobnet.evaluation.report.pages import table_page, titled
-from mobnet.evaluation.tables.layout import markdown_table
-from mobnet.plan.products import CATEGORIES, TEMPLATES
-from mobnet.settings.load import load_settings
 
 from .clicks import MENU, ROWS, choose, explain, show, text_of_frame
 from .conftest import ROOT

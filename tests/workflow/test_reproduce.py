@@ -9,8 +9,8 @@ from itertools import pairwise
 
 import pytest
 
-from mobnet.commands.setup import fault_of
-from mobnet.commands.words import COMMANDS
+from experiments.commands.setup import fault_of
+from experiments.commands.words import COMMANDS
 
 from .conftest import ROOT
 

@@ -13,12 +13,12 @@ from pathlib import Path
 import pytest
 from browser import with_browser
 
-from mobnet.evaluation.report.compute import HOUR_S, WHOLE
-from mobnet.evaluation.report.cost import costs
-from mobnet.evaluation.report.rates import measured
-from mobnet.plan.plan import make_plan
-from mobnet.running.accounts import read_account
-from mobnet.settings.load import load_settings
+from experiments.evaluation.report.compute import HOUR_S, WHOLE
+from experiments.evaluation.report.cost import costs
+from experiments.evaluation.report.rates import measured
+from experiments.plan.plan import make_plan
+from experiments.running.accounts import read_account
+from experiments.settings.load import load_settings
 
 from .clicks import choose, explain, show, text_of_frame
 from .cluster import cluster_in
@@ -204,7 +204,7 @@ WORDS = {  # file -> what is replaced in it by what: none of these can change a 
 LAW = {f"{SIMULATION}/friction.py": (DECORATED, f"\nADDED = 1\n\n{DECORATED}")}
 PRODUCTS = {
     "configs/evaluation.yaml": ("every: 10\n", "every: 11\n"),
-    "src/mobnet/evaluation/tables/further/steps.py": (DEFINED, f"\n\nADDED = 1{DEFINED}"),
+    "src/experiments/evaluation/tables/further/steps.py": (DEFINED, f"\n\nADDED = 1{DEFINED}"),
 }
 MUJOCO = {"environment.lock": ("\nmujoco==", "\nmujoco==9")}
 

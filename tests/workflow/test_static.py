@@ -6,7 +6,7 @@ import sys
 
 import pytest
 
-from mobnet.commands.setup import LOCKS
+from experiments.commands.setup import LOCKS
 
 from .conftest import ROOT
 

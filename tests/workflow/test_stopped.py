@@ -18,8 +18,8 @@ CHECK = """
 import sys
 from pathlib import Path
 from mobnet.core.errors import DataError
-from mobnet.evaluation.report.manifest import is_listed, manifest
-from mobnet.evaluation.report.snapshot import check_fingerprints, check_run
+from experiments.evaluation.report.manifest import is_listed, manifest
+from experiments.evaluation.report.snapshot import check_fingerprints, check_run
 
 results = Path("results/smoke")
 made = [path for path in results.rglob("*") if path.is_file() and is_listed(path.relative_to(results))]

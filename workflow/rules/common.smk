@@ -10,25 +10,25 @@ from typing import NamedTuple
 from snakemake.logging import logger as snakemake_logger
 from snakemake.settings.enums import RerunTrigger
 
+from experiments.evaluation.measure.registry import measure_problems
+from experiments.evaluation.report.paper import missing_packages
+from experiments.jobs.method_problems import method_problems
+from experiments.plan.disk import check_places, check_space
+from experiments.plan.places import check_scale
+from experiments.plan.plan import make_plan
+from experiments.plan.precision import record_precision, with_precision
+from experiments.plan.products import shown
+from experiments.plan.stamps import Stamped
+from experiments.plan.texts import text_problems
+from experiments.running.cluster import LIMITED, failed_jobs, warm_cache
+from experiments.running.environment import quieten
+from experiments.running.follow import follow_trainings
+from experiments.running.patches import by_kind, drop_rate_limit, quote_python, set_resources_by_kind
+from experiments.running.run import is_stopped, refuse_configfiles, start_jobs
+from experiments.settings.load import load_settings
 from mobnet.core.errors import MobnetError, refuse_lines
-from mobnet.jobs.method_problems import method_problems
-from mobnet.evaluation.measure.registry import measure_problems
-from mobnet.evaluation.report.paper import missing_packages
-from mobnet.plan.disk import check_places, check_space
-from mobnet.plan.places import check_scale
-from mobnet.plan.plan import make_plan
-from mobnet.plan.precision import record_precision, with_precision
-from mobnet.plan.products import shown
-from mobnet.plan.stamps import Stamped
-from mobnet.plan.texts import text_problems
-from mobnet.running.cluster import LIMITED, failed_jobs, warm_cache
-from mobnet.running.environment import quieten
-from mobnet.running.follow import follow_trainings
-from mobnet.running.gpus import gpus_seen
-from mobnet.running.lock import job_prefix
-from mobnet.running.patches import by_kind, drop_rate_limit, quote_python, set_resources_by_kind
-from mobnet.running.run import is_stopped, refuse_configfiles, start_jobs
-from mobnet.settings.load import load_settings
+from mobnet.core.gpus import gpus_seen
+from mobnet.core.lock import job_prefix
 
 ROOT, STARTED_S = Path(workflow.basedir), time.time()
 quieten(ROOT)

@@ -1,6 +1,6 @@
-"""Every rule: the call that the plan (mobnet.plan) makes for it."""
+"""Every rule: the call that the plan (experiments.plan) makes for it."""
 
-from mobnet.running.logs import job
+from experiments.running.logs import job
 
 with job(snakemake.log[0]) as stamps:
     snakemake.params.call.run()

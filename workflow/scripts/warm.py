@@ -2,11 +2,11 @@
 
 import logging
 
-from mobnet.plan.jobs import walk_settings
-from mobnet.settings.load import load_settings
-from mobnet.warm import warm
+from experiments.plan.jobs import walk_settings
+from experiments.settings.load import load_settings
+from experiments.warm import warm
 
 logging.basicConfig(format="%(message)s")
-logging.getLogger("mobnet.warm").setLevel(logging.INFO)
+logging.getLogger("experiments.warm").setLevel(logging.INFO)
 settings = load_settings()
 warm(walk_settings(settings, next(iter(settings.scenarios)), next(iter(settings.levels))), settings.detection)

@@ -16,7 +16,7 @@ FIFTH = 0.2  # of all collisions
 
 
 class Claimed(Protocol):
-    """What of a claim makes its ranges: `mobnet.settings.claims.Claim` has it."""
+    """What of a claim makes its ranges: `experiments.settings.claims.Claim` has it."""
 
     @property
     def rule(self) -> str: ...  # noqa: D102

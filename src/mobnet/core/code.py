@@ -3,7 +3,7 @@
 Snakemake sees a script but not what it imports; each rule therefore carries the hash of its code as a parameter. The
 machine code of compiled functions and the checkpoints of trainings belong to the same hash. It covers
 
-* the syntax trees of the files named and of all modules of this package that they import, directly or not, without
+* the syntax trees of the files named and of all modules of these packages that they import, directly or not, without
   what cannot change a result: comments, docstrings, and the texts of errors and log messages;
 * the lines in environment.lock of the packages that these files import, and of those that these require.
 
@@ -29,11 +29,13 @@ from mobnet.core.errors import ConfigError, not_accepted
 SOURCE = Path(__file__).parents[2]
 ROOT = SOURCE.parent
 LOCK = ROOT / "environment.lock"
-PACKAGE = "mobnet"
+PACKAGES = ("mobnet", "experiments")
 # Imports of these modules are not followed. Provenance and logs write notes, never results. Settings and plan read and
 # check the configuration and compute nothing: what a job takes of their values is a parameter of its rule, so that a
 # changed value reruns the job, and a changed check of it reruns nothing.
-NOT_FOLLOWED = frozenset({f"{PACKAGE}.{name}" for name in ("running.provenance", "running.logs", "settings", "plan")})
+NOT_FOLLOWED = frozenset({
+    "mobnet.core.provenance", "experiments.running.logs", "mobnet.settings", "experiments.settings", "experiments.plan",
+})  # fmt: skip
 DISTRIBUTIONS = {  # import name -> name in the lock, where they differ; asking importlib.metadata for all takes 0.4 s
     "OpenGL": "pyopengl",
     "PIL": "pillow",
@@ -47,7 +49,7 @@ SHORT = 16  # characters of a hash that are kept
 
 
 class Source(NamedTuple):
-    """What one file contributes: the hash of its syntax tree, and what it imports of this package and of others."""
+    """What one file contributes: the hash of its syntax tree, and what it imports of these packages and of others."""
 
     digest: bytes
     files: tuple[Path, ...]
@@ -81,17 +83,18 @@ def source_hash(*starts: Path | str) -> str:
 
 def start_of(start: Path | str) -> Path:
     """Return the file of a path or of a dotted name such as `mobnet.learning.train:train`."""
-    is_dotted = isinstance(start, str) and start.split(".")[0] == PACKAGE
+    is_dotted = isinstance(start, str) and start.split(".")[0] in PACKAGES
     place = SOURCE.joinpath(*start.partition(":")[0].split(".")) if is_dotted else Path(start)
     accepted = (place / "__init__.py", place.with_suffix(".py")) if is_dotted else (place,)
     found = next((file.resolve() for file in accepted if file.is_file()), None)
     if found is None:
-        raise ConfigError(f"{start}: no such code; accepted: a file, or a module of {PACKAGE} below {SOURCE}")
+        accepted_names = " or ".join(PACKAGES)
+        raise ConfigError(f"{start}: no such code; accepted: a file, or a module of {accepted_names} below {SOURCE}")
     return found
 
 
 def reached(starts: Iterable[Path]) -> tuple[Source, ...]:
-    """Return some files and all that they import of this package, directly or not."""
+    """Return some files and all that they import of these packages, directly or not."""
     found: dict[Path, Source] = {}
     waiting = list(starts)
     while waiting:
@@ -108,7 +111,7 @@ def read(path: Path) -> Source:
     reader = Reader()
     reader.read(ast.parse(path.read_bytes(), str(path)))
     files = {file for name in reader.imports for file in module_files(name)}
-    tops = {name.partition(".")[0] for name in reader.imports} - {PACKAGE} - sys.stdlib_module_names
+    tops = {name.partition(".")[0] for name in reader.imports} - {*PACKAGES} - sys.stdlib_module_names
     packages = {DISTRIBUTIONS.get(top, lock_name(top)) for top in tops}
     return Source(hashlib.sha256(" ".join(reader.words).encode()).digest(), tuple(files), frozenset(packages))
 
@@ -174,7 +177,7 @@ def module_files(name: str) -> tuple[Path, ...]:
     """Return the files that importing a dotted name runs: its packages and itself, where it is a module."""
     parts = name.split(".")
     names = [parts[: count + 1] for count in range(len(parts))]
-    if parts[0] != PACKAGE or any(".".join(some) in NOT_FOLLOWED for some in names):
+    if parts[0] not in PACKAGES or any(".".join(some) in NOT_FOLLOWED for some in names):
         return ()
     places = [SOURCE.joinpath(*some) for some in names]
     files = (file for place in places for file in (place / "__init__.py", place.with_suffix(".py")))

@@ -15,6 +15,7 @@ from pathlib import Path
 
 from mobnet.core.errors import DataError, not_accepted, refuse_lines
 from mobnet.core.files import check_place, sweep
+from mobnet.core.printed import printed
 from mobnet.detection.choice import ALONE, BARE, NETWORK, Tried, best_of, lines_of, tried_on_pushes
 from mobnet.detection.limb import OwnRecording, calibrate_limb
 from mobnet.detection.limb_report import beside, report, thresholds_of
@@ -37,7 +38,6 @@ from mobnet.estimation.own import (
 )
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.given import given_robot
-from mobnet.running.printed import printed
 from mobnet.settings.detection import Signal
 from mobnet.settings.lab import Lab, load_lab
 

@@ -16,6 +16,7 @@ import numpy as np
 
 from mobnet.core.errors import DataError, beyond, not_accepted, refuse_lines
 from mobnet.core.files import atomic_path, check_place, sweep, write_json
+from mobnet.core.printed import printed
 from mobnet.detection.signals import MEAN
 from mobnet.detection.threshold_file import read_thresholds
 from mobnet.estimation.own import OBSERVER, check_drives
@@ -28,7 +29,6 @@ from mobnet.export.words import export_parser
 from mobnet.learning.deployed.networks import WITHOUT_TORCH, deployed
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.given import given_robot
-from mobnet.running.printed import printed
 from mobnet.settings.base import GAIN_HZ, RATE_HZ, TorqueKind
 from mobnet.settings.detection import SwingGate
 from mobnet.settings.lab import load_lab

@@ -5,7 +5,7 @@ import functools
 import torch
 
 from mobnet.core.code import ROOT
-from mobnet.running.gpus import claimed
+from mobnet.core.gpus import claimed
 
 
 @functools.cache

@@ -10,8 +10,8 @@ from torch import Tensor, nn
 from torch.nn.utils import parametrize
 from torch.nn.utils.parametrizations import spectral_norm
 
+from mobnet.core.threads import one_thread
 from mobnet.learning.cells import CellModule, build_cell
-from mobnet.running.threads import one_thread
 from mobnet.settings.networks import NetworkCell
 
 

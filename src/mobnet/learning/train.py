@@ -11,6 +11,8 @@ import torch
 from safetensors.torch import save as to_bytes
 
 from mobnet.core.files import CHECKPOINT, METRICS, RUN, TIME, WEIGHTS, atomic_path, write_json
+from mobnet.core.provenance import provenance
+from mobnet.core.threads import one_thread
 from mobnet.learning.calibration import StdFactors
 from mobnet.learning.checkpoint import Progress, write_metrics
 from mobnet.learning.dataset import LimbData
@@ -18,8 +20,6 @@ from mobnet.learning.deployed.weights import NOTE, STD_SCALE
 from mobnet.learning.job import TrainingJob, precision_name
 from mobnet.learning.model import parameter_count
 from mobnet.learning.trainer import Trainer
-from mobnet.running.provenance import provenance
-from mobnet.running.threads import one_thread
 from mobnet.settings.base import Section
 
 log = logging.getLogger(__name__)

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from mobnet.core.errors import DataError, not_accepted
 from mobnet.core.files import check_place, sweep, write_text
+from mobnet.core.printed import printed
 from mobnet.core.rows import csv_text
 from mobnet.detection.threshold_file import read_thresholds
 from mobnet.estimation import estimate, observer
@@ -21,7 +22,6 @@ from mobnet.robotlog.flags import COLUMNS
 from mobnet.robotlog.learning_words import detect_parser
 from mobnet.robotlog.plot_flags import plot_flags
 from mobnet.robotlog.wrenches import place_of, told_wrenches, wrenches_of, write_wrenches
-from mobnet.running.printed import printed
 from mobnet.settings.lab import load_lab, load_section
 from mobnet.settings.limb_thresholds import LimbThresholds
 from mobnet.settings.robotlog import LogMap

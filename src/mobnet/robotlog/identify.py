@@ -14,6 +14,7 @@ from pathlib import Path
 
 from mobnet.core.errors import ConfigError, DataError, not_accepted
 from mobnet.core.files import check_place
+from mobnet.core.printed import printed
 from mobnet.core.recording import SensedRecording
 from mobnet.estimation import observer
 from mobnet.estimation.own import RECORDING, read_log_folder
@@ -25,7 +26,6 @@ from mobnet.robotlog.identifying.fit import JointFit, fit_joints
 from mobnet.robotlog.identifying.payload import Payload
 from mobnet.robotlog.identifying.regressors import Windows, columns_of, moved, together, windows_of
 from mobnet.robotlog.observe import converted_log
-from mobnet.running.printed import printed
 from mobnet.settings.base import TorqueKind
 from mobnet.settings.lab import Lab, load_lab, load_section
 from mobnet.settings.parts import BodyRow, FrictionRow

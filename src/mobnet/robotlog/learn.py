@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from mobnet.core.arrays import Array
 from mobnet.core.errors import DataError, not_accepted
 from mobnet.core.files import METRICS, RUN, check_place, read_json, sweep, write_json
+from mobnet.core.printed import printed
 from mobnet.estimation import observer
 from mobnet.estimation.own import (
     OwnLog,
@@ -39,7 +40,6 @@ from mobnet.robotlog.labels import before, check_labels, label_of, limb_data
 from mobnet.robotlog.learning_words import learn_parser
 from mobnet.robotlog.planted_check import PlantedCheck, planted_check
 from mobnet.robotlog.training import filled, training_of
-from mobnet.running.printed import printed
 from mobnet.settings.lab import Lab, load_lab
 from mobnet.settings.robot import RobotTable
 

@@ -20,6 +20,7 @@ from mobnet.core.estimator import Estimate
 from mobnet.core.files import check_place, sweep
 from mobnet.core.joints import JointLayout
 from mobnet.core.notes import read_array_note
+from mobnet.core.printed import printed
 from mobnet.core.recording import Recording
 from mobnet.core.store import NOTE, array_writer, file_of, write_array
 from mobnet.estimation import observer
@@ -51,7 +52,6 @@ from mobnet.robotlog.pushes import pushed_rows
 from mobnet.robotlog.tool import with_tool
 from mobnet.robotlog.words import observe_parser
 from mobnet.robotlog.wrenches import Place, Wrenches, place_of, told_wrenches, wrenches_of, write_wrenches
-from mobnet.running.printed import printed
 from mobnet.settings.base import GAIN_HZ, TorqueKind
 from mobnet.settings.lab import load_lab, load_section
 from mobnet.settings.robotlog import LogMap, RobotLog

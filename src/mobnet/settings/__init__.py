@@ -1,1 +1,1 @@
-"""The configuration as frozen, typed sections with bounds, units and references; `load` reads it from `configs/`."""
+"""The configuration as frozen, typed sections with bounds, units and references; `lab` reads what a lab needs of it."""

@@ -13,10 +13,10 @@ from numpy.typing import NDArray
 from mobnet.control.upper_body import UpperBody
 from mobnet.core.columns import recording_columns
 from mobnet.core.errors import SimulationError
+from mobnet.core.provenance import provenance
 from mobnet.core.store import array_writer, read_array
-from mobnet.running.provenance import provenance
 from mobnet.settings.data import RecordingSettings
-from mobnet.settings.settings import WalkSettings
+from mobnet.settings.walk import WalkSettings
 from mobnet.simulation.self_collision import Clearance
 from mobnet.simulation.simulator import Simulator
 

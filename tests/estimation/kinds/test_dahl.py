@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from experiments.settings.catalogue import Catalogue
 from mobnet.core.columns import residual_columns
 from mobnet.core.errors import DataError
 from mobnet.core.joints import N_VIRTUAL
@@ -14,7 +15,6 @@ from mobnet.core.store import write_array
 from mobnet.estimation.kinds.dahl import TERMS, DahlFriction, Options, bent, build, fit, read_dahl
 from mobnet.estimation.kinds.friction import FrictionModel, read_friction
 from mobnet.estimation.low_pass import low_pass
-from mobnet.settings.catalogue import Catalogue
 
 GAIN_HZ, RATE_HZ = 100.0, 1000.0
 ANGLES = (0.002, 0.004, 0.02)

@@ -5,11 +5,11 @@ import json
 import numpy as np
 import pytest
 
+from experiments.settings.catalogue import Catalogue
 from mobnet.core.joints import N_VIRTUAL
 from mobnet.estimation.kinds.friction import FittedFriction, FrictionModel, Options, build, fit, read_friction
 from mobnet.estimation.low_pass import low_pass
 from mobnet.estimation.regression import TERMS
-from mobnet.settings.catalogue import Catalogue
 from mobnet.simulation.friction import friction_torque, make_friction
 
 GAIN_HZ, RATE_HZ = 100.0, 1000.0

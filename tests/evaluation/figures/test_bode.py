@@ -7,12 +7,12 @@ import numpy as np
 import pytest
 from csv_files import check_golden, read_table
 
+from experiments.evaluation.figures.further.bode import REFERENCE, Answer, bode, draw_bode
+from experiments.evaluation.number.number import Number
+from experiments.settings.evaluation import Evaluation
+from experiments.settings.runs import LimbRuns
+from experiments.settings.settings import Settings
 from mobnet.core.joints import JointLayout
-from mobnet.evaluation.figures.further.bode import REFERENCE, Answer, bode, draw_bode
-from mobnet.evaluation.number.number import Number
-from mobnet.settings.evaluation import Evaluation
-from mobnet.settings.runs import LimbRuns
-from mobnet.settings.settings import Settings
 
 METRICS = {"gain_0.5hz": (0.9, "-"), "phase_0.5hz": (-5.0, "deg"), "gain_2hz": (0.5, "-"), "phase_2hz": (-40.0, "deg")}
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from csv_files import read_table
 
-from mobnet.evaluation.figures.further.reliability import (
+from experiments.evaluation.figures.further.reliability import (
     CoverageCurve,
     ReliabilityPanel,
     curve_rows,
@@ -15,8 +15,8 @@ from mobnet.evaluation.figures.further.reliability import (
     panels_of,
     reliability,
 )
-from mobnet.evaluation.measure.learning.calibration import CoverageGrid
-from mobnet.settings.settings import Settings
+from experiments.evaluation.measure.learning.calibration import CoverageGrid
+from experiments.settings.settings import Settings
 
 NOMINAL = np.array([0.25, 0.5, 0.75])
 

@@ -8,9 +8,8 @@ from typing import Any
 
 import pytest
 
-from mobnet.core.columns import FOREST, NO_NUMBER, OURS, VERDICTS
-from mobnet.evaluation.figures.further.forest import ENDS, LOOKS, draw_forest, forest, text_of
-from mobnet.evaluation.measure.claims.places import (
+from experiments.evaluation.figures.further.forest import ENDS, LOOKS, draw_forest, forest, text_of
+from experiments.evaluation.measure.claims.places import (
     BEYOND_BOUND,
     OVER_PAPER,
     Place,
@@ -19,10 +18,11 @@ from mobnet.evaluation.measure.claims.places import (
     over_paper,
     statements_of,
 )
-from mobnet.evaluation.measure.claims.verdicts import Found, Judged, rows_of, score_of, worst
-from mobnet.evaluation.measure.claims.verdicts import judged as judged_on
-from mobnet.evaluation.number.number import Number
-from mobnet.settings.settings import Settings
+from experiments.evaluation.measure.claims.verdicts import Found, Judged, rows_of, score_of, worst
+from experiments.evaluation.measure.claims.verdicts import judged as judged_on
+from experiments.evaluation.number.number import Number
+from experiments.settings.settings import Settings
+from mobnet.core.columns import FOREST, NO_NUMBER, OURS, VERDICTS
 
 LONGEST_LABEL = 64  # characters of what a claim says
 

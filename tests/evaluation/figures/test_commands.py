@@ -6,9 +6,9 @@ from pathlib import Path
 import numpy as np
 from csv_files import check_golden, read_table
 
-from mobnet.evaluation.figures.further.commands import Bars, commands, draw_bars, named_values
-from mobnet.settings.evaluation import Evaluation
-from mobnet.settings.settings import Settings
+from experiments.evaluation.figures.further.commands import Bars, commands, draw_bars, named_values
+from experiments.settings.evaluation import Evaluation
+from experiments.settings.settings import Settings
 
 
 def test_bars_are_as_high_as_their_share_within_the_range_of_the_table() -> None:

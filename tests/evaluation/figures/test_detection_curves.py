@@ -7,9 +7,9 @@ import pytest
 from csv_files import check_golden, read_table
 from made_detections import write_detections
 
-from mobnet.evaluation.figures.further.detection_curves import area_of, detection_curves, looks_of
-from mobnet.evaluation.figures.style import LOOKS
-from mobnet.settings.settings import Settings
+from experiments.evaluation.figures.further.detection_curves import area_of, detection_curves, looks_of
+from experiments.evaluation.figures.style import LOOKS
+from experiments.settings.settings import Settings
 
 
 def test_curves_and_areas_follow_from_the_files(settings: Settings, tmp_path: Path) -> None:

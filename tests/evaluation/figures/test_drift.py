@@ -6,11 +6,11 @@ from pathlib import Path
 import pytest
 from csv_files import check_golden, read_table
 
-from mobnet.evaluation.figures.further.drift import beyond, drift
-from mobnet.evaluation.number.number import Number
-from mobnet.settings.evaluation import Evaluation
-from mobnet.settings.runs import LimbRuns
-from mobnet.settings.settings import Settings
+from experiments.evaluation.figures.further.drift import beyond, drift
+from experiments.evaluation.number.number import Number
+from experiments.settings.evaluation import Evaluation
+from experiments.settings.runs import LimbRuns
+from experiments.settings.settings import Settings
 
 
 def test_steps_stand_at_their_number_and_those_that_no_push_has_are_left_out(

@@ -5,9 +5,9 @@ from dataclasses import replace
 import pytest
 from made_trials import EARLY, FORCE_N, HIT, write_made_course, write_trials
 
+from experiments.evaluation.figures.paper.figure_16 import figure_16, force_of
+from experiments.settings.load import load_settings
 from mobnet.core.rows import read_texts
-from mobnet.evaluation.figures.paper.figure_16 import figure_16, force_of
-from mobnet.settings.load import load_settings
 
 SETTINGS = load_settings()
 SECTION = SETTINGS.evaluation.figure_16

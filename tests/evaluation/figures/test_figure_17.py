@@ -10,13 +10,13 @@ import numpy as np
 import pytest
 from csv_files import check_golden, read_table
 
+from experiments.evaluation.figures.paper.figure_17 import draw_losses, figure_17
+from experiments.evaluation.measure.learning.losses import Loss, losses_of
+from experiments.evaluation.measure.learning.trainings import read_trainings
+from experiments.evaluation.number.number import Number
+from experiments.settings.evaluation import Evaluation
+from experiments.settings.runs import Statistics
 from mobnet.core.errors import DataError
-from mobnet.evaluation.figures.paper.figure_17 import draw_losses, figure_17
-from mobnet.evaluation.measure.learning.losses import Loss, losses_of
-from mobnet.evaluation.measure.learning.trainings import read_trainings
-from mobnet.evaluation.number.number import Number
-from mobnet.settings.evaluation import Evaluation
-from mobnet.settings.runs import Statistics
 
 Write = Callable[..., Path]
 MEASURES = ("training loss", "validation loss", "validation RMSE")

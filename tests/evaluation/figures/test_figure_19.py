@@ -7,16 +7,16 @@ import pytest
 from csv_files import check_golden, read_table
 from numpy.typing import NDArray
 
+from experiments.evaluation.compare.windows import Pushed, evenly
+from experiments.evaluation.figures.paper.figure_19 import draw_planes, figure_19
+from experiments.evaluation.measure.data.conditional import gait_phase
+from experiments.evaluation.measure.data.planes import TESTS, Plane, fullest, plane_of, read_samples
+from experiments.settings.evaluation import Evaluation
+from experiments.settings.measures import Coverage
 from mobnet.core.columns import FEET
 from mobnet.core.errors import DataError
 from mobnet.core.joints import JointLayout
 from mobnet.core.store import read_array
-from mobnet.evaluation.compare.windows import Pushed, evenly
-from mobnet.evaluation.figures.paper.figure_19 import draw_planes, figure_19
-from mobnet.evaluation.measure.data.conditional import gait_phase
-from mobnet.evaluation.measure.data.planes import TESTS, Plane, fullest, plane_of, read_samples
-from mobnet.settings.evaluation import Evaluation
-from mobnet.settings.measures import Coverage
 
 Sets = dict[str, list[Path]]
 

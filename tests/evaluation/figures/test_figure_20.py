@@ -6,11 +6,11 @@ from pathlib import Path
 import pytest
 from csv_files import check_golden, read_table
 
-from mobnet.evaluation.figures.paper.figure_20 import figure_20, growth_line, printed_size
-from mobnet.evaluation.measure.learning.sizes import sizes_of
-from mobnet.evaluation.number.number import Number
-from mobnet.plan.runs import SweptSize
-from mobnet.settings.runs import Statistics
+from experiments.evaluation.figures.paper.figure_20 import figure_20, growth_line, printed_size
+from experiments.evaluation.measure.learning.sizes import sizes_of
+from experiments.evaluation.number.number import Number
+from experiments.plan.runs import SweptSize
+from experiments.settings.runs import Statistics
 
 Write = Callable[..., Path]
 STATISTICS = Statistics(confidence=0.95)

@@ -7,17 +7,17 @@ import numpy as np
 import pytest
 from csv_files import check_golden, read_table, write_rows
 
+from experiments.evaluation.figures.paper.figure_06 import figure_06
+from experiments.evaluation.figures.paper.figure_10 import figure_10
+from experiments.evaluation.measure.estimates.pushes import read_pushes
+from experiments.plan.call import call_of
+from experiments.plan.runs import Run
+from experiments.settings.evaluation import Evaluation
+from experiments.settings.figures import Figure06, Figure10
+from experiments.settings.settings import Settings
 from mobnet.core.columns import Score
 from mobnet.core.joints import JointLayout
 from mobnet.core.rows import read_rows
-from mobnet.evaluation.figures.paper.figure_06 import figure_06
-from mobnet.evaluation.figures.paper.figure_10 import figure_10
-from mobnet.evaluation.measure.estimates.pushes import read_pushes
-from mobnet.plan.call import call_of
-from mobnet.plan.runs import Run
-from mobnet.settings.evaluation import Evaluation
-from mobnet.settings.figures import Figure06, Figure10
-from mobnet.settings.settings import Settings
 
 Walk = Callable[..., Run]
 Draw = Callable[..., None]

@@ -8,18 +8,18 @@ from csv_files import check_golden, read_table, write_rows
 from made_detections import SEED, write_detections
 from made_swings import GROUND, RATE_HZ, swinging, unseen
 
+from experiments.evaluation.figures.drawing.robot import lowest, projection
+from experiments.evaluation.figures.drawing.solids import Solid, outline_of
+from experiments.evaluation.figures.paper.figure_13 import figure_13
+from experiments.evaluation.figures.paper.figure_14 import figure_14
+from experiments.evaluation.figures.paper.figure_15 import figure_15
+from experiments.settings.settings import Settings
 from mobnet.core.columns import torque_columns
 from mobnet.core.detections import Collision, Threshold
 from mobnet.core.errors import DataError
 from mobnet.core.recording import Recording, write_recording
 from mobnet.core.store import write_array
-from mobnet.evaluation.figures.drawing.robot import lowest, projection
-from mobnet.evaluation.figures.drawing.solids import Solid, outline_of
-from mobnet.evaluation.figures.paper.figure_13 import figure_13
-from mobnet.evaluation.figures.paper.figure_14 import figure_14
-from mobnet.evaluation.figures.paper.figure_15 import figure_15
 from mobnet.robot.description import WalkingRobot
-from mobnet.settings.settings import Settings
 
 START, LENGTH, PEAK = GROUND + 150, 78, 150.0  # of the collision, in samples and [N]
 CELLS = ("foot front",)

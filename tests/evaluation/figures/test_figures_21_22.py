@@ -5,15 +5,15 @@ import pytest
 from made_trials import FORCE_N, write_made_course
 from PIL import Image
 
+from experiments.evaluation.figures.drawing.robot import projection
+from experiments.evaluation.figures.drawing.scene import draw_scene, solid_of
+from experiments.evaluation.figures.drawing.solids import outline_of
+from experiments.evaluation.figures.further.films import films, read_curves
+from experiments.evaluation.figures.paper.figure_21 import figure_21, sole_corners
+from experiments.evaluation.figures.paper.figure_22 import figure_22, moments_of
+from experiments.settings.load import load_settings
 from mobnet.core.course import read_course
 from mobnet.core.rows import read_texts
-from mobnet.evaluation.figures.drawing.robot import projection
-from mobnet.evaluation.figures.drawing.scene import draw_scene, solid_of
-from mobnet.evaluation.figures.drawing.solids import outline_of
-from mobnet.evaluation.figures.further.films import films, read_curves
-from mobnet.evaluation.figures.paper.figure_21 import figure_21, sole_corners
-from mobnet.evaluation.figures.paper.figure_22 import figure_22, moments_of
-from mobnet.settings.load import load_settings
 
 SETTINGS = load_settings()
 SHOWN = SETTINGS.robot, SETTINGS.obstacles

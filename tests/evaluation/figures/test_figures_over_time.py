@@ -11,14 +11,14 @@ import numpy as np
 import pytest
 from csv_files import check_golden, read_table, write_rows
 
+from experiments.evaluation.figures.paper.figure_05 import read_panel
+from experiments.plan.call import call_of
+from experiments.plan.products import functions
+from experiments.plan.runs import Run
+from experiments.settings.evaluation import Evaluation
+from experiments.settings.settings import Settings
 from mobnet.core.columns import Score
 from mobnet.core.joints import JointLayout
-from mobnet.evaluation.figures.paper.figure_05 import read_panel
-from mobnet.plan.call import call_of
-from mobnet.plan.products import functions
-from mobnet.plan.runs import Run
-from mobnet.settings.evaluation import Evaluation
-from mobnet.settings.settings import Settings
 
 Walk = Callable[..., Run]
 Draw = Callable[..., None]

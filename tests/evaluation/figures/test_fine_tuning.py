@@ -6,10 +6,10 @@ from pathlib import Path
 import pytest
 from csv_files import check_golden, read_table, write_rows
 
+from experiments.evaluation.figures.further.fine_tuning import BEFORE, KNOWN, fine_tuning
+from experiments.settings.evaluation import Evaluation
 from mobnet.core.columns import Score
 from mobnet.core.rows import read_rows
-from mobnet.evaluation.figures.further.fine_tuning import BEFORE, KNOWN, fine_tuning
-from mobnet.settings.evaluation import Evaluation
 
 SECONDS = (10, 60)
 TUNED = {

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from matplotlib.axes import Axes
 
+from experiments.evaluation.figures.drawing.lines import Line, LinePanel, draw_lines
+from experiments.evaluation.number.number import Number
 from mobnet.core.style import COLUMN_INCH, PAGE_INCH
-from mobnet.evaluation.figures.drawing.lines import Line, LinePanel, draw_lines
-from mobnet.evaluation.number.number import Number
 
 
 def lines(count: int, places: int) -> list[Line]:

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from csv_files import check_golden, read_table
 
-from mobnet.evaluation.figures.drawing.method_and_robot import draw_all, draw_method, position_of
-from mobnet.evaluation.figures.drawing.robot_parts import LIMBS, axes_of, limbs_of
+from experiments.evaluation.figures.drawing.method_and_robot import draw_all, draw_method, position_of
+from experiments.evaluation.figures.drawing.robot_parts import LIMBS, axes_of, limbs_of
+from experiments.settings.settings import Settings
 from mobnet.robot.description import WalkingRobot
-from mobnet.settings.settings import Settings
 
 
 def draw(settings: Settings, folder: Path) -> list[Path]:

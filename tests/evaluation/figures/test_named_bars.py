@@ -6,9 +6,9 @@ from matplotlib.axes import Axes
 from matplotlib.colors import to_rgba
 from matplotlib.figure import Figure
 
-from mobnet.evaluation.figures.drawing.named_bars import DRAWN_LABEL, NamedBar, draw_named_bars, draw_named_dots
-from mobnet.evaluation.figures.style import LOOKS
-from mobnet.evaluation.number.number import Number
+from experiments.evaluation.figures.drawing.named_bars import DRAWN_LABEL, NamedBar, draw_named_bars, draw_named_dots
+from experiments.evaluation.figures.style import LOOKS
+from experiments.evaluation.number.number import Number
 
 BARS = [
     NamedBar("zero", "zero", Number(20.0)),

@@ -11,18 +11,18 @@ from made_detections import SEED
 from made_swings import GROUND, RATE_HZ, swinging, unseen
 from PIL import Image
 
+from experiments.evaluation.figures.drawing.push_film import eased, lines_of, push_film, shots_of
+from experiments.evaluation.measure.estimates.felt import Felt
+from experiments.evaluation.measure.estimates.told import read_story
+from experiments.plan.runs import Run
+from experiments.settings.pages import PushFilm, Story
+from experiments.settings.settings import Settings
 from mobnet.core.columns import residual_columns, torque_columns
 from mobnet.core.detections import COLLISION, Collision, Detected
 from mobnet.core.errors import DataError
 from mobnet.core.recording import Recording, write_recording
 from mobnet.core.store import write_array
 from mobnet.estimation.low_pass import low_pass
-from mobnet.evaluation.figures.drawing.push_film import eased, lines_of, push_film, shots_of
-from mobnet.evaluation.measure.estimates.felt import Felt
-from mobnet.evaluation.measure.estimates.told import read_story
-from mobnet.plan.runs import Run
-from mobnet.settings.pages import PushFilm, Story
-from mobnet.settings.settings import Settings
 
 START, LENGTH, PEAK_N, PEAK_NM, GAIN_HZ = GROUND + 150, 80, 150.0, 50.0, 100.0
 SHARES = {"MOB": 1.5, "MOB-fric-dahl": 1.0, "MOB-Net": 0.7}  # of the push in each estimate

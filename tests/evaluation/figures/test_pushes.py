@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
+from experiments.evaluation.compare.curves import Panel, TorqueCurve
+from experiments.evaluation.figures.drawing.named_bars import NamedBar
+from experiments.evaluation.figures.drawing.pushes import PushGroup, draw_hits, draw_step
+from experiments.evaluation.number.number import Number
 from mobnet.core.style import COLUMN_INCH, PAGE_INCH
-from mobnet.evaluation.compare.curves import Panel, TorqueCurve
-from mobnet.evaluation.figures.drawing.named_bars import NamedBar
-from mobnet.evaluation.figures.drawing.pushes import PushGroup, draw_hits, draw_step
-from mobnet.evaluation.number.number import Number
 
 TIME = np.linspace(-0.1, 0.2, 31)
 METHODS = ("zero", "MOB", "MOB-Net")

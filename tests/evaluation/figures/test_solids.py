@@ -5,13 +5,13 @@ import pytest
 from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 
-from mobnet.evaluation.figures.drawing.ground import draw_shadow
-from mobnet.evaluation.figures.drawing.robot import draw_robot, lowest, projection, solids_of
-from mobnet.evaluation.figures.drawing.solids import Solid, ellipse_of, lit, outline_of, polygons_of
+from experiments.evaluation.figures.drawing.ground import draw_shadow
+from experiments.evaluation.figures.drawing.robot import draw_robot, lowest, projection, solids_of
+from experiments.evaluation.figures.drawing.solids import Solid, ellipse_of, lit, outline_of, polygons_of
+from experiments.settings.settings import Settings
 from mobnet.robot.description import WalkingRobot
 from mobnet.robot.looks import dressed
 from mobnet.settings.parts import ShapeRow
-from mobnet.settings.settings import Settings
 
 VIEW = projection(35.0, 20.0)
 TURN = projection(-70.0, 50.0)  # any orientation

@@ -8,9 +8,9 @@ import pytest
 from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 
+from experiments.evaluation.figures.style import KINDS, LOOKS, PALETTE, Look, legend, looks
+from experiments.settings.settings import Settings
 from mobnet.core.style import PAGE_INCH, STYLE
-from mobnet.evaluation.figures.style import KINDS, LOOKS, PALETTE, Look, legend, looks
-from mobnet.settings.settings import Settings
 
 
 def unlike(found: list[Look]) -> bool:

@@ -2,10 +2,10 @@
 
 import pytest
 
+from experiments.evaluation.number.averages import Column, columns_of
+from experiments.settings.runs import Mean
 from mobnet.core.errors import ConfigError
 from mobnet.core.joints import JointLayout
-from mobnet.evaluation.number.averages import Column, columns_of
-from mobnet.settings.runs import Mean
 
 
 def test_a_limb_is_its_joints_one_by_one(layout: JointLayout) -> None:

@@ -6,11 +6,11 @@ import pytest
 import yaml
 from csv_files import GOLDEN
 
+from experiments.evaluation.measure.claims.verdicts import rows_of
+from experiments.settings.claims import Claim
+from experiments.settings.settings import Settings
 from mobnet.core.claim_ranges import Bounds, apart, common, range_text, ranges_of, within
 from mobnet.core.columns import NOT_PRINTED
-from mobnet.evaluation.measure.claims.verdicts import rows_of
-from mobnet.settings.claims import Claim
-from mobnet.settings.settings import Settings
 
 ROUNDED = 0.05  # older bounds were rounded by less than this share
 BY_SIGN = {"size-mob-net", "size-fts-e2e", "data-mob-net", "data-fts-e2e"}  # older ones were of pairs in order

@@ -8,9 +8,7 @@ import numpy as np
 import pytest
 from made_notes import training_note
 
-from mobnet.core.errors import DataError
-from mobnet.core.joints import JointLayout
-from mobnet.evaluation.measure.learning.calibration import (
+from experiments.evaluation.measure.learning.calibration import (
     VALIDATION,
     CoverageGrid,
     grid_of,
@@ -18,10 +16,12 @@ from mobnet.evaluation.measure.learning.calibration import (
     in_tests,
     limb_columns,
 )
+from experiments.plan.runs import Run
+from experiments.settings.evaluation import Evaluation
+from experiments.settings.measures import CalibrationTest
+from mobnet.core.errors import DataError
+from mobnet.core.joints import JointLayout
 from mobnet.learning.calibration import calibrate
-from mobnet.plan.runs import Run
-from mobnet.settings.evaluation import Evaluation
-from mobnet.settings.measures import CalibrationTest
 
 SHARES = [0.5, 0.68]
 Test = tuple[CalibrationTest, list[Run]]

@@ -7,10 +7,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from mobnet.evaluation.compare.pair import Pair
-from mobnet.evaluation.measure.estimates.changed import FLAGGED, FREE, KNOWN, knowledge
-from mobnet.plan.runs import Run
-from mobnet.settings.evaluation import Evaluation
+from experiments.evaluation.compare.pair import Pair
+from experiments.evaluation.measure.estimates.changed import FLAGGED, FREE, KNOWN, knowledge
+from experiments.plan.runs import Run
+from experiments.settings.evaluation import Evaluation
 
 JOINTS = ("LL1", "LL2", "LL3")
 RATE_HZ, ROWS, SHARE = 100.0, 4000, 0.68

@@ -6,10 +6,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from mobnet.core.claim_ranges import Ranges
-from mobnet.core.columns import NOT_PRINTED, OURS, SCORED, VERDICTS
-from mobnet.evaluation.measure.claims.cells import Evidence
-from mobnet.evaluation.measure.claims.verdicts import (
+from experiments.evaluation.measure.claims.cells import Evidence
+from experiments.evaluation.measure.claims.verdicts import (
     WORST_FIRST,
     Found,
     Row,
@@ -21,13 +19,15 @@ from mobnet.evaluation.measure.claims.verdicts import (
     verdicts_of,
     worst,
 )
-from mobnet.evaluation.number.intervals import RunGrid
-from mobnet.evaluation.number.number import Number
-from mobnet.evaluation.number.quantities import QUANTITIES, difference_of
-from mobnet.settings.checks.outcomes import wilson
-from mobnet.settings.claims import Claim
-from mobnet.settings.runs import Statistics
-from mobnet.settings.settings import Settings
+from experiments.evaluation.number.intervals import RunGrid
+from experiments.evaluation.number.number import Number
+from experiments.evaluation.number.quantities import QUANTITIES, difference_of
+from experiments.settings.checks.outcomes import wilson
+from experiments.settings.claims import Claim
+from experiments.settings.runs import Statistics
+from experiments.settings.settings import Settings
+from mobnet.core.claim_ranges import Ranges
+from mobnet.core.columns import NOT_PRINTED, OURS, SCORED, VERDICTS
 
 SIZE, SIGN = (1.0, 2.0), (0.5, None)
 CAUSED: dict[str, Any] = {

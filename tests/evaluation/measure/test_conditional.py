@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from mobnet.evaluation.measure.data.conditional import Cells, even_cells, gait_phase, torque_range
+from experiments.evaluation.measure.data.conditional import Cells, even_cells, gait_phase, torque_range
 
 
 def test_samples_fall_into_the_cells_between_their_edges() -> None:

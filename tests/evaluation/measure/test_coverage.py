@@ -5,8 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mobnet.core.joints import JointLayout
-from mobnet.evaluation.measure.data.coverage import (
+from experiments.evaluation.measure.data.coverage import (
     ALL,
     AREA,
     BEYOND,
@@ -21,11 +20,12 @@ from mobnet.evaluation.measure.data.coverage import (
     visited,
     widths,
 )
-from mobnet.evaluation.measure.data.samples import equal_sets, read_blocks, refer, scale_of
+from experiments.evaluation.measure.data.samples import equal_sets, read_blocks, refer, scale_of
+from experiments.settings.evaluation import Evaluation
+from experiments.settings.measures import CoverageTest
+from experiments.settings.settings import Settings
+from mobnet.core.joints import JointLayout
 from mobnet.learning.features import limb_inputs
-from mobnet.settings.evaluation import Evaluation
-from mobnet.settings.measures import CoverageTest
-from mobnet.settings.settings import Settings
 
 Sets = dict[str, list[Path]]
 NAMES = ("v.LL1", "tau_des.LL1")

@@ -5,11 +5,11 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
+from experiments.evaluation.compare.curves import Curves, gait_cycle, read_curves, read_cycle
+from experiments.plan.runs import Run
 from mobnet.core.columns import foot_of
 from mobnet.core.errors import ConfigError, DataError
 from mobnet.core.joints import JointLayout
-from mobnet.evaluation.compare.curves import Curves, gait_cycle, read_curves, read_cycle
-from mobnet.plan.runs import Run
 
 Walk = Callable[..., Run]
 FLAGS = {"swing": "swing.left_foot", "push": "pushed"}

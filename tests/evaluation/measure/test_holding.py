@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from mobnet.evaluation.measure.estimates.drift import calm_rows, share_shown, step_numbers
+from experiments.evaluation.measure.estimates.drift import calm_rows, share_shown, step_numbers
 
 
 @pytest.mark.parametrize("share", [0.0, 0.4, 1.0, 1.3])

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from mobnet.evaluation.compare.rmse import Spans, relative_rmse, rmse, roughness
+from experiments.evaluation.compare.rmse import Spans, relative_rmse, rmse, roughness
 
 
 def whole(signal: np.ndarray) -> Spans:

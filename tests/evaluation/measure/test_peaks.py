@@ -3,11 +3,18 @@
 import numpy as np
 import pytest
 
+from experiments.evaluation.compare.scene import ShownPushes
+from experiments.evaluation.measure.estimates.peaks import (
+    delays,
+    first_above,
+    medians,
+    push_rows,
+    slopes,
+    turned_joints,
+)
+from experiments.settings.measures import Peaks
+from experiments.settings.runs import PushedLimbRuns
 from mobnet.estimation.low_pass import low_pass
-from mobnet.evaluation.compare.scene import ShownPushes
-from mobnet.evaluation.measure.estimates.peaks import delays, first_above, medians, push_rows, slopes, turned_joints
-from mobnet.settings.measures import Peaks
-from mobnet.settings.runs import PushedLimbRuns
 
 TEST = PushedLimbRuns(scenario="knee_swing", level="ideal", methods=("MOB",), limbs=("LL",))
 SETTINGS = Peaks(turned_share=0.5, before_s=0.03, after_s=0.05, longest_s=0.2, tests=(TEST,))

@@ -6,10 +6,16 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mobnet.evaluation.measure.estimates.pushes import AVERAGE, INCREASE, PushErrors, collision_errors, push_metrics
-from mobnet.evaluation.number.lookup import Lookup, read_lookup
-from mobnet.settings.evaluation import Evaluation
-from mobnet.settings.settings import Settings
+from experiments.evaluation.measure.estimates.pushes import (
+    AVERAGE,
+    INCREASE,
+    PushErrors,
+    collision_errors,
+    push_metrics,
+)
+from experiments.evaluation.number.lookup import Lookup, read_lookup
+from experiments.settings.evaluation import Evaluation
+from experiments.settings.settings import Settings
 
 MEANS = {"MOB": 20.0, "MOB-Net": 4.0}
 WritePushScores = Callable[..., Path]

@@ -5,8 +5,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from experiments.evaluation.measure.data.random_torque import STEPS_MIN, steps_of, torque_left
 from mobnet.core.joints import JointLayout
-from mobnet.evaluation.measure.data.random_torque import STEPS_MIN, steps_of, torque_left
 
 TIME_S, LAGS_S = 0.05, (0.02, 0.1)  # the first is that of the recording's answer
 

@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 from csv_files import write_rows
 
+from experiments.evaluation.measure.claims.cells import Evidence, read_results
+from experiments.settings.claims import Cell
 from mobnet.core.columns import Score
 from mobnet.core.errors import ConfigError, DataError
 from mobnet.core.joints import JointLayout
-from mobnet.evaluation.measure.claims.cells import Evidence, read_results
-from mobnet.settings.claims import Cell
 
 WALK = Cell(scenario="walk", level="ideal", method="MOB")
 

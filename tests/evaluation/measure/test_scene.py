@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mobnet.evaluation.compare.scene import STANCE, SWINGING, TOUCH_DOWN, gait_phases
+from experiments.evaluation.compare.scene import STANCE, SWINGING, TOUCH_DOWN, gait_phases
 
 
 def flags(length: int, *spans: tuple[int, int]) -> np.ndarray:

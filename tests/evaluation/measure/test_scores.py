@@ -7,20 +7,20 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from experiments.evaluation.compare.scene import Scene
+from experiments.evaluation.measure.estimates.scores import limb_values, score, score_run
+from experiments.evaluation.number.rows import read_scores
+from experiments.plan.runs import Run
+from experiments.settings.evaluation import Evaluation
+from experiments.settings.measures import Bode, Scoring
+from experiments.settings.metrics import METRICS, SECTIONS, metric_of
+from experiments.settings.runs import LimbRuns, PushWindow, Runs
 from mobnet.core.columns import Score, residual_columns, torque_columns
 from mobnet.core.errors import DataError
 from mobnet.core.joints import JointLayout
-from mobnet.core.metrics import METRICS, SECTIONS, metric_of
 from mobnet.core.recording import read_recording, write_recording
 from mobnet.core.rows import read_rows
 from mobnet.core.store import read_array, write_array
-from mobnet.evaluation.compare.scene import Scene
-from mobnet.evaluation.measure.estimates.scores import limb_values, score, score_run
-from mobnet.evaluation.number.rows import read_scores
-from mobnet.plan.runs import Run
-from mobnet.settings.evaluation import Evaluation
-from mobnet.settings.measures import Bode, Scoring
-from mobnet.settings.runs import LimbRuns, PushWindow, Runs
 
 Walk = Callable[..., Run]
 RATE = {"rate_hz": 100.0}

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from mobnet.evaluation.compare.masks import masked_mean
-from mobnet.evaluation.measure.estimates.sigma import autocorrelation, first_below, ranks
+from experiments.evaluation.compare.masks import masked_mean
+from experiments.evaluation.measure.estimates.sigma import autocorrelation, first_below, ranks
 
 
 def test_memory_of_a_first_order_process_is_its_pole(rng: np.random.Generator) -> None:

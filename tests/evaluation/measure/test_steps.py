@@ -6,10 +6,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from experiments.evaluation.measure.data.steps import WalkedSteps, ankle_places, measure, read_steps, step_bounds
+from experiments.plan.runs import Run
 from mobnet.core.errors import DataError
 from mobnet.core.joints import NQ_BASE, JointLayout
-from mobnet.evaluation.measure.data.steps import WalkedSteps, ankle_places, measure, read_steps, step_bounds
-from mobnet.plan.runs import Run
 from mobnet.robot.nominal import NominalModel
 
 LEG_M, SPACING_M = 0.7, 0.205  # of thigh and shank; between the feet

@@ -5,8 +5,8 @@ from pathlib import Path
 
 import pytest
 
+from experiments.evaluation.measure.learning.trainings import read_training, read_trainings, sound
 from mobnet.core.errors import DataError
-from mobnet.evaluation.measure.learning.trainings import read_training, read_trainings, sound
 
 Write = Callable[..., Path]
 

@@ -5,9 +5,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from experiments.evaluation.measure.data.upper_body import hand_speeds, upper_body
 from mobnet.core.joints import NQ_BASE
 from mobnet.core.store import read_array
-from mobnet.evaluation.measure.data.upper_body import hand_speeds, upper_body
 from mobnet.robot.nominal import NominalModel
 
 

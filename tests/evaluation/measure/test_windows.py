@@ -5,13 +5,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from experiments.evaluation.compare.windows import Pushed, blocks_of, evenly, flagged_spans, push_windows, pushed_of
+from experiments.settings.evaluation import Evaluation
+from experiments.settings.measures import CoverageTest
 from mobnet.core.columns import recording_columns
 from mobnet.core.errors import DataError
 from mobnet.core.joints import JointLayout
 from mobnet.core.store import write_array
-from mobnet.evaluation.compare.windows import Pushed, blocks_of, evenly, flagged_spans, push_windows, pushed_of
-from mobnet.settings.evaluation import Evaluation
-from mobnet.settings.measures import CoverageTest
 
 PUSHED = Pushed("LL3", 5.0, 0.02)
 

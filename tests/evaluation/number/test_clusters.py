@@ -5,10 +5,10 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from mobnet.evaluation.number.clusters import Place, mean_in, rate_in, share_in
-from mobnet.evaluation.number.number import Number
-from mobnet.evaluation.number.single import rate
-from mobnet.settings.runs import Statistics
+from experiments.evaluation.number.clusters import Place, mean_in, rate_in, share_in
+from experiments.evaluation.number.number import Number
+from experiments.evaluation.number.single import rate
+from experiments.settings.runs import Statistics
 
 STATISTICS = Statistics(confidence=0.95)
 ROBOTS, WALKS, DRAWS = 3, 6, 200
@@ -127,7 +127,7 @@ def test_no_value_is_no_number() -> None:
 
 
 def test_of_a_full_grid_the_mean_s_interval_is_that_of_note_0022() -> None:
-    from mobnet.evaluation.number.intervals import RunGrid, summarise
+    from experiments.evaluation.number.intervals import RunGrid, summarise
 
     values = np.exp(np.random.default_rng(3).normal(size=(ROBOTS, WALKS)))
     ours = mean_in(list(values.ravel()), places_of(1), STATISTICS, "N")

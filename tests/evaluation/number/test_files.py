@@ -6,11 +6,11 @@ from pathlib import Path
 import pytest
 from csv_files import write_rows
 
+from experiments.evaluation.number.files import read_numbers, write_csv
+from experiments.evaluation.number.number import Number
 from mobnet.core.columns import ERRORS, Score
 from mobnet.core.errors import DataError
 from mobnet.core.rows import read_rows
-from mobnet.evaluation.number.files import read_numbers, write_csv
-from mobnet.evaluation.number.number import Number
 
 ROW = ("walk", "ideal", "MOB", "LL1", "rmse", 0.25, None, None, "1", "1", None, None, "N m", None)
 

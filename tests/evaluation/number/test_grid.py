@@ -6,11 +6,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from experiments.evaluation.number.grid import Wanted, number_of, run_grid
+from experiments.settings.fleet import FIRST_SEED
+from experiments.settings.settings import Settings
 from mobnet.core.columns import Score
 from mobnet.core.errors import DataError
-from mobnet.evaluation.number.grid import Wanted, number_of, run_grid
-from mobnet.settings.fleet import FIRST_SEED
-from mobnet.settings.settings import Settings
 
 WANTED = Wanted("forward_walk", "LL", "all_uncertainty", "MOB-Net", "avg")
 Scores = Callable[..., list[Score]]

@@ -9,11 +9,11 @@ import pytest
 from numpy.typing import NDArray
 from scipy.stats import t as student
 
-from mobnet.evaluation.number.intervals import MEAN, RATIO, Formula, RunGrid, summarise
-from mobnet.evaluation.number.number import Number
-from mobnet.evaluation.number.quantities import BELOW, CUT, GAP_RATIO
-from mobnet.evaluation.number.single import share, trend
-from mobnet.settings.runs import Statistics
+from experiments.evaluation.number.intervals import MEAN, RATIO, Formula, RunGrid, summarise
+from experiments.evaluation.number.number import Number
+from experiments.evaluation.number.quantities import BELOW, CUT, GAP_RATIO
+from experiments.evaluation.number.single import share, trend
+from experiments.settings.runs import Statistics
 
 STATISTICS = Statistics(confidence=0.95)
 DRAWS, LEAST = 200, 0.90

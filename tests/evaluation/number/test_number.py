@@ -1,6 +1,6 @@
 """Numbers as text: nothing is invented where there is none, and zero has no sign."""
 
-from mobnet.evaluation.number.number import Number, interval_text, number_text
+from experiments.evaluation.number.number import Number, interval_text, number_text
 
 
 def test_what_is_not_known_is_blank() -> None:

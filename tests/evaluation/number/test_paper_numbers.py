@@ -6,9 +6,9 @@ from itertools import chain
 import numpy as np
 import pytest
 
-from mobnet.evaluation.number.number import published_row, published_value
-from mobnet.settings.published import PublishedTable
-from mobnet.settings.settings import Settings
+from experiments.evaluation.number.number import published_row, published_value
+from experiments.settings.published import PublishedTable
+from experiments.settings.settings import Settings
 
 Tables = Mapping[str, PublishedTable]
 

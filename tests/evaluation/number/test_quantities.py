@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from mobnet.evaluation.number.intervals import RunGrid
-from mobnet.evaluation.number.quantities import QUANTITIES, Cell
-from mobnet.settings.claims import TAKES
-from mobnet.settings.runs import Statistics
+from experiments.evaluation.number.intervals import RunGrid
+from experiments.evaluation.number.quantities import QUANTITIES, Cell
+from experiments.settings.claims import TAKES
+from experiments.settings.runs import Statistics
 
 STATISTICS = Statistics(confidence=0.95)
 EXAMPLES = {

@@ -11,10 +11,10 @@ import pytest
 from made_detections import on_both_plants
 from made_notes import training_note
 
+from experiments.evaluation.tables.further.claims_summary import claims_summary
+from experiments.settings.load import load_settings
+from experiments.settings.settings import Settings
 from mobnet.core.columns import NOT_PRINTED, VERDICTS
-from mobnet.evaluation.tables.further.claims_summary import claims_summary
-from mobnet.settings.load import load_settings
-from mobnet.settings.settings import Settings
 
 GOLDEN = Path(__file__).parents[2] / "golden"
 HEAD = "epoch,train_loss,validation_loss,validation_rmse,rate,gradient_norm,stride"

@@ -9,14 +9,14 @@ import pytest
 from csv_files import check_golden, read_table
 from made_notes import training_note
 
-from mobnet.evaluation.figures.further.reliability import nominal_points
-from mobnet.evaluation.measure.learning.calibration import CoverageGrid
-from mobnet.evaluation.number.number import Number
-from mobnet.evaluation.report.calibration import calibration
-from mobnet.evaluation.tables.further.calibration_table import COVERAGE, CRPS, verdict
+from experiments.evaluation.figures.further.reliability import nominal_points
+from experiments.evaluation.measure.learning.calibration import CoverageGrid
+from experiments.evaluation.number.number import Number
+from experiments.evaluation.report.calibration import calibration
+from experiments.evaluation.tables.further.calibration_table import COVERAGE, CRPS, verdict
+from experiments.settings.evaluation import Evaluation
+from experiments.settings.settings import Settings
 from mobnet.learning.calibration import calibrate
-from mobnet.settings.evaluation import Evaluation
-from mobnet.settings.settings import Settings
 
 
 @pytest.fixture

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 from csv_files import read_table
 
-from mobnet.settings.settings import Settings
+from experiments.settings.settings import Settings
 
 ROOT = Path(__file__).parents[3]
 CAPTIONS = ROOT / "workflow/report"

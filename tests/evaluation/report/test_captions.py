@@ -4,8 +4,8 @@ from pathlib import Path
 
 import pytest
 
+from experiments.evaluation.report.captions import caption_tex, captions_tex, inline_tex
 from mobnet.core.errors import DataError
-from mobnet.evaluation.report.captions import caption_tex, captions_tex, inline_tex
 
 
 @pytest.fixture

@@ -2,7 +2,7 @@
 
 import pytest
 
-from mobnet.evaluation.report.charts import GRID, Chart, line_chart, share, span, ticks
+from experiments.evaluation.report.charts import GRID, Chart, line_chart, share, span, ticks
 
 
 def places(chart: Chart, name: str) -> list[tuple[int, ...]]:

@@ -10,10 +10,8 @@ from typing import Any
 import pytest
 from browser import Browser, wait, with_browser
 
-from mobnet.core.columns import VERDICTS
-from mobnet.core.rows import read_texts
-from mobnet.evaluation.measure.claims.verdicts import worst
-from mobnet.evaluation.report.claims_page import (
+from experiments.evaluation.measure.claims.verdicts import worst
+from experiments.evaluation.report.claims_page import (
     BAND,
     WIDTH,
     ClaimRow,
@@ -23,8 +21,10 @@ from mobnet.evaluation.report.claims_page import (
     read_statements,
     verdict_counts,
 )
-from mobnet.plan.products import TEMPLATES
-from mobnet.settings.load import load_settings
+from experiments.plan.products import TEMPLATES
+from experiments.settings.load import load_settings
+from mobnet.core.columns import VERDICTS
+from mobnet.core.rows import read_texts
 
 REPO = Path(__file__).parents[3]
 GOLDEN = REPO / "tests" / "golden" / "claims.csv"

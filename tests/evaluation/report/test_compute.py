@@ -6,11 +6,11 @@ from pathlib import Path
 import pytest
 from csv_files import read_table
 
+from experiments.evaluation.report.compute import ELAPSED, STAGES, WHOLE, compute
+from experiments.running.logs import Account
+from experiments.settings.tables import Compute
 from mobnet.core.errors import DataError
 from mobnet.core.files import write_json
-from mobnet.evaluation.report.compute import ELAPSED, STAGES, WHOLE, compute
-from mobnet.running.logs import Account
-from mobnet.settings.tables import Compute
 
 JOBS = {  # job -> end [s], wall time [s], CPU time [s], memory [MiB]; two cores, and an hour between two runs
     "collect/walk-s1": (1010.0, 10.0, 10.0, 300.0),

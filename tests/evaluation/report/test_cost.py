@@ -7,14 +7,14 @@ from pathlib import Path
 
 import pytest
 
+from experiments.evaluation.report.compute import WHOLE
+from experiments.evaluation.report.cost import costs, main, overrides
+from experiments.evaluation.report.rates import RATES, RatesNote
+from experiments.plan.plan import make_plan
+from experiments.settings.load import load_settings
 from mobnet.core.errors import ConfigError
 from mobnet.core.files import write_json
 from mobnet.core.notes import read_note
-from mobnet.evaluation.report.compute import WHOLE
-from mobnet.evaluation.report.cost import costs, main, overrides
-from mobnet.evaluation.report.rates import RATES, RatesNote
-from mobnet.plan.plan import make_plan
-from mobnet.settings.load import load_settings
 
 HOUR_S = 3600.0
 REPO = Path(__file__).parents[3]

@@ -6,17 +6,17 @@ from pathlib import Path
 
 import pytest
 
+from experiments.evaluation.report.data_card import CARD, DRAWN, card, column_rows, columns, drawn, field_texts, sizes
+from experiments.settings.load import load_settings
 from mobnet.core.columns import recording_columns, residual_columns
 from mobnet.core.recording import Sensed, Truth
-from mobnet.evaluation.report.data_card import CARD, DRAWN, card, column_rows, columns, drawn, field_texts, sizes
-from mobnet.settings.load import load_settings
 
 REPO = Path(__file__).parents[3]
 SETTINGS = load_settings(overrides={"scale": "default"})
 
 
 def test_the_card_is_current() -> None:
-    remedy = "python -m mobnet.evaluation.report.data_card writes it"
+    remedy = "python -m experiments.evaluation.report.data_card writes it"
     assert (REPO / CARD).read_text() == card(SETTINGS), remedy
 
 

@@ -11,19 +11,19 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from experiments.demo import DATA, load, main
+from experiments.evaluation.measure.story import StoredPush
+from experiments.evaluation.number.rows import read_detections
+from experiments.evaluation.report.demo import draw, lines_of, title_of
+from experiments.evaluation.report.manifest import file_hash
+from experiments.evaluation.report.snapshot import tell_demo
+from experiments.plan.demo import SOURCES, estimate_place
+from experiments.settings.load import load_settings
 from mobnet.core.columns import EXTERNAL, STD, named
 from mobnet.core.errors import ConfigError, DataError
 from mobnet.core.estimator import Estimate
 from mobnet.core.files import read_json
 from mobnet.core.store import read_array
-from mobnet.demo import DATA, load, main
-from mobnet.evaluation.measure.story import StoredPush
-from mobnet.evaluation.number.rows import read_detections
-from mobnet.evaluation.report.demo import draw, lines_of, title_of
-from mobnet.evaluation.report.manifest import file_hash
-from mobnet.evaluation.report.snapshot import tell_demo
-from mobnet.plan.demo import SOURCES, estimate_place
-from mobnet.settings.load import load_settings
 
 REPO = Path(__file__).parents[3]
 PAGE = (REPO / "docs" / "demo.md").read_text()
@@ -156,9 +156,8 @@ def test_the_snapshot_renews_what_the_page_says(push: StoredPush, tmp_path: Path
 
 def test_the_command_runs_without_torch_and_needs_nothing_but_the_stored_push(tmp_path: Path) -> None:
     data = shutil.copytree(DATA, tmp_path / "data", ignore=shutil.ignore_patterns("estimates", "detected.csv"))
-    code = (
-        "import sys; from mobnet.demo import main; code = main(sys.argv[1:]); sys.exit(code or 'torch' in sys.modules)"
-    )
+    ends = "sys.exit(code or 'torch' in sys.modules)"
+    code = f"import sys; from experiments.demo import main; code = main(sys.argv[1:]); {ends}"
     words = [sys.executable, "-c", code, "--data", str(data), "--out", "push.png"]
     done = subprocess.run(words, cwd=tmp_path, capture_output=True, text=True, check=True, env={**os.environ})
     lines = [line for line in done.stdout.splitlines() if not line.startswith("compiling")]

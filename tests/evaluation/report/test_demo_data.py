@@ -8,15 +8,15 @@ from typing import Any
 import numpy as np
 import pytest
 
+from experiments.demo import DATA
+from experiments.evaluation.report.demo_data import copy_demo, demo_data
+from experiments.evaluation.report.manifest import file_hash
+from experiments.plan.demo import SOURCES, demo_needs, demo_outputs
+from experiments.plan.plan import make_plan
+from experiments.settings.load import load_settings
 from mobnet.core.errors import DataError
 from mobnet.core.files import read_json
 from mobnet.core.store import read_array
-from mobnet.demo import DATA
-from mobnet.evaluation.report.demo_data import copy_demo, demo_data
-from mobnet.evaluation.report.manifest import file_hash
-from mobnet.plan.demo import SOURCES, demo_needs, demo_outputs
-from mobnet.plan.plan import make_plan
-from mobnet.settings.load import load_settings
 
 SETTINGS = load_settings()
 STORY = SETTINGS.evaluation.story

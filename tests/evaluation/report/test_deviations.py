@@ -4,9 +4,9 @@ from pathlib import Path
 
 import pytest
 
+from experiments.evaluation.report.deviations import deviations, markdown_rows, tex_text
+from experiments.settings.settings import Settings
 from mobnet.core.errors import DataError
-from mobnet.evaluation.report.deviations import deviations, markdown_rows, tex_text
-from mobnet.settings.settings import Settings
 
 REPO = Path(__file__).parents[3]
 DOC, MAIN = REPO / "docs/deviations.md", REPO / "paper/main.tex"

@@ -6,10 +6,10 @@ import pytest
 from browser import with_browser
 from links import broken, outside
 
+from experiments.evaluation.report.docs import build, docs, modules_of, relinked
+from experiments.plan.plan import make_plan
+from experiments.settings.load import load_settings
 from mobnet.core.errors import DataError
-from mobnet.evaluation.report.docs import build, docs, modules_of, relinked
-from mobnet.plan.plan import make_plan
-from mobnet.settings.load import load_settings
 
 ROOT = Path(__file__).parents[3]
 

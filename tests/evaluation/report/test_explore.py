@@ -11,20 +11,20 @@ import numpy as np
 import pytest
 from made_scenes import GAIN_HZ, LEAD, RATE_HZ, ROWS, START, pushed_scene
 
+from experiments.evaluation.figures.drawing.robot import lowest
+from experiments.evaluation.measure.estimates.pushes import read_pushes
+from experiments.evaluation.report.explore import explore, joint_names, page_of
+from experiments.evaluation.report.explore_numbers import ALREADY, ASLEEP, NEVER, push_numbers
+from experiments.evaluation.report.explore_pack import Part, packed
+from experiments.evaluation.report.explore_scenes import read_scene
+from experiments.plan.products import EXPLORE, TEMPLATES
+from experiments.plan.runs import Run
+from experiments.plan.scenes import PageScene
 from mobnet.core.columns import residual_columns, torque_columns
 from mobnet.core.errors import DataError
 from mobnet.core.recording import Recording, write_recording
 from mobnet.core.store import write_array
 from mobnet.estimation.low_pass import low_pass
-from mobnet.evaluation.figures.drawing.robot import lowest
-from mobnet.evaluation.measure.estimates.pushes import read_pushes
-from mobnet.evaluation.report.explore import explore, joint_names, page_of
-from mobnet.evaluation.report.explore_numbers import ALREADY, ASLEEP, NEVER, push_numbers
-from mobnet.evaluation.report.explore_pack import Part, packed
-from mobnet.evaluation.report.explore_scenes import read_scene
-from mobnet.plan.products import EXPLORE, TEMPLATES
-from mobnet.plan.runs import Run
-from mobnet.plan.scenes import PageScene
 
 REPO = Path(__file__).parents[3]
 PUSHES = ((2500, 2600), (5000, 5080))  # rows of the made-up recording

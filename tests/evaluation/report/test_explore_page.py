@@ -12,11 +12,11 @@ import pytest
 from browser import Browser, with_browser
 from made_scenes import GAIN_HZ, LEAD, RATE_HZ, START, pushed_scene
 
+from experiments.evaluation.figures.drawing.robot import projection
+from experiments.evaluation.report.explore import as_stored, page_of
+from experiments.evaluation.report.explore_numbers import push_numbers
+from experiments.plan.products import TEMPLATES
 from mobnet.estimation.low_pass import exact_pole, low_pass
-from mobnet.evaluation.figures.drawing.robot import projection
-from mobnet.evaluation.report.explore import as_stored, page_of
-from mobnet.evaluation.report.explore_numbers import push_numbers
-from mobnet.plan.products import TEMPLATES
 from mobnet.robot.plant import robot_spec
 
 REPO = Path(__file__).parents[3]

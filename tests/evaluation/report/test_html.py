@@ -6,10 +6,10 @@ import pytest
 from jinja2 import Environment, UndefinedError
 from jinja2.meta import find_referenced_templates
 
-from mobnet.evaluation.report.html import rendered
-from mobnet.plan.plan import make_plan
-from mobnet.plan.products import TEMPLATES
-from mobnet.settings.settings import Settings
+from experiments.evaluation.report.html import rendered
+from experiments.plan.plan import make_plan
+from experiments.plan.products import TEMPLATES
+from experiments.settings.settings import Settings
 
 REPO = Path(__file__).parents[3]
 PAGES = {"runs_page": ["runs"], "explore": ["explore"], "pages": ["table", "claims", "index"]}  # product -> pages

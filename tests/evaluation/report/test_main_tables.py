@@ -5,9 +5,9 @@ from pathlib import Path
 
 import pytest
 
-from mobnet.evaluation.report.main_tables import main_tables
-from mobnet.plan.products import MAIN_TABLES, SOURCES
-from mobnet.settings.settings import Settings
+from experiments.evaluation.report.main_tables import main_tables
+from experiments.plan.products import MAIN_TABLES, SOURCES
+from experiments.settings.settings import Settings
 
 PUBLISHED = Path(__file__).parents[3] / "docs/results"
 

@@ -5,9 +5,9 @@ from pathlib import Path
 
 import pytest
 
+from experiments.evaluation.report.manifest import TIMES, differences, manifest
 from mobnet.core.errors import DataError
 from mobnet.core.files import write_text
-from mobnet.evaluation.report.manifest import TIMES, differences, manifest
 
 ENDINGS = ["parquet", "json", "safetensors", "csv", "tex", "md", "png", "svg", "pdf", "html"]
 

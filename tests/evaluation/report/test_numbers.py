@@ -6,14 +6,14 @@ from pathlib import Path
 import pytest
 from asked_numbers import asked_names
 
+from experiments.evaluation.number.files import read_numbers
+from experiments.evaluation.report.cells import cells_of
+from experiments.evaluation.report.guards import defined_texts
+from experiments.evaluation.report.numbers import cell_texts, further_texts, numbers, size_texts
+from experiments.plan.products import QUOTED
+from experiments.settings.settings import Settings
 from mobnet.core.columns import VERDICTS
-from mobnet.evaluation.number.files import read_numbers
-from mobnet.evaluation.report.cells import cells_of
-from mobnet.evaluation.report.guards import defined_texts
-from mobnet.evaluation.report.numbers import cell_texts, further_texts, numbers, size_texts
-from mobnet.plan.products import QUOTED
 from mobnet.settings.data import Recordings
-from mobnet.settings.settings import Settings
 
 REPO = Path(__file__).parents[3]
 TABLE_05 = REPO / "tests/golden/table_05.csv"

@@ -8,13 +8,13 @@ from pathlib import Path
 import pytest
 from browser import Browser, with_browser
 
+from experiments.evaluation.report.pages import pages, table_page, titled
+from experiments.evaluation.report.readme import COLUMNS
+from experiments.evaluation.tables.layout import markdown_table
+from experiments.plan.products import HEADLINE, TEMPLATES
+from experiments.settings.runs import Statistics
 from mobnet.core.errors import DataError
 from mobnet.core.rows import csv_text
-from mobnet.evaluation.report.pages import pages, table_page, titled
-from mobnet.evaluation.report.readme import COLUMNS
-from mobnet.evaluation.tables.layout import markdown_table
-from mobnet.plan.products import HEADLINE, TEMPLATES
-from mobnet.settings.runs import Statistics
 
 REPO = Path(__file__).parents[3]
 PARTS = {name: REPO / TEMPLATES / f"{name}.html" for name in ("table", "claims", "index")}

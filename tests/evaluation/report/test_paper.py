@@ -18,23 +18,23 @@ from csv_files import read_table
 from matplotlib.figure import Figure
 from PIL import Image
 
+from experiments.evaluation.report.deviations import deviations
+from experiments.evaluation.report.guards import defined_texts
+from experiments.evaluation.report.numbers import LOOKUP, numbers
+from experiments.evaluation.report.paper import PACKAGES, PaperError, copy_sources, missing_packages, paper
+from experiments.evaluation.tables.further import claims_table, methods
+from experiments.evaluation.tables.further.uncertainty import text_of
+from experiments.evaluation.tables.layout import PART, long_table, note_tex, text_table
+from experiments.plan.files import Files
+from experiments.plan.products import DRAWN, MAIN_TABLES, SOURCES, Folders, Products, pictures
+from experiments.settings.catalogue import Catalogue
+from experiments.settings.pages import PaperText
+from experiments.settings.settings import Settings
 from mobnet.core.columns import CLAIMS
 from mobnet.core.errors import DataError
 from mobnet.core.files import write_text
 from mobnet.core.rows import csv_text, read_texts
-from mobnet.evaluation.report.deviations import deviations
-from mobnet.evaluation.report.guards import defined_texts
-from mobnet.evaluation.report.numbers import LOOKUP, numbers
-from mobnet.evaluation.report.paper import PACKAGES, PaperError, copy_sources, missing_packages, paper
-from mobnet.evaluation.tables.further import claims_table, methods
-from mobnet.evaluation.tables.further.uncertainty import text_of
-from mobnet.evaluation.tables.layout import PART, long_table, note_tex, text_table
-from mobnet.plan.files import Files
-from mobnet.plan.products import DRAWN, MAIN_TABLES, SOURCES, Folders, Products, pictures
-from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.data import Recordings
-from mobnet.settings.pages import PaperText
-from mobnet.settings.settings import Settings
 
 REPO = Path(__file__).parents[3]
 GOLDEN, PUBLISHED = REPO / "tests/golden", REPO / "docs/results"

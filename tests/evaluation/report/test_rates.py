@@ -4,10 +4,10 @@ from pathlib import Path
 
 import pytest
 
+from experiments.evaluation.report.rates import fitted, price, processor
+from experiments.plan.work import Work
+from experiments.running.logs import Account
 from mobnet.core.errors import DataError
-from mobnet.evaluation.report.rates import fitted, price, processor
-from mobnet.plan.work import Work
-from mobnet.running.logs import Account
 
 START_S, PER_SECOND, PER_STEP, BASE_MIB, PER_NUMBER = 2.0, 0.1, 3e-6, 300.0, 2e-5
 

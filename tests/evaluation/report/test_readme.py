@@ -5,12 +5,12 @@ from pathlib import Path
 
 import pytest
 
+from experiments.evaluation.number.files import write_csv
+from experiments.evaluation.report.readme import COLUMNS, FINDINGS, blocks
+from experiments.settings.load import load_settings
 from mobnet.core.columns import CLAIMED, HELD, NEAR, OURS, PAPER, PRINTED, UNEXPLAINED, VERDICTS
 from mobnet.core.errors import DataError
 from mobnet.core.files import write_json
-from mobnet.evaluation.number.files import write_csv
-from mobnet.evaluation.report.readme import COLUMNS, FINDINGS, blocks
-from mobnet.settings.load import load_settings
 
 README = Path(__file__).parents[3] / "README.md"
 PLACE = ("scenario", "level", "joint", "metric", "method", "value", "published")

@@ -10,11 +10,11 @@ from pathlib import Path
 import pytest
 from browser import Browser, with_browser
 
+from experiments.evaluation.report.runs_page import COLUMNS, runs_page
+from experiments.plan.products import TEMPLATES
 from mobnet.core.columns import SCORES, Score
 from mobnet.core.files import TIME, write_json, write_text
 from mobnet.core.rows import csv_text
-from mobnet.evaluation.report.runs_page import COLUMNS, runs_page
-from mobnet.plan.products import TEMPLATES
 
 REPO = Path(__file__).parents[3]
 RUNS = {  # name -> cell, best validation loss, RMSE [N m]; the first one diverged before its first epoch ended

@@ -6,10 +6,10 @@ from pathlib import Path
 import pytest
 from csv_files import check_golden, markdown_cells, read_table
 
-from mobnet.evaluation.report.sigma import sigma
-from mobnet.settings.evaluation import Evaluation
-from mobnet.settings.runs import LimbRuns
-from mobnet.settings.settings import Settings
+from experiments.evaluation.report.sigma import sigma
+from experiments.settings.evaluation import Evaluation
+from experiments.settings.runs import LimbRuns
+from experiments.settings.settings import Settings
 
 LIKE = LimbRuns(scenario="walk_test", level="all_uncertainty", methods=("MOB-Net", "FTS-e2e"), limbs=("LL",))
 UNLIKE = LimbRuns(scenario="knee_swing", level="all_uncertainty", methods=("MOB-Net",), limbs=("LL",))

@@ -9,8 +9,8 @@ import pytest
 from made_detections import write_detections
 from made_trials import HIT, LEANS, write_trials
 
+from experiments.evaluation.report.single_rows import COLLISIONS, COLUMNS, FOLDER, WALKS, write_single_rows
 from mobnet.core.reactions import TRIALS
-from mobnet.evaluation.report.single_rows import COLLISIONS, COLUMNS, FOLDER, WALKS, write_single_rows
 
 Rows = list[dict[str, str]]
 

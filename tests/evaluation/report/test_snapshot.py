@@ -6,11 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from mobnet.core.errors import DataError
-from mobnet.core.files import read_json, write_json
-from mobnet.evaluation.report.manifest import manifest
-from mobnet.evaluation.report.readme import blocks
-from mobnet.evaluation.report.snapshot import (
+from experiments.evaluation.report.manifest import manifest
+from experiments.evaluation.report.readme import blocks
+from experiments.evaluation.report.snapshot import (
     RESULTS,
     check_run,
     compare_snapshot,
@@ -19,9 +17,11 @@ from mobnet.evaluation.report.snapshot import (
     with_block,
     write_snapshot,
 )
-from mobnet.running.logs import Account
-from mobnet.running.words import MANIFEST
-from mobnet.settings.load import load_settings
+from experiments.running.logs import Account
+from experiments.running.words import MANIFEST
+from experiments.settings.load import load_settings
+from mobnet.core.errors import DataError
+from mobnet.core.files import read_json, write_json
 
 REPO = Path(__file__).parents[3]
 SETTINGS = load_settings()
@@ -132,7 +132,7 @@ def run_of(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[[str], N
     manifest(RESULTS.rglob("recordings/*.json"), [], MANIFEST)
 
     def check(head: str) -> None:
-        monkeypatch.setattr("mobnet.evaluation.report.snapshot.commit", lambda: head)
+        monkeypatch.setattr("experiments.evaluation.report.snapshot.commit", lambda: head)
         check_run(RESULTS, MANIFEST)
 
     return check

@@ -5,9 +5,9 @@ from pathlib import Path
 
 import pytest
 
+from experiments.evaluation.report.runs_page import flattened, read_training_run
 from mobnet.core.errors import DataError
 from mobnet.core.files import read_json, write_json
-from mobnet.evaluation.report.runs_page import flattened, read_training_run
 
 Write = Callable[..., Path]
 NAME, ONE = "LSTM-LL-s3", "1,0,-1,4,.1,9"

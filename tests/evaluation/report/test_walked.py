@@ -4,9 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from mobnet.core.errors import DataError
-from mobnet.core.files import read_json
-from mobnet.evaluation.report.walked import (
+from experiments.evaluation.report.walked import (
     SEEDS,
     Span,
     Walked,
@@ -16,10 +14,12 @@ from mobnet.evaluation.report.walked import (
     walked,
     write_history,
 )
-from mobnet.plan.files import Files
-from mobnet.settings.catalogue import Catalogue
-from mobnet.settings.load import load_settings
-from mobnet.settings.settings import Settings
+from experiments.plan.files import Files
+from experiments.settings.catalogue import Catalogue
+from experiments.settings.load import load_settings
+from experiments.settings.settings import Settings
+from mobnet.core.errors import DataError
+from mobnet.core.files import read_json
 
 REPO = Path(__file__).parents[3]
 PUBLISHED = read_history(REPO / SEEDS)

@@ -12,14 +12,15 @@ import psutil
 import pytest
 from browser import wait
 
+from experiments.evaluation.report.wandb_live import RUNS, Follower
+from experiments.evaluation.report.wandb_runs import FOLDER, wandb_runs
 from mobnet.core.columns import JOINT_ERROR
-from mobnet.evaluation.report.wandb_live import RUNS, Follower
-from mobnet.evaluation.report.wandb_runs import FOLDER, wandb_runs
 
 NAME = "MOB-Net-LL-s0"
 HEAD = "epoch,train_loss,validation_loss,validation_rmse,rate,gradient_norm,stride"
 JOINTS = ("LL1", "LL2")
-STARTS = "import sys, time; from pathlib import Path; from mobnet.running.follow import follow_trainings as follow;"
+IMPORTS = "import sys, time; from pathlib import Path"
+STARTS = f"{IMPORTS}; from experiments.running.follow import follow_trainings as follow;"
 
 pytestmark = pytest.mark.slow
 

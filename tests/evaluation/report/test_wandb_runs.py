@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 
-from mobnet.evaluation.report.wandb_runs import wandb_runs
+from experiments.evaluation.report.wandb_runs import wandb_runs
 
 EPOCHS = [",".join(map(str, (k, *(10.0 * k + i for i in range(1, 6))))) for k in (1, 2, 3)]
 TERMINAL_S = 20

@@ -10,20 +10,20 @@ import yaml
 from csv_files import GOLDEN, check_golden, read_table
 from made_detections import write_detections
 
+from experiments.evaluation.measure.claims.cells import listed
+from experiments.evaluation.measure.claims.verdicts import rows_of
+from experiments.evaluation.measure.reaction.results import printed_of
+from experiments.evaluation.number.files import write_csv
+from experiments.evaluation.number.intervals import RunGrid
+from experiments.evaluation.number.number import published_row
+from experiments.evaluation.number.quantities import QUANTITIES
+from experiments.evaluation.tables.further.hourly import ALL, FLAG
+from experiments.evaluation.tables.further.latency import MET
+from experiments.settings.claims import Cause, Cell, Claim, MadeNumber
+from experiments.settings.published import Published, PublishedTable
+from experiments.settings.runs import Statistics
+from experiments.settings.settings import Settings
 from mobnet.core.columns import COVERAGE, HOURLY, LATENCY, VERDICTS
-from mobnet.evaluation.measure.claims.cells import listed
-from mobnet.evaluation.measure.claims.verdicts import rows_of
-from mobnet.evaluation.measure.reaction.results import printed_of
-from mobnet.evaluation.number.files import write_csv
-from mobnet.evaluation.number.intervals import RunGrid
-from mobnet.evaluation.number.number import published_row
-from mobnet.evaluation.number.quantities import QUANTITIES
-from mobnet.evaluation.tables.further.hourly import ALL, FLAG
-from mobnet.evaluation.tables.further.latency import MET
-from mobnet.settings.claims import Cause, Cell, Claim, MadeNumber
-from mobnet.settings.published import Published, PublishedTable
-from mobnet.settings.runs import Statistics
-from mobnet.settings.settings import Settings
 
 BRANCHES = {"MOB": 19.0, "MOB-fric": 15.0, "MOB-fric-load": 3.0, "MOB-Net": 1.5, "FTS-e2e": 2.0, "MOB-Net-plain": 2.5}
 MEANS = BRANCHES | {

@@ -6,8 +6,8 @@ from pathlib import Path
 import pytest
 from csv_files import read_table
 
-from mobnet.evaluation.number.files import write_csv
-from mobnet.evaluation.tables.further.claims_summary import USED
+from experiments.evaluation.number.files import write_csv
+from experiments.evaluation.tables.further.claims_summary import USED
 
 Counted = dict[tuple[str, str], tuple[float, float, float]]
 Made = Callable[..., Counted]

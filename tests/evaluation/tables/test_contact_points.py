@@ -10,6 +10,11 @@ from csv_files import check_golden, markdown_cells, read_table, write_rows
 from made_contacts import pushed
 from made_swings import GROUND, RATE_HZ, swinging, unseen
 
+from experiments.evaluation.measure.detection.contact_points import NAMED, NOTHING, Found
+from experiments.evaluation.measure.detection.results import CELLS
+from experiments.evaluation.tables.further.contact_points import write_contacts
+from experiments.plan.runs import Run
+from experiments.settings.settings import Settings
 from mobnet.core.columns import torque_columns
 from mobnet.core.detections import Detected
 from mobnet.core.errors import DataError
@@ -17,12 +22,7 @@ from mobnet.core.recording import Recording, write_recording
 from mobnet.core.store import write_array
 from mobnet.detection.contact import ContactFinder
 from mobnet.estimation.low_pass import low_pass
-from mobnet.evaluation.measure.detection.contact_points import NAMED, NOTHING, Found
-from mobnet.evaluation.measure.detection.results import CELLS
-from mobnet.evaluation.tables.further.contact_points import write_contacts
-from mobnet.plan.runs import Run
 from mobnet.robot.description import RobotDescription
-from mobnet.settings.settings import Settings
 
 Make = Callable[..., Path]
 START, LENGTH, PEAK_N, SEED, DELAY_S = GROUND + 150, 80, 160.0, 101, 0.02

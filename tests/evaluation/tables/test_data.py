@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 from csv_files import check_golden, read_table
 
+from experiments.evaluation.measure.data.steps import WalkedSteps
+from experiments.evaluation.tables.further.data import commanded, extent
+from experiments.settings.evaluation import Evaluation
+from experiments.settings.settings import Settings
 from mobnet.core.errors import DataError
 from mobnet.core.files import read_json, write_json
-from mobnet.evaluation.measure.data.steps import WalkedSteps
-from mobnet.evaluation.tables.further.data import commanded, extent
 from mobnet.robot.nominal import NominalModel
-from mobnet.settings.evaluation import Evaluation
-from mobnet.settings.settings import Settings
 
 Sets = dict[str, list[Path]]
 Facts = dict[tuple[str, str, str], Any]

@@ -8,10 +8,10 @@ import pytest
 from csv_files import check_golden, markdown_cells, read_table
 from made_detections import write_detections
 
-from mobnet.evaluation.measure.detection.smallest_force import smallest_force
-from mobnet.evaluation.number.number import Number
-from mobnet.evaluation.tables.further.found_by_rate import gain_text
-from mobnet.settings.settings import Settings
+from experiments.evaluation.measure.detection.smallest_force import smallest_force
+from experiments.evaluation.number.number import Number
+from experiments.evaluation.tables.further.found_by_rate import gain_text
+from experiments.settings.settings import Settings
 
 Make = Callable[..., Path]
 

@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 from csv_files import check_golden, read_table
 
+from experiments.evaluation.tables.further.error_budget import share_left
+from experiments.settings.evaluation import Evaluation
+from experiments.settings.runs import Mean
 from mobnet.core.errors import DataError
 from mobnet.core.joints import JointLayout
-from mobnet.evaluation.tables.further.error_budget import share_left
-from mobnet.settings.evaluation import Evaluation
-from mobnet.settings.runs import Mean
 
 FACTORS = {"all_uncertainty": 1.0, "exact_model": 0.8, "no_friction": 0.5, "no_load_friction": 1.0, "no_noise": 1.1}
 Make = Callable[..., Path]

@@ -7,15 +7,15 @@ from pathlib import Path
 import pytest
 from csv_files import GOLDEN, check_golden, read_table, write_rows
 
+from experiments.evaluation.number.averages import Column
+from experiments.evaluation.number.number import Number, published_row, published_value
+from experiments.evaluation.tables.layout import GAP, RULE
+from experiments.evaluation.tables.paper.error_table import TableLook, TableRow, table_lines, write_error_table
+from experiments.settings.published import Floor
+from experiments.settings.settings import Settings
+from experiments.settings.tables import ErrorTable
 from mobnet.core.columns import Score
 from mobnet.core.errors import DataError
-from mobnet.evaluation.number.averages import Column
-from mobnet.evaluation.number.number import Number, published_row, published_value
-from mobnet.evaluation.tables.layout import GAP, RULE
-from mobnet.evaluation.tables.paper.error_table import TableLook, TableRow, table_lines, write_error_table
-from mobnet.settings.published import Floor
-from mobnet.settings.settings import Settings
-from mobnet.settings.tables import ErrorTable
 
 Make = Callable[..., Path]
 Scores = Callable[..., list[Score]]

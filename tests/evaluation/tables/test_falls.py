@@ -6,14 +6,14 @@ from pathlib import Path
 
 import pytest
 
+from experiments.evaluation.measure.data.falls import count_falls
+from experiments.evaluation.number.files import write_csv
+from experiments.evaluation.tables.further.falls import ALL, falls
+from experiments.plan.jobs import walk_settings
+from experiments.settings.runs import Statistics
+from experiments.settings.settings import Settings
 from mobnet.core.columns import FALLS, Falls
 from mobnet.core.rows import read_rows, read_texts
-from mobnet.evaluation.measure.data.falls import count_falls
-from mobnet.evaluation.number.files import write_csv
-from mobnet.evaluation.tables.further.falls import ALL, falls
-from mobnet.plan.jobs import walk_settings
-from mobnet.settings.runs import Statistics
-from mobnet.settings.settings import Settings
 
 
 @pytest.mark.parametrize(("counts", "chosen"), [

@@ -6,12 +6,12 @@ from pathlib import Path
 import pytest
 from csv_files import check_golden, read_table
 
+from experiments.evaluation.number.single import rate
+from experiments.evaluation.tables.further.hourly import ALL, FALL, FLAG
+from experiments.settings.evaluation import Evaluation
+from experiments.settings.runs import LegRuns, Statistics
+from experiments.settings.tables import Hourly
 from mobnet.core.files import write_json
-from mobnet.evaluation.number.single import rate
-from mobnet.evaluation.tables.further.hourly import ALL, FALL, FLAG
-from mobnet.settings.evaluation import Evaluation
-from mobnet.settings.runs import LegRuns, Statistics
-from mobnet.settings.tables import Hourly
 
 COUNTS = {"rmse": (2.0, "N m"), "flags": (1.0, "-"), "watched": (0.5, "h")}
 STATISTICS = Statistics(confidence=0.95)

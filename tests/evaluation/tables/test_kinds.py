@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 from csv_files import check_golden, read_table
 
-from mobnet.settings.evaluation import Evaluation
+from experiments.settings.evaluation import Evaluation
 
 LOSSES = {"LSTM": -5.0, "GRU": -4.5, "TCN": -4.0, "MLP-500": -3.9, "MLP": -3.5, "RNN": -3.0}
 BEST = {"GRU": -6.0, "LSTM": -5.5, "MLP-500": -4.4, "TCN": -4.2, "MLP": -3.7, "RNN": -3.6}

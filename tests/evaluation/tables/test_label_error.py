@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from csv_files import check_golden, markdown_cells, read_table
 
+from experiments.settings.settings import Settings
 from mobnet.core.columns import residual_columns
 from mobnet.core.joints import JointLayout
 from mobnet.core.recording import read_sensed
@@ -15,7 +16,6 @@ from mobnet.estimation.label import foot_label
 from mobnet.estimation.observe import read_wrenches
 from mobnet.robot.description import describe
 from mobnet.robot.nominal import NominalModel
-from mobnet.settings.settings import Settings
 
 
 def test_errors_are_those_of_each_label(

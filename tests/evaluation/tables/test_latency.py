@@ -6,10 +6,10 @@ from pathlib import Path
 import pytest
 from csv_files import read_table
 
+from experiments.evaluation.tables.further import latency
+from experiments.settings.evaluation import Evaluation
 from mobnet.core.joints import JointLayout
-from mobnet.evaluation.tables.further import latency
 from mobnet.learning.deployed.limbs import LimbNetworks
-from mobnet.settings.evaluation import Evaluation
 from mobnet.settings.plant import Rates
 
 

@@ -2,8 +2,8 @@
 
 from pathlib import Path
 
-from mobnet.evaluation.number.number import Number
-from mobnet.evaluation.tables.layout import (
+from experiments.evaluation.number.number import Number
+from experiments.evaluation.tables.layout import (
     GAP,
     RULE,
     Table,

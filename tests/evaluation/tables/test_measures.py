@@ -6,11 +6,11 @@ from pathlib import Path
 import pytest
 from csv_files import check_golden, markdown_cells, read_table, write_rows
 
+from experiments.evaluation.tables.further.phases import PARTS
+from experiments.settings.evaluation import Evaluation
+from experiments.settings.runs import LimbRuns
 from mobnet.core.columns import Score
 from mobnet.core.rows import read_rows
-from mobnet.evaluation.tables.further.phases import PARTS
-from mobnet.settings.evaluation import Evaluation
-from mobnet.settings.runs import LimbRuns
 
 Make, Write = Callable[..., Path], Callable[..., list[Path]]
 LEVELS = {"as known": "robots", "warmed up": "robots_warm"}

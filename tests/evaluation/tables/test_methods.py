@@ -7,9 +7,9 @@ from pathlib import Path
 import pytest
 from csv_files import check_golden, markdown_cells, read_table, write_rows
 
+from experiments.settings.tables import MethodsRow
 from mobnet.core.columns import Score
 from mobnet.core.rows import read_rows
-from mobnet.settings.tables import MethodsRow
 
 Make = Callable[..., Path]
 MEANS = {"zero": 10.0, "MOB": 9.0, "MOB-Net": 2.0}

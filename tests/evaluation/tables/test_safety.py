@@ -6,11 +6,11 @@ import pytest
 from csv_files import check_golden
 from made_trials import EARLY, HIT, LEANS, write_trials
 
+from experiments.evaluation.measure.reaction.results import groups_of, is_early, outcome_of, read_trials
+from experiments.evaluation.tables.further.safety import safety
+from experiments.settings.load import load_settings
 from mobnet.core.errors import DataError
 from mobnet.core.rows import read_texts
-from mobnet.evaluation.measure.reaction.results import groups_of, is_early, outcome_of, read_trials
-from mobnet.evaluation.tables.further.safety import safety
-from mobnet.settings.load import load_settings
 
 SETTINGS = load_settings()
 ROWS = [

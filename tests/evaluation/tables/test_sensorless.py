@@ -6,11 +6,11 @@ import pytest
 from csv_files import check_golden
 from made_trials import FREE, write_trials
 
+from experiments.evaluation.measure.reaction.results import POWER, TRACKING, VELOCITY
+from experiments.evaluation.tables.further.sensorless import sensorless
+from experiments.settings.load import load_settings
 from mobnet.core.reactions import NONE
 from mobnet.core.rows import read_texts
-from mobnet.evaluation.measure.reaction.results import POWER, TRACKING, VELOCITY
-from mobnet.evaluation.tables.further.sensorless import sensorless
-from mobnet.settings.load import load_settings
 
 SETTINGS = load_settings()
 ROWS = [

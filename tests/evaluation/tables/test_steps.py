@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 from csv_files import check_golden, read_table
 
-from mobnet.evaluation.figures.further.commands import commands
-from mobnet.evaluation.measure.data.steps import WalkedSteps, bin_edges, bin_of, in_degrees
-from mobnet.evaluation.tables.further.steps import Followed, followed
-from mobnet.settings.evaluation import Evaluation
-from mobnet.settings.settings import Settings
+from experiments.evaluation.figures.further.commands import commands
+from experiments.evaluation.measure.data.steps import WalkedSteps, bin_edges, bin_of, in_degrees
+from experiments.evaluation.tables.further.steps import Followed, followed
+from experiments.settings.evaluation import Evaluation
+from experiments.settings.settings import Settings
 
 Sets = dict[str, list[Path]]
 

@@ -7,9 +7,9 @@ from typing import Any
 import pytest
 from csv_files import check_golden, read_table
 
-from mobnet.evaluation.tables.paper.table_01 import tex_symbols
-from mobnet.settings.catalogue import Catalogue
-from mobnet.settings.settings import Settings
+from experiments.evaluation.tables.paper.table_01 import tex_symbols
+from experiments.settings.catalogue import Catalogue
+from experiments.settings.settings import Settings
 
 
 @pytest.fixture

@@ -9,13 +9,13 @@ import numpy as np
 import pytest
 from csv_files import read_table
 
+from experiments.evaluation.tables.further.trials import is_best, trials
+from experiments.plan.runs import Tried, TriedTask
+from experiments.settings.catalogue import Catalogue
+from experiments.settings.settings import Settings
+from experiments.settings.trials import tuned
 from mobnet.core.recording import Recording
 from mobnet.core.store import read_array
-from mobnet.evaluation.tables.further.trials import is_best, trials
-from mobnet.plan.runs import Tried, TriedTask
-from mobnet.settings.catalogue import Catalogue
-from mobnet.settings.settings import Settings
-from mobnet.settings.trials import tuned
 
 JOINTS = ("LL1", "LL4")
 

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 from csv_files import check_golden, read_table
 
+from experiments.evaluation.tables.further.uncertainty import target_std, verdict
+from experiments.evaluation.tables.layout import OUTSIDE, note_tex
+from experiments.settings.settings import Settings
 from mobnet.core.store import read_array, write_array
-from mobnet.evaluation.tables.further.uncertainty import target_std, verdict
-from mobnet.evaluation.tables.layout import OUTSIDE, note_tex
-from mobnet.settings.settings import Settings
 
 
 def test_standard_deviation_file_by_file_is_equivalent_to_that_of_all_samples_together(tmp_path: Path) -> None:

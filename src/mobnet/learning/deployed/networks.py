@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mobnet.core.files import WEIGHTS
+from mobnet.core.threads import one_thread
 from mobnet.learning.deployed.weights import GRU_TENSORS, Z_SCORES, WeightsNote, read_weights, std_scale_of
-from mobnet.running.threads import one_thread
 from mobnet.settings.networks import CellKind
 
 Array = NDArray[np.float32]

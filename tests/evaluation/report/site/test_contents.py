@@ -2,8 +2,8 @@
 
 import pytest
 
+from experiments.evaluation.report.site.contents import menus, sections
 from mobnet.core.errors import DataError
-from mobnet.evaluation.report.site.contents import menus, sections
 
 INDEX = """# Index
 

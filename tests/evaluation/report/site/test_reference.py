@@ -3,8 +3,8 @@
 import re
 from itertools import pairwise
 
-from mobnet.commands.words import COMMANDS
-from mobnet.evaluation.report.site.reference import (
+from experiments.commands.words import COMMANDS
+from experiments.evaluation.report.site.reference import (
     PUBLIC,
     accepted,
     commands_page,
@@ -12,7 +12,7 @@ from mobnet.evaluation.report.site.reference import (
     described,
     reference_pages,
 )
-from mobnet.settings.settings import Settings
+from experiments.settings.settings import Settings
 
 
 def test_every_command_has_its_help() -> None:

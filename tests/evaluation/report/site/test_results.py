@@ -4,9 +4,9 @@ from pathlib import Path
 
 import pytest
 
-from mobnet.evaluation.number.files import write_csv
-from mobnet.evaluation.report.site.results import result_pages
-from mobnet.settings.claims import Claim
+from experiments.evaluation.number.files import write_csv
+from experiments.evaluation.report.site.results import result_pages
+from experiments.settings.claims import Claim
 
 
 @pytest.fixture

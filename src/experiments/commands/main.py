@@ -1,0 +1,90 @@
+"""The commands of `./reproduce`."""
+
+import os
+import re
+import signal
+import subprocess
+from collections.abc import Sequence
+from pathlib import Path
+
+from experiments.commands.clean import clean
+from experiments.commands.setup import set_up
+from experiments.commands.tell import say
+from experiments.commands.words import Words, parse
+from experiments.running.environment import child_environment, fault_of_place
+from mobnet.core.errors import CommandError, MobnetError
+
+MODULES = {  # command -> the module that `python -m` runs, with words that come first
+    "test": ("pytest", "-n", "2", "--dist", "loadfile", "--no-loadscope-reorder", "--max-worker-restart", "0"),
+    "bench": ("benchmarks",),
+    "check": ("experiments.check",),
+    "calibrate": ("mobnet.detection.calibrate",),
+    "export": ("mobnet.export.export",),
+    "motion": ("mobnet.robotlog.motion",),
+    "observe": ("mobnet.robotlog.observe",),
+    "identify": ("mobnet.robotlog.identify",),
+    "learn": ("mobnet.robotlog.learn",),
+    "detect": ("mobnet.robotlog.detect",),
+    "robot": ("mobnet.robot.import_table",),
+    "demo": ("experiments.demo",),
+    "cost": ("experiments.evaluation.report.cost",),
+    **{name: ("experiments.evaluation.report.snapshot", name) for name in ("verify", "compare", "snapshot")},
+}
+# Their words are files of the caller, no code of ours.
+OUTSIDE = ("check", "calibrate", "demo", "detect", "export", "identify", "learn", "motion", "observe", "robot")
+# They say themselves what Ctrl-C leaves of them.
+LINED = ("calibrate", "cost", "detect", "export", "identify", "learn", "motion", "observe", "robot")
+REPORT = ("--report", "report.html", "--report-after-run")
+
+
+def main(root: Path, words: Sequence[str]) -> int:
+    """Run one command in a project's folder; return its exit status."""
+    try:
+        return run(root, parse(words))
+    except MobnetError as problem:
+        say(str(problem))
+    except OSError as problem:
+        place = problem.filename or root
+        say(f"{place}: {problem.strerror}; accepted: a folder with free space, in which you may write and remove")
+    except KeyboardInterrupt:
+        say("stopped; the same command goes on from here")
+        return 130
+    return 1
+
+
+def run(root: Path, words: Words) -> int:
+    """Run a command; all but `clean` set the environment up first."""
+    if fault := fault_of_place(root):
+        raise CommandError(fault)
+    if words.command == "clean":
+        options = words.options
+        return clean(root, everything=options.all, is_dry=options.dry_run, is_sure=options.yes)
+    given = Path.cwd()
+    os.chdir(root)
+    os.environ.update(environment(root))
+    set_up(root, getattr(words.options, "build", None))
+    if words.command == "setup":
+        return 0
+    python = str(root / ".venv" / "bin" / "python")
+    if words.command in MODULES:
+        module = [*MODULES[words.command], *words.extra]
+        if words.command in LINED:
+            signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+        if words.command in OUTSIDE:
+            return subprocess.run([python, "-P", "-m", *module], cwd=given, check=False).returncode
+        return subprocess.run([python, "-m", *module], check=False).returncode
+    return run_workflow(python, [*words.extra, *(REPORT if words.command == "report" else ())])
+
+
+def environment(root: Path) -> dict[str, str]:
+    """Return the variables that every child gets."""
+    venv = root / ".venv"
+    path = f"{venv / 'bin'}{os.pathsep}{os.environ.get('PATH', os.defpath)}"
+    return {**child_environment(root), "PATH": path, "VIRTUAL_ENV": str(venv)}
+
+
+def run_workflow(python: str, words: Sequence[str]) -> int:
+    """Become snakemake; Ctrl-C waits until it can be answered."""
+    cores = [] if any(re.match(r"(-j|-c|--cores|--jobs)", word) for word in words) else ["--cores", "2"]
+    signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    os.execv(python, [python, "-m", "experiments.running.run", *cores, *words])

@@ -1,0 +1,137 @@
+"""Truth, estimates and flags of some joints of a recording, a gait cycle of it, and the panels cut out of them."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from experiments.evaluation.compare.pair import read_pair, read_std
+from experiments.evaluation.compare.rmse import Spans
+from experiments.evaluation.compare.windows import FLAG
+from experiments.plan.runs import Run
+from mobnet.core.columns import RESIDUAL, SWING, foot_of, named
+from mobnet.core.errors import DataError
+from mobnet.core.joints import JointLayout
+from mobnet.core.store import read_array
+
+TRUTH, TARGET = "truth", "target"  # labels: tau_e, and what is learned of the uncertainty, r - tau_e (section 4.2.3)
+
+
+@dataclass(frozen=True)
+class TorqueCurve:
+    """A line over time (T,) [N m], V1..V3 [N], perhaps with a band of its standard deviation (T,) around it."""
+
+    label: str
+    values: NDArray[Any]
+    std: NDArray[Any] | None = None
+
+
+@dataclass(frozen=True)
+class Panel:
+    """Curves of one joint over some time (T,) [s], the last on top, and flags that hold or not (T,)."""
+
+    title: str
+    time: NDArray[Any]
+    curves: Sequence[TorqueCurve]
+    flags: Mapping[str, NDArray[Any]]
+
+
+@dataclass(frozen=True)
+class Curves:
+    """What methods made of some joints (n,) of one recording, whose spans (start, end) are contiguous rows.
+
+    Truth is the low-passed external torque, residual that of the momentum observer, both (T, n) [N m], V1..V3 [N], as
+    are each method's estimate and standard deviation, None where it predicts none. Flags hold or not (T,).
+    """
+
+    joints: tuple[str, ...]
+    truth: NDArray[Any]
+    residual: NDArray[Any]
+    estimates: Mapping[str, NDArray[Any]]
+    stds: Mapping[str, NDArray[Any] | None]
+    flags: Mapping[str, NDArray[np.bool_]]
+    spans: Spans
+    rate_hz: float
+
+    def panel(self, title: str, joint: str, rows: slice, *, zero: int = 0, band: bool = False) -> Panel:
+        """Return a panel of a joint's truth and estimates in some rows [N m], V1..V3 [N]; time 0 is at row `zero`.
+
+        With `band`, a standard deviation is shown where a method predicts it.
+        """
+        return self._panel(title, joint, rows, zero, {TRUTH: self.truth, **self.estimates}, band)
+
+    def uncertainty_panel(self, title: str, joint: str, rows: slice, *, zero: int = 0) -> Panel:
+        """Return a panel of a joint's uncertainty torque, r - tau_e of (15), and of its predictions [N m].
+
+        A method predicts what it subtracts from the residual; the arguments are those of `panel`.
+        """
+        shown = {TARGET: self.truth, **self.estimates}
+        beyond = {name: self.residual - values for name, values in shown.items()}
+        return self._panel(title, joint, rows, zero, beyond, band=True)
+
+    def _panel(
+        self, title: str, joint: str, rows: slice, zero: int, shown: Mapping[str, NDArray[Any]], band: bool
+    ) -> Panel:
+        """Return a panel of a joint in some rows; shown are label -> curves of all joints (T, n) [N m], V1..V3 [N]."""
+        k, time = self.joints.index(joint), (np.arange(len(self.truth))[rows] - zero) / self.rate_hz
+        stds = {name: std[rows, k] for name, std in self.stds.items() if band and std is not None}
+        curves = [TorqueCurve(name, values[rows, k], stds.get(name)) for name, values in shown.items()]
+        return Panel(title, time, curves, {name: flags[rows] for name, flags in self.flags.items()})
+
+
+def read_curves(
+    layout: JointLayout, runs: Sequence[Run], joints: Sequence[str], flags: Mapping[str, str] | None = None
+) -> Curves:
+    """Read what runs of several methods made of some joints (n,) of one recording.
+
+    Each flag to read has a name and the column of the recording that says whether it holds.
+
+    Raises:
+        ConfigError: a joint is not estimated by a method.
+        DataError: a file or a column is missing, or files do not belong together.
+    """
+    wanted, flags = tuple(joints), flags or {}
+    pairs = [read_pair(run, layout) for run in runs]
+    first = pairs[0]
+    return Curves(
+        wanted,
+        truth=first.truth[:, first.places(wanted)],
+        residual=read_array(first.run.residual, named(RESIDUAL, wanted))[0],
+        estimates={pair.run.method: pair.estimate[:, pair.places(wanted)] for pair in pairs},
+        stds={run.method: read_std(run, wanted) for run in runs},
+        flags={name: read_array(first.run.recording, [column])[0][:, 0] > FLAG for name, column in flags.items()},
+        spans=first.spans,
+        rate_hz=first.rate_hz,
+    )
+
+
+def read_cycle(layout: JointLayout, runs: Sequence[Run], joints: Sequence[str], start_s: float) -> tuple[Curves, slice]:
+    """Return what methods made of joints (n,) of a leg, and the rows of the first whole gait cycle after the start.
+
+    Raises:
+        DataError: a file is missing or damaged, or no whole cycle follows the start.
+        ConfigError: the first joint belongs to no leg.
+    """
+    curves = read_curves(layout, runs, joints, {"swing": f"{SWING}.{foot_of(layout, joints[0])}"})
+    rows = gait_cycle(curves.flags["swing"], curves.spans, round(start_s * curves.rate_hz))
+    if rows is None:
+        length_s = len(curves.truth) / curves.rate_hz
+        raise DataError(f"{runs[0].recording}.parquet: no whole gait cycle after {start_s} s; it lasts {length_s} s")
+    return curves, rows
+
+
+def gait_cycle(air: NDArray[np.bool_], segments: Spans, start: int) -> slice | None:
+    """Return the rows from the first lift-off at or after `start` to the next one, or None if there is none.
+
+    Both are within one of the segments (start, end); `air` says whether the foot is planned to be in the air (T,).
+    """
+    for first, end in segments:
+        begin = max(int(first), start)
+        if begin >= end:
+            continue
+        lifts = begin + 1 + np.flatnonzero(air[begin + 1 : end] & ~air[begin : end - 1])
+        if len(lifts) > 1:
+            return slice(int(lifts[0]), int(lifts[1]))
+    return None

@@ -1,0 +1,158 @@
+"""Torque of a joint by method, below it the errors on a scale of their own, below them their RMSE. Drawing only."""
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from experiments.evaluation.compare.curves import Panel, TorqueCurve
+from experiments.evaluation.compare.errors import Compared
+from experiments.evaluation.figures.drawing.curves import FROM_LIFT_OFF, draw_panel, table_of
+from experiments.evaluation.figures.drawing.named_bars import BAR_INCH, NamedBar, draw_named_bars
+from experiments.evaluation.figures.style import entitle, legend, looks, save_figure
+from experiments.evaluation.number.files import Field, write_csv
+from experiments.evaluation.number.number import Number
+from mobnet.core.columns import JOINT_ERRORS
+from mobnet.core.style import COLUMN_INCH, PAGE_INCH, styled
+
+TORQUE_INCH, ERROR_INCH, REST_INCH = 1.15, 0.85, 0.95  # height of rows, and of legend, titles and labels together
+SIDE_BY_SIDE, LEG_INCH = 3, 1.05  # joints of a leg in a row, and height of their torque
+REACH = 1.25  # of the axis of errors, over the largest error of the last method, ours
+ERROR_WIDTH = 0.75  # of the lines of errors, which are noisier, over those of the torque
+SIGMAS = {1: 0.3, 2: 0.15}  # multiples of the standard deviation that are drawn, and how opaque
+MARGIN = 0.2  # below and above the curves that the axis of torque holds [of their range]
+ZERO_LINE = {"color": "black", "linewidth": 0.5, "zorder": 1.0}
+
+
+def near(panel: Panel, methods: Sequence[str]) -> list[TorqueCurve]:
+    """Return the curves of methods whose errors are drawn, all where there is none of these."""
+    return [curve for curve in panel.curves if curve.label in methods] or list(panel.curves)
+
+
+def draw_torque(axis: Axes, pair: Compared, methods: Sequence[str]) -> None:
+    """Draw truth and estimates; the axis holds the truth and the estimates of some methods, and cuts others."""
+    truth, *estimates = (replace(curve, std=None) for curve in pair.torque.curves)
+    draw_panel(axis, replace(pair.torque, curves=[truth, *estimates]))
+    values = np.concatenate([truth.values, *(curve.values for curve in near(pair.torque, methods))])
+    low, high = float(values.min()), float(values.max())
+    margin = MARGIN * (high - low) or 1.0
+    axis.set(ylim=(low - margin, high + margin), xlim=(pair.torque.time[0], pair.torque.time[-1]))
+
+
+def draw_error(axis: Axes, pair: Compared, methods: Sequence[str]) -> None:
+    """Draw the errors of some methods, and around zero one and two standard deviations of one that predicts them."""
+    own = near(pair.error, methods)
+    draw_panel(axis, replace(pair.error, curves=[replace(curve, std=None) for curve in own]))
+    for line in axis.lines:
+        line.set_linewidth(ERROR_WIDTH * line.get_linewidth())
+    for curve in own:
+        if curve.std is not None:
+            draw_sigma(axis, curve.label, pair.error.time, curve.std)
+    axis.axhline(0.0, **ZERO_LINE)
+    reach = REACH * float(np.abs(own[-1].values).max()) or 1.0
+    axis.set(ylim=(-reach, reach), xlim=(pair.error.time[0], pair.error.time[-1]))
+
+
+def draw_sigma(axis: Axes, method: str, time: NDArray[Any], std: NDArray[Any]) -> None:
+    """Draw bands of one and two standard deviations (T,) around zero."""
+    for times, alpha in SIGMAS.items():
+        label = f"\N{PLUS-MINUS SIGN} {times} std of {method}"
+        look: dict[str, Any] = {"color": looks([method])[method].colour, "alpha": alpha, "linewidth": 0.0}
+        axis.fill_between(time, -times * std, times * std, label=label, zorder=1.5, **look)
+
+
+@styled
+def draw_columns(
+    pairs: Sequence[Compared], bars: Sequence[Sequence[NamedBar]], units: Sequence[str], methods: Sequence[str],
+    x_label: str, source: str,
+) -> Figure:  # fmt: skip
+    """Draw joints side by side, as wide as a page: torque, errors, and the RMSE of each method [a unit each].
+
+    The errors of some methods are drawn, those of others are far beyond them. The legend calls the paper's numbers
+    `source`.
+    """
+    heights = (TORQUE_INCH, ERROR_INCH, BAR_INCH * max(len(own) for own in bars))
+    figure = Figure(figsize=(PAGE_INCH, sum(heights) + REST_INCH), layout="constrained")
+    grid = figure.subplots(3, len(pairs), squeeze=False, height_ratios=heights)
+    for k, (pair, own, unit) in enumerate(zip(pairs, bars, units, strict=True)):
+        torque, error, below = grid[:, k].tolist()
+        draw_torque(torque, pair, methods)
+        entitle(torque, k, pair.torque.title)
+        torque.tick_params(labelbottom=False)
+        draw_error(error, pair, methods)
+        error.set_xlabel(x_label)
+        draw_named_bars(below, own, unit, source=source)
+        if k:
+            below.tick_params(labelleft=False)
+    one = f" [{units[0]}]" if len(set(units)) == 1 else ""
+    grid[0, 0].set_ylabel(f"torque{one}" if one else "torque or force")
+    grid[1, 0].set_ylabel(f"error{one}")
+    legend(figure, grid.ravel().tolist())
+    return figure
+
+
+@styled
+def draw_leg(pairs: Sequence[Compared]) -> Figure:
+    """Draw the joints of a leg over a gait cycle, as wide as a page, in rows of three: torque, and below it errors."""
+    rows = -(-len(pairs) // SIDE_BY_SIDE)
+    heights = (LEG_INCH, LEG_INCH * ERROR_INCH / TORQUE_INCH) * rows
+    figure = Figure(figsize=(PAGE_INCH, sum(heights) + REST_INCH), layout="constrained")
+    grid = figure.subplots(2 * rows, SIDE_BY_SIDE, squeeze=False, height_ratios=heights)
+    for k, pair in enumerate(pairs):
+        row, column = 2 * (k // SIDE_BY_SIDE), k % SIDE_BY_SIDE
+        torque, error = grid[row : row + 2, column].tolist()
+        draw_torque(torque, pair, ())
+        entitle(torque, k, pair.torque.title)
+        draw_error(error, pair, ())
+        torque.tick_params(labelbottom=False)
+        error.tick_params(labelbottom=k + SIDE_BY_SIDE >= len(pairs))
+    for axis in grid[::2, 0]:
+        axis.set_ylabel("torque [N m]")
+    for axis in grid[1::2, 0]:
+        axis.set_ylabel("error [N m]")
+    for axis in grid[-1]:
+        axis.set_xlabel(FROM_LIFT_OFF)
+    legend(figure, grid.ravel().tolist())
+    return figure
+
+
+@styled
+def draw_stack(
+    pairs: Sequence[Compared], bars: Sequence[NamedBar], methods: Sequence[str], title: str, joint: str
+) -> Figure:
+    """Draw levels of a joint below one another, as wide as a column: torque [N m] and errors of each, RMSE of all.
+
+    Time is that from the lift-off; `methods` are those whose errors are drawn.
+    """
+    inches = [*(TORQUE_INCH, ERROR_INCH) * len(pairs), BAR_INCH * len(bars)]
+    figure = Figure(figsize=(COLUMN_INCH, sum(inches) + REST_INCH + 0.2 * len(pairs)), layout="constrained")
+    *axes, below = figure.subplots(len(inches), 1, height_ratios=inches).tolist()
+    for k, pair in enumerate(pairs):
+        torque, error = axes[2 * k : 2 * k + 2]
+        draw_torque(torque, pair, methods)
+        entitle(torque, k, pair.torque.title)
+        torque.tick_params(labelbottom=False)
+        torque.set_ylabel(f"{joint} [N m]")
+        draw_error(error, pair, methods)
+        error.set_ylabel("error [N m]")
+    axes[-1].set_xlabel(FROM_LIFT_OFF)
+    draw_named_bars(below, bars, "N m")
+    entitle(below, len(pairs), title)
+    legend(figure, [*axes, below], 4)
+    return figure
+
+
+def save_compared(figure: Figure, stem: Path, panels: Sequence[Panel], errors: Iterable[Sequence[Field]]) -> None:
+    """Write a figure with the curves of panels, and beside it the errors of its bars, rows of `JOINT_ERRORS`."""
+    write_csv(stem.with_name(f"{stem.name}_bars.csv"), JOINT_ERRORS, errors)
+    save_figure(figure, stem, *table_of(panels))
+
+
+def bars_of(numbers: Mapping[str, Number], rmse: Mapping[str, float]) -> list[NamedBar]:
+    """Return a bar for each method, marked with the error of its curve where it has one."""
+    return [NamedBar(name, name, number, [rmse[name]] if name in rmse else []) for name, number in numbers.items()]

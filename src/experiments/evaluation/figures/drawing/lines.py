@@ -1,0 +1,149 @@
+"""Panels of lines over a few sizes, lengths or steps, with intervals, bands of constants and notes. Drawing only."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from experiments.evaluation.figures.style import Look, entitle, legend, looks, stacked
+from experiments.evaluation.number.number import Number
+from mobnet.core.style import STYLE, styled
+
+PANEL_INCH, LEGEND_INCH = 1.6, 0.45  # height of a panel and of the legend above all
+LEAST_APART = 0.08  # between the names of two places [share of the axis]
+NOTE_POINTS = 6.5  # size of a note
+BAND_ALPHA = 0.25  # opacity of a constant's interval
+LEGEND: Mapping[str, Any] = {"columns": 3, "handlelength": 2.6, "columnspacing": 1.2, "handletextpad": 0.5}
+GUIDE: Mapping[str, Any] = {"color": "0.6", "linewidth": 0.6, "zorder": 0.5}
+ARROW_SHARE = 0.025  # distance of an arrow from the end of the axis [share of its length]
+
+
+@dataclass(frozen=True)
+class Line:
+    """A number with its interval at sizes, lengths or steps (n,) [units of the panel]; `dots` are its single runs."""
+
+    label: str
+    x: Sequence[float]
+    numbers: Sequence[Number]
+    dots: Sequence[Sequence[float]] = ()
+
+    @property
+    def columns(self) -> NDArray[np.float64]:
+        """Value and the ends of its interval, or itself where it has none (3, n) [unit of the panel]."""
+        return np.array([number.range for number in self.numbers], dtype=np.float64).T
+
+
+@dataclass(frozen=True)
+class LinePanel:
+    """Lines over a few places.
+
+    Attributes:
+        bands: what is the same at all places: label -> a number, drawn as a line across the panel in its interval.
+        guide: a value [unit of y] that a thin grey line marks.
+        ends: of the y axis [its unit], None for what the lines need; with both, a value outside is an arrow.
+        note: a text in a corner, the upper right one or the lower left one.
+        scale: panels of one scale share their y axis.
+        logarithmic: whether the x axis is.
+        dodge: distance between the marks of two lines at one place [unit of x, decades of a logarithmic axis].
+    """
+
+    title: str
+    x_label: str
+    y_label: str
+    lines: Sequence[Line]
+    bands: Mapping[str, Number] = field(default_factory=dict[str, Number])
+    guide: float | None = None
+    ends: tuple[float | None, float | None] = (0.0, None)
+    note: str = ""
+    note_below: bool = False
+    scale: str = ""
+    logarithmic: bool = True
+    dodge: float = 0.0
+
+
+@styled
+def draw_lines(panels: Sequence[LinePanel], columns: int = 1, panel_inch: float = PANEL_INCH) -> Figure:
+    """Draw panels below one another in the width of a column, or so many `columns` of them in that of the page.
+
+    A label that all panels share stands once, below all or at the left of each row.
+    """
+    styles = looks(label for panel in panels for label in (*panel.bands, *(line.label for line in panel.lines)))
+    figure, axes = stacked([panel.scale for panel in panels], panel_inch, LEGEND_INCH, columns)
+    one_x = len({panel.x_label for panel in panels}) == 1
+    for k, (axis, panel) in enumerate(zip(axes, panels, strict=True)):
+        _draw(axis, panel, styles)
+        entitle(axis, k, panel.title)
+        axis.set_xlabel("" if one_x else panel.x_label)
+        axis.set_ylabel(panel.y_label if k % columns == 0 else "")
+    for axis, panel in zip(axes, panels, strict=True):  # once all axes that share a scale have their lines
+        axis.set_ylim(*panel.ends)
+    if one_x:
+        figure.supxlabel(panels[0].x_label, fontsize=STYLE["axes.labelsize"])
+    legend(figure, axes, **{**LEGEND, "columns": None if columns > 1 else LEGEND["columns"]})
+    return figure
+
+
+def _draw(axis: Axes, panel: LinePanel, styles: Mapping[str, Look]) -> None:
+    """Draw the bands, lines, places and the note of a panel."""
+    if panel.guide is not None:
+        axis.axhline(panel.guide, **GUIDE)
+    for label, number in panel.bands.items():
+        mean, low, high = number.range
+        if mean is not None and low is not None and high is not None:
+            axis.axhspan(low, high, color=styles[label].colour, alpha=BAND_ALPHA, linewidth=0.0, zorder=1.0)
+            axis.axhline(mean, label=label, **{**styles[label].line, "zorder": 1.5})
+    for k, line in enumerate(panel.lines):
+        off = panel.dodge * (k - (len(panel.lines) - 1) / 2.0)
+        _line(axis, line, styles[line.label], _moved(line.x, off, panel.logarithmic), panel.ends)
+    _places(axis, panel)
+    corner: dict[str, Any] = {"ha": "left", "va": "bottom"} if panel.note_below else {"ha": "right", "va": "top"}
+    place = (0.03, 0.04) if panel.note_below else (1.0, 0.98)
+    axis.text(*place, panel.note, transform=axis.transAxes, fontsize=NOTE_POINTS, **corner)
+
+
+def _moved(x: Sequence[float], off: float, logarithmic: bool) -> NDArray[np.float64]:
+    """Return places (n,) moved by a distance [their unit, or decades]."""
+    places = np.asarray(x, dtype=np.float64)
+    return places * 10.0**off if logarithmic else places + off
+
+
+def _line(axis: Axes, line: Line, look: Look, x: NDArray[np.float64], ends: tuple[float | None, float | None]) -> None:
+    """Draw a line with marks at places (n,), its intervals or single runs, and arrows where it leaves the axis."""
+    mean, low, high = line.columns
+    marked = [] if line.dots else None  # single runs stand in place of their mean, which the legend marks like them
+    axis.plot(x, mean, label=line.label, marker=look.marker, markersize=3.5, markevery=marked, **look.line)
+    axis.vlines(x, low, high, color=look.colour, linewidth=0.8, zorder=look.order)
+    for place, dots in zip(x, line.dots, strict=False):
+        axis.plot([place] * len(dots), dots, look.marker, markersize=3.5, color=look.colour, markeredgewidth=0.0,
+                  alpha=0.6, zorder=4)  # fmt: skip
+    bottom, top = ends
+    if bottom is None or top is None:
+        return
+    for outside, end, marker in ((mean > top, top, "^"), (mean < bottom, bottom, "v")):
+        inwards = end + ARROW_SHARE * (bottom + top - 2.0 * end)
+        axis.plot(x[outside], np.full(np.sum(outside), inwards), marker, markersize=4.0, color=look.colour, zorder=5)
+
+
+def _places(axis: Axes, panel: LinePanel) -> None:
+    """Name the places that there are."""
+    if not panel.lines:
+        return
+    places = np.unique(np.concatenate([line.x for line in panel.lines]))
+    if panel.logarithmic:
+        axis.set_xscale("log")
+    axis.minorticks_off()
+    named = _apart(places, np.log(places) if panel.logarithmic else places)
+    axis.set_xticks(named, [f"{place:.0f}" for place in named])
+
+
+def _apart(places: NDArray[np.float64], drawn: NDArray[np.float64]) -> list[float]:
+    """Return the places (n,) of which each is drawn so far right of the one before that both can be named."""
+    kept = [0]
+    for k in range(1, len(places)):
+        if drawn[k] - drawn[kept[-1]] >= LEAST_APART * np.ptp(drawn):
+            kept.append(k)
+    return places[kept].tolist()

@@ -1,0 +1,137 @@
+"""Two drawings of what no run measures: the method as blocks, and the robot with its limbs and what it senses."""
+
+from collections.abc import Mapping
+from pathlib import Path
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from experiments.evaluation.figures.drawing.diagram import SUM_RADIUS, Box, draw_box, draw_path, draw_sum, sheet
+from experiments.evaluation.figures.drawing.ground import draw_ground, draw_shadow
+from experiments.evaluation.figures.drawing.pushed import draw_force, standing
+from experiments.evaluation.figures.drawing.robot import place_of, poses_of, projection, solids_of
+from experiments.evaluation.figures.drawing.robot_parts import LIMBS, axes_of, draw_axes, draw_limbs, draw_note
+from experiments.evaluation.figures.style import save_figure
+from experiments.settings.pages import Drawings
+from mobnet.core.arrays import Array
+from mobnet.core.joints import JointLayout
+from mobnet.core.style import COLUMN_INCH, PAGE_INCH, styled
+from mobnet.robot.description import RobotDescription, describe
+from mobnet.robot.looks import dressed
+from mobnet.settings.data import Push
+from mobnet.settings.parts import Looks
+from mobnet.settings.robot import RobotTable
+
+METHOD_COLUMNS, ROBOT_COLUMNS = ("from", "to", "signal"), ("part", "kind", "x_m", "y_m", "z_m")
+SIGMA = "\N{GREEK SMALL LETTER SIGMA}"
+METHOD_INCH, ROBOT_INCH = 2.35, 3.9  # heights
+SENSED, MODEL, LEARNED, USED = "#EEF1F5", "#DCEAF6", "#FBE6D8", "#E3F1EA"  # grounds of blocks
+
+
+@styled
+def draw_all(
+    settings: Drawings, push: Push, robot: RobotTable, looks: Looks | None, layout: JointLayout, folder: Path
+) -> None:
+    """Write `method` and `robot` as PDF, SVG, PNG and CSV: the blocks and their signals, the parts and their places."""
+    figure, signals = draw_method([limb for limb in LIMBS if limb in settings.limbs])
+    save_figure(figure, folder / "method", METHOD_COLUMNS, signals)
+    shown = dressed(describe(robot), looks)
+    figure, parts = draw_parts(settings, shown, position_of(settings, robot, layout), push)
+    rows = [(name, kind, *map(float, place)) for name, kind, place in parts]
+    save_figure(figure, folder / "robot", ROBOT_COLUMNS, rows)
+
+
+def draw_method(limbs: list[str]) -> tuple[Figure, list[tuple[str, str, str]]]:
+    """Draw the method as blocks; return the figure and from, to and signal of each arrow."""
+    figure, axis = sheet(PAGE_INCH, METHOD_INCH)
+    inputs = {
+        "encoders": Box((0.62, 2.05), (1.1, 0.36), ["encoders", "joint positions"], SENSED),
+        "IMU": Box((0.62, 1.55), (1.1, 0.36), ["IMU", "motion of the base"], SENSED),
+        "motors": Box((0.62, 1.05), (1.1, 0.36), ["motors", "torque"], SENSED),
+    }
+    feet = Box((0.62, 0.3), (1.1, 0.36), ["foot sensors", "in training only"], SENSED, dashed=True)
+    formula = Box((2.4, 2.12), (1.4, 0.36), ["friction formula", "in MOB-Net-gray only"], MODEL, dashed=True)
+    observer = Box((2.4, 1.48), (1.4, 0.5), ["momentum observer", "external torque", "+ error of its model"], MODEL)
+    network = Box((2.4, 0.55), (1.4, 0.82), ["one GRU for each limb", "error of the model", "", ""], LEARNED)
+    torque = Box((5.25, 1.48), (1.05, 0.5), ["external torque", "of every joint", f"with its {SIGMA}"], USED)
+    detector = Box((6.42, 1.48), (0.9, 0.36), ["detector", "thresholds"], USED)
+    reaction = Box((6.42, 0.55), (0.9, 0.36), ["reaction", "steps back"], USED)
+    for box in (*inputs.values(), feet, formula, observer, network, torque, detector, reaction):
+        draw_box(axis, box)
+    for k, limb in enumerate(limbs):
+        place = network.centre[0] + (k - (len(limbs) - 1) / 2) * 0.215, network.centre[1] - 0.2
+        draw_box(axis, Box(place, (0.18, 0.17), [limb], LIMBS[limb]))
+    return figure, _arrows(axis, inputs, feet, formula, observer, network, torque, detector, reaction)
+
+
+def _arrows(
+    axis: Axes, inputs: Mapping[str, Box], feet: Box, formula: Box, observer: Box, network: Box, torque: Box,
+    detector: Box, reaction: Box,
+) -> list[tuple[str, str, str]]:  # fmt: skip
+    """Draw the arrows between the blocks; return from, to and signal of each."""
+    bus_x, y = 1.36, observer.centre[1]
+    first, second = (3.72, y), (4.4, y)
+    draw_sum(axis, first, [("+", -0.14, -0.09), ("\N{MINUS SIGN}", 0.09, 0.14)])
+    draw_sum(axis, second, [("+", -0.14, 0.09), ("\N{MINUS SIGN}", 0.09, -0.14)])
+    for box in inputs.values():
+        draw_path(axis, [box.side(1, 0), (bus_x, box.centre[1])], headed=False)
+    low, high = network.centre[1] + 0.15, formula.centre[1]
+    draw_path(axis, [(bus_x, low), (bus_x, inputs["encoders"].centre[1])], headed=False)
+    draw_path(axis, [(bus_x, inputs["encoders"].centre[1]), (bus_x, high), formula.side(-1, 0)], dashed=True)
+    draw_path(axis, [(bus_x, y), observer.side(-1, 0)])
+    draw_path(axis, [(bus_x, low), (network.side(-1, 0)[0], low)])
+    draw_path(axis, [feet.side(1, 0), (network.side(-1, 0)[0], feet.centre[1])], dashed=True)
+    draw_path(axis, [observer.side(1, 0), (first[0] - SUM_RADIUS, y)], "residual", (3.37, y + 0.1))
+    draw_path(axis, [formula.side(1, 0), (first[0], high), (first[0], y + SUM_RADIUS)], "friction", (3.41, high + 0.1),
+              dashed=True)  # fmt: skip
+    draw_path(axis, [(first[0] + SUM_RADIUS, y), (second[0] - SUM_RADIUS, y)])
+    mean_y, sigma_y = network.centre[1] + 0.17, network.centre[1] - 0.2
+    right = network.side(1, 0)[0]
+    draw_path(axis, [(right, mean_y), (second[0], mean_y), (second[0], y - SUM_RADIUS)], "mean", (3.75, mean_y + 0.1))
+    draw_path(axis, [(right, sigma_y), (torque.centre[0], sigma_y), torque.side(0, -1)], f"standard deviation {SIGMA}",
+              (4.17, sigma_y + 0.1))  # fmt: skip
+    draw_path(axis, [(second[0] + SUM_RADIUS, y), torque.side(-1, 0)])
+    draw_path(axis, [torque.side(1, 0), detector.side(-1, 0)])
+    draw_path(axis, [detector.side(0, -1), reaction.side(0, 1)], "alarm, link", (6.37, 1.03), ha="right")
+    sensed = [(name, to, "sensed") for name in inputs for to in ("momentum observer", "networks", "friction formula")]
+    return [
+        *sensed, ("foot sensors", "networks", "label of the training"), ("momentum observer", "difference", "residual"),
+        ("friction formula", "difference", "friction"), ("networks", "difference", "mean"),
+        ("networks", "external torque", "standard deviation"), ("difference", "external torque", "estimate"),
+        ("external torque", "detector", "estimate"), ("detector", "reaction", "alarm, link"),
+    ]  # fmt: skip
+
+
+def position_of(settings: Drawings, robot: RobotTable, layout: JointLayout) -> Array:
+    """Return a position (nq,) [m, -, rad]: the posture, with the angles of the drawing, above the origin."""
+    angles = {**robot.posture_rad, **settings.pose_rad}
+    base = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0] if layout.virtual else []
+    return np.array([*base, *(angles.get(joint, 0.0) for joint in layout.actuated)])
+
+
+def draw_parts(
+    settings: Drawings, robot: RobotDescription, q: Array, push: Push
+) -> tuple[Figure, list[tuple[str, str, Array]]]:
+    """Draw the robot with names; return the figure, and name, kind and place (3,) [m] of what is named."""
+    figure, axis = sheet(COLUMN_INCH, ROBOT_INCH)
+    view, placed = projection(*settings.view_deg), standing(robot, q)
+    centre = np.array([*placed[:2], 0.0])
+    solids = solids_of(robot, placed)
+    draw_ground(axis, centre, settings.floor_m, view)
+    draw_shadow(axis, solids, view)
+    draw_limbs(axis, robot, placed, view)
+    found = axes_of(robot, placed, robot.layout.limb(settings.leg))
+    draw_axes(axis, found, view)
+    point = place_of(robot, placed, str(push.point))
+    draw_force(axis, point, np.array([-settings.force_n, 0.0, 0.0]), view)
+    rotation, position = poses_of(robot, placed)
+    parts = [(joint, "axis", place) for joint, (place, _) in found.items()]
+    parts += [("push", "force", point)]
+    for note in settings.notes:
+        place = position[note.body] + rotation[note.body] @ np.asarray(note.pos)
+        draw_note(axis, note.text, view[:2] @ place, note.at_m)
+        parts.append((note.text, "note", place))
+    (left, lower), scale = settings.corner_m, settings.m_per_inch
+    axis.set(xlim=(left, left + scale * COLUMN_INCH), ylim=(lower, lower + scale * ROBOT_INCH))
+    return figure, parts

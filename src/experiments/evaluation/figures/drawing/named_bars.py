@@ -1,0 +1,128 @@
+"""Horizontal bars of errors with the method's name on the axis and the number at their end. Drawing only."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from numpy.typing import NDArray
+
+from experiments.evaluation.compare.errors import ZERO
+from experiments.evaluation.figures.style import looks
+from experiments.evaluation.number.number import Number
+
+MINUS = "\N{MINUS SIGN}"
+BAR_INCH = 0.135  # height that a bar takes
+BAR_SHARE = 0.72  # of it that is filled
+NUMBER_POINTS = 6.5  # size of names and numbers
+PAPER = {"marker": "D", "markersize": 3.2, "color": "white", "markeredgecolor": "black", "markeredgewidth": 0.7}
+DRAWN = {"marker": "o", "markersize": 2.6, "color": "white", "markeredgecolor": "black", "markeredgewidth": 0.5}
+LINE = {"color": "0.4", "linewidth": 0.7, "linestyle": (0, (2, 2)), "zorder": 1.0}  # at a number to compare with
+NUMBER_ROOM = 0.42  # right of the longest bar, for numbers [of its length]
+CUT_ABOVE = 2.5  # bars of `zero` are cut where they are so many times longer than all others
+DRAWN_LABEL = "RMSE of the curves above"
+PAPER_LABEL = {False: "RMSE in the paper", True: "RMSE in the paper (robot)"}  # whether it measured its robot
+
+
+@dataclass(frozen=True)
+class NamedBar:
+    """A method's error [N m], V1..V3 [N], perhaps with errors that are marked on it; or its share or delay of pushes.
+
+    Attributes:
+        name: text on the axis.
+        method: whose look the bar has.
+        number: the error with its interval, and the paper's.
+        marks: errors that are marked on it, such as that of the curve above.
+    """
+
+    name: str
+    method: str
+    number: Number
+    marks: Sequence[float] = ()
+
+    @property
+    def text(self) -> str:
+        """The number as it is written at the end of the bar, with three digits."""
+        value = self.number.value or 0.0
+        return self.number.text(2 - (abs(value) >= 10.0) - (abs(value) >= 100.0)).replace("-", MINUS)
+
+
+def draw_named_bars(
+    axis: Axes, bars: Sequence[NamedBar], unit: str, *, source: str = PAPER_LABEL[False], marked: str = DRAWN_LABEL
+) -> None:
+    """Draw bars [unit] below one another, the first on top; the legend calls the paper's numbers `source`."""
+    styles = looks(bar.method for bar in bars)
+    value, low, high, published = ends_of(bars)
+    reach, is_cut = reach_of(bars, np.fmax(high, published))
+    places = range(len(bars))
+    axis.barh(places, value, BAR_SHARE, color=[styles[bar.method].colour for bar in bars], linewidth=0.0)
+    spread = [np.nan_to_num(value - low), np.nan_to_num(high - value)]
+    axis.errorbar(value, places, xerr=spread, linestyle="", color="black", linewidth=0.7, capsize=1.5)
+    dots = [(mark, place) for place, bar in zip(places, bars, strict=True) for mark in bar.marks]
+    if dots:
+        axis.plot(*np.array(dots).T, linestyle="", label=marked, zorder=4, **DRAWN)
+    if np.isfinite(published).any():
+        axis.plot(published, places, linestyle="", label=source, zorder=5, **PAPER)
+    axis.set_xlim(0.0, reach * (1.0 + NUMBER_ROOM))
+    for place, bar, end in zip(places, bars, _ends(bars, high, published), strict=True):
+        _number(axis, bar, place, None if is_cut and bar.method == ZERO else end)
+    axis.set_yticks(places, [bar.name for bar in bars], fontsize=NUMBER_POINTS)
+    axis.tick_params(axis="y", length=0.0)
+    axis.set(ylim=(len(bars) - 0.4, -0.6), xlabel=f"RMSE [{unit}]")
+
+
+def draw_named_dots(axis: Axes, rows: Sequence[NamedBar], x_label: str, at: float | None) -> None:
+    """Draw numbers as dots with intervals below one another, each with its text, and a line at a number to compare."""
+    styles = looks(row.method for row in rows)
+    value, low, high, _ = ends_of(rows)
+    if at is not None:
+        axis.axvline(at, **LINE)
+    axis.set_yticks(range(len(rows)), [row.name for row in rows], fontsize=NUMBER_POINTS)
+    axis.grid(axis="y", linewidth=0.3, color="0.85")
+    axis.set_axisbelow(True)
+    axis.tick_params(axis="y", length=0.0)
+    axis.set(ylim=(len(rows) - 0.4, -0.6), xlabel=x_label)
+    if not np.isfinite(value).any():
+        return
+    for place, row in enumerate(rows):
+        if row.number.value is not None:
+            ends = [[value[place] - low[place]], [high[place] - value[place]]]
+            look = styles[row.method]
+            axis.errorbar(
+                value[place], place, xerr=ends, marker=look.marker, markersize=3.5, color=look.colour,
+                ecolor="black", elinewidth=0.7, capsize=1.5, markeredgecolor="black", markeredgewidth=0.4, zorder=4,
+            )  # fmt: skip
+            _number(axis, row, place, high[place])
+    left, right = axis.get_xlim()
+    axis.set_xlim(left, right + NUMBER_ROOM / 2 * (right - left))
+
+
+def ends_of(bars: Sequence[NamedBar]) -> NDArray[np.float64]:
+    """Return value, lower and upper end and the paper's number of bars (4, n) [N m], V1..V3 [N]; nan where none is."""
+    rows = [(*bar.number.range, bar.number.published) for bar in bars]
+    return np.array(rows, dtype=np.float64).reshape(-1, 4).T
+
+
+def reach_of(bars: Sequence[NamedBar], tops: NDArray[np.float64]) -> tuple[float, bool]:
+    """Return how far an axis must reach to hold bars that end at `tops` (n,), and whether it cuts that of `zero`."""
+    whole = float(np.nanmax(tops, initial=0.0)) or 1.0
+    others = [top for bar, top in zip(bars, tops.tolist(), strict=True) if bar.method != ZERO and np.isfinite(top)]
+    most = max(others, default=whole)
+    return (most, True) if 0.0 < CUT_ABOVE * most < whole else (whole, False)
+
+
+def _ends(bars: Sequence[NamedBar], high: NDArray[Any], published: NDArray[Any]) -> list[float]:
+    """Return where the number of each bar begins: behind all that is drawn of it."""
+    own = [[top, printed, *bar.marks] for bar, top, printed in zip(bars, high, published, strict=True)]
+    return [float(np.nanmax(ends)) if np.isfinite(ends).any() else 0.0 for ends in own]
+
+
+def _number(axis: Axes, bar: NamedBar, place: int, end: float | None) -> None:
+    """Write a bar's number behind its end, or, with an arrow, into a bar that is cut at the end of the axis."""
+    look: dict[str, Any] = {"textcoords": "offset points", "va": "center_baseline", "fontsize": NUMBER_POINTS}
+    if end is None:
+        text, at = f"{bar.text} \N{RIGHTWARDS ARROW}", (axis.get_xlim()[1], place)
+        axis.annotate(text, at, (-2.0, 0.0), ha="right", **look)
+        return
+    axis.annotate(bar.text, (end, place), (3.0, 0.0), ha="left", **look)

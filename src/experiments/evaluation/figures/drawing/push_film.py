@@ -1,0 +1,180 @@
+"""The film of one push: the robot that is pushed, and beside it the torque that is true and that methods estimate."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from experiments.evaluation.compare.curves import TRUTH, TorqueCurve
+from experiments.evaluation.figures.drawing.motion import palette_of, save_drawing, save_still
+from experiments.evaluation.figures.drawing.push_frame import Course, Moment, draw_frame
+from experiments.evaluation.figures.drawing.pushed import standing
+from experiments.evaluation.figures.drawing.robot import projection
+from experiments.evaluation.measure.estimates.felt import Felt
+from experiments.evaluation.measure.estimates.told import Told, read_story
+from experiments.evaluation.number.files import write_csv
+from experiments.plan.detection import Detections
+from experiments.plan.runs import Run
+from experiments.settings.measures import Peaks
+from experiments.settings.pages import PushFilm, Story
+from mobnet.core.arrays import Array
+from mobnet.core.columns import SWING
+from mobnet.core.joints import JointLayout
+from mobnet.robot.description import RobotDescription, describe
+from mobnet.robot.looks import dressed
+from mobnet.settings.parts import Looks
+from mobnet.settings.robot import RobotTable
+from mobnet.simulation.render import Pixels
+
+COLUMNS = ("method", "joint", "peak_share", "delay_ms", "rmse_nm")
+HEADS = ("", "share of the peak", "delay", "RMSE")
+EASED = 8  # frames in which the time axis takes another width
+ROOM = 0.06  # above and below the curves, share of their range
+MS = 1000.0
+Ends = tuple[float, float]
+
+
+@dataclass(frozen=True)
+class Shot:
+    """A frame: a time from the beginning of the push on [s], how long it is seen [s], and what is shown then.
+
+    Attributes:
+        time_s: of the walk.
+        seen_s: on the screen.
+        ends_s: of the time axis.
+        slowed: whether time runs slower.
+        told: whether the numbers are shown.
+    """
+
+    time_s: float
+    seen_s: float
+    ends_s: Ends
+    slowed: bool
+    told: bool
+
+
+def push_film(
+    settings: PushFilm, story: Story, peaks: Peaks, robot: RobotTable, looks: Looks | None, layout: JointLayout,
+    runs: Sequence[Run], detections: Detections, out: Path,
+) -> None:  # fmt: skip
+    """Write the film as WebP and GIF, a still of it as PNG, and the numbers in it as CSV, beside each other."""
+    told = read_story(story, peaks, layout, runs, detections, settings.kind)
+    rows = [
+        (method, story.joint, felt.share, felt.delay_ms, told.errors_nm[method]) for method, felt in told.felt.items()
+    ]
+    write_csv(out.with_suffix(".csv"), COLUMNS, rows)
+    stage, shots = _Stage(settings, told, dressed(describe(robot), looks), layout), shots_of(settings, story)
+    still, seen_s = stage.still(), [shot.seen_s for shot in shots]
+    save_still(still, out.with_suffix(".png"))
+    save_drawing([stage.frame(shot) for shot in shots], seen_s, palette_of(still, settings.colours), out)
+
+
+def shots_of(settings: PushFilm, story: Story) -> list[Shot]:
+    """Return the frames of the film in order: real time, slower, a still, and real time again.
+
+    The time axis shows what was and what is slowed; what is slowed alone; and that with what follows.
+    """
+    (slow_s, usual_s), step_s, slowed_s = settings.slow_s, 1.0 / settings.frames_hz, 1.0 / settings.slowed_hz
+    first, near, last = (-story.before_s, usual_s), near_of(settings), (near_of(settings)[0], story.after_s)
+    before = np.arange(first[0], slow_s, step_s)
+    slowed = np.arange(slow_s, usual_s, slowed_s / settings.slower)
+    after = np.arange(usual_s + step_s, story.after_s, step_s)
+    return [
+        *(Shot(float(time_s), step_s, first, slowed=False, told=False) for time_s in before),
+        *(
+            Shot(float(time_s), slowed_s, eased(first, near, k), slowed=True, told=False)
+            for k, time_s in enumerate(slowed)
+        ),
+        Shot(usual_s, settings.hold_s, near, slowed=True, told=True),
+        *(Shot(float(time_s), step_s, eased(near, last, k), slowed=False, told=True) for k, time_s in enumerate(after)),
+    ]
+
+
+def near_of(settings: PushFilm) -> Ends:
+    """Return the ends of the time axis while time is slowed [s]."""
+    return settings.slow_s[0] - settings.margin_s, settings.slow_s[1] + settings.margin_s
+
+
+def eased(start: Ends, end: Ends, k: int) -> Ends:
+    """Return the ends of the time axis [s] k frames after it began to change."""
+    part = (1.0 - float(np.cos(np.pi * min(k / EASED, 1.0)))) / 2.0
+    low, high = ((1.0 - part) * was + part * becomes for was, becomes in zip(start, end, strict=True))
+    return low, high
+
+
+def lines_of(felt: Mapping[str, Felt], errors_nm: Mapping[str, float]) -> list[tuple[str, ...]]:
+    """Return the lines of the table at the end: heads of columns, then what each method shows, the last one first."""
+    rows = [
+        (method, f"{100.0 * own.share:.0f} %", _late(own.delay_ms), f"{errors_nm[method]:.0f} N m")
+        for method, own in felt.items()
+    ]
+    return [HEADS, *rows[::-1]]
+
+
+def _late(delay_ms: float | None) -> str:
+    """Return a delay as text."""
+    return "-" if delay_ms is None else f"{delay_ms:.0f} ms"
+
+
+class _Stage:
+    """What all frames share."""
+
+    def __init__(self, settings: PushFilm, told: Told, robot: RobotDescription, layout: JointLayout) -> None:
+        self.settings, self.told, self.robot, self.layout = settings, told, robot, layout
+        heading = np.median(np.unwrap([yaw_of(q) for q in told.q]))
+        azimuth, elevation = settings.view_deg
+        self.view = projection(float(np.rad2deg(heading)) + azimuth, elevation)
+        self.course = course_of(settings, told)
+        self.centre = np.array([*np.median(told.q[:, :2], axis=0), 0.0])
+
+    def frame(self, shot: Shot) -> Pixels:
+        """Draw a frame."""
+        moment = self.moment(shot.time_s, shot.ends_s, slowed=shot.slowed)
+        return self._drawn(moment, shot.time_s, told=shot.told)
+
+    def still(self) -> Pixels:
+        """Draw the robot at the largest force, and all that is slowed of the torque."""
+        peak_s = float(self.told.time_s[np.linalg.norm(self.told.force, axis=1).argmax()])
+        moment = self.moment(peak_s, near_of(self.settings), slowed=True)
+        return self._drawn(moment, self.settings.slow_s[1], told=True)
+
+    def moment(self, time_s: float, ends_s: Ends, *, slowed: bool) -> Moment:
+        """Return what a frame shows of the robot at a time [s]."""
+        told, k = self.told, min(int(np.searchsorted(self.told.time_s, time_s)), len(self.told.time_s) - 1)
+        found, side = told.detected, next(side for side, leg in self.layout.legs.items() if leg == told.collision.leg)
+        heard = found.delay_s is not None and time_s >= found.delay_s
+        said = f"detected: {side} {found.link}, {MS * (found.delay_s or 0.0):.0f} ms after contact" if heard else ""
+        return Moment(
+            standing(self.robot, told.q[k]),
+            self.centre,
+            f"{side}_{told.collision.link}_{told.collision.direction}",
+            told.force[k],
+            f"{side}_{found.link}_{found.direction}" if heard else "",
+            said,
+            time_s,
+            ends_s,
+            f"slowed {self.settings.slower:g} times" if slowed else "real time",
+        )
+
+    def _drawn(self, moment: Moment, drawn_s: float, *, told: bool) -> Pixels:
+        lines = lines_of(self.told.felt, self.told.errors_nm) if told else self.settings.opening
+        return draw_frame(self.robot, self.view, moment, self.course, drawn_s, lines)
+
+
+def course_of(settings: PushFilm, told: Told) -> Course:
+    """Return the curves of the story's joint while it is shown [N m]."""
+    curves, rows = told.curves, told.rows
+    stds = {method: None if std is None else std[rows, 0] for method, std in curves.stds.items()}
+    shown = {**{method: values[rows, 0] for method, values in curves.estimates.items()}, TRUTH: curves.truth[rows, 0]}
+    low, high = (end(list(map(end, shown.values()))) for end in (np.min, np.max))
+    room = ROOM * (high - low)
+    swing = curves.flags[SWING][rows]
+    title = f"External torque of the {settings.joint} [N m]"
+    drawn = [TorqueCurve(name, values, stds.get(name)) for name, values in shown.items()]
+    return Course(told.time_s, drawn, swing, title, settings.labels, (float(low - room), float(high + room)))
+
+
+def yaw_of(q: Array) -> float:
+    """Return the yaw of the base at a position (nq,) [rad]."""
+    return float(np.arctan2(2 * (q[3] * q[6] + q[4] * q[5]), 1 - 2 * (q[5] ** 2 + q[6] ** 2)))

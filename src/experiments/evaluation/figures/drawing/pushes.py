@@ -1,0 +1,129 @@
+"""Curves around pushes, above numbers of each method: error, share of the push that it shows, delay. Drawing only."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import lcm
+from typing import Any
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from experiments.evaluation.compare.curves import Panel
+from experiments.evaluation.figures.drawing.curves import draw_panel
+from experiments.evaluation.figures.drawing.named_bars import BAR_INCH, NamedBar, draw_named_bars, draw_named_dots
+from experiments.evaluation.figures.style import entitle, legend
+from mobnet.core.style import COLUMN_INCH, PAGE_INCH, styled
+
+STEP_INCH, HIT_INCH = 1.6, 1.15  # height of curves in one column of the paper and in two
+REST_INCH, GROUP_INCH = 0.95, 0.66  # of legend and labels in one column; of titles and labels of a group in two
+FROM_PUSH = "time from push [s]"
+EACH = "RMSE of each push"
+
+
+@dataclass(frozen=True)
+class PushGroup:
+    """Curves of the pushes of a test, a panel each [N m], and a row for each method.
+
+    Attributes:
+        panels: curves of each push.
+        title: of the numbers.
+        errors: RMSE [N m], with that of each push as marks.
+        shares: shares of the pushes that a method shows [-].
+        delays: delays of the rise [ms].
+        observer_ms: delay of an observer without errors [ms]; None where nothing pushes.
+    """
+
+    panels: Sequence[Panel]
+    title: str
+    errors: Sequence[NamedBar]
+    shares: Sequence[NamedBar]
+    delays: Sequence[NamedBar]
+    observer_ms: float | None
+
+
+@styled
+def draw_step(panels: Sequence[Panel], bars: Sequence[NamedBar], joint: str, title: str) -> Figure:
+    """Draw curves around a push on a joint [N m], none if nothing pushes, above the RMSE of each method [N m].
+
+    It is as wide as a column of the paper.
+    """
+    heights = STEP_INCH, BAR_INCH * len(bars)
+    figure = Figure(figsize=(COLUMN_INCH, sum(heights) + REST_INCH), layout="constrained")
+    curves, below = figure.subplots(2, 1, height_ratios=heights).tolist()
+    for panel in panels:
+        _curves(curves, panel)
+        entitle(curves, 0, panel.title)
+    curves.set(xlabel=FROM_PUSH, ylabel=f"{joint} [N m]")
+    draw_named_bars(below, bars, "N m")
+    entitle(below, 1, title)
+    legend(figure, [curves, below], 4)
+    return figure
+
+
+@styled
+def draw_hits(groups: Sequence[PushGroup], joint: str, source: str) -> Figure:
+    """Draw groups of pushes below one another, as wide as a page: curves side by side, below them numbers by method.
+
+    Curves [N m] of a group have one scale; the legend calls the paper's numbers `source`.
+    """
+    rows = max(len(group.errors) for group in groups)
+    heights = (HIT_INCH, BAR_INCH * max(rows, 1)) * len(groups)
+    figure = Figure(
+        figsize=(PAGE_INCH, sum(heights) + REST_INCH + GROUP_INCH * (2 * len(groups) - 1)), layout="constrained"
+    )
+    axes = figure.subplot_mosaic(_places(groups), height_ratios=heights)
+    for k, group in enumerate(groups):
+        curves = [axes[f"{k}.{i}"] for i in range(max(len(group.panels), 1))]
+        _row(curves, group, joint)
+        entitle(curves[0], 2 * k, curves[0].get_title(loc="left"))
+        errors, shares, delays = (axes[f"{k}.{name}"] for name in NUMBERS)
+        draw_named_bars(errors, group.errors, "N m", source=source, marked=EACH)
+        entitle(errors, 2 * k + 1, group.title)
+        draw_named_dots(shares, group.shares, "share of the push shown [-]", 1.0)
+        draw_named_dots(delays, group.delays, "delay of the rise [ms]", group.observer_ms)
+        for axis in (shares, delays):
+            axis.tick_params(labelleft=False)
+    for name in NUMBERS:
+        _one_scale([axes[f"{k}.{name}"] for k in range(len(groups))])
+    legend(figure, list(axes.values()))
+    return figure
+
+
+NUMBERS = ("errors", "shares", "delays")  # panels of a group below its curves
+
+
+def _places(groups: Sequence[PushGroup]) -> list[Any]:
+    """Return the places of all panels: of each group a row of curves, and one of numbers."""
+    width = lcm(len(NUMBERS), *(max(len(group.panels), 1) for group in groups))
+    places: list[Any] = []
+    for k, group in enumerate(groups):
+        count = max(len(group.panels), 1)
+        places.append([f"{k}.{i}" for i in range(count) for _ in range(width // count)])
+        places.append([f"{k}.{name}" for name in NUMBERS for _ in range(width // len(NUMBERS))])
+    return places
+
+
+def _one_scale(axes: Sequence[Axes]) -> None:
+    """Let the horizontal axes of groups have one scale, which holds them all."""
+    ends = [end for axis in axes for end in axis.get_xlim()]
+    for axis in axes:
+        axis.set_xlim(min(ends), max(ends))
+
+
+def _row(axes: Sequence[Axes], group: PushGroup, joint: str) -> None:
+    """Draw a group's curves [N m] on one scale; only the first panel names it."""
+    for axis, panel in zip(axes, group.panels, strict=False):
+        _curves(axis, panel)
+        axis.set_title(panel.title, loc="left", pad=3)
+        axis.set_xlabel(FROM_PUSH)
+    ends = [end for axis in axes for end in axis.get_ylim()]
+    for axis in axes:
+        axis.set_ylim(min(ends), max(ends))
+        axis.tick_params(labelleft=axis is axes[0])
+    axes[0].set_ylabel(f"{joint} [N m]")
+
+
+def _curves(axis: Axes, panel: Panel) -> None:
+    """Draw the curves of a panel over its whole time."""
+    draw_panel(axis, panel)
+    axis.set_xlim(panel.time[0], panel.time[-1])

@@ -1,0 +1,61 @@
+"""Fine-tuning to a changed robot (section 8.2): error over the seconds of new data."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from experiments.evaluation.figures.drawing.lines import Line, LinePanel, draw_lines
+from experiments.evaluation.figures.style import save_figure
+from experiments.evaluation.number.grid import Wanted, number_of
+from experiments.evaluation.number.rows import read_scores
+from experiments.settings.figures import FineTuning, TunedTest
+from experiments.settings.runs import Statistics
+from mobnet.core.columns import TUNED
+from mobnet.settings.methods import swept_name
+
+BEFORE, KNOWN = "not fine-tuned", "on its own robot"
+X_LABEL, Y_LABEL = "data of the changed robot [s]", "RMSE [N m]"
+COLUMNS, PANEL_INCH = 4, 2.0
+APART = 0.02  # between two marks at one place [decades]
+
+
+def fine_tuning(
+    settings: FineTuning, seconds: Sequence[int], statistics: Statistics, scores: Sequence[Path], figure_dir: Path
+) -> None:
+    """Write the figure as PDF, PNG and CSV: RMSE [N m] of networks on changed robots over their new data [s].
+
+    Two bands stand beside them: the networks before, and on the robot that they learned from.
+    """
+    read, panels, rows = read_scores(*scores), [], []
+    for title, test in settings.tests.items():
+        bands, lines = {}, []
+        for label, shown in shown_of(settings, seconds, test).items():
+            errors = [number_of(read, [wanted], statistics) for wanted in shown]
+            if label in (BEFORE, KNOWN):
+                bands[label] = errors[0]
+            else:
+                lines.append(Line(label, seconds, errors))
+            rows += [
+                (title, label, time, wanted.scenario, wanted.level, wanted.method, wanted.joint,
+                 *error.with_ends, *error.spread, error.unit)
+                for time, wanted, error in zip(seconds, shown, errors, strict=True)
+            ]  # fmt: skip
+        panels.append(LinePanel(title, X_LABEL, Y_LABEL, lines, bands, dodge=APART))
+    figure = draw_lines(panels, min(COLUMNS, len(panels)), PANEL_INCH)
+    save_figure(figure, figure_dir / "fine_tuning", TUNED, rows)
+
+
+def shown_of(settings: FineTuning, seconds: Sequence[int], test: TunedTest) -> dict[str, list[Wanted]]:
+    """Return line -> what is looked at for each number of seconds (n,)."""
+    (before,) = test.methods
+
+    def wanted(level: str, method: str) -> Wanted:
+        return Wanted(test.scenario, settings.limb, level, method, settings.joint)
+
+    return {
+        BEFORE: [wanted(test.level, before)] * len(seconds),
+        **{
+            label: [wanted(test.level, swept_name(base, settings.sweep, time)) for time in seconds]
+            for label, base in test.tuned.items()
+        },
+        KNOWN: [wanted(test.known, before)] * len(seconds),
+    }

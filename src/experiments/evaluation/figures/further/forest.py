@@ -1,0 +1,166 @@
+"""All statements at a glance: the worst claim of each, our interval, the range where it is reproduced, and the verdict.
+
+One figure has the statements with a number of the paper, ours over the paper's on a log axis; another one those
+without, how far ours lies on the claimed side of the bound.
+"""
+
+from collections.abc import Mapping, Sequence
+from itertools import groupby
+from pathlib import Path
+from typing import Any
+
+import matplotlib as mpl
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from experiments.evaluation.figures.style import save_figure
+from experiments.evaluation.measure.claims.places import BEYOND_BOUND, OVER_PAPER, Place, Statement, statements_of
+from experiments.evaluation.measure.claims.verdicts import Judged
+from experiments.evaluation.number.number import Number
+from mobnet.core.claim_ranges import range_text
+from mobnet.core.columns import FOREST, SCORED, VERDICTS
+from mobnet.core.style import PAGE_INCH, STYLE
+
+STEMS = {OVER_PAPER: "claims", BEYOND_BOUND: "claims_own"}  # of the two figures
+ENDS: Mapping[str, tuple[float, float]] = {OVER_PAPER: (1 / 8, 8.0), BEYOND_BOUND: (-1.15, 1.15)}  # of the axes
+EQUAL: Mapping[str, float] = {OVER_PAPER: 1.0, BEYOND_BOUND: 0.0}
+TICKS: Mapping[str, Mapping[float, str]] = {
+    OVER_PAPER: {0.125: "1/8", 0.25: "1/4", 0.5: "1/2", 1.0: "1", 2.0: "2", 4.0: "4", 8.0: "8"},
+    BEYOND_BOUND: {-1.0: "against", 0.0: "bound", 1.0: "for"},
+}
+HEADS: Mapping[str, str] = dict(
+    zip(SCORED, ("Statements of the paper about the observer", "Statements of the paper about networks",
+                 "Statements of the paper without a number", "Our own statements"), strict=True)
+)  # fmt: skip
+MARKS = (("#D55E00", "X", "\N{BALLOT X}"), ("#9A6700", "v", "\N{SOUTH EAST ARROW}"), ("0.35", "s", "?"),
+         ("#0072B2", "^", "\N{NORTH EAST ARROW}"), ("#00795A", "o", "\N{CHECK MARK}"),
+         ("0.45", "", "\N{EN DASH}"))  # fmt: skip
+# verdict -> colour, dark enough for text, marker, and sign before a text
+LOOKS: Mapping[str, tuple[str, str, str]] = dict(zip(VERDICTS, MARKS, strict=True))
+POINTS, ROW_INCH, HEAD_INCH, KEY_INCH = 6.5, 0.13, 0.2, 0.5  # size of text; heights of a row, a head and the legend
+KEY_COLUMNS = 3
+AXIS_INCH = 0.33  # height below the last row, of an axis
+TEXT_INCH, LEFT_INCH, WIDTH_INCH = 0.12, 3.84, 1.36  # where texts begin; where the axis does, and its width
+COLUMN_INCH = {"ours": 5.28, "other": 6.95}  # where our number begins and the other column ends
+
+
+def forest(judged: Sequence[Judged], confidence: float, figure_dir: Path) -> None:
+    """Write the figures of statements as PDF, PNG and CSV; `confidence` is that of the intervals, a share [-]."""
+    statements = statements_of(judged)
+    for axis, stem in STEMS.items():
+        own = [each for each in statements if each.worst.axis == axis]
+        figure = draw_forest(own, axis, f"{confidence:.0%} interval")
+        save_figure(figure, figure_dir / stem, FOREST, [each.record for each in own])
+
+
+def draw_forest(statements: Sequence[Statement], axis_name: str, interval: str) -> Figure:
+    """Draw statements below one another, section by section, on one axis; the legend calls the interval so."""
+    sections = [list(own) for _, own in groupby(statements, lambda each: each.worst.judged.score)]
+    rows = ROW_INCH * len(statements) + HEAD_INCH * max(1, len(sections))
+    tall = KEY_INCH + rows + AXIS_INCH
+    with mpl.rc_context({**STYLE, "font.size": POINTS}):
+        figure = Figure(figsize=(PAGE_INCH, tall))
+        place = (LEFT_INCH / PAGE_INCH, AXIS_INCH / tall, WIDTH_INCH / PAGE_INCH, rows / tall)
+        axis = figure.add_axes(place)
+        _scale(axis, axis_name, rows)
+        top = 0.0
+        for own in sections:
+            _head(axis, top, own, axis_name)
+            top += HEAD_INCH
+            for each in own:
+                _row(axis, top + ROW_INCH / 2.0, each)
+                top += ROW_INCH
+        _key(figure, statements, f"claimed range, for the {interval}")
+    return figure
+
+
+def _scale(axis: Axes, name: str, rows: float) -> None:
+    """Set the scales of an axis whose rows are so high together [inch]."""
+    if name == OVER_PAPER:
+        axis.set_xscale("log", base=2)
+    axis.set_xticks(list(TICKS[name]), list(TICKS[name].values()))
+    axis.minorticks_off()
+    axis.set(xlim=ENDS[name], ylim=(rows, 0.0), xlabel=f"{name} [-]")
+    axis.axvline(EQUAL[name], color="0.4", linewidth=0.5, zorder=1.5)
+    axis.spines["left"].set_visible(False)
+    axis.set_yticks([])
+    axis.tick_params(length=2.0, pad=1.5, labelsize=POINTS, width=0.4)
+    axis.xaxis.label.set_size(POINTS)
+
+
+def _text(axis: Axes, inch: float, row: float, text: str, **look: Any) -> None:
+    """Write a text beside an axis, so far from the page's left side and from the first row's top [inch]."""
+    axis.text((inch - LEFT_INCH) / WIDTH_INCH, row, text, transform=axis.get_yaxis_transform(), va="center",
+              fontsize=POINTS, **look)  # fmt: skip
+
+
+def _head(axis: Axes, top: float, own: Sequence[Statement], name: str) -> None:
+    """Write the head of a section at its top [inch]."""
+    middle = top + HEAD_INCH / 2.0
+    says = f"{HEADS[own[0].worst.judged.score]} ({len(own)})"
+    _text(axis, TEXT_INCH, middle, says, weight="bold")
+    _text(axis, COLUMN_INCH["ours"], middle, "ours, with interval", weight="bold")
+    _text(axis, COLUMN_INCH["other"], middle, "paper" if name == OVER_PAPER else "holds if", weight="bold", ha="right")
+    line = {"color": "0.5", "linewidth": 0.5, "clip_on": False, "transform": axis.get_yaxis_transform()}
+    ends = [(inch - LEFT_INCH) / WIDTH_INCH for inch in (0.0, COLUMN_INCH["other"])]
+    axis.plot(ends, [top + HEAD_INCH - 0.02] * 2, **line)
+
+
+def _row(axis: Axes, row: float, statement: Statement) -> None:
+    """Draw a statement in its row [inch]: sign, text, interval and numbers."""
+    place = statement.worst
+    judged, claim = place.judged, place.judged.row.claim
+    colour, _, sign = LOOKS[judged.verdict]
+    _text(axis, 0.0, row, sign, color=colour, weight="bold")
+    _text(axis, TEXT_INCH, row, text_of(statement))
+    unit = "" if judged.ours.unit == "-" else f" {judged.ours.unit}"
+    value, interval = judged.ours.texts()
+    ours = "not measured" if judged.ours.value is None else f"{value} {interval}{unit}"
+    _text(axis, COLUMN_INCH["ours"], row, ours, color=colour)
+    printed = Number(claim.published, unit=judged.ours.unit).texts()[0]
+    other = range_text(judged.ranges.shown) if place.axis == BEYOND_BOUND else printed
+    _text(axis, COLUMN_INCH["other"], row, other, ha="right")
+    _place(axis, row, place)
+
+
+def text_of(statement: Statement) -> str:
+    """Return what the worst claim of a statement says, with its joint, and of how many claims it is one."""
+    row = statement.worst.judged.row
+    joint = f", {row.joint}" if row.joint else ""
+    return row.claim.says.removesuffix(".") + joint + (f" (1 of {statement.claims})" if statement.claims > 1 else "")
+
+
+def _place(axis: Axes, row: float, place: Place) -> None:
+    """Draw the range where a claim is reproduced, our number and its interval, arrows where they leave the axis."""
+    first, last = ENDS[place.axis]
+    low, high = (edge if end is None else end for end, edge in zip(place.band, (first, last), strict=True))
+    low, high = max(low, first), min(high, last)
+    axis.barh(row, high - low, left=low, height=0.8 * ROW_INCH, color="0.88", linewidth=0)
+    value, low, high = place.values
+    colour, marker, _ = LOOKS[place.judged.verdict]
+    if value is None:
+        return
+    if low is not None and high is not None:
+        ends = [min(max(end, first), last) for end in (low, high)]
+        axis.plot(ends, [row, row], color=colour, linewidth=1.2, solid_capstyle="butt", zorder=3)
+    look: dict[str, Any] = {"color": colour, "markeredgewidth": 0.0, "zorder": 4, "clip_on": False}
+    for end, outside, arrow in ((first, min(value, low or value) < first, "<"),
+                                (last, max(value, high or value) > last, ">")):  # fmt: skip
+        if outside:
+            axis.plot([end], [row], arrow, markersize=4.0, **look)
+    if first <= value <= last:
+        axis.plot([value], [row], marker, markersize=3.8, **look)
+
+
+def _key(figure: Figure, statements: Sequence[Statement], band: str) -> None:
+    """Put what colours, signs and markers mean on top of a figure, with how many statements have each verdict."""
+    counts = {name: sum(each.worst.judged.verdict == name for each in statements) for name in VERDICTS}
+    handles: list[Any] = [
+        mpl.lines.Line2D([], [], color=colour, marker=marker, markersize=4, linewidth=1.2 if marker else 0.0,
+                         label=f"{sign} {verdict} ({counts[verdict]})")
+        for verdict, (colour, marker, sign) in LOOKS.items()
+    ]  # fmt: skip
+    handles.append(mpl.patches.Patch(color="0.88", label=band))
+    figure.legend(handles=handles, loc="upper center", bbox_to_anchor=(0.5, 1.0), ncols=KEY_COLUMNS, frameon=False,
+                  fontsize=POINTS, borderaxespad=0.3, handlelength=1.4, columnspacing=1.0,
+                  handletextpad=0.4)  # fmt: skip

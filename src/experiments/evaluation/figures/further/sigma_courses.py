@@ -1,0 +1,134 @@
+"""Standard deviations by their own size, and how long an error stays: coverage, error over sigma, autocorrelation."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter, StrMethodFormatter
+
+from experiments.evaluation.figures.style import Look, entitle, legend, looks, save_figure
+from experiments.evaluation.measure.estimates.sigma import COVER, MEMORY, STD
+from experiments.evaluation.number.files import Field
+from experiments.evaluation.number.lookup import Lookup
+from experiments.evaluation.number.number import Number
+from experiments.settings.measures import Sigma
+from experiments.settings.runs import LimbRuns
+from mobnet.core.columns import SIGMA
+from mobnet.core.style import PAGE_INCH, styled
+
+COVERAGE, ERROR, CORRELATION = "coverage", "error over sigma", "autocorrelation"
+LABELS = {
+    ERROR: ("mean predicted sigma [N m]", "RMSE [N m]"),
+    COVERAGE: ("part of the samples by size of sigma", "covered share [-]"),
+    CORRELATION: ("lag [ms]", "autocorrelation [-]"),
+}
+SIZE_INCH, WIDTHS = (PAGE_INCH, 3.6), (1.45, 1.0)  # of the figure; share of the large panel and of the two others
+NAME: dict[str, Any] = {
+    "textcoords": "offset points",
+    "ha": "right",
+    "va": "center",
+    "fontsize": 7,
+}  # of a thin grey line
+DIAGONAL = "error = sigma"
+GUIDE = {"color": "0.7", "linewidth": 0.6, "linestyle": "-", "zorder": 0}  # where sigma would be true
+
+
+@dataclass(frozen=True)
+class SigmaLine:
+    """A line of a panel: numbers (n,) of a limb of a method in a test, over x (n,) [units of LABELS]."""
+
+    panel: str
+    test: str
+    method: str
+    limb: str
+    x: Sequence[float]
+    numbers: Sequence[Number]
+
+    @property
+    def label(self) -> str:
+        """Name in the legend."""
+        return f"{self.method}, {self.limb}"
+
+    def rows(self) -> Iterator[tuple[Field, ...]]:
+        """Yield the rows of sigma.csv."""
+        for x, number in zip(self.x, self.numbers, strict=True):
+            yield self.panel, self.test, self.method, self.limb, float(x), *number.with_ends, *number.spread
+
+
+def sigma_figure(settings: Sigma, lookup: Lookup, share: float, figure_dir: Path) -> None:
+    """Write coverage of a nominal share [-], error [N m] and autocorrelation [-] of tests like the training data."""
+    known = {title: test for title, test in settings.tests.items() if title not in settings.against}
+    courses = [
+        course
+        for title, test in known.items() for method in test.methods for limb in test.limbs
+        for course in courses_of(settings, lookup, (title, test), method, limb)
+    ]  # fmt: skip
+    save_figure(
+        draw_sigma(courses, share), figure_dir / "sigma", SIGMA, [row for course in courses for row in course.rows()]
+    )
+
+
+def courses_of(
+    settings: Sigma, lookup: Lookup, titled: tuple[str, LimbRuns], method: str, limb: str
+) -> Iterator[SigmaLine]:  # fmt: skip
+    """Yield the lines of a limb of a method in a test, those whose numbers are all there."""
+    title, test = titled
+
+    def numbers(pattern: str, keys: Sequence[int]) -> list[Number]:
+        return [lookup.average(test, method, limb, pattern.format(key)) for key in keys]
+
+    parts = list(range(1, settings.parts + 1))
+    sizes = numbers(STD + "_part_{}", parts)
+    found = {
+        COVERAGE: (parts, numbers(COVER + "_part_{}", parts)),
+        ERROR: ([number.value or 0.0 for number in sizes], numbers("rmse_part_{}", parts)),
+        CORRELATION: (settings.lags_ms, numbers(MEMORY, settings.lags_ms)),
+    }
+    for panel, (x, own) in found.items():
+        if all(number.value is not None for number in (*sizes, *own)):
+            yield SigmaLine(panel, title, method, limb, x, own)
+
+
+@styled
+def draw_sigma(courses: Sequence[SigmaLine], share: float) -> Figure:
+    """Draw a large panel and two small ones beside it; thin grey lines show where a sigma that is true would be."""
+    styles = looks(course.label for course in courses)
+    figure = Figure(figsize=SIZE_INCH, layout="constrained")
+    axes = figure.subplot_mosaic([[ERROR, COVERAGE], [ERROR, CORRELATION]], width_ratios=WIDTHS)
+    axes = {panel: axes[panel] for panel in LABELS}
+    for k, (panel, axis) in enumerate(axes.items()):
+        for course in courses:
+            if course.panel == panel:
+                _draw(axis, course, styles[course.label])
+        axis.set(xlabel=LABELS[panel][0], ylabel=LABELS[panel][1])
+        entitle(axis, k, panel)
+    axes[COVERAGE].axhline(share, **GUIDE)
+    axes[COVERAGE].set_ylim(0.0, 1.0)
+    for part in sorted({x for course in courses if course.panel == COVERAGE for x in course.x})[-1:]:
+        axes[COVERAGE].annotate(f"nominal share: {share:.0%}", (part, share), (0.0, -14.0), **NAME)
+    sizes = sorted(x for course in courses if course.panel == ERROR for x in course.x)
+    axes[ERROR].plot(sizes, sizes, **GUIDE)
+    for x in sizes[-1:]:
+        axes[ERROR].annotate(DIAGONAL, (x, x), (-4.0, 0.0), **NAME)
+    axes[ERROR].set(xscale="log", yscale="log")
+    axes[CORRELATION].set_xscale("log")
+    axes[COVERAGE].xaxis.set_major_locator(MaxNLocator(integer=True))
+    scales = {axes[ERROR].xaxis: (1, 2, 5), axes[ERROR].yaxis: (1, 2, 5), axes[CORRELATION].xaxis: (1,)}
+    for scale, steps in scales.items():
+        scale.set_major_locator(LogLocator(subs=steps))
+        scale.set_major_formatter(StrMethodFormatter("{x:g}"))
+        scale.set_minor_formatter(NullFormatter())
+    axes[CORRELATION].axhline(0.0, **GUIDE)
+    legend(figure, list(axes.values()))
+    return figure
+
+
+def _draw(axis: Axes, course: SigmaLine, look: Look) -> None:
+    """Draw a line and the band of its intervals."""
+    mean, low, high = np.array([number.range for number in course.numbers], dtype=np.float64).T
+    axis.plot(course.x, mean, label=course.label, marker=look.marker, markersize=2.5, **look.line)
+    axis.fill_between(course.x, low, high, color=look.colour, alpha=0.18, linewidth=0.0)

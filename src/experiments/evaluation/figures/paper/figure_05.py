@@ -1,0 +1,48 @@
+"""Figure 5: one gait cycle of one joint at each uncertainty level: torque and errors by method, RMSE of all walks."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+from itertools import groupby
+from pathlib import Path
+
+from experiments.evaluation.compare.curves import Panel, read_cycle
+from experiments.evaluation.compare.errors import compared, without_zero
+from experiments.evaluation.figures.drawing.compared import bars_of, draw_stack, save_compared
+from experiments.evaluation.figures.drawing.named_bars import NamedBar
+from experiments.evaluation.measure.estimates.joint_errors import error_rows, joint_errors
+from experiments.evaluation.measure.estimates.run_errors import ERROR
+from experiments.evaluation.number.files import Field
+from experiments.evaluation.number.lookup import read_lookup
+from experiments.plan.runs import Run
+from experiments.settings.figures import Figure05
+from experiments.settings.published import PublishedTable
+from experiments.settings.runs import Runs, Statistics
+from mobnet.core.joints import JointLayout
+
+
+def figure_05(
+    settings: Figure05, start_s: float, layout: JointLayout, statistics: Statistics, published: PublishedTable,
+    runs: Sequence[Run], scores: Sequence[Path], figure_dir: Path,
+) -> None:  # fmt: skip
+    """Write Figure 5 as PDF, SVG, PNG and CSV: torque of one joint and errors over a gait cycle [N m] at each level.
+
+    Its bars are errors over all walks.
+    """
+    joint, lookup = settings.joint, read_lookup(scores, statistics)
+    pairs, bars, rows = [], list[NamedBar](), list[tuple[Field, ...]]()
+    for level, own in groupby(runs, lambda run: run.level):
+        pair = compared(read_panel(layout, without_zero(own), joint, start_s))
+        test = Runs(scenario=settings.scenario, level=level, methods=settings.panels[level])
+        errors = joint_errors(lookup, layout, test, [joint], ERROR, published, level)
+        short = f", {level.replace('_', ' ')}" if len(test.methods) == 1 else ""
+        pairs.append(pair)
+        bars += [replace(bar, name=bar.name + short) for bar in bars_of(errors[joint], pair.rmse)]
+        rows += error_rows(test, ERROR, errors, {joint: pair.rmse})
+    figure = draw_stack(pairs, bars, settings.errors_of, "RMSE over all walks", joint)
+    save_compared(figure, figure_dir / "figure_05", [pair.torque for pair in pairs], rows)
+
+
+def read_panel(layout: JointLayout, runs: Sequence[Run], joint: str, start_s: float) -> Panel:
+    """Return truth and estimates of the runs of a level [N m]: the first whole gait cycle after the start [s]."""
+    curves, rows = read_cycle(layout, runs, [joint], start_s)
+    return curves.panel(runs[0].level.replace("_", " "), joint, rows, zero=rows.start)

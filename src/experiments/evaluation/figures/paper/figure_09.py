@@ -1,0 +1,41 @@
+"""Figure 9: external torque of the joints of a leg over one gait cycle, by method, and errors."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from experiments.evaluation.compare.curves import read_cycle
+from experiments.evaluation.compare.errors import compared, without_zero
+from experiments.evaluation.figures.drawing.compared import bars_of, draw_columns, save_compared
+from experiments.evaluation.figures.drawing.curves import FROM_LIFT_OFF
+from experiments.evaluation.figures.drawing.named_bars import PAPER_LABEL
+from experiments.evaluation.measure.estimates.joint_errors import error_rows, joint_errors
+from experiments.evaluation.number.lookup import read_lookup
+from experiments.plan.runs import Run
+from experiments.settings.figures import Figure09
+from experiments.settings.published import PublishedTable
+from experiments.settings.runs import Statistics
+from mobnet.core.joints import JointLayout
+
+
+def figure_09(
+    settings: Figure09, start_s: float, layout: JointLayout, statistics: Statistics, published: PublishedTable,
+    runs: Sequence[Run], scores: Sequence[Path], figure_dir: Path,
+) -> None:  # fmt: skip
+    """Write Figure 9, external torque of a leg over one gait cycle [N m] by method, from runs of one recording.
+
+    Some joints are drawn, the CSV has all; the bars are errors over all walks and robots.
+    """
+    curves, rows = read_cycle(layout, without_zero(runs), layout.limb(settings.limb), start_s)
+    pairs = {joint: compared(curves.panel(joint, joint, rows, zero=rows.start)) for joint in curves.joints}
+    lookup, drawn = read_lookup(scores, statistics), {joint: pair.rmse for joint, pair in pairs.items()}
+    errors = joint_errors(lookup, layout, settings, curves.joints, settings.metric, published, settings.place)
+    figure = draw_columns(
+        [pairs[joint] for joint in settings.drawn],
+        [bars_of(errors[joint], drawn[joint]) for joint in settings.drawn],
+        [layout.unit(joint) for joint in settings.drawn],
+        settings.errors_of,
+        FROM_LIFT_OFF,
+        PAPER_LABEL[published.robot],
+    )
+    written = error_rows(settings, settings.metric, errors, drawn)
+    save_compared(figure, figure_dir / "figure_09", [pair.torque for pair in pairs.values()], written)

@@ -1,0 +1,81 @@
+"""Figure 13: three collisions of a leg as pictures, with the force as an arrow."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+from matplotlib.axes import Axes
+
+from experiments.evaluation.figures.drawing.robot import draw_robot, lowest, place_of, projection
+from experiments.evaluation.figures.style import beside, entitle, save_figure
+from experiments.evaluation.measure.detection.results import Detections, rows_of
+from experiments.settings.detection_tables import Figure13
+from mobnet.core.columns import PUSH, named
+from mobnet.core.detections import Collision
+from mobnet.core.errors import DataError, not_accepted
+from mobnet.core.recording import read_sensed
+from mobnet.core.store import read_array
+from mobnet.core.style import styled
+from mobnet.robot.description import RobotDescription, describe
+from mobnet.robot.looks import dressed
+from mobnet.settings.detection import Detection
+from mobnet.settings.parts import Looks
+from mobnet.settings.robot import RobotTable
+
+COLUMNS = (
+    "panel", "seed", "number", "time_s", "force_n", *(f"point_{a}_m" for a in "xyz"), *(f"force_{a}_n" for a in "xyz")
+)  # fmt: skip
+HEIGHT_INCH = 3.4
+VIEW = 40.0, 10.0  # azimuth and elevation of the eye [deg], from ahead and the robot's left
+ARROW_M_N = 0.0035  # length of an arrow for each newton
+ROOM_M = (-0.7, 0.7, -0.12, 1.75)  # of a panel: right of the robot's base, and above the ground
+
+
+@styled
+def figure_13(
+    settings: Figure13, detection: Detection, robot: RobotTable, looks: Looks | None, detections: Detections,
+    recordings: Sequence[Path], figure_dir: Path,
+) -> None:  # fmt: skip
+    """Write Figure 13 as PDF, SVG, PNG and CSV: the first collision of each cell, when its force is largest."""
+    description, rows = dressed(describe(robot), looks), []
+    found = rows_of(detections, [settings.level], "collisions", Collision)
+    figure, axes = beside(len(settings.cells), HEIGHT_INCH)
+    for k, (axis, cell) in enumerate(zip(axes, settings.cells, strict=True)):
+        hit = first_of(found, detection.collisions, settings.leg, cell)
+        rows.append((cell, hit.seed, hit.number, *_draw(axis, description, hit, recordings)))
+        entitle(axis, k, f"{cell}, {hit.force_n:.0f} N")
+    save_figure(figure, figure_dir / "figure_13", COLUMNS, rows)
+
+
+def first_of(collisions: Sequence[Collision], scenario: str, leg: str, cell: str) -> Collision:
+    """Return the first collision of a cell, `<link> <direction>`; a DataError says that there is none."""
+    own = [row for row in collisions if (row.scenario, row.leg) == (scenario, leg)]
+    for row in own:
+        if f"{row.link} {row.direction}" == cell:
+            return row
+    cells = {f"{row.link} {row.direction}" for row in own}
+    raise DataError(not_accepted(f"collision of {leg} in {scenario}", cell, sorted(cells)))
+
+
+def _draw(axis: Axes, robot: RobotDescription, hit: Collision, recordings: Sequence[Path]) -> tuple[float, ...]:
+    """Draw a collision; return when [s] and how hard [N] it is shown, where it acts [m] and its force [N]."""
+    stem = next(path for path in recordings if path.name == f"s{hit.seed}")
+    forces, meta = read_array(stem, named(PUSH, ("force_x", "force_y", "force_z")))
+    rate = float(meta["rate_hz"])
+    rows = slice(round(hit.start_s * rate), round(hit.end_s * rate))
+    row = rows.start + int(np.argmax(np.linalg.norm(forces[rows], axis=1)))
+    q, force = read_sensed(stem, robot.layout).sensed.q[row].astype(np.float64), forces[row].astype(np.float64)
+    q[:3] = 0.0
+    q[2] = -lowest(robot, q)  # the sensed height drifts, and the supporting foot stands on the ground
+    side = next(side for side, limb in robot.layout.legs.items() if limb == hit.leg)
+    point = place_of(robot, q, f"{side}_{hit.link}_{hit.direction}")
+    heading = np.rad2deg(np.arctan2(2 * (q[3] * q[6] + q[4] * q[5]), 1 - 2 * (q[5] ** 2 + q[6] ** 2)))
+    view = projection(heading + VIEW[0], VIEW[1])
+    draw_robot(axis, robot, q, view)
+    (x, y, _), (from_x, from_y, _) = ((view @ place).tolist() for place in (point, point - ARROW_M_N * force))
+    arrow = {"arrowstyle": "-|>", "color": "#D55E00", "linewidth": 1.6}
+    axis.annotate("", (x, y), (from_x, from_y), zorder=5, arrowprops=arrow)
+    ground = (view @ np.zeros(3))[1]
+    axis.axhline(ground, color="0.6", linewidth=0.6, zorder=0)
+    axis.set(xlim=ROOM_M[:2], ylim=(ground + ROOM_M[2], ground + ROOM_M[3]))
+    return (row / rate, float(np.linalg.norm(force)), *point.tolist(), *force.tolist())

@@ -1,0 +1,65 @@
+"""Figure 14: how hard, with what impulse and how long the collisions of a leg are."""
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from experiments.evaluation.figures.style import Look, beside, entitle, legend, looks, save_figure
+from experiments.evaluation.measure.detection.results import MS, Detections, owners, rows_of
+from experiments.evaluation.number.files import Field
+from experiments.settings.detection_tables import Figure14
+from mobnet.core.detections import Collision
+from mobnet.core.style import styled
+from mobnet.settings.detection import Detection
+
+COLUMNS = ("level", "quantity", "bin_from", "bin_to", "count", "mean", "least", "most", "unit", "published")
+LABELS = {"largest force": "N", "impulse": "N s", "contact time": "ms"}
+PUBLISHED = {"largest force": None, "impulse": 7.0, "contact time": 78.0}  # means, section 5.3
+HEIGHT_INCH = 2.1
+GREY = Look("0.35")
+
+
+def figure_14(settings: Figure14, detection: Detection, detections: Detections, figure_dir: Path) -> None:
+    """Write Figure 14 as PDF, SVG, PNG and CSV: histograms of the collisions, those of a level's robots together."""
+    found, own_leg = {}, {"scenario": detection.collisions, "leg": settings.leg}
+    for level in settings.levels:
+        names = owners(detections, level, settings.levels)
+        found[level.replace("_", " ")] = quantities(rows_of(detections, names, "collisions", Collision, **own_leg))
+    edges = {name: np.histogram_bin_edges(np.concatenate([own[name] for own in found.values()]), settings.bins)
+             for name in LABELS}  # fmt: skip
+    rows: list[Sequence[Field]] = []
+    for level, own in found.items():
+        for name, unit in LABELS.items():
+            counts, values = np.histogram(own[name], edges[name])[0], own[name]
+            ends = float(values.mean()), float(values.min()), float(values.max())
+            rows += [(level, name, float(low), float(high), int(count), *ends, unit, PUBLISHED[name])
+                     for low, high, count in zip(edges[name], edges[name][1:], counts, strict=False)]  # fmt: skip
+    save_figure(draw_histograms(found, edges), figure_dir / "figure_14", COLUMNS, rows)
+
+
+def quantities(collisions: Sequence[Collision]) -> dict[str, np.ndarray]:
+    """Return the largest force [N], the impulse [N s] and the contact time [ms] of collisions (n,)."""
+    return {
+        "largest force": np.array([row.force_n for row in collisions]),
+        "impulse": np.array([row.impulse_ns for row in collisions]),
+        "contact time": np.array([MS * (row.end_s - row.start_s) for row in collisions]),
+    }
+
+
+@styled
+def draw_histograms(found: Mapping[str, Mapping[str, np.ndarray]], edges: Mapping[str, np.ndarray]) -> Figure:
+    """Draw a panel for each quantity; a dashed line is the paper's mean."""
+    styles = dict(zip(found, (GREY, *looks(found).values()), strict=False))  # colours are those of methods
+    figure, axes = beside(len(LABELS), HEIGHT_INCH)
+    for k, (axis, (name, unit)) in enumerate(zip(axes, LABELS.items(), strict=True)):
+        for level, own in found.items():
+            axis.hist(own[name], edges[name].tolist(), histtype="stepfilled", alpha=0.35, color=styles[level].colour)
+            axis.hist(own[name], edges[name].tolist(), histtype="step", label=level, **styles[level].line)
+        if (mean := PUBLISHED[name]) is not None:
+            axis.axvline(mean, label="mean of the paper", color="black", linestyle="--", linewidth=0.8)
+        axis.set(xlabel=f"{name} [{unit}]", ylabel="collisions")
+        entitle(axis, k, name)
+    legend(figure, axes)
+    return figure

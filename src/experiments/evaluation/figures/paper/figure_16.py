@@ -1,0 +1,151 @@
+"""Figure 16: force and impulse of a fixed obstacle on a foot and on a knee, with the reaction; falls if it is late."""
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from experiments.evaluation.figures.style import LOOKS, beside, entitle, legend, save_figure
+from experiments.evaluation.measure.detection.results import MS
+from experiments.evaluation.measure.reaction.results import (
+    FALLS,
+    IMPULSE,
+    PEAK,
+    outcome_of,
+    printed_of,
+    read_trials,
+    trials_of,
+)
+from experiments.evaluation.number.files import Field
+from experiments.evaluation.number.number import Number
+from experiments.plan.reactions import Reactions
+from experiments.settings.published import PublishedContacts
+from experiments.settings.reaction_tables import Figure16
+from experiments.settings.runs import Statistics
+from mobnet.core.arrays import Array
+from mobnet.core.reactions import Trial
+from mobnet.core.store import read_array
+from mobnet.core.style import styled
+from mobnet.settings.reaction import Reaction, watches_of
+
+COLUMNS = ("case", "quantity", "time_s", "value", "low", "high", "unit", "published")
+LABELS = {PEAK: "largest force [N]", IMPULSE: "impulse [N s]"}
+HEIGHT_INCH = 2.1
+MARKERS, COLOURS = "os^v", ("black", "0.55")  # of cases
+OURS, REACTION = "0.6", LOOKS["MOB-Net"].colour  # the reaction is that of a method with MOB-Net
+APART_MS = 4.0  # so that intervals of two cases do not cover each other
+
+
+def figure_16(
+    settings: Figure16, reaction: Reaction, statistics: Statistics, published: PublishedContacts,
+    reactions: Reactions, courses: Mapping[str, Path], figure_dir: Path,
+) -> None:  # fmt: skip
+    """Write Figure 16 as PDF, SVG, PNG and CSV.
+
+    It has the force over time in one walk of each case, means over all walks, and the share of walks with a fall by how
+    long the reaction waits.
+    """
+    trials, rows = read_trials(reactions, settings.cases), list[Sequence[Field]]()
+    forces, numbers = dict[str, tuple[Array, Array, Mapping[str, float | None]]](), dict[str, dict[str, Number]]()
+    for case in settings.cases:
+        outcome = outcome_of(trials_of(trials, case, reaction.ours), settings, statistics)
+        numbers[case] = {name: outcome.numbers[name] for name in LABELS}
+        forces[case] = force_of(courses[case], settings)
+        rows += [
+            (case, "force", float(t), float(f), None, None, "N", None) for t, f in zip(*forces[case][:2], strict=True)
+        ]
+        for name, number in numbers[case].items():
+            rows.append((case, name, None, *number.with_ends, number.unit, printed_of(published, case, name)))
+    late = {case: late_falls(trials, case, reaction, settings, statistics) for case in settings.cases}
+    rows += [
+        (case, "falls", wait_s, *number.with_ends, number.unit, None)
+        for case, own in late.items()
+        for wait_s, number in own.items()
+    ]
+    save_figure(draw(forces, numbers, late, published), figure_dir / "figure_16", COLUMNS, rows)
+
+
+def late_falls(
+    trials: Sequence[Trial], case: str, reaction: Reaction, settings: Figure16, statistics: Statistics
+) -> dict[float, Number]:
+    """Return how long our reaction waits [s] -> the share of walks of a case with a fall."""
+    found = dict[float, Number]()
+    for watch in sorted(watches_of(reaction, case), key=lambda watch: watch.wait_s):
+        own = trials_of(trials, case, watch)
+        if own and (watch.detector, watch.rule) == (reaction.ours.detector, reaction.ours.rule):
+            found[watch.wait_s] = outcome_of(own, settings, statistics).numbers[FALLS]
+    return found
+
+
+def force_of(stem: Path, settings: Figure16) -> tuple[Array, Array, Mapping[str, float | None]]:
+    """Return times from the first contact on [s], the obstacle's force [N], and the note of a course.
+
+    Where nothing was touched, the time is that from the beginning.
+    """
+    force, note = read_array(stem, [f"obstacle.force_{axis}" for axis in "xyz"])
+    size, rate_hz = np.linalg.norm(force, axis=1), note["rate_hz"]
+    first = round((note["contact_s"] or 0.0) * rate_hz)
+    start, end = (max(0, first + round(edge * rate_hz)) for edge in settings.shown_s)
+    times = (np.arange(len(size)) - first)[start : end : settings.every] / rate_hz
+    reacted = note["reacted_s"]
+    return (
+        times,
+        size[start : end : settings.every],
+        {"reacted": None if reacted is None else reacted - first / rate_hz},
+    )
+
+
+@styled
+def draw(
+    forces: Mapping[str, tuple[Array, Array, Mapping[str, float | None]]],
+    numbers: Mapping[str, Mapping[str, Number]], late: Mapping[str, Mapping[float, Number]],
+    published: PublishedContacts,
+) -> Figure:  # fmt: skip
+    """Draw each case's force over time, means of each quantity beside the paper's, and falls of late reactions."""
+    figure, axes = beside(len(forces) + len(LABELS) + 1, HEIGHT_INCH)
+    for k, (axis, (case, (times, force, marks))) in enumerate(zip(axes, forces.items(), strict=False)):
+        axis.plot(times, force, color="black", linewidth=0.8)
+        if len(times) and (reacted := marks["reacted"]) is not None and reacted <= times[-1]:
+            axis.axvline(reacted, color=REACTION, linestyle="--", linewidth=0.9, label="reaction")
+        axis.set(xlabel="time from contact [s]", ylabel="force [N]")
+        entitle(axis, k, case)
+    for k, (axis, (name, label)) in enumerate(
+        zip(axes[len(forces) : -1], LABELS.items(), strict=True), start=len(forces)
+    ):
+        draw_means(axis, {case: own[name] for case, own in numbers.items()}, published, name)
+        axis.set(ylabel=label)
+        entitle(axis, k, label.partition(" [")[0])
+    draw_late(axes[-1], late)
+    entitle(axes[-1], len(axes) - 1, "falls")
+    legend(figure, axes)
+    return figure
+
+
+def draw_late(axis: Axes, late: Mapping[str, Mapping[float, Number]]) -> None:
+    """Draw the share of falls of each case over the time that a reaction waits [ms], with intervals."""
+    for k, (case, own) in enumerate(late.items()):
+        value, low, high = np.array([number.range for number in own.values()], dtype=np.float64).T
+        waits = MS * np.array(list(own)) + k * APART_MS
+        look = {
+            "marker": MARKERS[k % len(MARKERS)],
+            "color": COLOURS[k % len(COLOURS)],
+            "markersize": 3,
+            "linewidth": 0.8,
+        }
+        axis.errorbar(waits, value, [value - low, high - value], label=case, capsize=2.0, **look)
+    axis.set(xlabel="delay [ms]", ylabel="share of walks", ylim=(-0.05, 1.05))
+
+
+def draw_means(axis: Axes, numbers: Mapping[str, Number], published: PublishedContacts, name: str) -> None:
+    """Draw the mean of each case with its interval, and the paper's as a dot."""
+    places = np.arange(len(numbers))
+    value, low, high = np.array(
+        [[np.nan if end is None else end for end in number.range] for number in numbers.values()]
+    ).T
+    axis.bar(places, value, 0.6, color=OURS, edgecolor="black", linewidth=0.4, label="ours",
+             yerr=[value - low, high - value], error_kw={"linewidth": 0.8, "capsize": 2.0})  # fmt: skip
+    printed = [printed_of(published, case, name) for case in numbers]
+    axis.plot(places, [np.nan if one is None else one for one in printed], "kD", markersize=3, label="paper")
+    axis.set_xticks(places, list(numbers))

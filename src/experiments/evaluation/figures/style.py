@@ -1,0 +1,179 @@
+"""What all figures share: the look of each method, sizes, the legend, and a saver whose files never change."""
+
+import hashlib
+import logging
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from math import ceil
+from pathlib import Path
+from typing import Any
+
+import matplotlib as mpl
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from experiments.evaluation.number.files import Field, write_csv
+from mobnet.core.files import atomic_path
+from mobnet.core.style import COLUMN_INCH, PAGE_INCH, STYLE
+
+log = logging.getLogger(__name__)
+
+LETTERS = "abcdefghijkl"
+CLIP = re.compile(r"(?:(?<=id=\")|(?<=url\(#))p[0-9a-f]{10}\b")  # name of an area that a drawing is cut to
+PATHS, DIGITS = re.compile(r' d="[^"]*"'), re.compile(r"(\.\d\d)\d+")
+UNDATED: Mapping[str, dict[str, Any]] = {  # ending of a picture -> what would make equal pictures differ
+    ".pdf": {"CreationDate": None, "Producer": None},
+    ".svg": {"Date": None, "Creator": None},
+    ".png": {"Software": None},
+}
+
+
+@dataclass(frozen=True)
+class Look:
+    """How a method is drawn, such that methods differ for colour-blind readers and in print without colour.
+
+    Attributes:
+        colour: of lines, bars and dots; Okabe and Ito's palette, and grey.
+        dash: of lines, in Matplotlib's terms.
+        hatch: of bars.
+        marker: of places on a line.
+        width: of lines [points]; None for the usual one.
+        order: Matplotlib's zorder; higher ones are drawn on top.
+    """
+
+    colour: str
+    dash: Any = "-"
+    hatch: str = ""
+    marker: str = "o"
+    width: float | None = None
+    order: float = 2.0
+
+    @property
+    def line(self) -> dict[str, Any]:
+        """How Matplotlib calls the look of a line."""
+        width = {} if self.width is None else {"linewidth": self.width}
+        return {"color": self.colour, "linestyle": self.dash, "zorder": self.order, **width}
+
+
+PALETTE = (
+    Look("#D55E00", "-", "////", "D"),
+    Look("#0072B2", (0, (2, 1)), "", "o"),
+    Look("#009E73", (0, (5, 1.5)), "xxxx", "^"),
+    Look("#CC79A7", (0, (6, 1, 1.5, 1)), "++++", "P"),
+    Look("#E69F00", (0, (3, 1, 1, 1, 1, 1)), "\\\\\\\\", "v"),
+    Look("#56B4E9", (0, (8, 2)), "....", "s"),
+    Look("black", (0, (1, 1)), "----", "X"),
+    Look("0.45", (0, (4, 1, 1, 1)), "||||", "p"),
+    Look("#F0E442", (0, (3, 2)), "oooo", "*"),
+)
+KINDS = ("GRU", "LSTM", "RNN", "TCN", "MLP", "MLP-500")  # of networks; never in a figure with the methods below
+# The fitted friction model that is shown beside networks: one of the two in a figure, the better one on its plant.
+FORMULA = Look("#8A6100", "-", "\\\\", "h", 0.7, 2.2)
+# Solid are our networks, the formula and the truth; dashes, and lighter or thinner lines, are for other baselines.
+LOOKS: Mapping[str, Look] = {
+    **dict(zip(KINDS, PALETTE, strict=False)),
+    "MOB-Net": Look("#D55E00", "-", "////", "D", 1.2, 2.6),
+    "MOB-Net-Single": Look("#009E73", "-", "xxxx", "^", 1.1, 2.4),
+    "MOB-Net-Single-2X": Look("#F0E442", (0, (3, 2)), "oooo", "*"),
+    "MOB-Net-gray": Look("#009E73", (0, (5, 1.5)), "xxxx", "^", 1.1, 2.4),
+    "FTS-e2e": Look("#CC79A7", (0, (6, 1, 1.5, 1)), "++++", "P", 1.1, 2.7),
+    "MOB": Look("#0072B2", (0, (4, 1)), "", "o", 0.6, 2.0),
+    "MOB-fric": Look("#7CC7F0", (0, (8, 1.5)), "....", "s", 1.2, 1.9),
+    "MOB-fric-BPF": Look("#E69F00", (0, (3, 1, 1, 1, 1, 1)), "||||", "v"),
+    "MOB-fric-load": FORMULA,
+    "MOB-fric-dahl": FORMULA,
+    "MOB-Kalman": Look("0.45", (0, (4, 1, 1, 1)), "----", "p"),
+    "zero": Look("0.8", (0, (1, 1)), "*", "X"),
+    "truth": Look("black", "-", width=0.8, order=3.0),  # on top of all
+    "target": Look("0.6", "-", width=2.2, order=1.0),
+}
+
+
+def looks(labels: Iterable[str]) -> dict[str, Look]:
+    """Return the look of everything in a figure: a method's own, or the next of those that no method in it has."""
+    names = list(dict.fromkeys(labels))
+    taken = {LOOKS[name].colour for name in names if name in LOOKS}
+    free = [look for look in PALETTE if look.colour not in taken]
+    others = [name for name in names if name not in LOOKS]
+    return {name: LOOKS[name] if name in LOOKS else free[others.index(name) % len(free)] for name in names}
+
+
+def stacked(units: Sequence[str], panel_inch: float, legend_inch: float, columns: int = 1) -> tuple[Figure, list[Axes]]:
+    """Return a figure of one column's width with panels below one another, those of a unit on one scale; in [inch].
+
+    With several `columns` of panels it has the width of the page.
+    """
+    rows, width = ceil(len(units) / columns), COLUMN_INCH if columns == 1 else PAGE_INCH
+    figure = Figure(figsize=(width, panel_inch * rows + legend_inch), layout="constrained")
+    axes: list[Axes] = figure.subplots(rows, columns, squeeze=False).ravel().tolist()
+    for axis, unit in zip(axes, units, strict=True):
+        if axis is not (first := axes[units.index(unit)]):
+            axis.sharey(first)
+    return figure, axes
+
+
+def beside(count: int, height_inch: float, **shared: Any) -> tuple[Figure, list[Axes]]:
+    """Return a figure of two columns' width with panels side by side, so high [inch]; what they share is `shared`."""
+    figure = Figure(figsize=(PAGE_INCH, height_inch), layout="constrained")
+    return figure, figure.subplots(1, count, squeeze=False, **shared)[0].tolist()
+
+
+def entitle(axis: Axes, k: int, title: str) -> None:
+    """Put the k-th letter and a title above a panel."""
+    axis.set_title(f"({LETTERS[k]}) {title}", loc="left", pad=3)
+
+
+def legend(figure: Figure, axes: Sequence[Axes], columns: int | None = None, last: str = "", **look: float) -> None:
+    """Put one legend of everything drawn above the panels, each label as it is drawn first and `last` at the end.
+
+    A row has so many columns at most, or all entries, and fewer where it would be wider than the figure; `look` has
+    other lengths of Matplotlib's legend [font size].
+    """
+    found: dict[str, Any] = {}
+    for axis in axes:
+        for handle, label in zip(*axis.get_legend_handles_labels(), strict=True):
+            found.setdefault(label, handle)
+    if last in found:
+        found[last] = found.pop(last)
+    look = {"handlelength": 1.8, "columnspacing": 0.9, "handletextpad": 0.4, "borderpad": 0.0, **look}
+    most = max(1, min(columns or len(found), len(found)))
+    fewer = (ceil(len(found) / rows) for rows in range(ceil(len(found) / most) + 1, len(found) + 1))
+    for n in (most, *fewer):  # the width is known once it is laid out
+        key = figure.legend(found.values(), found.keys(), loc="outside upper center", ncols=n, frameon=False, **look)
+        if n == 1 or key.get_window_extent().width <= figure.bbox.width:
+            return
+        key.remove()
+
+
+def save_figure(figure: Figure, stem: Path, columns: Sequence[str], rows: Iterable[Sequence[Field]]) -> None:
+    """Write the plotted numbers as `stem.csv`, and `stem.pdf` (fonts embedded), `.svg` and `.png` without dates.
+
+    So equal numbers give equal files.
+    """
+    write_csv(stem.with_suffix(".csv"), columns, rows)
+    with mpl.rc_context(STYLE):
+        for suffix, metadata in UNDATED.items():
+            with atomic_path(stem.with_suffix(suffix)) as temporary:
+                figure.savefig(temporary, format=suffix[1:], metadata=metadata)
+                if suffix == ".svg":
+                    svg = temporary.read_text(encoding="utf-8")
+                    temporary.write_text(with_stable_names(shortened(svg)), encoding="utf-8")
+    log.info("%s.pdf: %d panels", stem, len(figure.axes))
+
+
+def shortened(svg: str) -> str:
+    """Return a drawing whose paths have two digits behind the point, a hundredth of 1/72 inch: half as many bytes."""
+    return PATHS.sub(lambda path: DIGITS.sub(r"\1", path[0]), svg)
+
+
+def with_stable_names(svg: str) -> str:
+    """Return a drawing whose clip paths are named by what is drawn and by their order.
+
+    Matplotlib names them by their corners, of which the last digits differ from process to process. A page may hold
+    several drawings, so that their names differ.
+    """
+    order = {name: k for k, name in enumerate(dict.fromkeys(CLIP.findall(svg)))}
+    numbered = CLIP.sub(lambda found: str(order[found[0]]), svg)
+    digest = hashlib.sha256(numbered.encode()).hexdigest()[:8]
+    return CLIP.sub(lambda found: f"clip-{digest}-{order[found[0]]}", svg)

@@ -1,0 +1,139 @@
+"""All results: the runs behind any number of the scores and of the trainings, and the fields of tables."""
+
+import logging
+from collections import defaultdict
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+from experiments.evaluation.measure.learning.trainings import MEASURES, TrainedNetwork, read_trainings, sound
+from experiments.evaluation.number.averages import column_of, members
+from experiments.evaluation.number.grid import Wanted, rows_of, run_grid
+from experiments.evaluation.number.intervals import RunGrid
+from experiments.evaluation.number.number import Number
+from experiments.evaluation.number.rows import read_scores
+from experiments.settings.claims import Cell
+from mobnet.core.columns import Score
+from mobnet.core.errors import ConfigError, DataError, not_accepted
+from mobnet.core.joints import JointLayout
+from mobnet.core.rows import read_texts
+
+log = logging.getLogger(__name__)
+
+METRIC = "rmse"  # of a cell that names none
+DIVERGED = "diverged"  # metric of all trainings, 1 of those that diverged; all others are of those that did not
+ENDS = {"before": ("before_low", "before_high")}  # column of a table -> those of its interval, where they are not `low`
+ALL = "all"  # joints together, in a table
+WITH_ENDS = ("value", "ratio", "after", *ENDS)  # columns that have an interval
+
+
+@dataclass(frozen=True)
+class Evidence:
+    """Scores by what they are of, metrics scored by scenario, level and method, trainings by method, rows of tables."""
+
+    layout: JointLayout
+    scores: Mapping[Wanted, Sequence[Score]]
+    metrics: Mapping[tuple[str, ...], set[str]]
+    trainings: Mapping[str, Sequence[TrainedNetwork]]
+    tables: Mapping[str, Sequence[Mapping[str, str]]] = field(default_factory=dict)
+
+    def grids(self, cell: Cell) -> list[RunGrid] | None:
+        """Return the runs of numbers whose mean is meant [unit of the metric]; a training is a network on one walk.
+
+        The cell names a field of a table; a method and a metric of `MEASURES`; or scenario, level, method, joint and
+        metric of the scores, where several joints, those of a limb and several metrics have a grid each. None is
+        returned where the runs are there, but not what is asked of them: too short a test has no push, and trainings
+        may diverge.
+
+        Raises:
+            ConfigError: joints are unknown or of unlike units, or something is missing.
+            DataError: there is no such run.
+        """
+        metrics = listed(cell.metric or METRIC)
+        if cell.table:
+            return self._fields(cell)
+        if metrics[0] in (*MEASURES, DIVERGED):
+            return self._measured(str(cell.method), metrics[0])
+        scenario, level, method, names = cell.scenario, cell.level, cell.method, cell.joint
+        if scenario is None or level is None or method is None or names is None:
+            raise ConfigError(f"cell {cell}: scenario, level, method and joint are expected")
+        held = self.metrics.get((scenario, level, method))
+        if held is None:
+            raise DataError(f"scores: no run of {method} in {scenario}, {level}")
+        if not held.issuperset(metrics):
+            return None
+        joints = [joint for name in listed(names) for joint in members(self.layout, name)]
+        places = column_of(self.layout, ", ".join(joints), joints, metrics).joints
+        wanted = [Wanted(scenario, limb, level, method, joint, name) for limb, joint in places for name in metrics]
+        return [run_grid(self.scores.get(each, ()), each) for each in wanted]
+
+    def _measured(self, method: str, metric: str) -> list[RunGrid] | None:
+        """Return a measure of the trainings of a method that did not diverge, (networks, 1); None where all did."""
+        if method not in self.trainings:
+            raise DataError(not_accepted("trainings", method, self.trainings))
+        if metric == DIVERGED:
+            return [RunGrid(np.array([[float(training.diverged)] for training in self.trainings[method]]))]
+        good = sound(self.trainings[method])
+        rows = rows_of(method, [training.seed for training in good]) if good else ""
+        return [RunGrid(np.array([[MEASURES[metric][0](training)] for training in good]), rows)] if good else None
+
+    def entry(self, cell: Cell) -> Number:
+        """Return the number in a field of a table [its unit], with its interval; no number where the row has none.
+
+        Raises:
+            DataError: the table or a column is missing.
+        """
+        (row,), column = self._rows(cell), str(cell.column)
+        ends = ENDS.get(column, ("low", "high")) if column in WITH_ENDS else ("", "")
+        value, low, high = (float(text) if (text := row.get(name)) else None for name in (column, *ends))
+        return Number(value, low, high)
+
+    def is_one(self, cell: Cell) -> bool:
+        """Return whether one row of a table has what a cell asks for."""
+        return len(self._rows(cell)) == 1
+
+    def _fields(self, cell: Cell) -> list[RunGrid] | None:
+        """Return the numbers in a column of a table; those of several rows, such as joints, are runs (1, n) [unit]."""
+        held = [float(text) for row in self._rows(cell) if (text := row[str(cell.column)])]
+        if not held:
+            log.warning("%s: no row with %s has a number", cell.table, dict(cell.where))
+        return [RunGrid(np.array([held]))] if held else None
+
+    def _rows(self, cell: Cell) -> list[Mapping[str, str]]:
+        """Return the rows of a table in which columns have the texts that a cell asks for.
+
+        Where it asks for no joint, those of single joints are meant.
+        """
+        rows, asked = self.tables[str(cell.table)], {str(cell.column), *cell.where}
+        held = rows[0].keys() if rows else asked
+        for name in sorted(asked - held):
+            raise DataError(not_accepted(f"column of {cell.table}", name, held))
+        unasked = () if "joint" in cell.where else (ALL,)
+        return [
+            row
+            for row in rows
+            if all(row[key] == text for key, text in cell.where.items()) and row.get("joint") not in unasked
+        ]
+
+
+def read_results(
+    layout: JointLayout, scores: Iterable[Path], folders: Iterable[Path], cells: Sequence[Cell],
+    tables: Mapping[str, Path] | None = None,
+) -> Evidence:  # fmt: skip
+    """Read the results that cells name: of scores, of folders of one limb's trained networks, and of tables."""
+    asked = {(cell.scenario, cell.level, cell.method, name) for cell in cells for name in listed(cell.metric or METRIC)}
+    found: dict[Wanted, list[Score]] = defaultdict(list)
+    metrics: dict[tuple[str, ...], set[str]] = defaultdict(set)
+    for row in (row for path in scores for row in read_scores(path)):
+        metrics[row.scenario, row.level, row.method].add(row.metric)
+        if (row.scenario, row.level, row.method, row.metric) in asked:
+            found[Wanted(row.scenario, row.limb, row.level, row.method, row.joint, row.metric)].append(row)
+    rows = {name: read_texts(path) for name, path in (tables or {}).items()}
+    return Evidence(layout, found, metrics, read_trainings(folders), rows)
+
+
+def listed(names: str | Sequence[str]) -> list[str]:
+    """Return one name or several as a list."""
+    return [names] if isinstance(names, str) else list(names)

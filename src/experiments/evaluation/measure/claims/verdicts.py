@@ -1,0 +1,211 @@
+"""The paper's claims, and ours, against our numbers: verdicts that follow from intervals, and causes that explain.
+
+Two verdicts follow from an interval and the closed ranges of a claim's size and of its sign: within its range a size is
+`inside` and a sign the `same`, apart from it a size is `outside` and a sign `opposite`, and else both are `open`, which
+a number without an interval always is. `verdict_of` joins them to one word.
+"""
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import get_args
+
+from experiments.evaluation.measure.claims.cells import Evidence, listed
+from experiments.evaluation.number.number import Number
+from experiments.evaluation.number.quantities import QUANTITIES, difference_of
+from experiments.settings.claims import Claim, MadeNumber, TrainingMetric
+from experiments.settings.runs import Statistics
+from mobnet.core.claim_ranges import Bounds, Ranges, apart, ranges_of, within
+from mobnet.core.columns import (
+    INSIDE,
+    NETWORKS,
+    NO_NUMBER,
+    NOT_MEASURED,
+    NOT_PRINTED,
+    NOT_REPRODUCED,
+    OBSERVER,
+    OPEN,
+    OPPOSITE,
+    OURS,
+    OUTSIDE,
+    REPRODUCED,
+    SAME,
+    SIGN_AT_LEAST,
+    SIGN_ONLY,
+)
+from mobnet.settings.methods import Method
+
+DETECTOR = re.compile("-(OR|mean|sigma)$")  # what the name of a detector has behind that of its method
+WORST_FIRST = (NOT_REPRODUCED, SIGN_ONLY, NOT_MEASURED, OPEN, SIGN_AT_LEAST, REPRODUCED)
+
+
+@dataclass(frozen=True)
+class Row:
+    """A claim, or one of its joints, before it is judged.
+
+    Attributes:
+        statement: name of the claim that begins its statement; a statement counts once.
+        joint: which joint it is about where the claim is made of each of several, else empty.
+    """
+
+    name: str
+    statement: str
+    claim: Claim
+    joint: str = ""
+
+
+@dataclass(frozen=True)
+class Found:
+    """The numbers of a claim: our own, the one whose sign is claimed, and the one without the claim's cause, if any."""
+
+    ours: Number
+    signed: Number
+    without: Number | None = None
+
+
+@dataclass(frozen=True)
+class Judged:
+    """A claim with our numbers, what they are held against, and what follows.
+
+    Attributes:
+        score: one of `SCORED`: about the observer alone, about networks, without a number of the paper, or ours.
+        found: our numbers; none where the tests are too short to hold what it is about, or all trainings diverged.
+        size: one of `SIZE_VERDICTS`, or empty where no size is claimed.
+        sign: one of `SIGN_VERDICTS`, or empty where no sign is claimed.
+        verdict: both together, one of `VERDICTS`.
+        is_explained: whether the claim fails and would not without its cause.
+    """
+
+    row: Row
+    score: str
+    found: Found
+    ranges: Ranges
+    size: str
+    sign: str
+    verdict: str
+    is_explained: bool
+
+    @property
+    def ours(self) -> Number:
+        """Our number, beside the paper's."""
+        return self.found.ours
+
+    @property
+    def cause(self) -> str:
+        """Why it is not reproduced, as far as a number says; empty where it is, and where none does."""
+        if not self.is_explained or self.row.claim.cause is None or self.found.without is None:
+            return ""
+        cause = self.row.claim.cause
+        unit = "" if self.ours.unit == "-" else f" {self.ours.unit}"
+        without = " ".join(self.found.without.texts()) + unit
+        seen = "after" if cause.seen else "before"
+        return f"{cause.says}: {without} without it (named {cause.since}, {seen} results had been seen)."
+
+
+def rows_of(claims: Mapping[str, Claim]) -> Iterator[Row]:
+    """Yield every claim, followed by those of its joints, which have no bar; a cause is of each joint by itself."""
+    for name, claim in claims.items():
+        statement = claim.statement or name
+        yield Row(name, statement, claim)
+        for joint, printed in claim.by_joint.items():
+            own: dict[str, object] = {"cells": of_joint(claim, joint), "published": printed, "bar": None}
+            if claim.cause:
+                without = claim.cause.without
+                without = without.model_copy(update={"cells": of_joint(without, joint)})
+                own["cause"] = claim.cause.model_copy(update={"without": without})
+            yield Row(f"{name}-{joint}", statement, claim.model_copy(update=own), joint)
+
+
+def of_joint(made: MadeNumber, joint: str) -> tuple[object, ...]:
+    """Return the cells of a number, of one joint."""
+    return tuple(cell.model_copy(update={"joint": joint}) for cell in made.cells)
+
+
+def judge(row: Row, results: Evidence, statistics: Statistics, methods: Mapping[str, Method]) -> Judged:
+    """Return our numbers for a claim with their intervals, and the verdicts."""
+    return judged(row, found_of(row.claim, results, statistics), score_of(row.claim, methods))
+
+
+def found_of(claim: Claim, results: Evidence, statistics: Statistics) -> Found:
+    """Return the numbers that a claim needs [its unit]."""
+    ours = made_number(claim, results, statistics, claim.unit)
+    signed = made_number(claim.sign_of, results, statistics, claim.unit) if claim.sign_of else ours
+    without = made_number(claim.cause.without, results, statistics, claim.unit) if claim.cause else None
+    return Found(replace(ours, published=claim.published), signed, without)
+
+
+def judged(row: Row, found: Found, score: str) -> Judged:
+    """Return a claim with the verdicts that follow from its numbers."""
+    ranges = ranges_of(row.claim)
+    size, sign, verdict = verdicts_of(found, ranges)
+    explained = False
+    if verdict in (NOT_REPRODUCED, SIGN_ONLY) and found.without is not None:
+        explained = is_within(found.without, ranges.shown)
+    return Judged(row, score, found, ranges, size, sign, verdict, explained)
+
+
+def verdicts_of(found: Found, ranges: Ranges) -> tuple[str, str, str]:
+    """Return the verdict on the size, that on the sign, each empty where there is none, and both as one."""
+    if found.ours.value is None:
+        return "", "", NOT_MEASURED
+    size = _held(found.ours, ranges.size, (INSIDE, OUTSIDE)) if ranges.size else ""
+    sign = _held(found.signed, ranges.sign, (SAME, OPPOSITE)) if ranges.sign else ""
+    return size, sign, verdict_of(size, sign)
+
+
+def _held(number: Number, bounds: Bounds, words: tuple[str, str]) -> str:
+    """Return the first word for a number within a range [its unit], the second one for one apart from it, or `OPEN`."""
+    if number.low is None or number.high is None:
+        return OPEN
+    interval = number.low, number.high
+    if within(interval, bounds):
+        return words[0]
+    return words[1] if apart(interval, bounds) else OPEN
+
+
+def is_within(number: Number, bounds: Bounds) -> bool:
+    """Return whether the interval of a number lies in a range [its unit]."""
+    return number.low is not None and number.high is not None and within((number.low, number.high), bounds)
+
+
+def verdict_of(size: str, sign: str) -> str:
+    """Return one of `VERDICTS` for the verdicts on size and sign, of which one may be empty."""
+    if sign == OPPOSITE or (size == OUTSIDE and sign != SAME):
+        return NOT_REPRODUCED
+    if size == OUTSIDE:
+        return SIGN_ONLY
+    if size == OPEN and sign == SAME:
+        return SIGN_AT_LEAST
+    return OPEN if OPEN in (size, sign) else REPRODUCED
+
+
+def made_number(made: MadeNumber, results: Evidence, statistics: Statistics, unit: str = "-") -> Number:
+    """Return what cells make, with its interval [unit]; no number where a cell has none."""
+    if all(cell.table and results.is_one(cell) for cell in made.cells):
+        entries = [results.entry(cell) for cell in made.cells]
+        if made.quantity == "value":
+            return replace(entries[0], unit=unit)
+        if made.quantity == "difference":
+            return difference_of(entries[0], entries[1], unit)
+    cells = [results.grids(cell) for cell in made.cells]
+    held = [cell for cell in cells if cell is not None]
+    if len(held) < len(cells):
+        return Number(None, unit=unit)
+    return QUANTITIES[made.quantity](held, statistics, unit)
+
+
+def score_of(claim: Claim, methods: Mapping[str, Method]) -> str:
+    """Return in which score a claim counts, one of `SCORED`."""
+    if claim.printed == NOT_PRINTED:
+        return OURS
+    if claim.published is None:
+        return NO_NUMBER
+    trained = any(listed(cell.metric or "")[0] in get_args(TrainingMetric) for cell in claim.cells)
+    names = [cell.method or DETECTOR.sub("", cell.where.get("detector", "")) for cell in claim.cells]
+    named = [methods[name] for name in names if name in methods]
+    return NETWORKS if trained or any(method.limbs for method in named) else OBSERVER
+
+
+def worst(verdicts: Sequence[str]) -> str:
+    """Return the verdict on a statement, which is that on the worst of its claims."""
+    return min(verdicts, key=WORST_FIRST.index)

@@ -1,0 +1,211 @@
+"""How far the training data cover the inputs that occur in tests, with and without random torque exploration.
+
+Measures beside Figure 19: the part of the velocity-torque plane that a training set visits, joint by joint; the share
+of test samples outside a training set's central range, pooled, and of the torque also given the gait's phase and given
+the joint's position and velocity; how wide these ranges are; and the distance of a test sample to its nearest neighbour
+in training, in the inputs of a limb's network (Table 1). Both sets have equally many samples.
+"""
+
+import logging
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import product
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from experiments.evaluation.compare.windows import pushed_of
+from experiments.evaluation.measure.data.conditional import TorqueRange, even_cells, torque_range
+from experiments.evaluation.measure.data.samples import Blocks, Reference, equal_sets, read_blocks, refer, scale_of
+from experiments.evaluation.number.intervals import RATIO, RunGrid, summarise
+from experiments.evaluation.number.number import Number
+from experiments.settings.measures import Coverage, CoverageTest
+from experiments.settings.runs import Statistics
+from mobnet.core.columns import DESIRED, FEET, VELOCITY, foot_of
+from mobnet.core.joints import JointLayout
+from mobnet.learning.features import limb_inputs
+from mobnet.settings.networks import Limb
+
+log = logging.getLogger(__name__)
+
+WITHOUT = "without RTE"  # name of the training set without exploration
+OUTSIDE = {VELOCITY: "outside velocity", DESIRED: "outside torque"}
+AREA, AIR_AREA = "visited cells", "visited cells, swing"
+NEAREST = {"nearest, median": 0.5, "nearest, 95 %": 0.95}
+ALL = "all"  # joints together
+PHASE = "phase"
+GIVEN = {"phase": (PHASE,), "position and velocity": ("q", VELOCITY)}  # conditions of a joint's torque
+WIDTH = {condition: f"torque range given {condition} [N m]" for condition in GIVEN}
+BEYOND = {condition: f"outside torque given {condition}" for condition in GIVEN}
+
+Ranges = Mapping[tuple[str, str], Sequence[TorqueRange]]  # condition, joint -> of each training set
+
+
+@dataclass(frozen=True)
+class Covered:
+    """One measure of a test against both training sets, with and without random torque exploration: a row of the table.
+
+    The measure is AREA, AIR_AREA or a value of OUTSIDE or BEYOND, all shares, a value of WIDTH [N m], or a name of
+    NEAREST, a distance in z-scored inputs; the joint may be ALL, the mean over joints or inputs together. The scenario
+    is `training` and has no level and no block where no test is needed; else its samples come in blocks, each
+    contiguous in time. The ratio, with over without, has its interval over blocks; shares of test samples have none, as
+    they may be zero.
+    """
+
+    scenario: str
+    level: str
+    measure: str
+    joint: str
+    block_count: int
+    with_rte: float
+    without_rte: float
+    ratio: Number
+
+
+def covered(
+    settings: Coverage, layout: JointLayout, ports: Limb, statistics: Statistics,
+    explored: Sequence[Path], plain: Sequence[Path], tests: Sequence[Sequence[Path]],
+) -> list[Covered]:  # fmt: skip
+    """Return all measures of two training sets, with and without exploration, and of every test against them.
+
+    `ports` are what the network of the leg sees.
+    """
+    inputs, joints = limb_inputs(layout, ports), layout.limb(settings.limb)
+    foot, sets = FEET.index(foot_of(layout, joints[0])), [explored, plain]
+    samples = equal_sets([read_blocks(stems, layout, inputs, settings) for stems in sets], settings.samples)
+    airborne = equal_sets([read_blocks(stems, layout, inputs, settings, foot) for stems in sets], settings.samples)
+    names = (*inputs.names, PHASE)
+    bare = [array[:, :-1] for array in samples]
+    mean, std = scale_of(np.concatenate(bare))
+    references = [refer(array, settings.range, mean, std) for array in bare]
+    ranges = conditional(samples, names, joints, settings)
+    rows = [
+        *visited(AREA, samples, names, joints, settings),
+        *visited(AIR_AREA, airborne, names, joints, settings),
+        *widths(ranges),
+    ]
+    for test, stems in zip(settings.tests, tests, strict=True):
+        blocks = read_blocks(stems, layout, inputs, settings, pushed=pushed_of(test, settings))
+        if not blocks:
+            log.warning("%s: no push is found in its %d recordings", test.scenario, len(stems))
+            continue
+        seen = [block[:, :-1] for block in blocks]
+        rows += outside(test, seen, references, inputs.names, joints)
+        rows += beyond(test, blocks, ranges, names)
+        rows += nearest(test, [(block - mean) / std for block in seen], references, statistics)
+    return rows
+
+
+def visited(
+    measure: str, samples: Sequence[NDArray[Any]], names: Sequence[str], joints: Sequence[str], settings: Coverage
+) -> Iterator[Covered]:
+    """Yield the share of a joint's velocity-torque plane that each training set visits (Figure 19).
+
+    The plane is a rectangle of both sets together, without their rarest samples, cut into equal cells. The samples (n,
+    n_in) are with and without random torque exploration; their named inputs hold [rad/s] and [N m] of the joints.
+    """
+    where = {name: column for column, name in enumerate(names)}
+    shares = []
+    for joint in joints:
+        planes = [array[:, [where[f"{quantity}.{joint}"] for quantity in OUTSIDE]] for array in samples]
+        both = np.concatenate(planes)
+        bounds = list(zip(*np.quantile(both, settings.cell_range, axis=0), strict=True))
+        shares.append([float(np.mean(np.histogramdd(plane, settings.cells, bounds)[0] > 0)) for plane in planes])
+    for joint, (have, lack) in zip([*joints, ALL], [*shares, np.mean(shares, axis=0).tolist()], strict=True):
+        yield Covered("training", "", measure, joint, 0, have, lack, Number(have / lack))
+
+
+def outside(
+    test: CoverageTest, blocks: Blocks, references: Sequence[Reference], names: Sequence[str], joints: Sequence[str]
+) -> Iterator[Covered]:
+    """Yield the share of test samples outside the central range, for each joint and the mean over joints.
+
+    The blocks (n, n_in) and the references, with and without random torque exploration, have these names of inputs
+    (n_in,).
+    """
+    where = {name: column for column, name in enumerate(names)}
+    samples = np.concatenate(blocks)
+    shares = [np.mean((samples < ref.low) | (samples > ref.high), axis=0) for ref in references]
+    for quantity, measure in OUTSIDE.items():
+        columns = {joint: [where[f"{quantity}.{joint}"]] for joint in joints}
+        for joint, picked in (columns | {ALL: [column for (column,) in columns.values()]}).items():
+            have, lack = (float(share[picked].mean()) for share in shares)
+            yield Covered(test.scenario, test.level, measure, joint, len(blocks), have, lack, Number(None))
+
+
+def conditional(
+    samples: Sequence[NDArray[Any]], names: Sequence[str], joints: Sequence[str], settings: Coverage
+) -> Ranges:
+    """Return the torque's range [N m] of each training set in every phase, and in cells of position and velocity.
+
+    The samples (n, n_in) have these names of inputs (n_in,). Cells of position and velocity lie between the rarest
+    samples of both sets together.
+    """
+    found: dict[tuple[str, str], list[TorqueRange]] = {}
+    for condition, joint in product(GIVEN, joints):
+        columns, torque = _columns_of(condition, joint, names)
+        cells = even_cells([(0.0, 1.0)], [settings.phases])
+        if condition != PHASE:
+            ends = np.quantile(np.concatenate(samples)[:, columns], settings.cell_range, axis=0)
+            cells = even_cells(list(zip(*ends.tolist(), strict=True)), [settings.state_cells] * len(columns))
+        found[condition, joint] = [
+            torque_range(cells, array[:, columns], array[:, torque], settings.range, settings.cell_samples)
+            for array in samples
+        ]
+    return found
+
+
+def widths(ranges: Ranges) -> Iterator[Covered]:
+    """Yield the mean width [N m] of the conditional ranges for each joint, and the mean over joints."""
+    for condition, measure in WIDTH.items():
+        known = {joint: [one.width for one in both] for (given, joint), both in ranges.items() if given == condition}
+        for joint, (have, lack) in _with_all(known):
+            yield Covered("training", "", measure, joint, 0, have, lack, Number(have / lack))
+
+
+def beyond(test: CoverageTest, blocks: Blocks, ranges: Ranges, names: Sequence[str]) -> Iterator[Covered]:
+    """Yield the share of test samples whose torque lies outside its conditional range, by joint and their mean.
+
+    The blocks (n, n_in) have these names of inputs (n_in,). Samples without a phase do not count.
+    """
+    samples = np.concatenate(blocks)
+    for condition, measure in BEYOND.items():
+        known: dict[str, list[float]] = {}
+        for joint, both in ((joint, both) for (given, joint), both in ranges.items() if given == condition):
+            columns, torque = _columns_of(condition, joint, names)
+            own = samples[np.isfinite(samples[:, columns]).all(axis=1)]
+            if len(own):
+                known[joint] = [float(one.outside(own[:, columns], own[:, torque]).mean()) for one in both]
+        for joint, (have, lack) in _with_all(known):
+            yield Covered(test.scenario, test.level, measure, joint, len(blocks), have, lack, Number(None))
+
+
+def _columns_of(condition: str, joint: str, names: Sequence[str]) -> tuple[list[int], int]:
+    """Return where the conditions of a joint's torque and the torque stand among inputs of these names (n_in,)."""
+    wanted = [name if name == PHASE else f"{name}.{joint}" for name in GIVEN[condition]]
+    return [names.index(name) for name in wanted], names.index(f"{DESIRED}.{joint}")
+
+
+def _with_all(known: Mapping[str, Sequence[float]]) -> Iterator[tuple[str, Sequence[float]]]:
+    """Yield the pairs of numbers of joints, with and without exploration, that have them, and last their mean."""
+    found = {joint: pair for joint, pair in known.items() if np.isfinite(pair).all()}
+    yield from found.items()
+    if found:
+        yield ALL, np.mean(list(found.values()), axis=0).tolist()
+
+
+def nearest(
+    test: CoverageTest, blocks: Blocks, references: Sequence[Reference], statistics: Statistics
+) -> Iterator[Covered]:
+    """Yield quantiles of the distance to the nearest training sample, means over blocks, and their ratio.
+
+    The blocks (n, n_in) are z-scored; the references are with and without random torque exploration.
+    """
+    distances = [[ref.tree.query(block)[0] for block in blocks] for ref in references]
+    for measure, share in NEAREST.items():
+        have, lack = (np.array([[np.quantile(block, share) for block in found]]) for found in distances)
+        ratio = summarise([RunGrid(have), RunGrid(lack)], statistics, RATIO)
+        means = float(have.mean()), float(lack.mean())
+        yield Covered(test.scenario, test.level, measure, ALL, len(blocks), *means, ratio)

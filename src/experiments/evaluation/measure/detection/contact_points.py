@@ -1,0 +1,190 @@
+"""Where collisions of legs meet them, by estimates and by the true torque, and by guesses from the named link or none.
+
+What is named is compared with the point at which the scenario pushes, which need not lie on a solid of the table, and
+with the force behind the low-pass that delays every estimate (D22).
+"""
+
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+
+from experiments.evaluation.measure.detection.results import rows_of
+from experiments.jobs.collisions import Hit, hits_of
+from experiments.plan.detection import Detections
+from experiments.plan.runs import Run
+from experiments.settings.detection_tables import ContactLine, ContactPoints
+from mobnet.core.arrays import Array
+from mobnet.core.columns import EXTERNAL_LP, PUSH, named
+from mobnet.core.detections import Detected
+from mobnet.core.errors import DataError
+from mobnet.core.estimator import Estimate
+from mobnet.core.recording import read_sensed
+from mobnet.core.store import read_array
+from mobnet.detection.contact import ContactFinder
+from mobnet.detection.watch import read_estimate
+from mobnet.estimation.low_pass import low_pass
+from mobnet.robot.description import RobotDescription
+from mobnet.settings.data import Push
+from mobnet.settings.detection import ContactPoint
+
+NAMED, NOTHING = "middle of the named link", "middle of the leg"  # guesses, which name no force
+FORCE = named(PUSH, ("force_x", "force_y", "force_z"))
+Finders = Mapping[tuple[str, bool], ContactFinder]  # leg, and whether its torques are taken alone
+Alarms = Mapping[tuple[str, int], Detected]  # leg and number of a collision
+
+
+@dataclass(frozen=True)
+class Found:
+    """What a line of the table says of a collision.
+
+    Attributes:
+        line: its title.
+        cell: what was hit from where.
+        error_m: from the true point to the named one, in the axes of the body that was hit (3,) [m].
+        spread_m: the error that it expects itself [m]; None of a guess, as the following.
+        force: size of the force over that of the true one, less 1 [-].
+        angle_deg: angle between the two.
+    """
+
+    line: str
+    cell: str
+    error_m: Array
+    spread_m: float | None = None
+    force: float | None = None
+    angle_deg: float | None = None
+
+
+class Walked(NamedTuple):
+    """A recording with collisions: positions (T, nq), estimates by method, forces behind the low-pass (T, 3) [N].
+
+    The true torque behind the low-pass is an estimate too, that of the method None.
+    """
+
+    q: Array
+    rate_hz: float
+    estimates: Mapping[str | None, Estimate]
+    force: Array
+
+
+def contacts_of(
+    settings: ContactPoints, numbers: ContactPoint, robot: RobotDescription, gain_hz: float,
+    pushes: Mapping[str, Push], runs: Sequence[Run], detections: Detections,
+) -> Iterator[Found]:  # fmt: skip
+    """Yield what each line of the table says of each collision that is hard enough and that the detector finds.
+
+    Args:
+        settings: the table.
+        numbers: section `contact_point`.
+        robot: the robot.
+        gain_hz: gain of the observer, K_0 of (7) [1/s].
+        pushes: those of the scenario, in their order.
+        runs: of the table's methods.
+        detections: files of the robots' detectors.
+
+    Raises:
+        DataError: a file is missing or damaged, or a method does not give what a line takes.
+    """
+    joints = robot.layout.limbs(settings.limbs)
+    finders = {
+        (leg, alone): ContactFinder.of(numbers, robot, leg, robot.layout.limb(leg) if alone else joints)
+        for leg in settings.legs
+        for alone in (False, True)
+    }
+    for recording in dict.fromkeys(run.recording for run in runs):
+        walked = _walked(robot, joints, gain_hz, [run for run in runs if run.recording == recording])
+        alarms, count = _alarms(settings, detections, recording), dict.fromkeys(settings.legs, 0)
+        for hit in hits_of(recording, pushes, robot.layout):
+            count[hit.leg] = count.get(hit.leg, 0) + 1
+            alarm = alarms.get((hit.leg, count[hit.leg]))
+            if alarm is not None and hit.force.max() >= settings.least_n:
+                yield from _found(settings, finders, walked, hit, pushes[hit.name].point or "", alarm)
+
+
+def _alarms(settings: ContactPoints, detections: Detections, recording: Path) -> Alarms:
+    """Return what the detector says of the collisions of some legs in a recording that it finds."""
+    level, seed = recording.parent.name, int(recording.name.removeprefix("s"))
+    held = {"scenario": settings.scenario, "detector": settings.detector, "kind": settings.kind}
+    rows = rows_of(detections, [level], "detected", Detected, **held)
+    found = [row for row in rows if row.seed == seed and row.leg in settings.legs and row.delay_s is not None]
+    return {(row.leg, row.number): row for row in found}
+
+
+def _walked(robot: RobotDescription, joints: Sequence[str], gain_hz: float, runs: Sequence[Run]) -> Walked:
+    """Read a recording, its truth and what its runs estimate of some joints."""
+    read = read_sensed(runs[0].recording, robot.layout)
+    estimates: dict[str | None, Estimate] = {
+        None: Estimate(read_array(runs[0].residual, named(EXTERNAL_LP, joints))[0])
+    }
+    for run in runs:
+        if (estimate := read_estimate(run.estimate, joints)) is None:
+            raise DataError(f"{run.estimate}: some of {', '.join(joints)} are not estimated; accepted: all of them")
+        estimates[run.method] = estimate
+    force = low_pass(read_array(runs[0].recording, FORCE)[0], gain_hz, read.rate_hz)
+    return Walked(read.sensed.q, read.rate_hz, estimates, force)
+
+
+def _found(
+    settings: ContactPoints, finders: Finders, walked: Walked, hit: Hit, point: str, alarm: Detected
+) -> Iterator[Found]:  # fmt: skip
+    """Yield what each line says of a collision at a point of the robot, and then the guesses."""
+    cell, finder = f"{hit.link} {hit.direction}", finders[hit.leg, False]
+    points, feet = {row.name: row for row in finder.robot.points}, finder.robot.feet.values()
+    true, standing = points[point], [foot.body for foot in feet if foot.limb != hit.leg]
+
+    def row_after(wait_s: float) -> int:
+        later = round(((alarm.delay_s or 0.0) + wait_s) * walked.rate_hz)
+        return min(hit.rows.start + later, len(walked.force) - 1)
+
+    def error_of(place: Array, row: int) -> Array:
+        axes, origin = finder.place(walked.q[row], true.body)
+        return axes.T @ (place - origin) - true.pos
+
+    for title, line in settings.lines.items():
+        row, own = row_after(settings.after_s if line.after_s is None else line.after_s), finders[hit.leg, line.alone]
+        contact = own.locate(walked.q[row], *_torques(walked, line, own, finder, row), () if line.alone else standing)
+        if contact is not None:
+            said = contact.spread_m, *_compared(contact.force, walked.force[row])
+            yield Found(title, cell, error_of(contact.place, row), *said)
+    row = row_after(settings.after_s)
+    named_body = points[f"{point.split('_')[0]}_{alarm.link}_{alarm.direction}"].body
+    yield Found(NAMED, cell, error_of(_middle(finder, walked.q[row], [named_body]), row))
+    yield Found(NOTHING, cell, error_of(_middle(finder, walked.q[row], {s.body for s in finder.surface.shapes}), row))
+
+
+def _torques(
+    walked: Walked, line: ContactLine, own: ContactFinder, whole: ContactFinder, row: int
+) -> tuple[Array, Array]:  # fmt: skip
+    """Return the torques of a finder's joints in a row by a line, and the standard deviations of their errors (n,).
+
+    Estimates hold the joints of the whole finder.
+    """
+    estimate, columns = walked.estimates[line.method], [whole.joints.index(joint) for joint in own.joints]
+    if line.std is not None:
+        std = np.array([line.std[own.robot.layout.unit(joint) == "N"] for joint in own.joints])
+    elif estimate.std is not None:
+        std = estimate.std[row, columns]
+    else:
+        raise DataError(f"contact_points: {line.method} gives no standard deviation; accepted: a line with `std`")
+    return estimate.tau_ext[row, columns].astype(np.float64), std
+
+
+def _compared(force: Array, true: Array) -> tuple[float, float]:
+    """Return the size of a force (3,) over that of the true one, less 1 [-], and the angle between them [deg]."""
+    size, true_size = float(np.linalg.norm(force)), float(np.linalg.norm(true))
+    cosine = np.clip(force @ true / max(size * true_size, 1e-9), -1.0, 1.0)
+    return size / max(true_size, 1e-9) - 1.0, float(np.rad2deg(np.arccos(cosine)))
+
+
+def _middle(finder: ContactFinder, q: Array, bodies: Collection[str]) -> Array:
+    """Return the middle of the surface of some bodies in the world (3,) [m], at a position q (nq,)."""
+    surface, whole, total = finder.surface, np.zeros(3), 0.0
+    for k, shape in enumerate(surface.shapes):
+        if shape.body in bodies:
+            axes, origin = finder.place(q, shape.body)
+            patch = surface.patch.only(surface.shape == k)
+            whole += patch.area @ (patch.points @ axes.T + origin)
+            total += patch.area.sum()
+    return whole / total

@@ -1,0 +1,146 @@
+"""What detectors found, read from the files of robots: the robots of a level are taken together."""
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import TypeVar
+
+import numpy as np
+
+from experiments.evaluation.number.clusters import Place, mean_in, share_in
+from experiments.evaluation.number.number import Number
+from experiments.plan.detection import Detections
+from experiments.settings.detection_tables import AlarmTable
+from experiments.settings.runs import Statistics
+from mobnet.core.detections import Collision, Detected, FreeSwing, Promise
+from mobnet.core.errors import DataError, not_accepted
+from mobnet.core.rows import read_rows
+
+Row = TypeVar("Row")
+MS = 1000.0
+LINKS, DIRECTIONS = ("foot", "ankle", "knee"), ("front", "side")  # in the paper's order
+CELLS = tuple(f"{link} {direction}" for link in LINKS for direction in DIRECTIONS)
+ALL = "all"  # cells together
+
+
+@dataclass(frozen=True)
+class Try:
+    """A collision of a robot and what a detector said of it."""
+
+    robot: str
+    collision: Collision
+    detected: Detected
+
+    @property
+    def place(self) -> Place:
+        """The robot and the walk, which collisions have in common."""
+        return Place(self.robot, self.collision.seed)
+
+    @property
+    def cell(self) -> str:
+        """What was hit from where."""
+        return f"{self.collision.link} {self.collision.direction}"
+
+    @property
+    def is_found(self) -> bool:
+        """Whether the detector found it."""
+        return self.detected.delay_s is not None
+
+    @property
+    def named(self) -> str:
+        """What the detector says was hit from where; empty where it found nothing."""
+        return f"{self.detected.link} {self.detected.direction}".strip()
+
+
+def owners(detections: Detections, level: str, levels: Sequence[str]) -> list[str]:
+    """Return the robots of a level of the fleet, or the level itself where it is that of one plant.
+
+    Raises:
+        DataError: nobody was tried at the level.
+    """
+    found = [level] if level in detections else [name for name in detections if name not in levels]
+    if not found:
+        raise DataError(not_accepted("level of detectors", level, detections))
+    return found
+
+
+def rows_of(detections: Detections, names: Sequence[str], file: str, kind: type[Row], /, **held: str) -> list[Row]:
+    """Return the rows of a file of some robots whose fields hold what is given."""
+    rows = [row for name in names for row in read_rows(detections[name][file], kind)]
+    return [row for row in rows if all(getattr(row, field) == value for field, value in held.items())]
+
+
+def tries_of(detections: Detections, names: Sequence[str], scenario: str, leg: str, kind: str) -> dict[str, list[Try]]:
+    """Return what each detector said of the collisions of a leg in a scenario, by a rule of thresholds."""
+    found: dict[str, list[Try]] = {}
+    for name in names:
+        rows = rows_of(detections, [name], "collisions", Collision, scenario=scenario, leg=leg)
+        collisions = {(row.seed, row.number): row for row in rows}
+        for row in rows_of(detections, [name], "detected", Detected, scenario=scenario, leg=leg, kind=kind):
+            found.setdefault(row.detector, []).append(Try(name, collisions[row.seed, row.number], row))
+    return found
+
+
+def shown_tries(
+    settings: AlarmTable, detections: Detections, scenario: str, kind: str
+) -> Iterator[tuple[str, dict[str, list[Try]]]]:
+    """Yield each level of a table with what those of its detectors that were tried said, as `tries_of` does."""
+    for level in settings.levels:
+        tries = tries_of(detections, owners(detections, level, settings.levels), scenario, settings.leg, kind)
+        yield level, {name: tries[name] for name in settings.detectors if name in tries}
+
+
+def found_share(tries: Sequence[Try], statistics: Statistics) -> Number:
+    """Return the share of collisions that a detector finds [-], with its interval."""
+    return share_of(tries, lambda one: one.is_found, statistics)
+
+
+def share_of(tries: Sequence[Try], is_so: Callable[[Try], bool], statistics: Statistics) -> Number:
+    """Return the share of collisions of which something holds [-], with its interval over robots and walks."""
+    return share_in([is_so(one) for one in tries], [one.place for one in tries], statistics)
+
+
+def mean_of(tries: Sequence[Try], value_of: Callable[[Try], float | None], statistics: Statistics) -> Number:
+    """Return the mean of times of collisions [ms] that have one [s], with its interval over robots and walks."""
+    found = [(MS * value, one.place) for one in tries if (value := value_of(one)) is not None]
+    return mean_in([value for value, _ in found], [place for _, place in found], statistics, "ms")
+
+
+def delay_of(one: Try) -> float | None:
+    """Return the delay of a collision that was found [s]."""
+    return one.detected.delay_s
+
+
+def median_of(values: Sequence[float], statistics: Statistics, unit: str) -> Number:
+    """Return the median of values of collisions, with the interval between two of them that every law keeps [unit].
+
+    It has no ends where there are too few values for such an interval.
+    """
+    if not values:
+        return Number(None, unit=unit)
+    from scipy.stats import quantile_test  # here, as it takes a second to import
+
+    ends = quantile_test(values, p=0.5).confidence_interval(statistics.confidence)
+    low, high = (None if np.isnan(end) else float(end) for end in (ends.low, ends.high))
+    return Number(float(np.median(values)), low, high, unit=unit)
+
+
+def rate_of(alarms: int, hours: float, statistics: Statistics) -> Number:
+    """Return a rate [1/h] with the exact interval of Poisson's law (Garwood 1936)."""
+    if hours <= 0.0:
+        return Number(None, unit="1/h")
+    from scipy.stats import chi2  # here, as it takes a second to import
+
+    tail = (1.0 - statistics.confidence) / 2.0
+    low = chi2.ppf(tail, 2 * alarms) / 2.0 if alarms else 0.0
+    high = chi2.ppf(1.0 - tail, 2 * alarms + 2) / 2.0
+    return Number(alarms / hours, float(low) / hours, float(high) / hours, unit="1/h")
+
+
+def hours_per_swing(promises: Sequence[Promise]) -> float:
+    """Return how long a swing of a walk takes [h], the other leg's and the steps between included."""
+    return sum(row.hours for row in promises) / max(sum(row.swings for row in promises), 1)
+
+
+def alarms_in(swings: Sequence[FreeSwing], over: float = 1.0) -> int:
+    """Return in how many swings a signal lies above a multiple of the threshold for one false alarm an hour."""
+    return sum(row.ratio > over for row in swings)

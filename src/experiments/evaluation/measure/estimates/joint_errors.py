@@ -1,0 +1,44 @@
+"""Errors of single joints in a test by method, with intervals and the paper's numbers, as figures show them."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+from experiments.evaluation.number.files import Field
+from experiments.evaluation.number.grid import Wanted
+from experiments.evaluation.number.lookup import Lookup
+from experiments.evaluation.number.number import Number, published_value
+from experiments.settings.published import PublishedTable
+from experiments.settings.runs import Runs
+from mobnet.core.joints import JointLayout
+
+JointErrors = Mapping[str, Mapping[str, Number]]  # joint -> method -> its error [N m], V1..V3 [N]
+
+
+def joint_errors(
+    lookup: Lookup, layout: JointLayout, test: Runs, joints: Sequence[str], metric: str, published: PublishedTable,
+    place: str,
+) -> JointErrors:  # fmt: skip
+    """Return the errors of joints in a test, by method: means over networks and recordings [N m], V1..V3 [N].
+
+    The paper's numbers are those at a place of one of its tables. An error that was not scored has no value.
+    """
+    limbs = {joint: limb for limb, own in layout.groups.items() for joint in own}
+
+    def error(method: str, joint: str) -> Number:
+        wanted = Wanted(test.scenario, limbs[joint], test.level, method, joint, metric)
+        number, unit = lookup.number([wanted]), layout.unit(joint)
+        return replace(number, unit=unit, published=published_value(published, place, method, joint))
+
+    return {joint: {method: error(method, joint) for method in test.methods} for joint in joints}
+
+
+def error_rows(
+    test: Runs, metric: str, errors: JointErrors, drawn: Mapping[str, Mapping[str, float]]
+) -> list[tuple[Field, ...]]:
+    """Return rows of `JOINT_ERRORS`; `drawn` leads from joint and method to the RMSE of what is drawn [N m]."""
+    return [
+        (test.scenario, test.level, method, joint, metric, *error.with_ends, *error.spread, error.unit,
+         error.published, drawn[joint].get(method))
+        for joint, own in errors.items()
+        for method, error in own.items()
+    ]  # fmt: skip

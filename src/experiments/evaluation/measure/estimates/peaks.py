@@ -1,0 +1,108 @@
+"""How much of a push an estimate shows, and how late: slope on the low-passed push, delay of the rise, by joint."""
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+import scipy  # pyright: ignore[reportMissingTypeStubs]  # its parts are imported where they are used first
+from numpy.typing import NDArray
+
+from experiments.evaluation.compare.pair import Pair
+from experiments.evaluation.compare.rmse import Spans
+from experiments.evaluation.compare.scene import Scene, ShownPushes, shown_pushes
+from experiments.evaluation.compare.values import Measured, Measures
+from experiments.evaluation.compare.windows import flagged_spans
+from experiments.settings.measures import Peaks
+from experiments.settings.metrics import Metric
+from mobnet.core.arrays import Array
+
+SHARE, DELAY = "push_share", "rise_delay"
+OBSERVER = "_observer"  # the delay of the push behind the observer's low-pass: what a perfect residual would show
+HALF = 0.5  # of the true peak, where the rise is timed
+MS = 1000.0
+METRICS = (Metric("push_share", "-", low=None), Metric("rise_delay(_observer)?", "ms", low=None))
+
+
+def measure(pair: Pair, scene: Scene, settings: Peaks) -> Measures:
+    """Yield of the pushes of a recording `push_share` [-], and `rise_delay` [ms] with that of the observer.
+
+    The share is that of `slopes`. The delay is the median over the pushes of the time in which what the estimate shows
+    of a push rises to half of its largest torque, less the time that the push needs; it ends with the window, a lower
+    bound, where the estimate never gets there. A joint counts in a push that turns it with a share of the largest
+    torque of all joints.
+    """
+    shown, motors = shown_pushes(pair, scene), np.isin(pair.joints, scene.layout.actuated)
+    windows = list(push_rows(scene.pushed, pair.spans, settings, pair.rate_hz))
+    turned = [turned_joints(shown.push[rise], settings.turned_share, motors) for _, rise in windows]
+    yield Measured(SHARE, slopes(shown, [around for around, _ in windows], turned))
+    for suffix, signal in (("", shown.estimate), (OBSERVER, shown.behind)):
+        found = [delays(shown.push[rise], signal[rise], own) for (_, rise), own in zip(windows, turned, strict=True)]
+        yield Measured(DELAY + suffix, medians(found, len(pair.joints)) * MS / pair.rate_hz)
+
+
+def push_rows(
+    pushed: NDArray[np.bool_], spans: Spans, settings: Peaks, rate_hz: float
+) -> Iterator[tuple[slice, slice]]:
+    """Yield the rows around each push, from some time before it, and those of its rise, from the last one before it.
+
+    Both end some time after the push, or at the longest time.
+    """
+    before, after, longest = (
+        round(time_s * rate_hz) for time_s in (settings.before_s, settings.after_s, settings.longest_s)
+    )
+    for first, last in spans:
+        for start, end in flagged_spans(pushed, ((first, last),), 0):
+            if start > first:
+                stop = min(end + after, start + longest, last)
+                yield slice(max(start - before, first), stop), slice(start - 1, stop)
+
+
+def turned_joints(push: NDArray[np.float64], share: float, counted: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Return which joints a push (T, n) [N m] turns with a share of the largest torque of those that count, (n,)."""
+    size = np.where(counted, np.abs(push).max(axis=0), 0.0)
+    return (size > 0.0) & (size >= share * size.max(initial=0.0))
+
+
+def slopes(shown: ShownPushes, windows: Sequence[slice], turned: Sequence[NDArray[np.bool_]]) -> Array:
+    """Return the slope of what is shown on the low-passed push, over the pushes that turn a joint, (n,) [-].
+
+    That is by least squares, with a line over time of each window, which slow errors follow: 1 of an estimate that
+    follows the push, 0 of one that shows nothing of it, however noisy it is. It is nan of joints that no push turns.
+    """
+    products, squares = np.zeros((2, shown.push.shape[1]))
+    for rows, own in zip(windows, turned, strict=True):
+        push, estimate = (scipy.signal.detrend(signal[rows], axis=0) for signal in (shown.behind, shown.estimate))
+        products += own * (push * estimate).sum(axis=0)
+        squares += own * (push * push).sum(axis=0)
+    return np.divide(products, squares, out=np.full(len(squares), np.nan), where=squares > 0.0)
+
+
+def delays(push: NDArray[np.float64], shown: NDArray[np.float64], turned: NDArray[np.bool_]) -> Array:
+    """Return the delay of what is shown of a push, (n,) [rows], nan of joints that it does not turn.
+
+    Push and shown (T, n) [N m] begin one row before the push; what is shown then is its zero.
+    """
+    peak = push[np.abs(push).argmax(axis=0), np.arange(push.shape[1])]
+    scaled, true = (
+        np.divide(signal - signal[0], peak, out=np.zeros(push.shape), where=turned) for signal in (shown, push)
+    )
+    return np.where(turned, first_above(scaled, HALF) - first_above(true, HALF), np.nan)
+
+
+def first_above(signal: NDArray[np.float64], level: float) -> Array:
+    """Return when each signal (T, n) first reaches a level, (n,) [rows], between two rows; T - 1 if it never does."""
+    above = signal >= level
+    row = np.where(above.any(axis=0), above.argmax(axis=0), len(signal) - 1)
+    columns, before = np.arange(signal.shape[1]), np.maximum(row - 1, 0)
+    low, high = signal[before, columns], signal[row, columns]
+    crossed = above[row, columns] & (row > 0)
+    part = np.divide(level - low, high - low, out=np.zeros(len(row)), where=crossed & (high > low))
+    return np.where(crossed, before + part, row)
+
+
+def medians(rows: list[Array], width: int) -> Array:
+    """Return the median over pushes of each joint (width,) [any unit], nan of one that none turned."""
+    values = np.array(rows).reshape(-1, width)
+    held = ~np.isnan(values).all(axis=0) if len(values) else np.zeros(width, dtype=bool)
+    found = np.full(width, np.nan)
+    found[held] = np.nanmedian(values[:, held], axis=0)
+    return found

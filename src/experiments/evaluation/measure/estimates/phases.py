@@ -1,0 +1,19 @@
+"""Errors in parts of a walk: by phase of the leg's gait, and by whether the joint is stuck or moves."""
+
+import numpy as np
+
+from experiments.evaluation.compare.masks import masked_mean, parts_of
+from experiments.evaluation.compare.pair import Pair
+from experiments.evaluation.compare.scene import Scene
+from experiments.evaluation.compare.values import Measured, Measures
+from experiments.settings.measures import Phases
+from experiments.settings.metrics import Metric
+
+METRICS = (Metric("rmse_(swing|touch_down|stance|stuck|moving)"),)
+
+
+def measure(pair: Pair, scene: Scene, settings: Phases) -> Measures:
+    """Yield the root-mean-square error of each joint (n,) [N m], V1..V3 [N], in each part of a walk: `rmse_<part>`."""
+    squares = (pair.estimate.astype(np.float64) - pair.truth) ** 2
+    for name, mask in parts_of(pair, scene).items():
+        yield Measured(f"rmse_{name}", np.sqrt(masked_mean(squares, mask)))

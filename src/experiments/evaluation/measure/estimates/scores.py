@@ -1,0 +1,93 @@
+"""Errors and other measures of estimates, a row for each joint, run and metric."""
+
+import logging
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import astuple
+from itertools import groupby
+from math import isnan
+from pathlib import Path
+
+import numpy as np
+
+from experiments.evaluation.compare.pair import Pair, read_pair
+from experiments.evaluation.compare.scene import Scene
+from experiments.evaluation.compare.values import Measures
+from experiments.evaluation.measure.estimates import run_errors
+from experiments.evaluation.measure.registry import module_of, numbers_of
+from experiments.evaluation.number.files import write_csv
+from experiments.plan.runs import Run
+from experiments.settings.measures import Scoring
+from experiments.settings.metrics import unit_of_metric
+from mobnet.core.columns import SCORES, Score
+from mobnet.core.joints import JointLayout
+from mobnet.settings.base import Section
+
+log = logging.getLogger(__name__)
+
+AVERAGE = "avg"
+
+
+def score(layout: JointLayout, runs: Sequence[Run], asked: Scoring, out: Path) -> None:
+    """Score every run of a test and write one CSV, a row of `Score` for each joint, run and metric.
+
+    The error is `tau_ext` of the estimate minus `tau_ext_lp` of the residual file, the truth behind the observer's
+    low-pass (15): what a residual can follow at best (section 5.1, on Figure 6). `rmse_raw` is that to `tau_ext` of the
+    recording. `asked` says what else is measured, and on which runs. Rows come recording by recording.
+    """
+    rows: list[Score] = []
+    for recording, own in groupby(sorted(runs, key=lambda run: str(run.recording)), lambda run: run.recording):
+        scene = Scene(recording, layout, asked)
+        rows += [row for run in own for row in score_run(run, scene)]
+    write_csv(out, SCORES, [astuple(row) for row in rows])
+    log.info("%s: %d runs, %d rows", out, len(runs), len(rows))
+
+
+def score_run(run: Run, scene: Scene) -> list[Score]:
+    """Return the rows of one run: each joint, then the average of each limb, for each metric.
+
+    A metric has no row of a joint for which it is not defined, and none of a push that the run is too short for. A limb
+    whose network has run under an earlier seed has no row: it counts once.
+    """
+    layout, pair = scene.layout, read_pair(run, scene.layout)
+    names = run.scenario, run.level, run.method, run.network_seed, run.test_seed
+    rows: list[Score] = []
+    for part, measures in measured(pair, scene):
+        for metric, numbers, average_only in measures:
+            values = dict(zip(part.joints, numbers.tolist(), strict=True))
+            rows += [
+                Score(*names, limb, joint, metric, value, unit_of_metric(metric, unit))
+                for limb, joint, value, unit in limb_values(layout, {k: v for k, v in values.items() if not isnan(v)})
+                if limb not in run.repeated and (joint == AVERAGE or not average_only)
+            ]
+    return rows
+
+
+def measured(pair: Pair, scene: Scene) -> Iterator[tuple[Pair, Measures]]:
+    """Yield the errors of a run, then what sections ask for of it, each with the joints that it has."""
+    yield pair, run_errors.measure(pair, scene)
+    for name, section in scene.asked.sections.items():
+        if part := shown(pair, scene.layout, section):
+            yield part, module_of(name).measure(part, scene, numbers_of(name, section))
+
+
+def shown(pair: Pair, layout: JointLayout, section: Section) -> Pair | None:
+    """Return the joints of a run that a section shows, those of its limbs or of its test's; None if it shows none."""
+    run, tests = pair.run, getattr(section, "tests", (section,))
+    for test in tests.values() if isinstance(tests, dict) else tests:
+        if (test.scenario, test.level) == (run.scenario, run.level) and run.method in test.methods:
+            return pair.only(layout.limbs(getattr(test, "limbs", None) or [section.limb]))
+    return None
+
+
+def limb_values(layout: JointLayout, values: Mapping[str, float]) -> list[tuple[str, str, float, str]]:
+    """Return (limb, joint or `avg`, value, unit) of the joints' numbers given [N m], V1..V3 [N], limb by limb.
+
+    The virtual joints have two averages, of N and of N m, as in Table 6.
+    """
+    rows: list[tuple[str, str, float, str]] = []
+    for limb, members in layout.groups.items():
+        present = [joint for joint in members if joint in values]
+        rows += [(limb, joint, values[joint], layout.unit(joint)) for joint in present]
+        for unit, same in groupby(present, key=layout.unit):
+            rows.append((limb, AVERAGE, float(np.mean([values[joint] for joint in same])), unit))
+    return rows

@@ -1,0 +1,248 @@
+"""Trainings as they were written: sizes from run.json, losses from metrics.csv."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from math import isclose
+from operator import attrgetter
+from pathlib import Path
+from statistics import fmean
+from typing import Annotated, Any, Literal
+
+from pydantic import Field
+
+from experiments.settings.figures import Figure17
+from mobnet.core.columns import Epoch
+from mobnet.core.epochs import read_epochs
+from mobnet.core.errors import not_accepted, refuse
+from mobnet.core.files import METRICS, RUN, TIME, read_json
+from mobnet.core.notes import Count, FileName, Index, Names, Note, NotNegative, Positive, Text, read_note
+from mobnet.settings.networks import CellKind
+from mobnet.settings.robot import GroupName
+
+MEASURES: Mapping[str, tuple[Callable[[TrainedNetwork], float], str]] = {  # name -> (of a training, unit)
+    "validation loss": (lambda training: training.kept.validation_loss, "-"),
+    "validation RMSE": (lambda training: training.kept.validation_rmse, "N m"),
+    "validation loss on windows": (lambda training: training.windows_loss, "-"),
+    "training loss at the end": (lambda training: training.last.train_loss, "-"),
+    "validation loss at the end": (lambda training: training.last.validation_loss, "-"),
+}
+
+DIGITS = 1e-6  # relative difference of a number that was written twice
+Row = list[float]
+Share = Annotated[float, Field(ge=0, le=1)]
+
+
+class NotedNetwork(Note):
+    """The network that was trained."""
+
+    cell: CellKind
+
+
+class NotedSettings(Note):
+    """Settings of a training; `epochs` is how many there are if it does not diverge.
+
+    An epoch has all samples of the training, or `epoch_samples`.
+    """
+
+    epochs: Count
+    epoch_samples: Count | None = None
+    network: NotedNetwork
+
+
+class NotedEpoch(Note):
+    """The epoch whose weights are kept."""
+
+    epoch: Count
+    validation_loss: float
+    validation_rmse: NotNegative | None = None
+
+
+class OnWindows(Note):
+    """Errors where the network runs through a window from a zero state for every sample."""
+
+    loss: float
+    rmse: NotNegative
+
+
+class NotedFit(Note):
+    """How well n standard deviations fit: coverage of k shares (k, n), likelihood and CRPS (n,)."""
+
+    coverage: list[list[Share]]
+    nll: Row
+    crps: list[NotNegative]
+
+
+class NotedCalibration(Note):
+    """Factors on the standard deviations of n joints, and how well these fit before and after."""
+
+    joints: Names
+    shares: Annotated[list[Share], Field(min_length=1)]
+    scale: list[Positive]
+    likelihood_scale: list[Positive]
+    before: NotedFit
+    after: NotedFit
+
+
+class TrainingNote(Note):
+    """The note of a training, `run.json`; one that diverged in its first epoch has no best one."""
+
+    name: FileName
+    method: Text
+    limb: GroupName
+    seed: Index
+    target: Literal["uncertainty", "external"]
+    settings: NotedSettings
+    parameters: Count
+    samples: Count
+    diverged: bool
+    chosen_by: Literal["validation_loss", "validation_rmse"]
+    best: NotedEpoch | None
+    on_windows: OnWindows
+    calibration: NotedCalibration
+    device: Literal["cpu", "cuda"]
+    precision: Literal["float32", "bfloat16"]
+    fingerprint: Text
+    provenance: dict[str, Any]
+
+
+@dataclass(frozen=True)
+class TrainedNetwork:
+    """One trained network, with its parameters (column `Network Size` of Table 1).
+
+    The samples are those learned from, without those held out; an epoch has `epoch_samples` of them. A training that
+    diverged was stopped as its loss grew; its epochs end there. `windows_loss` is the validation loss (22) of the epoch
+    kept if the network starts from a zero state a window before every sample; for all other losses its state is
+    carried from sample to sample. `joint_errors` are joint -> its RMSE of each epoch [N, N m]; a training of an earlier
+    version has none.
+    """
+
+    method: str
+    seed: int
+    parameters: int
+    samples: int
+    diverged: bool
+    windows_loss: float
+    chosen_by: str
+    epoch_samples: int
+    epochs: tuple[Epoch, ...]
+    joint_errors: Mapping[str, Sequence[float]]
+
+    @property
+    def steps(self) -> int:
+        """Number of time steps that the network has seen in training."""
+        return len(self.epochs) * self.epoch_samples
+
+    @property
+    def last(self) -> Epoch:
+        """The last epoch."""
+        return self.epochs[-1]
+
+    @property
+    def kept(self) -> Epoch:
+        """The epoch that validated best, whose weights are kept."""
+        return min(self.epochs, key=attrgetter("stride", self.chosen_by))
+
+
+def read_training(folder: Path) -> TrainedNetwork:
+    """Read a network's folder.
+
+    Raises:
+        DataError: a file is missing or damaged, or they do not agree, one line for each fault.
+    """
+    note, (epochs, errors) = read_training_note(folder), read_epochs(folder / METRICS)
+    refuse(folder, [*_disagreements(note, epochs), *_errors_apart(note, epochs, errors)])
+    return TrainedNetwork(
+        note.method, note.seed, note.parameters, note.samples, note.diverged, note.on_windows.loss, note.chosen_by,
+        note.settings.epoch_samples or note.samples, epochs, errors,
+    )  # fmt: skip
+
+
+def read_training_note(folder: Path) -> TrainingNote:
+    """Read the note of a network's folder.
+
+    Raises:
+        DataError: it is missing or damaged, or a key or a value is not accepted; one line for each.
+    """
+    note = read_note(folder / RUN, TrainingNote)
+    refuse(folder / RUN, _calibration_faults(note.calibration))
+    return note
+
+
+def training_seconds(folder: Path) -> float | None:
+    """Return the processor time of the training of a network's folder [s]; None where it was not trained here."""
+    time = folder.parent.with_name("state") / folder.name / TIME  # beside the training's checkpoint
+    return read_json(time)["seconds"] if time.is_file() else None
+
+
+def _disagreements(note: TrainingNote, epochs: Sequence[Epoch]) -> Iterator[str]:
+    """Yield where the epochs are not what the note says: how many, and which one is kept."""
+    count = note.settings.epochs
+    if (not note.diverged and len(epochs) != count) or len(epochs) > count:
+        yield _apart("epochs", len(epochs), count)
+    kept = min(epochs, key=attrgetter("stride", note.chosen_by), default=None)
+    noted = note.best.epoch if note.best else None
+    if noted != (kept.epoch if kept else None):
+        yield _apart(f"epoch of the smallest {note.chosen_by}", kept and kept.epoch, noted)
+    for name in ("validation_loss", "validation_rmse") if note.best and kept and noted == kept.epoch else ():
+        said, found = getattr(note.best, name), getattr(kept, name)
+        if said is not None and not isclose(said, found, rel_tol=DIGITS):
+            yield _apart(f"{name} of epoch {noted}", found, said)
+
+
+def _errors_apart(note: TrainingNote, epochs: Sequence[Epoch], errors: Mapping[str, Sequence[float]]) -> Iterator[str]:
+    """Yield joints that are not the note's, and the first epoch whose error is not the mean over the joints."""
+    joints = note.calibration.joints
+    if errors and list(errors) != list(joints):
+        yield _apart("joints with errors", ", ".join(errors), ", ".join(joints))
+    for epoch, own in zip(epochs, zip(*errors.values(), strict=True), strict=False):
+        if not isclose(fmean(own), epoch.validation_rmse, rel_tol=DIGITS):
+            yield f"validation_rmse of epoch {epoch.epoch}: " + not_accepted(
+                METRICS, epoch.validation_rmse, [f"the mean over the joints, {fmean(own):.6g}"]
+            )
+            return
+
+
+def _apart(what: str, found: object, said: object) -> str:
+    """Return the message that the two files of a training differ; which of them is wrong nobody can tell."""
+    return f"{what}: {found} in {METRICS} and {said} in {RUN} are not accepted; accepted: the same in both"
+
+
+def _calibration_faults(noted: NotedCalibration) -> Iterator[str]:
+    """Yield lists that are not as long as there are joints or shares, and wide intervals that contain less."""
+    joints, shares = len(noted.joints), len(noted.shares)
+    fits = {"before": noted.before, "after": noted.after}
+    lists: dict[str, Sequence[object]] = {"scale": noted.scale, "likelihood_scale": noted.likelihood_scale}
+    lists |= {f"{when}.{name}": getattr(fit, name) for when, fit in fits.items() for name in ("nll", "crps")}
+    lists |= {f"{when}.coverage.{k}": row for when, fit in fits.items() for k, row in enumerate(fit.coverage)}
+    for name, values in lists.items():
+        if len(values) != joints:
+            yield not_accepted(f"calibration.{name}", values, [f"{joints} numbers, one for each joint"])
+    for when, fit in fits.items():
+        if len(fit.coverage) != shares:
+            yield not_accepted(f"calibration.{when}.coverage", fit.coverage, [f"{shares} rows, one for each share"])
+        for joint, contained in zip(noted.joints, zip(*fit.coverage, strict=False), strict=False):
+            if list(contained) != sorted(contained):
+                accepted = [f"shares of {joint} that grow with {noted.shares}"]
+                yield not_accepted(f"calibration.{when}.coverage", list(contained), accepted)
+
+
+def read_trainings(folders: Iterable[Path]) -> dict[str, list[TrainedNetwork]]:
+    """Return method -> its trainings, in the order given."""
+    found: dict[str, list[TrainedNetwork]] = {}
+    for folder in folders:
+        training = read_training(folder)
+        found.setdefault(training.method, []).append(training)
+    return found
+
+
+def sound(trainings: Sequence[TrainedNetwork]) -> list[TrainedNetwork]:
+    """Return the trainings that did not diverge."""
+    return [training for training in trainings if not training.diverged]
+
+
+def kind_of_each(settings: Figure17) -> dict[str, str]:
+    """Return each method of Figure 17 -> its kind, which has the name of the method that is best of it."""
+    kinds = dict(zip(settings.methods, settings.best, strict=True))
+    return kinds | {best: best for best in settings.best}

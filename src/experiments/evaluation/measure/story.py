@@ -1,0 +1,201 @@
+"""The stored push as methods feel it: estimators step through it as on a robot, and what they show of it is measured.
+
+Its files are those of `experiments.plan.demo`; docs/demo has those of the published run.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from experiments.evaluation.compare.windows import FLAG
+from experiments.evaluation.measure.estimates.felt import Felt, felt_of
+from experiments.evaluation.measure.estimates.peaks import push_rows
+from experiments.evaluation.number.rows import read_detections
+from experiments.plan.demo import RECORDING, fit_place, network_place
+from experiments.settings.catalogue import Catalogue
+from experiments.settings.pages import Story
+from experiments.settings.settings import Settings
+from mobnet.core.arrays import Array
+from mobnet.core.columns import EXTERNAL, PUSH, PUSH_TORQUE, named
+from mobnet.core.detections import Collision, Threshold
+from mobnet.core.errors import ConfigError, DataError, not_accepted, refuse
+from mobnet.core.estimator import Estimate, Estimator
+from mobnet.core.recording import SensedRecording, read_sensed
+from mobnet.core.store import check_rate, read_array
+from mobnet.detection.detector import ALARM_RATIO, LegDetector
+from mobnet.detection.signals import Watched
+from mobnet.detection.watch import LegSetup
+from mobnet.estimation.low_pass import low_pass
+from mobnet.estimation.methods import build_estimator
+from mobnet.estimation.recipe import Recipe
+from mobnet.robot.description import RobotDescription, describe
+from mobnet.settings.detection import Detector
+
+
+@dataclass(frozen=True)
+class StoredPush:
+    """The files of a stored push in a folder, and the configuration of what runs on them.
+
+    What is missing or damaged is a DataError where it is read first.
+    """
+
+    folder: Path
+    settings: Settings
+
+    @property
+    def story(self) -> Story:
+        """Which push it is."""
+        return self.settings.evaluation.story
+
+    @cached_property
+    def robot(self) -> RobotDescription:
+        """The robot's body."""
+        return describe(self.settings.robot)
+
+    @cached_property
+    def collision(self) -> Collision:
+        """The push: its times, force, and the leg that it hits."""
+        path = self.folder / "collisions.csv"
+        rows: list[Collision] = read_detections(path, "collisions")
+        if len(rows) != 1:
+            raise DataError(not_accepted(f"{path}: number of rows", len(rows), ["1, that of the push"]))
+        return rows[0]
+
+    @property
+    def joints(self) -> tuple[str, ...]:
+        """The joints of the leg, (n,)."""
+        return self.robot.layout.limb(self.collision.leg)
+
+    @property
+    def place(self) -> int:
+        """Where the joint that is shown stands among those of the leg."""
+        return self.joints.index(self.story.joint)
+
+    @cached_property
+    def recording(self) -> SensedRecording:
+        """What the robot sensed, T samples."""
+        check_rate(self.folder / RECORDING, self.settings.rates.data_hz)
+        return read_sensed(self.folder / RECORDING, self.robot.layout)
+
+    @cached_property
+    def external(self) -> NDArray[np.float32]:
+        """The true external torque of the leg, (T, n) [N m]."""
+        return self._read(named(EXTERNAL, self.joints))
+
+    @cached_property
+    def truth(self) -> Array:
+        """The true external torque of the leg behind the observer's low-pass, (T, n) [N m]."""
+        return self.filtered(self.external)
+
+    @cached_property
+    def push(self) -> NDArray[np.float32]:
+        """What the push adds to the external torque of the leg, (T, n) [N m]."""
+        return self._read(named(PUSH_TORQUE, self.joints))
+
+    @cached_property
+    def pushed(self) -> NDArray[np.bool_]:
+        """Whether a push acts, (T,)."""
+        return self._read([f"{PUSH}.row"])[:, 0] > FLAG
+
+    @property
+    def swing(self) -> NDArray[np.bool_]:
+        """Whether the walking plan has the foot of the leg in the air, (T,)."""
+        return self.recording.sensed.swing[:, self._setup.gate.foot] > FLAG
+
+    @property
+    def start(self) -> int:
+        """The row in which the push begins."""
+        return round(self.story.before_s * self.recording.rate_hz)
+
+    @property
+    def time(self) -> Array:
+        """Time from the beginning of the push on, (T,) [s]."""
+        return (np.arange(len(self.recording.sensed)) - self.start) / self.recording.rate_hz
+
+    @property
+    def settled(self) -> slice:
+        """The rows in which estimators are judged."""
+        return slice(round(self.story.settle_s * self.recording.rate_hz), None)
+
+    def estimator(self, method: str) -> Estimator:
+        """Return a method's estimator; a ConfigError names a method whose files are not stored."""
+        if method not in self.story.methods:
+            raise ConfigError(not_accepted("method", method, self.story.methods))
+        catalogue, limb, settings = Catalogue(self.settings), self.collision.leg, self.settings
+        source, fitted = catalogue.network_source_of(method), catalogue.source_of(method)
+        networks = {limb: self.folder / network_place(source, limb)} if catalogue.method(source).limbs else {}
+        fit = self.folder / fit_place(fitted) if catalogue.method(fitted).fitted else None
+        methods = {name: catalogue.method(name) for name in (method, fitted)}
+        ratio, gravity = settings.levels[self.story.level].nominal_mass_ratio, settings.plant.gravity_m_s2
+        rate_hz = self.recording.rate_hz
+        return build_estimator(
+            Recipe(method, methods, settings.robot, ratio, gravity, settings.observer, rate_hz, networks, fit)
+        )
+
+    def estimate(self, method: str) -> Estimate:
+        """Return what a method makes of the leg's joints, step by step from its first state, (T, n) [N m]."""
+        estimator, sensed = self.estimator(method), self.recording.sensed
+        held, state, steps = (
+            [estimator.joints.index(joint) for joint in self.joints],
+            estimator.init(),
+            list[Estimate](),
+        )
+        for k in range(len(sensed)):
+            state, estimate = estimator.step(state, sensed[k])
+            steps.append(estimate)
+        tau, std = np.array([one.tau_ext for one in steps]), [one.std for one in steps if one.std is not None]
+        return Estimate(tau[:, held], np.array(std)[:, held] if std else None)
+
+    def felt(self, estimate: Estimate) -> Felt:
+        """Return what an estimate of the leg shows of the push at the joint of the story."""
+        k, rate_hz = self.place, self.recording.rate_hz
+        spans, peaks = ((0, len(self.pushed)),), self.settings.evaluation.peaks
+        rise = next(rows for _, rows in push_rows(self.pushed, spans, peaks, rate_hz))
+        push, truth, tau = (part[:, k].astype(np.float64) for part in (self.push, self.truth, estimate.tau_ext))
+        behind = self.filtered(push)
+        return felt_of(push[rise], behind[rise], (behind + tau - truth)[rise], rate_hz)
+
+    def error_nm(self, estimate: Estimate) -> float:
+        """Return the RMSE of an estimate of the leg at the joint of the story, from `settle_s` on [N m]."""
+        error = estimate.tau_ext[self.settled, self.place].astype(np.float64) - self.truth[self.settled, self.place]
+        return float(np.sqrt(np.square(error).mean()))
+
+    def filtered(self, torque: NDArray[Any]) -> Array:
+        """Return torque behind the observer's low-pass, (T, ...) [N m]."""
+        return low_pass(torque, self.settings.observer.gain_hz, self.recording.rate_hz)
+
+    def alarm_s(self, estimates: Mapping[str, Estimate]) -> float | None:
+        """Return how long after the beginning of the push the detector of the story says so [s], None if it does not.
+
+        Estimates are those of the methods. An alarm counts until some time after the push, as in Table 9.
+        """
+        setup = self._setup
+        row = self.settings.detection.detectors[self.story.detector]
+        detector = LegDetector(Watched(row), setup.gate, setup.chain(self._thresholds(row)))
+        gate = setup.gate.run(self.recording.sensed, estimates[setup.detection.gate.method].tau_ext)
+        ratio = detector.run(gate, self.recording.sensed, estimates[row.method]).ratio
+        end = int(np.flatnonzero(self.pushed)[-1]) + 1 + round(setup.detection.late_s * setup.rate_hz)
+        alarms = np.flatnonzero(ratio[self.start : end] > ALARM_RATIO)
+        return float(alarms[0]) / setup.rate_hz if len(alarms) else None
+
+    @cached_property
+    def _setup(self) -> LegSetup:
+        return LegSetup.of(self.settings.detection, self.robot, self.collision.leg, self.recording.rate_hz)
+
+    def _thresholds(self, row: Detector) -> Array:
+        """Return the thresholds of a detector, (phases, signals) [N m], of a ratio [-]."""
+        path, names = self.folder / "thresholds.csv", Watched(row).names(self.joints)
+        stored: list[Threshold] = read_detections(path, "thresholds")
+        values = {(one.phase, one.signal): one.value for one in stored}
+        wanted = [[(phase, name) for name in names] for phase in range(1, row.phases + 1)]
+        refuse(path, (f"threshold of {name}, phase {phase}, is missing; accepted: one of each signal of {row.method}"
+                      for some in wanted for phase, name in some if (phase, name) not in values))  # fmt: skip
+        return np.array([[values[place] for place in some] for some in wanted])
+
+    def _read(self, names: list[str]) -> NDArray[np.float32]:
+        return read_array(self.folder / RECORDING, names, self.robot.layout)[0]

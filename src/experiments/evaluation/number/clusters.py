@@ -1,0 +1,127 @@
+"""Intervals of single collisions and walks, which come in clusters: of few robots, and of walks that the robots share.
+
+What a robot does in one walk tells what it does in the next, so that a hundred collisions of three robots say less
+than a hundred of independent ones. As in `intervals` (docs/notes/0022-intervals.md) the variance of a mean is the sum
+of two, that over robots and that over walks of the same seed, each with a quantile of Student's law of its own; of one
+robot it is that over its walks alone, and of a single walk there is no interval. Robots and walks need not have equally
+many values, and a value may be missing.
+
+Means of positive values have their interval on a log scale, so that no impulse is below zero. Shares have Wilson's
+interval (1927) and rates that of a Poisson count (Garwood 1936), both with the number of independent values that would
+have an interval as wide (Korn and Graubard 1998, Survey Methodology 24). Values that happen to differ less over robots
+than independent ones count as independent ones of few robots, so that a share of 0 or 1 and a count of 0 have ends.
+"""
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+import scipy  # pyright: ignore[reportMissingTypeStubs]  # its parts are imported where they are used first
+from numpy.typing import NDArray
+
+from experiments.evaluation.number.intervals import quantile_of
+from experiments.evaluation.number.number import Number
+from experiments.settings.runs import Statistics
+
+Array = NDArray[np.float64]
+
+
+class Place(NamedTuple):
+    """Where a value is from: the robot, and the seed of the walk."""
+
+    robot: str
+    seed: int
+
+
+def mean_in(values: Sequence[float], places: Sequence[Place], statistics: Statistics, unit: str) -> Number:
+    """Return the mean of values [unit] at places, with its interval; none below zero if no value is."""
+    if not values:
+        return Number(None, unit=unit)
+    found = np.array(values, dtype=np.float64)
+    mean = float(found.mean())
+    effects = _effects((found - mean) / len(found), places)
+    if not effects:
+        return Number(mean, unit=unit)
+    reach = sum(_squared(count, statistics) * variance for count, variance in effects) ** 0.5
+    if (found > 0.0).all():
+        factor = float(np.exp(reach / mean))
+        return Number(mean, mean / factor, mean * factor, unit=unit)
+    low = mean - reach
+    return Number(mean, max(low, 0.0) if (found >= 0.0).all() else low, mean + reach, unit=unit)
+
+
+def share_in(flags: Sequence[bool], places: Sequence[Place], statistics: Statistics) -> Number:
+    """Return the share of flags that are set [-] at places, with its interval."""
+    if not flags:
+        return Number(None)
+    found = np.array(flags, dtype=np.float64)
+    value, n = float(found.mean()), len(found)
+    effects = _effects((found - value) / n, places)
+    if not effects:
+        return Number(value)
+    count = _independent(effects, value * (1.0 - value), n, statistics)
+    low, high = _wilson(value, count, statistics)
+    return Number(value, low, high)
+
+
+def rate_in(counts: Sequence[int], hours: Sequence[float], places: Sequence[Place], statistics: Statistics) -> Number:
+    """Return how many events there are in an hour [1/h] of the time at places [h], with its interval."""
+    events, time = np.array(counts, dtype=np.float64), np.array(hours, dtype=np.float64)
+    total, whole = float(events.sum()), float(time.sum())
+    if whole <= 0.0:
+        return Number(None, unit="1/h")
+    effects = _effects(events - time * total / whole, places)
+    if not effects:
+        return Number(total / whole, unit="1/h")
+    part = _independent(effects, total, 1, statistics)
+    tail = (1.0 - statistics.confidence) / 2.0
+    low = float(scipy.special.gammaincinv(total * part, tail)) if total else 0.0
+    high = float(scipy.special.gammaincinv(total * part + 1.0, 1.0 - tail))
+    return Number(total / whole, low / (whole * part), high / (whole * part), unit="1/h")
+
+
+def _effects(parts: Array, places: Sequence[Place]) -> list[tuple[int, float]]:
+    """Return of robots and of walks, where there are several, how many and the variance of the sum of parts (n,)."""
+    found: list[tuple[int, float]] = []
+    for names in ([place.robot for place in places], [place.seed for place in places]):
+        labels, index = np.unique(names, return_inverse=True)
+        count = len(labels)
+        if count > 1:
+            sums = np.bincount(index, weights=parts)
+            found.append((count, count / (count - 1) * float((sums**2).sum())))
+    return found
+
+
+def _independent(effects: Sequence[tuple[int, float]], unit: float, n: int, statistics: Statistics) -> float:
+    """Return the number of independent values whose mean has an interval as wide by the normal law.
+
+    Args:
+        effects: how many robots and walks there are, and the variance of the mean over each.
+        unit: variance of one value; 0 where all are alike.
+        n: number of values. The variance over the first of the effects counts as that of so many at least.
+        statistics: of the interval.
+    """
+    (first, variance), *others = effects
+    if not unit:
+        return n * _normal(statistics) / _squared(first, statistics)
+    reach = _squared(first, statistics) * max(variance, unit / n)
+    reach += sum(_squared(count, statistics) * own for count, own in others)
+    return _normal(statistics) * unit / reach
+
+
+def _squared(count: int, statistics: Statistics) -> float:
+    """Return the square of Student's quantile for so many robots or walks [-]."""
+    return quantile_of(count - 1, statistics.confidence) ** 2
+
+
+def _normal(statistics: Statistics) -> float:
+    """Return the square of the normal law's quantile [-]."""
+    return float(scipy.special.ndtri((1.0 + statistics.confidence) / 2.0)) ** 2
+
+
+def _wilson(value: float, count: float, statistics: Statistics) -> tuple[float, float]:
+    """Return Wilson's interval of a share of so many independent values, which need not be a whole number."""
+    square = _normal(statistics)
+    middle = (value + square / (2.0 * count)) / (1.0 + square / count)
+    reach = (square * (value * (1.0 - value) / count + square / (4.0 * count**2))) ** 0.5 / (1.0 + square / count)
+    return (middle - reach if value > 0.0 else 0.0), (middle + reach if value < 1.0 else 1.0)

@@ -1,0 +1,86 @@
+"""Files of rows that jobs hand on: errors of runs, epochs of trainings, and what detectors find."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import fields
+from operator import attrgetter
+from pathlib import Path
+from typing import Any, cast
+
+from experiments.settings.metrics import metric_of
+from mobnet.core.columns import Score
+from mobnet.core.detections import FILES, PARTS, UNNAMED
+from mobnet.core.errors import ConfigError
+from mobnet.core.rows import read_rows, refuse_rows
+
+KEY = attrgetter(*(field.name for field in fields(Score) if field.name != "value"))  # what names a score, unit last
+ENDS = (("start_s", "end_s"), ("low", "high"), ("found", "collisions"))  # of rows of detectors, smaller one first
+Fault = tuple[int, str, object, str]  # number of a row, column, value, accepted
+
+
+def read_scores(*paths: Path) -> list[Score]:
+    """Read errors of runs from files, one for each test and level, one file after another.
+
+    Raises:
+        DataError: a file is missing or damaged, or a row is not accepted; one line for each fault.
+    """
+    found: list[Score] = []
+    for path in paths:
+        rows = read_rows(path, Score)
+        refuse_rows(path, _score_faults(rows))
+        found += rows
+    return found
+
+
+def read_detections(path: Path, name: str) -> list[Any]:
+    """Read the rows of a file of a robot's detectors, one of `core.detections.FILES` by its name.
+
+    Raises:
+        DataError: the file is missing or damaged, or a row is not accepted; one line for each fault.
+    """
+    rows = read_rows(path, FILES[name])
+    refuse_rows(path, _detection_faults(rows))
+    return rows
+
+
+def _detection_faults(rows: Sequence[Any]) -> Iterator[Fault]:
+    """Yield numbers below zero, empty names, unknown parts, and ends of times or intervals that come before starts."""
+    for k, row in enumerate(rows):
+        values = cast("dict[str, Any]", vars(row))
+        for name, value in values.items():
+            if value == "" and name not in UNNAMED:
+                yield k, name, value, "a name"
+            if isinstance(value, int | float) and value < 0:
+                yield k, name, value, "0 or more"
+        if values.get("part", PARTS[0]) not in PARTS:
+            yield k, "part", row.part, ", ".join(PARTS)
+        for low, high in ENDS:
+            if low in values and values[low] > values[high]:
+                yield k, low, values[low], f"at most {high}, {values[high]}"
+
+
+def _score_faults(rows: Sequence[Score]) -> Iterator[Fault]:
+    """Yield seeds below zero, empty names, what its metric does not allow of a row, and rows that occur twice."""
+    seen: dict[tuple[object, ...], int] = {}
+    for k, row in enumerate(rows):
+        for name in ("network_seed", "test_seed"):
+            if getattr(row, name) < 0:
+                yield k, name, getattr(row, name), "0 or more"
+        for name in ("scenario", "level", "method", "limb", "joint"):
+            if not getattr(row, name):
+                yield k, name, "", "a name"
+        try:
+            metric = metric_of(row.metric)
+        except ConfigError:
+            yield k, "metric", row.metric, "a name that a module of measures declares, such as rmse"
+            continue
+        if row.unit not in metric.units:
+            yield k, "unit", row.unit, ", ".join(metric.units)
+        if metric.low is not None and row.value < metric.low:
+            yield k, "value", row.value, f"{metric.low:g} or more"
+        if metric.high is not None and row.value > metric.high:
+            yield k, "value", row.value, f"{metric.high:g} or less"
+        key = KEY(row)
+        first = seen.setdefault(key, k)
+        # a limb with forces and torques has two means of what has no unit of a joint, such as %
+        if first != k and not (row.joint == "avg" and len(metric.units) == 1):
+            yield k, "row", ", ".join(map(str, key[:-1])), f"once; it stands in line {first + 2} already"

@@ -1,0 +1,130 @@
+"""What a run of the workflow will cost, priced by the rates of the published one: `./reproduce cost`.
+
+Without targets it prices a run from nothing; with some, what a run of them would start now: `./reproduce cost all`
+after an edit, or `./reproduce cost tables/table_06.tex`.
+"""
+
+import logging
+import re
+import subprocess
+import sys
+from argparse import Namespace
+from collections.abc import Collection, Iterable, Iterator, Sequence
+from typing import Any
+
+import yaml
+
+from experiments.evaluation.report.compute import HOUR_S, STAGES, WHOLE, stage_of
+from experiments.evaluation.report.paper import missing_packages
+from experiments.evaluation.report.rates import RATES, Kind, RatesNote, price
+from experiments.evaluation.tables.layout import markdown_table
+from experiments.plan.disk import bytes_of
+from experiments.plan.plan import Plan, make_plan
+from experiments.plan.work import Work
+from experiments.running.words import cost_parser
+from experiments.settings.load import load_settings
+from mobnet.core.errors import ConfigError
+from mobnet.core.notes import read_note
+from mobnet.core.printed import printed
+
+log = logging.getLogger(__name__)
+
+HEADER = ("stage", "jobs", "core-hours", "memory [MiB]")
+GIB, PERCENT = 2**30, 100.0
+RULE = re.compile(r"^ *(?:local)?rule (\w+):$", re.MULTILINE)  # of a job that a dry run lists
+Cost = tuple[int, float, float]  # jobs, processor time [s], largest peak of the memory [MiB]
+
+
+def costs(works: Iterable[Work], kinds: dict[str, Kind]) -> dict[str, Cost]:
+    """Return what the jobs of each stage will take, then all of them; jobs without a rate do not count."""
+    found: dict[str, Cost] = dict.fromkeys((*STAGES, WHOLE), (0, 0.0, 0.0))
+    for work in works:
+        if work.kind in kinds:
+            cpu_s, peak_mib = price(work, kinds[work.kind])
+            for stage in (stage_of(work.job), WHOLE):
+                jobs, before_s, most_mib = found[stage]
+                found[stage] = jobs + 1, before_s + cpu_s, max(most_mib, peak_mib)
+    return {stage: cost for stage, cost in found.items() if cost[0]}
+
+
+def report(plan: Plan, rates: RatesNote, rules: Collection[str]) -> str:
+    """Return the price of some rules of a plan as text: a row for each stage, the disk, and what has no rate."""
+    chosen = [made for rule, made in plan.rules.items() if rule in rules]
+    works, files = [work for work, _ in chosen], [name for _, outputs in chosen for name in outputs]
+    found = costs(works, rates.kinds)
+    rows = [[stage, str(n), f"{cpu_s / HOUR_S:.2f}", f"{mib:.0f}"] for stage, (n, cpu_s, mib) in found.items()]
+    unknown = sorted({work.kind for work in works} - {*rates.kinds})
+    lines = [
+        f"scale {plan.settings.scale}, priced as on this processor: {rates.processor}",
+        "",
+        markdown_table(HEADER, rows) if works else "nothing would run: all is up to date",
+        f"disk: {bytes_of(plan, files) / GIB:.1f} GiB; time: the core-hours over the number of cores",
+        "GPU-hours: none, as no training on a GPU has been measured",
+    ]
+    lines += [f"without a rate, and not counted: {', '.join(unknown)}"] if unknown else []
+    return "\n".join(lines)
+
+
+def out_of_date(targets: Sequence[str], config: Sequence[str]) -> frozenset[str]:
+    """Return the rules that a run of targets would start now, as a dry run of Snakemake lists them.
+
+    Raises:
+        ConfigError: a target or a value of the configuration is not accepted.
+    """
+    given = ["--config", *config] if config else []
+    words = [sys.executable, "-m", "snakemake", "-n", "--quiet", "host", *given, "--", *targets]
+    done = subprocess.run(words, capture_output=True, text=True, check=False)
+    told = done.stdout + done.stderr
+    if done.returncode:
+        raise ConfigError(next((line for line in reversed(told.splitlines()) if line.strip()), "snakemake failed"))
+    return frozenset(RULE.findall(told))
+
+
+def check(rates: RatesNote, with_pdf: bool) -> str:
+    """Return how the rates price the scale of the run to which they are fitted, as its sizes are now."""
+    plan = make_plan(load_settings(overrides={"scale": rates.scale}), with_pdf=with_pdf)
+    _, cpu_s, peak_mib = costs(plan.work, rates.kinds)[WHOLE]
+    gone = sorted({*rates.kinds} - {work.kind for work in plan.work})
+    pairs = {"core-hours": (cpu_s / HOUR_S, rates.core_h, 2), "MiB": (peak_mib, rates.peak_mib, 0)}
+    told = [
+        f"{priced:.{digits}f} {unit} where it took {took:.{digits}f} ({PERCENT * (priced / took - 1):+.0f} %)"
+        for unit, (priced, took, digits) in pairs.items()
+    ]
+    lines = [f"scale {rates.scale} now, beside the published run, to which the rates are fitted: {', '.join(told)}"]
+    lines += [f"its jobs were cut in another way, so that prices are rough: {', '.join(gone)}"] if gone else []
+    return "\n".join(lines)
+
+
+def overrides(words: Sequence[str]) -> dict[str, Any]:
+    """Return the values that replace those of the configuration, from words KEY=VALUE.
+
+    Raises:
+        ConfigError: a word is none.
+    """
+    parts = [word.partition("=") for word in words]
+    for word, (key, sign, _) in zip(words, parts, strict=True):
+        if not (key and sign):
+            raise ConfigError(f"--config: {word!r} is not accepted; accepted: KEY=VALUE, a key of configs")
+    try:
+        return {key: yaml.safe_load(value) for key, _, value in parts}
+    except (yaml.YAMLError, RecursionError) as error:
+        raise ConfigError(f"--config: {' '.join(str(error).split())}; accepted: a value in plain YAML") from None
+
+
+def run(options: Namespace) -> Iterator[str]:
+    """Yield what a run will cost, as the command's options say."""
+    with_pdf = not missing_packages()
+    rates = read_note(RATES, RatesNote)
+    plan = make_plan(load_settings(overrides=overrides(options.config)), with_pdf=with_pdf)
+    rules = out_of_date(options.targets, options.config) if options.targets else plan.rules
+    yield f"{report(plan, rates, rules)}\n{check(rates, with_pdf)}"
+
+
+def main(words: Sequence[str]) -> int:
+    """Print what a run will cost; return the exit status."""
+    options = cost_parser().parse_args(words)
+    return printed(log, lambda: run(options))
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,41 @@
+"""The table of deviations: written once in Markdown, set in the paper as TeX."""
+
+import re
+from pathlib import Path
+
+from experiments.evaluation.tables.layout import GAP, long_tex_table, tex_escape
+from mobnet.core.errors import DataError
+from mobnet.core.files import read_text, write_text
+
+WIDTHS = (0.12, 0.25, 0.25, 0.32)  # shares of the text width, one a column
+CAPTION = r"\deviationscaption"  # the paper's
+
+
+def deviations(markdown: Path, out: Path) -> None:
+    """Write the table of a Markdown file, which must be as wide as the paper's, as a TeX longtable."""
+    header, *rows = markdown_rows(read_text(markdown), str(markdown))
+    columns = "".join(rf">{{\raggedright\arraybackslash}}p{{{width}\textwidth}}" for width in WIDTHS)
+    lines = [line for row in rows for line in (GAP, list(map(tex_text, row)))]
+    write_text(out, long_tex_table(columns, CAPTION, list(map(tex_text, header)), lines[1:]))
+
+
+def markdown_rows(text: str, name: str) -> list[list[str]]:
+    """Return the cells of the first Markdown table in a text, header first.
+
+    Raises:
+        DataError: there is no table, or a row has another number of cells.
+    """
+    lines = [line for line in text.splitlines() if line.startswith("|")]
+    rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in lines]
+    rows = [row for row in rows if not all(set(cell) <= set("-: ") for cell in row)]
+    wrong = [row for row in rows if len(row) != len(WIDTHS)]
+    if wrong or not rows:
+        found = f"{len(wrong[0])} cells in the row of {wrong[0][0]!r}" if wrong else "no table"
+        raise DataError(f"{name}: {found}; expected rows of {len(WIDTHS)} cells")
+    return rows
+
+
+def tex_text(text: str) -> str:
+    """Return Markdown text with `code` as TeX."""
+    parts = re.split(r"`([^`]*)`", text)
+    return "".join(rf"\texttt{{{tex_escape(part)}}}" if i % 2 else tex_escape(part) for i, part in enumerate(parts))

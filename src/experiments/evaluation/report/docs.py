@@ -1,0 +1,150 @@
+"""The documentation as pages: all documents, and pages made of results, configuration and docstrings, by Sphinx.
+
+Documents are Markdown whose relative links work on a code host. They keep their places in the folder that Sphinx reads,
+so that the links work on the pages too; only those to folders and to the first page are rewritten.
+"""
+
+import logging
+import os
+import posixpath
+import re
+import shutil
+import subprocess
+import sys
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from experiments.evaluation.report.site.contents import README, menus, sections
+from experiments.evaluation.report.site.reference import PUBLIC, reference_pages
+from experiments.evaluation.report.site.results import result_pages
+from experiments.settings.claims import Claim
+from mobnet.core.errors import DataError
+from mobnet.core.files import read_text, write_text
+
+log = logging.getLogger(__name__)
+
+INDEX, RESULTS, TRIALS = Path("docs/README.md"), Path("docs/results"), Path("docs/trials")
+FIRST = "index.md"  # the README, where a browser looks for the first page
+MADE = {  # section of the index -> pages that are made
+    "Reference": ("reference/commands.md", "reference/configuration.md", "reference/python.md"),
+    "Project": ("docs/README.md",),
+}
+LINK = re.compile(r"(?<=\]\()([^)#:\s]+)(?=[)#])")
+FIXED = {"SOURCE_DATE_EPOCH": "0", "PYTHONHASHSEED": "0"}  # equal pages from equal documents
+
+
+def docs(
+    documents: Sequence[Path], captions: Sequence[Path], modules: Sequence[Path], claims: Mapping[str, Claim], out: Path
+) -> None:
+    """Write the documentation as HTML pages into the folder `out`.
+
+    Args:
+        documents: files of the documentation, relative to the project's folder: Markdown, pictures, CSVs, settings.
+        captions: of tables and figures, reStructuredText.
+        modules: files of all modules, of which those of public packages are shown.
+        claims: of the paper, by name.
+        out: gets `index.html`.
+
+    Raises:
+        DataError: one line for each warning of Sphinx, such as a reference that leads nowhere.
+    """
+    with TemporaryDirectory() as made:
+        folder = Path(made) / "sources"
+        write_sources(folder, documents, captions, modules, claims)
+        built = build(folder, Path(made) / "pages")
+        shutil.rmtree(out, ignore_errors=True)
+        shutil.copytree(built, out)
+    log.info("%s: %d pages", out, len(list(out.rglob("*.html"))))
+
+
+def write_sources(
+    folder: Path,
+    documents: Sequence[Path],
+    captions: Sequence[Path],
+    modules: Sequence[Path],
+    claims: Mapping[str, Claim],
+) -> None:
+    """Write what Sphinx reads into a folder: documents, and pages that are made; arguments are those of `docs`."""
+    for path in documents:
+        (folder / path).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copyfile(path, folder / path)
+    shutil.move(folder / "docs" / "conf.py", folder / "conf.py")
+    index = read_text(INDEX)
+    grouped = ((group.path, group.page) for section in sections(index).values() for group in section.groups)
+    pages = [*grouped, *result_pages(RESULTS, captions, claims), *trial_pages(), *reference_pages(modules_of(modules))]
+    for path, text in pages:
+        write_text(folder / path, text)
+    listed = {Path(path) for section in sections(index).values() for path in section.documents}
+    for path in sorted(path for path in listed if not (folder / path).exists()):
+        write_text(folder / path, listing(path.parent))
+    first = read_text(Path(README)) + "\n" + "\n".join(menus(index, MADE))
+    write_text(folder / README, first)
+    for page in sorted(folder.rglob("*.md")):
+        write_text(page, relinked(read_text(page), page.relative_to(folder), folder))
+    shutil.move(folder / README, folder / FIRST)
+
+
+def trial_pages() -> Iterator[tuple[str, str]]:
+    """Yield the page of each trial, whose table stands alone in its file, and the page that lists them."""
+    tables = sorted(TRIALS.glob("*.md"))
+    for table in tables:
+        yield str(table), f"# {title_of(table)}\n\n`./reproduce {table.stem}` makes it.\n\n{read_text(table)}"
+    listed = "".join(f"* [{title_of(table)}]({table.name})\n" for table in tables)
+    hidden = "".join(f"{table.stem}\n" for table in tables)
+    yield str(TRIALS / README), f"# Trials\n\n{listed}\n```{{toctree}}\n:hidden:\n\n{hidden}```\n"
+
+
+def listing(folder: Path) -> str:
+    """Return the page of a folder that has none: its files."""
+    files = sorted(path.relative_to(folder) for path in folder.rglob("*") if path.is_file())
+    return f"# Files of {folder}\n\n" + "".join(f"* [{path}]({path})\n" for path in files)
+
+
+def title_of(table: Path) -> str:
+    """Return the title of a trial's table."""
+    return f"Trial: {table.stem.replace('_', ' ')}"
+
+
+def modules_of(modules: Sequence[Path]) -> dict[str, list[str]]:
+    """Return public package -> the dotted names of its modules, but those that are run or say what a package is."""
+    names = [".".join(path.with_suffix("").parts[1:]) for path in modules if not path.stem.startswith("__")]
+    return {package: [name for name in names if name.startswith(f"mobnet.{package}.")] for package in PUBLIC}
+
+
+def relinked(text: str, page: Path, folder: Path) -> str:
+    """Return the text of a page, whose links to folders lead to their own pages, and those to the README to the first.
+
+    A linked file of the project that Sphinx does not read yet is copied into the folder.
+    """
+
+    def target(link: re.Match[str]) -> str:
+        path = Path(posixpath.normpath(page.parent / link[0]))
+        if str(path) == README:
+            return posixpath.relpath(FIRST, page.parent)
+        if (folder / path).is_dir():
+            return f"{link[0]}/{README}"
+        if not (folder / path).exists() and path.is_file():
+            (folder / path).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copyfile(path, folder / path)
+        return link[0]
+
+    return LINK.sub(target, text)
+
+
+def build(folder: Path, out: Path) -> Path:
+    """Let Sphinx build a folder, whose every warning is an error; return `out`.
+
+    Raises:
+        DataError: what Sphinx says, with paths from the folder.
+    """
+    words = [sys.executable, "-m", "sphinx", "-q", "-W", "--keep-going", "-E", "-b", "html"]
+    words += ["-d", str(out.with_name("doctrees")), str(folder), str(out)]
+    # Packages imported for their docstrings leave caches in the temporary folder: it is one that goes with the build.
+    fixed = {**os.environ, **FIXED, "TMPDIR": str(folder.parent)}
+    done = subprocess.run(words, capture_output=True, text=True, check=False, env=fixed)
+    if done.returncode:
+        raise DataError(done.stderr.replace(f"{folder}/", "").strip() or f"sphinx ended with {done.returncode}")
+    for left in (".buildinfo", ".buildinfo.bak", "objects.inv"):  # nobody reads them here
+        (out / left).unlink(missing_ok=True)
+    return out

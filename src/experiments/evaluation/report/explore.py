@@ -1,0 +1,202 @@
+"""The page on which a reader plays with pushes: one HTML file that needs no other, drawn from the data in it.
+
+It has what `explore_scenes` reads, packed as `explore_pack` says, and the numbers of `explore_numbers` as a table, all
+of which a browser shows that cannot unpack the data. The address holds what is shown.
+"""
+
+import json
+import logging
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from experiments.evaluation.report.explore_numbers import push_numbers, stretches
+from experiments.evaluation.report.explore_pack import Part, packed
+from experiments.evaluation.report.explore_scenes import Shown, read_scene
+from experiments.evaluation.report.html import rendered
+from experiments.plan.scenes import PageScene
+from experiments.settings.measures import Peaks
+from experiments.settings.pages import Explore, Story
+from mobnet.core.detections import COLLISION, Collision, Detected
+from mobnet.core.errors import DataError
+from mobnet.core.files import write_text
+from mobnet.core.joints import JointLayout
+from mobnet.core.rows import read_rows
+from mobnet.robot.description import RobotDescription, describe
+from mobnet.robot.looks import dressed
+from mobnet.settings.detection import Detection
+from mobnet.settings.parts import Looks
+from mobnet.settings.robot import RobotTable
+
+OBSERVER, STORY = "MOB", "story"
+ROLES = {OBSERVER: "observer", "MOB-Net": "network", "FTS-e2e": "direct"}  # method -> its colour; others are formulas
+SIDES = {"L": ("left",), "R": ("right",)}  # first letter of a joint's name in the source of the table -> word
+STEP_M, STEP_N = 1e-4, 0.1  # of positions [m, rad, -] and forces [N]
+log = logging.getLogger(__name__)
+
+
+def explore(
+    settings: Explore, story: Story, detection: Detection, peaks: Peaks, robot: RobotTable, looks: Looks | None,
+    scenes: Mapping[str, PageScene], collisions: Path, detected: Path, templates: Sequence[Path], out: Path,
+) -> None:  # fmt: skip
+    """Write the page; a scene whose recording has no such push is left out.
+
+    `templates` has the page's HTML, then the files that it includes; `collisions` are those of the story's robot and
+    `detected` what its detectors say of them.
+
+    Raises:
+        DataError: a file is missing or damaged, or no recording has a push that is shown.
+    """
+    description = describe(robot)
+    read = {name: read_scene(scene, settings, story, detection, description) for name, scene in scenes.items()}
+    shown = {name: scene for name, scene in read.items() if scene is not None}
+    log.info("%s: %d of %d scenes", out, len(shown), len(scenes))
+    if not shown:
+        raise DataError(f"{out}: no recording has a push that the page shows; accepted: one or more")
+    alarm = alarm_of(shown[STORY], story, description.layout, collisions, detected) if STORY in shown else None
+    seen = dressed(description, looks)
+    write_text(out, page_of(shown, alarm, settings, story, detection, peaks, seen, templates[0]))
+
+
+def page_of(
+    shown: Mapping[str, Shown], alarm: Mapping[str, Any] | None, settings: Explore, story: Story, detection: Detection,
+    peaks: Peaks, robot: RobotDescription, template: Path,
+) -> str:  # fmt: skip
+    """Return the page of some scenes; `alarm` is that of the story's detector; scripts stand beside the template."""
+    numbers = {
+        name: push_numbers(
+            as_stored(scene, settings.step_nm), scene.scene.joint, scene.scene.threshold_nm, detection, peaks
+        )
+        for name, scene in shown.items()
+    }
+    told = {
+        "settings": page_numbers(settings, detection, peaks),
+        "robot": robot_parts(robot),
+        "scenes": [
+            scene_note(name, scene, robot, settings, alarm if name == STORY else None) for name, scene in shown.items()
+        ],
+    }
+    return rendered(
+        template, told=json.dumps(told, separators=(",", ":")), numbers=numbers, shown=shown, roles=ROLES,
+        data=packed(part for scene in shown.values() for part in parts_of(scene, settings)), detection=detection,
+        peaks=peaks, joint_names=joint_names(robot), alarm_of=story.detector,
+        steps={name: {row.method: row for row in rows} for name, rows in numbers.items()},
+        trained_hz=next(iter(shown.values())).gain_hz,
+    )  # fmt: skip
+
+
+def page_numbers(settings: Explore, detection: Detection, peaks: Peaks) -> dict[str, Any]:
+    """Return the numbers of the configuration with which the page computes."""
+    return {
+        "gains": settings.gains_hz, "thresholds": settings.thresholds_nm,
+        "poseHz": settings.pose_hz, "lowPassHz": detection.low_pass_hz, "holdS": detection.hold_s,
+        "lateS": detection.late_s, "afterS": peaks.after_s, "longestS": peaks.longest_s,
+    }  # fmt: skip
+
+
+def robot_parts(robot: RobotDescription) -> dict[str, Any]:
+    """Return bodies, joints, solids with their colours, and soles of a robot, bodies by their number."""
+    index = {body.name: k for k, body in enumerate(robot.bodies)}
+    limbs = {joint: limb for limb, joints in robot.layout.groups.items() for joint in joints}
+    sole = robot.sole
+    return {
+        "bodies": [[index.get(body.parent, -1), body.pos, body.quat] for body in robot.bodies],
+        "joints": [[joint.id, index[joint.body], joint.axis, limbs.get(joint.id, "")] for joint in robot.joints],
+        "shapes": [
+            [index[shape.body], shape.type, shape.size, shape.segment or shape.pos, shape.tone]
+            for shape in robot.shapes
+        ],
+        "tones": {name: [round(255 * part) for part in colour[:3]] for name, colour in robot.tones.items()},
+        "feet": [index[foot.body] for foot in robot.feet.values()],
+        "sole": [sole.box_centre, sole.box_half] if sole else None,
+    }
+
+
+def joint_names(robot: RobotDescription) -> dict[str, str]:
+    """Return joint -> what a reader calls it, by its name in the source of the table."""
+    found: dict[str, str] = {}
+    for joint in robot.joints:
+        side, _, rest = (joint.name or joint.id).removesuffix("_Joint").rpartition("_")
+        words = re.sub(r"([A-Z]|\d+)", r" \1", rest).lower().split()
+        found[joint.id] = " ".join([*SIDES.get(side, ()), *words])
+    return found
+
+
+def scene_note(
+    name: str, shown: Shown, robot: RobotDescription, settings: Explore, alarm: Mapping[str, Any] | None
+) -> dict[str, Any]:  # fmt: skip
+    """Return what the page must know of a scene besides its arrays."""
+    scene, push, names = shown.scene, shown.scene.pushes[shown.pushed], joint_names(robot)
+    bodies = [body.name for body in robot.bodies]
+    point = next((point for point in robot.points if point.name == push.point), None)
+    return {
+        "name": name, "push": scene.push, "plant": scene.plant, "joint": scene.joint, "threshold": scene.threshold_nm,
+        "joints": [[joint, names[joint]] for joint in shown.joints],
+        "methods": [[method, ROLES.get(method, "formula")] for method in shown.estimates],
+        "stds": list(shown.stds), "rate": shown.rate_hz, "gain": shown.gain_hz,
+        "lead": shown.lead, "start": shown.start, "end": shown.end, "count": len(shown.truth),
+        "point": [bodies.index(point.body), point.pos, point.name.replace("_", " ")] if point else None,
+        "turned": push.joint, "flags": {key: list(stretches(flag)) for key, flag in shown.flags.items()},
+        "alarm": alarm, "parts": [part.place for part in parts_of(shown, settings)],
+    }  # fmt: skip
+
+
+def parts_of(shown: Shown, settings: Explore) -> Iterator[Part]:
+    """Yield the arrays of a scene, of the residual's methods what they subtract from it, which is smoother."""
+    step = settings.step_nm
+    yield Part("poses", STEP_M, shown.poses)
+    yield Part("wrenches", STEP_N, shown.wrenches)
+    yield Part("force", STEP_N, shown.force)
+    yield Part("truth", step, shown.truth)
+    yield Part("push", step, shown.push)
+    for method, estimate in shown.estimates.items():
+        yield Part(method, step, estimate if is_whole(shown, method) else shown.estimates[OBSERVER] - estimate)
+    for method, std in shown.stds.items():
+        yield Part(f"std {method}", step, std)
+
+
+def is_whole(shown: Shown, method: str) -> bool:
+    """Return whether a method's torque is stored, and not what it subtracts from the observer's."""
+    return OBSERVER not in shown.estimates or ROLES.get(method) in ("observer", "direct")
+
+
+def as_stored(shown: Shown, step_nm: float) -> Shown:
+    """Return a scene with the torques that a page gets of it, whole numbers of steps [N m]: its numbers are theirs."""
+
+    def stored(values: NDArray[Any]) -> NDArray[np.float64]:
+        return np.round(np.asarray(values, dtype=np.float64) / step_nm) * step_nm
+
+    def rebuilt(method: str, torque: NDArray[Any]) -> NDArray[np.float64]:
+        if is_whole(shown, method):
+            return stored(torque)
+        residual = shown.estimates[OBSERVER]
+        return stored(residual) - stored(residual - torque)
+
+    estimates = {method: rebuilt(method, torque) for method, torque in shown.estimates.items()}
+    return replace(shown, truth=stored(shown.truth), push=stored(shown.push), estimates=estimates)
+
+
+def alarm_of(
+    shown: Shown, story: Story, layout: JointLayout, collisions: Path, detected: Path
+) -> dict[str, Any] | None:  # fmt: skip
+    """Return when the story's detector finds its push and what it names, as recorded; None if it does not find it.
+
+    Its thresholds are those for one false alarm an hour.
+    """
+    seed = shown.scene.runs[0].test_seed
+    hit = next(
+        row for row in read_rows(collisions, Collision)
+        if (row.scenario, row.seed, row.push) == (story.scenario, seed, story.push)
+    )  # fmt: skip
+    wanted = (story.scenario, seed, hit.leg, hit.number, story.detector, COLLISION)
+    for row in read_rows(detected, Detected):
+        if (row.scenario, row.seed, row.leg, row.number, row.detector, row.kind) == wanted and row.delay_s is not None:
+            side = next(side for side, limb in layout.legs.items() if limb == row.leg)
+            named = f"{side} {row.link}, {row.direction}"
+            return {"detector": row.detector, "at": shown.start + round(row.delay_s * shown.rate_hz), "named": named}
+    return None

@@ -1,0 +1,95 @@
+"""The three tables of the paper's main text, each of which compares what many tables hold: legs, limbs, detectors."""
+
+from collections.abc import Mapping, Sequence
+from itertools import product
+from pathlib import Path
+
+from experiments.evaluation.number.number import Number
+from experiments.evaluation.report.cells import cell_text, cells_of
+from experiments.evaluation.tables.layout import Line, Table, write_table
+from experiments.settings.detection_tables import AlarmTable
+from experiments.settings.tables import LegsTable, LimbsTable, MainTables
+
+COLUMNS = ("row", "quantity", "value", "low", "high", "unit", "published")
+NONE = Number(None)
+ZERO, ABOVE = "zero", "*"  # the method that estimates nothing, and what stands behind an error larger than its
+PUSHED = ("push_share", "rise_delay")  # metrics of a push
+DETECTED = {  # quantity -> its cell, of a detector of a leg; both rules of thresholds
+    "threshold": "table_13@{}@largest@mean.LL3 1@threshold",
+    "found": "table_09@{}@largest@all@found",
+    "delay": "table_09@{}@largest@all@delay",
+    "alarms": "false_alarms@{}@largest@random@measured",
+    "found at rate": "found_by_rate@{}@collision@all@found",
+    "delay at rate": "found_by_rate@{}@collision@all@delay",
+    "alarms at rate": "false_alarms@{}@collision@held out@measured",
+}
+HEADS = {  # head -> quantity of a column; heads of the right half say so
+    "LL3 [N m]": "threshold", "found": "found", "paper": "paper", "delay [ms]": "delay", "false [1/h]": "alarms",
+    "at 1/h: found": "found at rate", "at 1/h: 95%": "interval", "at 1/h: delay [ms]": "delay at rate",
+    "at 1/h: false [1/h]": "alarms at rate",
+}  # fmt: skip
+
+Cells = Mapping[str, Number]
+Fields = Sequence[str | float | None]
+
+
+def main_tables(settings: MainTables, sources: Sequence[Path], out: Path) -> None:
+    """Write legs, limbs and detectors as CSV, TeX and Markdown beside `out`, from the finished tables `sources`.
+
+    A number that no source holds, such as that of a method without a run on one of the plants, is a dash.
+
+    Raises:
+        DataError: a table is missing or damaged.
+    """
+    cells = {name: number for path in sources for name, number in cells_of(path).items()}
+    write_table(out.with_name("legs"), legs_table(settings.legs, cells))
+    write_table(out.with_name("limbs"), limbs_table(settings.by_limb, cells))
+    write_table(out.with_name("detectors"), detectors_table(settings.detectors, cells))
+
+
+def legs_table(settings: LegsTable, cells: Cells) -> Table:
+    """Return errors [N m] of the left leg in walking, and shares [-] and delays [ms] of pushes, by method."""
+    header, rows, lines = ["Method"], list[Fields](), list[Line]()
+    for plant in settings.plants:
+        header += [f"{plant.title}: error [N m]", "95%", "paper", "push share", "delay [ms]"]
+    for method in settings.methods:
+        line = [method]
+        for plant in settings.plants:
+            error = cells.get(f"methods@{plant.walk}@{method}@LL@avg@rmse", NONE)
+            paper = Number(cells.get(f"{plant.printed}@{plant.walk}@{method}@avg@rmse", NONE).published)
+            share, delay = (cells.get(f"peaks@{plant.push}@{method}@LL@avg@{name}", NONE) for name in PUSHED)
+            line += [error.text(), error.interval(), paper.text(), share.text(), cell_text(delay)]
+            rows.append((method, f"{plant.walk}@rmse", *error.with_ends, error.unit, paper.value))
+            of_push = zip(PUSHED, (share, delay), strict=True)
+            rows += [(method, f"{plant.push}@{name}", *one.with_ends, one.unit, None) for name, one in of_push]
+        lines.append(line)
+    return Table(COLUMNS, rows, header, lines)
+
+
+def limbs_table(settings: LimbsTable, cells: Cells) -> Table:
+    """Return errors over that of estimating nothing [-], limb by limb, after the latter in the limb's unit."""
+    rows, lines = list[Fields](), list[Line]()
+    for limb in settings.lines:
+        nothing = cells.get(f"{limb.test}@{ZERO}@{limb.column}", NONE)
+        line = [limb.title, limb.part, f"{nothing.text()} {nothing.unit}"]
+        for method in settings.methods:
+            value = cells.get(f"{limb.test}@{method}@{limb.column}", NONE).value
+            over = None if value is None or not nothing.value else value / nothing.value
+            line.append(Number(over).text() + (ABOVE if over is not None and over > 1 else ""))
+            rows.append((f"{limb.title}, {limb.part}", method, over, None, None, "-", None))
+        lines.append(line)
+    return Table(COLUMNS, rows, ["Test", "Limb", ZERO, *settings.methods], lines, left=2)
+
+
+def detectors_table(settings: AlarmTable, cells: Cells) -> Table:
+    """Return what detectors find by the paper's rule and at one false alarm an hour, and how often they are wrong."""
+    rows, lines = list[Fields](), list[Line]()
+    for level, detector in product(settings.levels, settings.detectors):
+        found = {name: cells.get(cell.format(f"{level}@{detector}@{settings.leg}"), NONE)
+                 for name, cell in DETECTED.items()}  # fmt: skip
+        rows += [(detector, name, *one.with_ends, one.unit, one.published) for name, one in found.items()]
+        texts = {name: cell_text(one) for name, one in found.items()}
+        texts["interval"] = found["found at rate"].interval()
+        texts["paper"] = cell_text(found["found"], "published")
+        lines.append([detector, *(texts[name] for name in HEADS.values())])
+    return Table(COLUMNS, rows, ["Detector", *HEADS], lines)

@@ -1,0 +1,128 @@
+"""The paper as PDF where TeX is installed; elsewhere a note of what to install."""
+
+import logging
+import os
+import shutil
+import subprocess
+import tempfile
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+from experiments.evaluation.report.guards import defined_texts, turned_guards
+from experiments.evaluation.report.tex_log import page_faults
+from experiments.evaluation.report.tex_pages import label_pages, place_faults
+from experiments.settings.pages import PaperText
+from mobnet.core.errors import DataError, MobnetError
+from mobnet.core.files import atomic_path, check_room, read_text, write_json
+
+log = logging.getLogger(__name__)
+
+NEEDED = {  # file that TeX must find -> Debian package that holds it
+    "article.cls": "texlive-latex-base",
+    "booktabs.sty": "texlive-latex-recommended",
+    "IEEEtran.cls": "texlive-publishers",
+    "ptmr7t.tfm": "texlive-fonts-recommended",
+}
+PACKAGES = ("texlive-latex-recommended", "texlive-publishers", "texlive-fonts-recommended", "latexmk")
+TABLES, FIGURES = "tables", "figures"  # folders beside the copy of the paper that TeX reads
+NUMBERS = "numbers.tex"  # of the tables: what the text's macros are
+PLACES = rf"\def\tables{{{TABLES}}}\def\figures{{{FIGURES}}}\def\results{{{TABLES}}}"
+LATEXMK = ("latexmk", "-pdf", "-norc", "-interaction=nonstopmode", "-halt-on-error", f"-usepretex={PLACES}")
+LOG_LINES = 15
+LINE = "10000"  # characters after which TeX breaks a line of its log
+EPOCH = "0"  # date of the PDF unless SOURCE_DATE_EPOCH says another: equal input gives equal bytes
+
+
+class PaperError(MobnetError):
+    """TeX is installed but could not set the paper, or its text does not fit its pages or its results."""
+
+
+def paper(
+    scale: str, settings: PaperText, main: Path, references: Path, tables: Sequence[Path], figures: Sequence[Path],
+    out: Path,
+) -> None:  # fmt: skip
+    """Set the paper with latexmk, and write a note of it (JSON) also where TeX is missing.
+
+    The note holds the scale, the name of the PDF beside it or null, and the missing packages. Tables are TeX files that
+    the paper inputs, figures PDF files. The text's words were chosen for the results of one scale, that of `settings`:
+    there its guards and its number of pages have to hold. At another scale they cannot be expected to (the verdicts of
+    `smoke` mean nothing), so that a guard that turned is only logged, and marked in the text by a dagger.
+
+    Raises:
+        PaperError: TeX failed, and the message holds the end of its log; or something runs off its page or column, a
+            label is defined twice or not at all, a guard turned or the main text is too long, and the message names
+            each.
+    """
+    pdf, missing = out.with_name(f"{main.stem}.pdf"), missing_packages()
+    pdf.unlink(missing_ok=True)
+    if missing:
+        log.warning("%s: no PDF, TeX is not complete; install: apt-get install %s", pdf, " ".join(PACKAGES))
+    else:
+        with tempfile.TemporaryDirectory() as folder:
+            copy_sources({".": [main, references], TABLES: tables, FIGURES: figures}, Path(folder))
+            set_paper(Path(folder) / main.name, pdf, settings if scale == settings.scale else None)
+    write_json(out, {"scale": scale, "pdf": None if missing else pdf.name, "missing_packages": missing})
+
+
+def missing_packages() -> list[str]:
+    """Return the Debian packages that are needed and not installed."""
+    if shutil.which("latexmk") is None or shutil.which("kpsewhich") is None:
+        return list(PACKAGES)
+    return [package for name, package in NEEDED.items() if not _found(name)]
+
+
+def _found(name: str) -> bool:
+    """Return whether TeX finds a file."""
+    return subprocess.run(["kpsewhich", name], capture_output=True, check=False).returncode == 0
+
+
+def copy_sources(sources: Mapping[str, Sequence[Path]], folder: Path) -> None:
+    """Copy files, which stand by the name of a subfolder, into subfolders of an empty folder.
+
+    Raises:
+        DataError: a file is missing.
+    """
+    for name, paths in sources.items():
+        (folder / name).mkdir(exist_ok=True)
+        for path in paths:
+            if not path.is_file():
+                raise DataError(f"{path}: file is missing")
+            shutil.copy(path, folder / name)
+
+
+def set_paper(source: Path, out: Path, settings: PaperText | None) -> None:
+    """Set a copied paper and write its PDF if all is in its place; without settings its guards need not hold."""
+    turned = turned_guards(read_text(source), defined_texts(read_text(source.parent / TABLES / NUMBERS)))
+    if settings is not None and turned:
+        raise PaperError(f"{out}: the text does not fit its results: {'; '.join(turned)}")
+    for line in turned:
+        log.info("%s: marked by a dagger: %s", out, line)
+    if turned:
+        log.warning(
+            "%s: %d guarded sentences do not fit the results of this scale, a dagger marks each", out, len(turned)
+        )
+    compile_pdf(source)
+    faults = page_faults(_read(source.with_suffix(".log")))
+    if settings is not None:
+        faults += place_faults(label_pages(_read(source.with_suffix(".aux"))), settings.pages)
+    if faults:
+        raise PaperError(f"{out}: the paper does not fit its pages: {'; '.join(faults)}")
+    with atomic_path(out) as temporary:
+        shutil.copy(source.with_suffix(".pdf"), temporary)
+
+
+def compile_pdf(source: Path) -> None:
+    """Run latexmk in the source's folder, which writes its files beside the source."""
+    fixed = {"SOURCE_DATE_EPOCH": os.environ.get("SOURCE_DATE_EPOCH", EPOCH), "max_print_line": LINE}
+    run = subprocess.run(
+        [*LATEXMK, source.name], cwd=source.parent, capture_output=True, text=True, errors="replace", check=False,
+        stdin=subprocess.DEVNULL, env={**os.environ, **fixed},
+    )  # fmt: skip
+    if run.returncode != 0:
+        check_room(source.parent)
+        lines = [line for line in run.stdout.splitlines() if line.strip()]
+        raise PaperError(f"{source.name}: latexmk ended with {run.returncode}:\n" + "\n".join(lines[-LOG_LINES:]))
+
+
+def _read(path: Path) -> str:
+    return path.read_text(encoding="utf-8", errors="replace")

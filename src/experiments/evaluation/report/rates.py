@@ -1,0 +1,104 @@
+"""What a unit of work takes in processor time and memory: fitted to the accounts of a run, it prices other runs."""
+
+import platform
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import nnls
+
+from experiments.evaluation.report.compute import HOUR_S
+from experiments.plan.plan import Plan
+from experiments.plan.work import Work
+from experiments.running.logs import Account
+from mobnet.core.errors import DataError
+from mobnet.core.notes import Note, NotNegative, Positive, Text
+from mobnet.learning.precision import PROCESSOR
+
+RATES = Path("docs/results/rates.json")
+JOB = "job"  # the amount that every job has once: its start
+HELD = "held"
+Rates = Mapping[str, float]  # amount -> what a unit of it takes
+
+
+class Kind(Note):
+    """What jobs of a kind take for each unit of an amount: processor time [s], and memory at its peak [MiB]."""
+
+    cpu_s: dict[str, NotNegative]
+    peak_mib: dict[str, NotNegative]
+
+
+class RatesNote(Note):
+    """The rates of each kind of job, the processor on which they were measured, and what that whole run took."""
+
+    processor: Text
+    scale: Text
+    core_h: Positive
+    peak_mib: Positive
+    kinds: dict[str, Kind]
+
+
+def measured(plan: Plan, jobs: Iterable[Account]) -> RatesNote:
+    """Return the rates of a run on this processor, from the accounts of its jobs.
+
+    Raises:
+        DataError: a job of the plan has no account.
+    """
+    accounts = {job.job: job for job in jobs if job.succeeded}
+    kinds = fitted(plan.work, accounts)
+    own = [accounts[work.job] for work in plan.work]
+    return RatesNote(
+        processor=processor(PROCESSOR),
+        scale=plan.settings.scale,
+        core_h=sum(account.cpu_s for account in own) / HOUR_S,
+        peak_mib=max(account.peak_mib for account in own),
+        kinds=kinds,
+    )
+
+
+def processor(described: Path) -> str:
+    """Return the name of a processor as Linux describes it, or of its architecture."""
+    text = described.read_text(encoding="utf-8") if described.exists() else ""
+    found = re.search(r"^model name\s*:\s*(.+)$", text, re.MULTILINE)
+    return found[1].strip() if found else platform.machine()
+
+
+def fitted(works: Iterable[Work], accounts: Mapping[str, Account]) -> dict[str, Kind]:
+    """Return the rates that fit the accounts of jobs best, none of them below zero.
+
+    Raises:
+        DataError: a job has no account.
+    """
+    kinds: dict[str, list[Work]] = {}
+    for work in works:
+        if work.job not in accounts:
+            raise DataError(f"{work.job}: there is no account of this job; ./reproduce all writes it")
+        kinds.setdefault(work.kind, []).append(work)
+    return {kind: _kind(own, [accounts[work.job] for work in own]) for kind, own in kinds.items()}
+
+
+def _kind(works: Sequence[Work], accounts: Sequence[Account]) -> Kind:
+    cpu_s = _rates([work.amounts for work in works], [account.cpu_s for account in accounts])
+    peak_mib = _rates([{HELD: work.held} for work in works], [account.peak_mib for account in accounts])
+    return Kind(cpu_s=cpu_s, peak_mib=peak_mib)
+
+
+def _rates(amounts: Sequence[Mapping[str, float]], taken: Sequence[float]) -> dict[str, float]:
+    """Return what a unit of each amount takes; a single job of its kind has no start of its own."""
+    names = list(dict.fromkeys(name for own in amounts for name, amount in own.items() if amount))
+    names = names if len(amounts) == 1 and names else [JOB, *names]
+    columns = np.array([[{JOB: 1.0, **own}.get(name, 0.0) for name in names] for own in amounts])
+    largest = columns.max(axis=0)  # amounts of 1 and of 1e12 beside each other would be lost in rounding
+    found: NDArray[np.float64] = nnls(columns / largest, np.array(taken))[0] / largest
+    return {name: float(rate) for name, rate in zip(names, found, strict=True) if rate > 0}
+
+
+def price(work: Work, kind: Kind) -> tuple[float, float]:
+    """Return the processor time [s] and the peak of the memory [MiB] that a job will take."""
+    return _sum(kind.cpu_s, work.amounts), _sum(kind.peak_mib, {HELD: work.held})
+
+
+def _sum(rates: Rates, amounts: Mapping[str, float]) -> float:
+    return sum(rate * {JOB: 1.0, **amounts}.get(name, 0.0) for name, rate in rates.items())

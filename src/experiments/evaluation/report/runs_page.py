@@ -1,0 +1,227 @@
+"""The page of all trainings: one HTML file that needs no other, with a table that has curves in every row.
+
+The address holds what is shown (order, filter, opened and chosen rows, which curve of these):
+`runs.html#sort=-rmse&filter=LSTM&open=LSTM-LL-s0&pick=GRU-LL-s0&curve=rmse`.
+"""
+
+import os
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from statistics import fmean
+from typing import Any
+
+from experiments.evaluation.measure.learning.trainings import TrainedNetwork, read_training, training_seconds
+from experiments.evaluation.number.rows import read_scores
+from experiments.evaluation.report.charts import Chart, line_chart
+from experiments.evaluation.report.html import rendered
+from mobnet.core.columns import Epoch
+from mobnet.core.files import METRICS, RUN, read_json, write_text
+
+# keys of run.json that say what was trained on what
+SETTINGS = ("target", "settings", "device", "precision", "fingerprint", "provenance")
+SHOWN = ("name", "limb")  # keys that are shown as they are
+ENDED, DIVERGED = "done", "diverged"
+MISSING = "–"
+
+
+Key = tuple[str, str, int]  # method, limb and seed of a network
+
+
+@dataclass(frozen=True)
+class TestError:
+    """The error of a network's estimates in a test, scenario and level: RMSE [N m; N of the base's forces]."""
+
+    __test__ = False  # pytest would take it for a class of tests
+    test: str
+    rmse: float
+
+
+@dataclass(frozen=True)
+class TrainingRun(TrainedNetwork):
+    """One training.
+
+    Attributes:
+        name: method, limb and seed, such as `MOB-Net-LL-s0`.
+        limb: row of the configuration's networks.
+        cell: kind of network.
+        settings: what was trained on what, dotted name -> text.
+        tested: error of its estimates in a test; None where it was in none.
+        metrics: file that holds the curves.
+        seconds: time of the training's epochs [s], of all starts; None where it is not known.
+    """
+
+    name: str
+    limb: str
+    cell: str
+    settings: Mapping[str, str]
+    tested: TestError | None
+    metrics: Path
+    seconds: float | None
+
+    @property
+    def state(self) -> str:
+        """How the training ended."""
+        return DIVERGED if self.diverged else ENDED
+
+    @property
+    def epoch_count(self) -> int:
+        """Number of finished epochs."""
+        return len(self.epochs)
+
+    @property
+    def best(self) -> Epoch | None:
+        """The epoch kept; None where the training diverged in its first."""
+        return self.kept if self.epochs else None
+
+    @property
+    def best_epoch(self) -> int | None:
+        """Number of the best epoch."""
+        return self.best.epoch if self.best else None
+
+    @property
+    def loss(self) -> float | None:
+        """Validation loss (22) at the best epoch [-]."""
+        return self.best.validation_loss if self.best else None
+
+    @property
+    def rmse(self) -> float | None:
+        """RMSE on the validation blocks at the best epoch [N m]."""
+        return self.best.validation_rmse if self.best else None
+
+    @property
+    def test_rmse(self) -> float | None:
+        """RMSE of the external torque in a test [N m; N of the base's forces]."""
+        return self.tested.rmse if self.tested else None
+
+    @property
+    def best_joints(self) -> Mapping[str, float]:
+        """Joint -> RMSE on the validation blocks at the best epoch [N m; V1 to V3 in N]."""
+        return {name: errors[self.best.epoch - 1] for name, errors in self.joint_errors.items()} if self.best else {}
+
+
+def read_test_errors(scores: Sequence[Path]) -> dict[Key, TestError]:
+    """Return method, limb and seed -> error in the first of some files of scores that has it, a mean over walks.
+
+    Raises:
+        DataError: a file is missing or damaged.
+    """
+    found: dict[Key, TestError] = {}
+    for path in scores:
+        values: dict[Key, list[float]] = {}
+        for row in read_scores(path):
+            if (row.metric, row.joint) == ("rmse", "avg"):
+                values.setdefault((row.method, row.limb, row.network_seed), []).append(row.value)
+        test = f"{path.parent.name}, {path.stem}"
+        found = {key: TestError(test, fmean(own)) for key, own in values.items()} | found
+    return found
+
+
+def read_training_run(folder: Path, tested: Mapping[Key, TestError] | None = None) -> TrainingRun:
+    """Read a network's folder, and what its training took from the folder of its checkpoint.
+
+    Raises:
+        DataError: a file is missing or damaged, or lacks a key or a column.
+    """
+    training, note = read_training(folder), read_json(folder / RUN)
+    return TrainingRun(
+        **vars(training),
+        **{key: note[key] for key in SHOWN},
+        cell=note["settings"]["network"]["cell"],
+        settings=dict(pair for key in SETTINGS for pair in flattened(key, note[key])),
+        tested=(tested or {}).get((note["method"], note["limb"], note["seed"])),
+        metrics=folder / METRICS,
+        seconds=training_seconds(folder),
+    )
+
+
+def flattened(name: str, value: Any) -> Iterator[tuple[str, str]]:
+    """Yield a nested value as pairs of a dotted name and text."""
+    if isinstance(value, Mapping):
+        for key, inner in value.items():
+            yield from flattened(f"{name}.{key}", inner)
+    elif isinstance(value, Sequence) and not isinstance(value, str):
+        yield name, ", ".join(map(str, value))
+    else:
+        yield name, str(value)
+
+
+@dataclass(frozen=True)
+class RunColumn:
+    """A column of the table.
+
+    Attributes:
+        key: attribute of a training, and the column's name in the page's address.
+        title: head of the column.
+        unit: unit of its numbers.
+        layout: format of its numbers; empty for text.
+    """
+
+    key: str
+    title: str
+    unit: str = ""
+    layout: str = ""
+
+    def text(self, run: TrainingRun) -> str:
+        """Return a training's value as the table shows it."""
+        value = getattr(run, self.key)
+        return MISSING if value is None else format(value, self.layout)
+
+
+COLUMNS = (
+    RunColumn("name", "name"),
+    RunColumn("cell", "cell"),
+    RunColumn("parameters", "parameters", layout=",d"),
+    RunColumn("samples", "samples", layout=",d"),
+    RunColumn("epoch_count", "epochs", layout="d"),
+    RunColumn("best_epoch", "best epoch", layout="d"),
+    RunColumn("loss", "best validation loss", layout=".3f"),
+    RunColumn("rmse", "validation RMSE", "N m", ".2f"),
+    RunColumn("test_rmse", "test RMSE", "N m", ".2f"),
+    RunColumn("seconds", "time", "s", ".1f"),
+    RunColumn("state", "state"),
+)
+
+
+def runs_page(
+    scale: str, folders: Sequence[Path], scores: Sequence[Path], templates: Sequence[Path], out: Path
+) -> None:
+    """Write the page of all trained networks; its links to the metrics are relative.
+
+    Of the `scores`, the first file that has a network gives its error in a test. `templates` has the page's HTML, then
+    the files that it includes.
+
+    Raises:
+        DataError: a file is missing or damaged.
+    """
+    tested = read_test_errors(scores)
+    runs = [read_training_run(folder, tested) for folder in folders]
+    runs.sort(key=lambda run: (run.method, run.limb, run.seed))
+    text = rendered(
+        templates[0], scale=scale, columns=COLUMNS, runs=runs, diverged=DIVERGED,
+        shared=shared_settings(runs),
+        charts={run.name: charts(run) for run in runs},
+        links={run.name: os.path.relpath(run.metrics, out.parent) for run in runs},
+    )  # fmt: skip
+    write_text(out, text)
+
+
+def shared_settings(runs: Sequence[TrainingRun]) -> dict[str, str]:
+    """Return the settings that all of several trainings have alike, which the page shows once."""
+    if len(runs) < 2:
+        return {}
+    first, *others = (run.settings for run in runs)
+    return {name: text for name, text in first.items() if all(other.get(name) == text for other in others)}
+
+
+def charts(run: TrainingRun) -> list[Chart]:
+    """Return a training's curves over its epochs: loss (22) [-], RMSE [N m] and learning rate [-]; none without one."""
+    if run.best is None:
+        return []
+    x, best = [row.epoch for row in run.epochs], run.best.epoch
+    training, validation = ([getattr(row, name) for row in run.epochs] for name in ("train_loss", "validation_loss"))
+    return [
+        line_chart("loss", "loss [-]", x, {"training": training, "validation": validation}, best),
+        line_chart("rmse", "RMSE [N m]", x, {"validation": [row.validation_rmse for row in run.epochs]}, best),
+        line_chart("rate", "learning rate [-]", x, {"rate": [row.rate for row in run.epochs]}, best),
+    ]

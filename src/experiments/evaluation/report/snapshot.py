@@ -1,0 +1,263 @@
+"""The committed snapshot of the default scale's results: writing it, and finding what differs from it.
+
+`./reproduce` calls `python -m experiments.evaluation.report.snapshot {snapshot,compare,verify}`.
+"""
+
+import gzip
+import logging
+import shutil
+import subprocess
+import sys
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import zip_longest
+from pathlib import Path
+
+from experiments.evaluation.measure.story import StoredPush
+from experiments.evaluation.report.demo import lines_of, title_of
+from experiments.evaluation.report.demo_data import copy_demo
+from experiments.evaluation.report.manifest import differences, file_hash
+from experiments.evaluation.report.paper import missing_packages
+from experiments.evaluation.report.rates import RATES, measured
+from experiments.evaluation.report.readme import blocks
+from experiments.evaluation.report.single_rows import write_single_rows
+from experiments.evaluation.report.walked import SEEDS, check_seeds, read_history, walked, write_history
+from experiments.plan.demo import FOLDER
+from experiments.plan.detection import all_detections
+from experiments.plan.plan import make_plan
+from experiments.plan.reactions import all_reactions
+from experiments.running.accounts import read_account
+from experiments.running.logs import LOGS
+from experiments.running.words import results_parser
+from experiments.settings.load import load_settings
+from experiments.settings.settings import Settings
+from mobnet.core.errors import DataError, MobnetError
+from mobnet.core.files import atomic_path, read_json, read_text, write_json, write_text
+from mobnet.core.provenance import CHANGED, UNKNOWN, commit, provenance
+from mobnet.core.rows import read_texts
+
+log = logging.getLogger(__name__)
+
+TABLES, FIGURES, SNAPSHOT = Path("tables"), Path("figures"), Path("docs/results")
+DEMO, DEMO_PAGE = Path("docs/demo"), Path("docs/demo.md")
+RESULTS = Path("results/default")
+FURTHER = tuple(RESULTS / name for name in ("compute.md", "explore.html"))
+UP_TO_DATE = "Nothing to be done"  # by which Snakemake says that no job would run
+DRAWN = "figures"  # folder of the snapshot with the CSVs of figures, compressed
+PICTURES = (".png", ".svg", ".webp")
+NOTED = ("recordings", "motions", "networks")  # folders of results whose notes name the commit that made them
+README = Path("README.md")
+KEYS = (  # columns that name a row; the others are results
+    "scenario", "level", "method", "joint", "metric", "claim",
+    "set", "quantity", "part", "command", "bin_from", "measure", "limb", "test", "pushed", "share", "unit",
+    "score", "outcome", "detector", "leg", "kind", "cell", "case", "wrench", "thresholds", "wait_s", "feed_forward",
+    "event", "robot", "label", "phase", "row",
+)  # fmt: skip
+KEYS_OF = {"hourly": ("walks",)}  # a number in other tables
+Rows = dict[tuple[str, ...], dict[str, str]]
+
+
+def check_run(results: Path, manifest: Path) -> None:
+    """Check that results are those of the present commit, whether or not the run was stopped and went on.
+
+    Raises:
+        DataError: one line for each fault: tracked files were changed, another commit ran a job or made a file, or a
+            file is not as the run wrote it.
+    """
+    head, faults = commit(), differences(manifest)
+    if head == UNKNOWN or head.endswith(CHANGED):
+        faults.append(f"commit {head}: is not accepted; accepted: a checkout without changed files")
+    made = made_by(results)
+    for found in sorted(set(made.values()) - {head}):
+        first, *others = [path for path, name in made.items() if name == found]
+        beside = f" ({len(others)} further files)" if others else ""
+        faults.append(f"{first}: commit {found} is not accepted; accepted: {head}{beside}")
+    if faults:
+        raise DataError("\n".join(faults))
+
+
+def made_by(results: Path) -> dict[Path, str]:
+    """Return the accounts of jobs and the notes of files in results -> the commit that they name."""
+    accounts = {path: read_account(path).commit for path in sorted((results / LOGS).rglob("*.json"))}
+    notes = [note for folder in NOTED for note in sorted(results.glob(f"**/{folder}/**/*.json"))]
+    return accounts | {note: read_json(note).get("provenance", {}).get("commit", UNKNOWN) for note in notes}
+
+
+def check_fingerprints(*words: str) -> None:
+    """Check by a dry run that no job would run again: arguments, code and inputs of each are as they were.
+
+    Args:
+        words: targets and options of the run.
+
+    Raises:
+        DataError: a job would run again, or nobody can say.
+    """
+    run = [sys.executable, "-m", "experiments.running.run", "--cores", "1", "-n", *words]
+    done = subprocess.run(run, capture_output=True, text=True, check=False)
+    told = [line for line in (done.stdout + done.stderr).splitlines() if line.strip()]
+    if done.returncode:
+        raise DataError(f"{' '.join(words)}: cannot be planned: {told[-1].strip() if told else done.returncode}")
+    if not any(UP_TO_DATE in line for line in told):
+        count = next((line.split()[-1] for line in told if line.startswith("total ")), "some")
+        text = f"{count} jobs would run again, which is not accepted; accepted: what this configuration and code make"
+        raise DataError(f"{' '.join(words)}: {text}")
+
+
+def write_snapshot(settings: Settings, tables: Path, figures: Path, further: Sequence[Path], out: Path) -> None:
+    """Copy a scale's tables (CSV, Markdown), figures (PNG, SVG, WebP, CSV) and further files, and note their origin.
+
+    Tables and figures of an earlier snapshot that are made no longer are removed. The table of compute differs from run
+    to run, so only its Markdown is stored, and no CSV to be compared.
+
+    Raises:
+        DataError: there is no table to copy, or a file is missing.
+    """
+    numbers = sorted(tables.glob("*.csv"))
+    pictures = sorted(path for ending in PICTURES for path in figures.glob(f"*{ending}"))
+    found = [*numbers, *(path.with_suffix(".md") for path in numbers), *pictures, *further]
+    if not numbers:
+        raise DataError(f"{tables}: holds no CSV; ./reproduce all makes them")
+    missing = [path for path in found if not path.is_file()]
+    if missing:
+        raise DataError(f"{missing[0]}: file is missing; ./reproduce all makes it")
+    for source in found:
+        with atomic_path(out / source.name) as temporary:
+            shutil.copyfile(source, temporary)
+    drawn = sorted(figures.glob("*.csv"))
+    for source in drawn:
+        store_drawn(source, out)
+    kept = {out / source.name for source in numbers} | {out / DRAWN / f"{source.name}.gz" for source in drawn}
+    for path in {*out.glob("*.csv"), *(out / DRAWN).glob("*.csv.gz")} - kept:
+        shown = [".md"] if path.parent == out else PICTURES
+        for gone in (path, *(out / f"{path.name.partition('.')[0]}{ending}" for ending in shown)):
+            gone.unlink(missing_ok=True)
+    write_json(out / "provenance.json", {"scale": settings.scale, **provenance()})
+    log.info("%s: %d files", out, len(found))
+
+
+def store_drawn(source: Path, out: Path) -> None:
+    """Store the CSV of a figure in a snapshot, compressed."""
+    with atomic_path(out / DRAWN / f"{source.name}.gz") as temporary:
+        temporary.write_bytes(gzip.compress(source.read_bytes(), mtime=0))
+
+
+def tell_readme(results: Path, readme: Path = README) -> None:
+    """Write into the README what it shows of published results."""
+    page = read_text(readme)
+    for name, text in blocks(results).items():
+        page = with_block(page, name, text, readme)
+    write_text(readme, page)
+
+
+def tell_demo(push: StoredPush, page: Path) -> None:
+    """Write into the page of the demo what it prints."""
+    estimates = {method: push.estimate(method) for method in push.story.methods}
+    said = "\n".join(["```", title_of(push), *lines_of(push, estimates), "```"])
+    write_text(page, with_block(read_text(page), "demo", said, page))
+
+
+def with_block(text: str, name: str, block: str, page: Path = README) -> str:
+    """Return a page with a block between its marks, which it must have."""
+    first, last = f"<!-- {name} -->\n", f"<!-- /{name} -->"
+    if first not in text or last not in text:
+        raise DataError(f"{page}: the marks {first.strip()!r} and {last!r} are missing")
+    return text[: text.index(first)] + first + block.strip() + "\n" + text[text.index(last) :]
+
+
+def compare_snapshot(snapshot: Path, tables: Path, figures: Path) -> list[str]:
+    """Return one line for each cell, row, table or figure in which present results differ from a snapshot."""
+    stored = sorted(snapshot.glob("*.csv"))
+    if not stored:
+        raise DataError(f"{snapshot}: holds no CSV; ./reproduce snapshot stores them")
+    told = [line for path in stored for line in table_differences(path, tables / path.name)]
+    drawn = sorted((snapshot / DRAWN).glob("*.csv.gz"))
+    return told + [line for path in drawn for line in figure_differences(path, figures / path.stem)]
+
+
+def figure_differences(old: Path, new: Path) -> Iterator[str]:
+    """Yield one line where the CSV of a figure differs: how many of its rows do."""
+    if not new.exists():
+        yield f"{new}: file is missing; ./reproduce all makes it"
+        return
+    before, after = gzip.decompress(old.read_bytes()).decode().splitlines(), read_text(new).splitlines()
+    count = sum(was != now for was, now in zip_longest(before, after))
+    if count:
+        yield f"{new}: {count} of {max(len(before), len(after))} rows differ"
+
+
+def table_differences(old: Path, new: Path) -> Iterator[str]:
+    """Yield one line for each cell or row in which a table differs, old value first."""
+    if not new.exists():
+        yield f"{new}: file is missing; ./reproduce all makes it"
+        return
+    before, after = read_keyed(old), read_keyed(new)
+    for key in before | after:
+        where = f"{new.name}: {' '.join(key)}"
+        if key not in after:
+            yield f"{where}: row is gone"
+        elif key not in before:
+            yield f"{where}: row is new"
+        else:
+            yield from (f"{where}: {text}" for text in cell_differences(before[key], after[key]))
+
+
+def cell_differences(old: Mapping[str, str], new: Mapping[str, str]) -> Iterator[str]:
+    """Yield `column old -> new` for each column in which two rows differ."""
+    for column in dict.fromkeys([*old, *new]):
+        was, now = old.get(column, "no such column"), new.get(column, "no such column")
+        if was != now:
+            yield f"{column} {was} -> {now}"
+
+
+def read_keyed(path: Path) -> Rows:
+    """Read a tidy CSV as (values of the naming columns) -> row."""
+    keys = (*KEYS, *KEYS_OF.get(path.stem, ()))
+    return {tuple(row[key] for key in keys if key in row): row for row in read_texts(path)}
+
+
+def store(manifest: Path) -> None:
+    """Store the run's results as the published ones, and renew what the documents say of them.
+
+    Raises:
+        DataError: the results are not those of the present commit, a published run with other methods walked their
+            seeds, or a file is missing or damaged.
+    """
+    settings = load_settings()
+    check_run(RESULTS, manifest)
+    check_fingerprints("all")
+    plan, published = make_plan(settings, with_pdf=not missing_packages()), read_history(SEEDS)
+    run = walked(plan.files, commit())
+    check_seeds(run, published)
+    write_snapshot(settings, TABLES, FIGURES, FURTHER, SNAPSHOT)
+    detections, reactions = all_detections(plan.files), all_reactions(plan.files)
+    write_single_rows(detections, reactions, tuple(settings.reaction.cases), SNAPSHOT)
+    copy_demo(RESULTS / FOLDER, DEMO)
+    tell_demo(StoredPush(DEMO, settings), DEMO_PAGE)
+    write_history(SEEDS, [*published, run])
+    jobs = map(read_account, sorted((RESULTS / LOGS).rglob("*.json")))
+    write_json(RATES, measured(plan, jobs).model_dump())
+    tell_readme(SNAPSHOT)
+
+
+def main(words: list[str]) -> int:
+    """Run one of the commands and return the exit status: 0 if nothing differs."""
+    command, *others = words
+    options = results_parser(command).parse_args(others)
+    logging.basicConfig(level=logging.INFO, format="%(message)s", stream=sys.stdout)
+    try:
+        if command == "snapshot":
+            store(options.manifest)
+            return 0
+        compares = command == "compare"
+        found = compare_snapshot(SNAPSHOT, TABLES, FIGURES) if compares else differences(options.manifest)
+    except MobnetError as error:
+        log.error("%s", error)
+        return 1
+    for line in found:
+        log.info("%s", line)
+    listed = SNAPSHOT if compares else f"{options.manifest} ({file_hash(options.manifest)})"
+    log.info("%s: %s", listed, f"{len(found)} differences" if found else "no difference")
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,96 @@
+"""All trainings as offline wandb runs, made from run.json and metrics.csv; nothing leaves the machine.
+
+They are written once more when the trainings are done, with settings and results; until then the folder has what
+`wandb_live` wrote while they went on.
+"""
+
+import os
+import shutil
+import tempfile
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import asdict
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from experiments.evaluation.measure.learning.trainings import read_training
+from mobnet.core.columns import Epoch
+from mobnet.core.files import PARTIAL, RUN, check_room, read_json
+
+if TYPE_CHECKING:
+    from wandb import Run
+
+SETTINGS = ("name", "method", "limb", "seed", "target", "settings", "fingerprint", "provenance")  # keys of run.json
+# `wandb leet` lists only folders whose names start with `run-` and have a date before the run's identifier. Of a name
+# it shows the first 29 characters, so that the run's name comes first. The date is fixed: equal runs have equal names.
+FOLDER = "run-{0}-run-00000000_000000-{0}"
+WANDB_PLACES = ("WANDB_CACHE_DIR", "WANDB_DATA_DIR", "WANDB_CONFIG_DIR")
+FLUSH_S = 1.0  # after which a viewer finds what was logged
+
+
+def wandb_runs(folders: Iterable[Path], out: Path) -> None:
+    """Write one offline run for each network, a file in a folder; they replace the folder of runs together.
+
+    Raises:
+        DataError: the disk is full.
+    """
+    out.parent.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory(prefix=PARTIAL, suffix=f".{out.name}", dir=out.parent) as scratch:
+        runs = Path(scratch) / "runs"
+        runs.mkdir()
+        for folder in folders:
+            try:
+                name = _log_run(Path(scratch), folder)
+            finally:
+                check_room(out.parent)
+            shutil.rmtree(put(Path(scratch), name, runs).parent)
+        if out.exists():
+            os.replace(out, Path(scratch) / "old")
+        os.replace(runs, out)
+
+
+def _log_run(scratch: Path, folder: Path) -> str:
+    """Log a training into a run below the scratch folder, and return its name.
+
+    The keys SETTINGS of its note become the run's configuration, all others its summary. Runs are grouped by method,
+    and the limb is their type of job.
+    """
+    training, note = read_training(folder), read_json(folder / RUN)
+    settings = {key: note[key] for key in SETTINGS}
+    with begin(scratch, note["name"], note["method"], note["limb"], settings) as run:
+        for row in rows(training.epochs, training.joint_errors):
+            run.log(row, step=row["epoch"])
+        run.summary.update({key: value for key, value in note.items() if key not in SETTINGS})
+    return note["name"]
+
+
+def begin(scratch: Path, name: str, method: str, limb: str, settings: Mapping[str, Any]) -> "Run":
+    """Begin an offline run below the scratch folder, beside others that go on."""
+    os.environ |= dict.fromkeys(WANDB_PLACES, str(scratch)) | {"WANDB_ERROR_REPORTING": "false"}
+    import wandb  # reads its environment when imported
+
+    quiet = wandb.Settings(
+        x_disable_stats=True, x_disable_meta=True, x_disable_machine_info=True, x_save_requirements=False,
+        console="off", silent=True, disable_git=True, disable_code=True, x_transaction_log_flush_interval=FLUSH_S,
+    )  # fmt: skip
+    return wandb.init(
+        project="mobnet", id=name, name=name, group=method, job_type=limb, config=dict(settings), dir=scratch,
+        mode="offline", settings=quiet, reinit="create_new",
+    )  # fmt: skip
+
+
+def rows(epochs: Sequence[Epoch], errors: Mapping[str, Sequence[float]]) -> Iterator[dict[str, Any]]:
+    """Yield what is logged of each epoch: its columns, and the RMSE of each joint [N, N m]."""
+    for k, epoch in enumerate(epochs):
+        yield asdict(epoch) | {f"joints/{joint}": own[k] for joint, own in errors.items()}
+
+
+def put(scratch: Path, name: str, runs: Path) -> Path:
+    """Move the file of a run into a folder of its name among other runs, in place of an older one.
+
+    A run that goes on still writes to it. Return where it stood.
+    """
+    (found,) = (scratch / "wandb").glob(f"offline-run-*/run-{name}.wandb")
+    place = runs / FOLDER.format(name)
+    place.mkdir(parents=True, exist_ok=True)
+    os.replace(found, place / found.name)
+    return found

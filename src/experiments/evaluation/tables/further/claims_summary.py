@@ -1,0 +1,124 @@
+"""How many statements have each verdict, by score: what counts against us stands first.
+
+The paper's statements and our own are counted apart.
+"""
+
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+from experiments.evaluation.measure.claims.verdicts import worst
+from experiments.evaluation.tables.layout import RULE, Line, Table, write_table
+from mobnet.core.claim_ranges import within
+from mobnet.core.columns import (
+    CLAIMED,
+    HELD,
+    NEAR,
+    NOT_REPRODUCED,
+    OURS,
+    PAPER,
+    PRINTED,
+    SCORED,
+    SIGN_ONLY,
+    SIGN_VERDICTS,
+    SIZE_VERDICTS,
+    UNEXPLAINED,
+    VERDICTS,
+)
+from mobnet.core.rows import read_texts
+
+ALL = "all"  # verdicts together
+NEAR_FACTOR = 1.5
+USED = ("statement", "score", "quantity", "size", "sign", "verdict", "published", "value", "low", "high", "cause")
+SHOWN = {"observer": "observer", "networks": "networks", "no number": "no number", PAPER: "the paper's, all",
+         OURS: "our own"}  # fmt: skip
+Row = Mapping[str, str]
+Counts = Mapping[tuple[str, str], tuple[int, int, int]]  # score, outcome -> statements, by their first claim, claims
+
+
+def claims_summary(claims_csv: Path, table_dir: Path) -> None:
+    """Write claims_summary.csv, .tex and .md: statements, and in the CSV file also claims, by score and verdict.
+
+    A statement is one or several claims; its verdict is the worst of theirs. Beside the verdicts stands how many
+    statements fail without a cause, and in how many claims the paper's number lies in our interval or near ours.
+    """
+    rows = read_texts(claims_csv, USED)
+    counts = {(score, name): found for score in (*SCORED, PAPER) for name, found in outcomes_of(rows, score).items()}
+    records = [(*place, *numbers) for place, numbers in counts.items()]
+    lines: list[Line] = [[name, *(_begun(counts[score, name]) for score in SHOWN)] for name in VERDICTS]
+    lines += [
+        RULE,
+        [ALL, *(str(counts[score, ALL][0]) for score in SHOWN)],
+        [f"fail {UNEXPLAINED}", *(str(counts[score, UNEXPLAINED][0]) for score in SHOWN)],
+        *([f"claims {name}", *(_share(counts, score, name) for score in SHOWN)] for name in (HELD, NEAR)),
+    ]
+    header = ["Statements (by first claim)", *SHOWN.values()]
+    write_table(table_dir / "claims_summary", Table(CLAIMED, records, header, lines))
+
+
+def _begun(count: tuple[int, int, int]) -> str:
+    """Return how many statements there are, by their first claim in parentheses."""
+    statements, firsts, _ = count
+    return f"{statements} ({firsts})"
+
+
+def _share(counts: Counts, score: str, name: str) -> str:
+    """Return how many claims with a printed number have an outcome; a dash where the paper prints none."""
+    printed = counts[score, PRINTED][2]
+    return f"{counts[score, name][2]} of {printed}" if printed else "-"
+
+
+def outcomes_of(rows: Sequence[Row], score: str) -> dict[str, tuple[int, int, int]]:
+    """Return outcome -> how many statements of a score have it, how many by their first claim, and how many claims.
+
+    `rows` have columns `CLAIMS`. The outcomes are the verdicts, those on the size and on the sign ("size inside"), all
+    of them, the claims that fail without a cause, those that the paper prints a number of beside an interval of ours,
+    and those whose interval holds this number or whose own number is near it. A statement fails with a cause if each of
+    its claims that fail has one.
+    """
+    own = [row for row in rows if is_of(row, score)]
+    by_statement: dict[str, list[Row]] = {}
+    for row in own:
+        by_statement.setdefault(row["statement"], []).append(row)
+    held = list(by_statement.values())
+    statements = Counter(worst([row["verdict"] for row in claims]) for claims in held)
+    firsts = Counter(claims[0]["verdict"] for claims in held)
+    claims = Counter(row["verdict"] for row in own)
+    found = {verdict: (statements[verdict], firsts[verdict], claims[verdict]) for verdict in VERDICTS}
+    found[ALL] = (len(held), len(held), len(own))
+    printed = [row for row in own if row["published"] and row["low"] and row["high"]]
+    selected = {
+        UNEXPLAINED: [row for row in own if row["verdict"] in (NOT_REPRODUCED, SIGN_ONLY) and not row["cause"]],
+        PRINTED: printed,
+        HELD: [row for row in printed if is_held(row)],
+        NEAR: [row for row in printed if is_near(row)],
+    }
+    for kind, words in (("size", SIZE_VERDICTS), ("sign", SIGN_VERDICTS)):
+        for word in words:
+            selected[f"{kind} {word}"] = [row for row in own if row[kind] == word]
+    first = {claims[0]["statement"]: claims[0] for claims in held}
+    for name, some in selected.items():
+        begun = [row for row in some if first[row["statement"]] is row]
+        found[name] = (len({row["statement"] for row in some}), len(begun), len(some))
+    return found
+
+
+def is_of(row: Row, score: str) -> bool:
+    """Return whether a claim counts in a score; all but our own are the paper's."""
+    return row["score"] != OURS if score == PAPER else row["score"] == score
+
+
+def is_held(row: Row) -> bool:
+    """Return whether the interval of a claim, a row of columns `CLAIMS`, holds the number that the paper prints."""
+    published, low, high = (float(row[name]) for name in ("published", "low", "high"))
+    return within((published, published), (low, high))
+
+
+def is_near(row: Row) -> bool:
+    """Return whether our number lies within a factor `NEAR_FACTOR` of the paper's; of a cut, what remains does."""
+    published, value = float(row["published"]), float(row["value"])
+    if row["quantity"] in ("cut", "square cut"):
+        published, value = 1.0 - published, 1.0 - value
+    if published == 0.0:
+        return value == 0.0
+    return 1.0 / NEAR_FACTOR <= value / published <= NEAR_FACTOR

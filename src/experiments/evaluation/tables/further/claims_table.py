@@ -1,0 +1,65 @@
+"""Table of the paper's claims, judged against bounds that were fixed before any result was seen."""
+
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+from experiments.evaluation.measure.claims.verdicts import Judged
+from experiments.evaluation.number.files import Field
+from experiments.evaluation.number.number import number_text
+from experiments.evaluation.tables.layout import GAP, Line, Table, long_table, tex_escape, write_table
+from mobnet.core.claim_ranges import ANY, range_text
+from mobnet.core.columns import CLAIMS
+
+HEADER = ("Claim", "Printed in", "Paper", "Ours", "{:.0%}", "Claimed", "Size", "Sign", "Verdict")
+CAPTION = r"\claimscaption"  # the paper's
+COLUMNS = r">{\raggedright\arraybackslash}p{.36\linewidth}>{\raggedright\arraybackslash}p{.13\linewidth}rrrllll"
+
+
+def claim_table(judged: Sequence[Judged], confidence: float, table_dir: Path) -> None:
+    """Write claims.csv, .md and .tex; the TeX file has no rows of single joints.
+
+    `confidence` is that of the intervals, a share [-].
+    """
+    header = [text.format(confidence) for text in HEADER]
+    lines = [[*line_of(each), each.cause] for each in judged]
+    table = Table(CLAIMS, [record_of(each) for each in judged], [*header, "Cause"], lines, left=len(header) + 1)
+    shown = [each for each in judged if not each.row.joint]
+    write_table(table_dir / "claims", table, long_table(COLUMNS, CAPTION, header, list(with_causes(shown))))
+
+
+def record_of(each: Judged) -> tuple[Field, ...]:
+    """Return the row of a claim in claims.csv."""
+    row, claim, ours = each.row, each.row.claim, each.ours
+    signed = each.found.signed.with_ends if each.ranges.sign else (None, None, None)
+    without = each.found.without.with_ends if each.found.without else (None, None, None)
+    return (
+        row.name, row.statement, each.score, claim.printed, says(each), claim.quantity, ours.published, *ours.with_ends,
+        *ours.spread, ours.unit, *(each.ranges.size or ANY), *signed, *(each.ranges.sign or ANY), each.size, each.sign,
+        each.verdict, *without, each.cause,
+    )  # fmt: skip
+
+
+def says(each: Judged) -> str:
+    """Return what a claim says, with its joint where it is about one of several."""
+    text = each.row.claim.says
+    return f"{text.removesuffix('.')}, {each.row.joint}." if each.row.joint else text
+
+
+def line_of(each: Judged) -> list[str]:
+    """Return the texts of a row of the table."""
+    claim, unit = each.row.claim, "" if each.ours.unit == "-" else f" {each.ours.unit}"
+    ours = [number_text(claim.published), *each.ours.texts()]
+    return [says(each), claim.printed, *ours, range_text(each.ranges.shown) + unit, each.size, each.sign, each.verdict]
+
+
+def with_causes(judged: Sequence[Judged]) -> Iterator[Line]:
+    """Yield the lines of claims, a gap between statements, each followed by a line with its cause, where it has one."""
+    across = rf"\multicolumn{{{len(HEADER)}}}{{@{{\quad}}p{{.96\linewidth}}}}"
+    before = ""
+    for each in judged:
+        if before and each.row.statement != before:
+            yield GAP
+        before = each.row.statement
+        yield line_of(each)
+        if each.cause:
+            yield rf"{across}{{\emph{{{tex_escape(each.cause)}}}}} \\"

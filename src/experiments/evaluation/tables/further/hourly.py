@@ -1,0 +1,68 @@
+"""Table of what happens in an hour: falls, and flags of the check on robots that the networks know."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+
+from experiments.evaluation.measure.estimates.changed import FLAGS, HOUR_S, WATCHED
+from experiments.evaluation.number.grid import Wanted
+from experiments.evaluation.number.lookup import AVERAGE, Lookup, read_lookup
+from experiments.evaluation.number.single import rate
+from experiments.evaluation.tables.layout import Table, write_table
+from experiments.settings.measures import Changed
+from experiments.settings.runs import LegRuns, Statistics
+from experiments.settings.tables import Hourly
+from mobnet.core.columns import HOURLY
+from mobnet.core.notes import read_array_note
+from mobnet.core.store import NOTE, file_of
+
+FALL, FLAG, ALL = "fall", "false flag", "all of these"
+Counted = tuple[str, str, str, float, int]  # event, walks, method, time [h], number of events
+
+
+def hourly(
+    settings: Hourly, changed: Changed, statistics: Statistics, walks: Mapping[str, Sequence[Path]],
+    scores: Sequence[Path], table_dir: Path,
+) -> None:  # fmt: skip
+    """Write hourly.csv, .tex and .md: how often a robot falls and the check is wrong, counted and in an hour [1/h]."""
+    tests = {title: changed.tests[title] for title in settings.known}
+    rows = [*falls(walks), *flags(read_lookup(scores, statistics), tests)]
+    records, lines = [], []
+    for event, walked, method, hours, count in rows:
+        found = rate(count, hours, statistics)
+        records.append((event, walked, method, hours, count, *found.with_ends, found.unit))
+        lines.append([event, walked, method, f"{hours:.2f}", str(count), found.text(), found.interval()])
+    header = ["Event", "Walks", "Method", "Hours", "Events", "In an hour", f"{statistics.confidence:.0%}"]
+    write_table(table_dir / "hourly", Table(HOURLY, records, header, lines, left=3))
+
+
+def falls(walks: Mapping[str, Sequence[Path]]) -> Iterator[Counted]:
+    """Yield the falls in recordings by kind of walk; what a fall ends or drops is no part of their time."""
+    for title, stems in walks.items():
+        notes = [read_array_note(file_of(stem, NOTE)) for stem in stems]
+        hours = sum(note["rows"] / note["rate_hz"] for note in notes) / HOUR_S
+        yield FALL, title, "", hours, sum(note["falls"] for note in notes)
+
+
+def flags(lookup: Lookup, tests: Mapping[str, LegRuns]) -> Iterator[Counted]:
+    """Yield the flagged windows of each method that has standard deviations, test by test and in all of them."""
+    for method in dict.fromkeys(method for test in tests.values() for method in test.methods):
+        found = {title: totals(lookup, test, method) for title, test in tests.items() if method in test.methods}
+        kept = {title: own for title, own in found.items() if own[0] > 0.0}
+        for title, (hours, count) in kept.items():
+            yield FLAG, title, method, hours, count
+        if kept:
+            hours, count = map(sum, zip(*kept.values(), strict=True))
+            yield FLAG, ALL, method, hours, round(count)
+
+
+def totals(lookup: Lookup, test: LegRuns, method: str) -> tuple[float, int]:
+    """Return for how long a method was watched in a test [h], and how many windows were flagged, over all runs."""
+    hours, count = (
+        sum(
+            row.value
+            for limb in test.limbs
+            for row in lookup.scores.get(Wanted(test.scenario, limb, test.level, method, AVERAGE, metric), ())
+        )
+        for metric in (WATCHED, FLAGS)
+    )
+    return hours, round(count)

@@ -1,0 +1,55 @@
+"""The smallest force that detectors find, by what is hit from where."""
+
+from collections.abc import Sequence
+from itertools import product
+from pathlib import Path
+
+import numpy as np
+
+from experiments.evaluation.measure.detection.results import CELLS, Detections, shown_tries
+from experiments.evaluation.measure.detection.smallest_force import smallest_force as force_of
+from experiments.evaluation.number.files import Field
+from experiments.evaluation.number.number import Number
+from experiments.evaluation.tables.layout import Table, in_blocks, write_table
+from experiments.settings.detection_tables import SmallestForce
+from experiments.settings.runs import Statistics
+from mobnet.core.columns import DETECTION
+from mobnet.settings.detection import Detection
+
+QUANTITY = "smallest_force"
+
+
+def smallest_force(
+    settings: SmallestForce, detection: Detection, statistics: Statistics, detections: Detections, table_dir: Path
+) -> None:
+    """Write smallest_force.csv, .tex and .md: the largest force [N] that a collision must have to be found.
+
+    It is that of which the share of section `smallest_force` is found, by detector, rule of thresholds and cell.
+    """
+    rows: list[Sequence[Field]] = []
+    blocks: list[tuple[list[str], list[list[str]]]] = []
+    shown = {(level, kind): tries for kind in settings.kinds
+             for level, tries in shown_tries(settings, detections, detection.sweep, kind)}  # fmt: skip
+    for level, kind in product(settings.levels, settings.kinds):
+        lines = list[list[str]]()
+        for name, tries in shown[level, kind].items():
+            lines.append([name])
+            for cell in CELLS:
+                own = [one for one in tries if one.cell == cell]
+                force = np.array([one.collision.force_n for one in own])
+                found = np.array([one.is_found for one in own], dtype=np.float64)
+                number = force_of(force, found, settings, statistics) if len(own) else Number(None, unit="N")
+                place = level, name, settings.leg, kind, cell, QUANTITY
+                rows.append((*place, *number.with_ends, len(own), number.unit, None))
+                lines[-1].append(_text(number))
+        if lines:
+            blocks.append(([level.replace("_", " "), kind], lines))
+    header = ["Level", "Rule", "Detector", *(f"{cell} [N]" for cell in CELLS)]
+    write_table(table_dir / "smallest_force", Table(DETECTION, rows, header, in_blocks(blocks, nested=True), left=3))
+
+
+def _text(number: Number) -> str:
+    """Return a force with its interval as text; where it lies beyond all that were tried, beyond which of them."""
+    if number.value is None:
+        return f"< {number.low:.0f}" if number.low is not None else f"> {number.high:.0f}" if number.high else "-"
+    return f"{number.text(0)} {number.interval(0)}"

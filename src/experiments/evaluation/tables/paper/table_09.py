@@ -1,0 +1,146 @@
+"""Table 9: collisions of a leg that detectors find, and how late."""
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from pathlib import Path
+
+from experiments.evaluation.measure.detection.results import (
+    ALL,
+    CELLS,
+    MS,
+    Detections,
+    Try,
+    delay_of,
+    found_share,
+    mean_of,
+    shown_tries,
+)  # fmt: skip
+from experiments.evaluation.number.files import Field
+from experiments.evaluation.number.number import number_text, published_row
+from experiments.evaluation.tables.layout import PART, RULE, Line, Table, text_table, write_table
+from experiments.settings.detection_tables import DetectorTable
+from experiments.settings.published import PublishedTable
+from experiments.settings.runs import Statistics
+from mobnet.core.columns import DETECTION
+from mobnet.settings.detection import Detection
+
+FOUND, DELAY, ONSET, PERFECT = "found", "delay", "delay_onset", "perfect_delay"
+DETECTED, DELAY_MS = "detected", "delay_ms"  # places of the paper's numbers
+TRIED = 10  # collisions of each cell in the paper
+SHORT = {cell: " ".join(word[0].upper() for word in cell.split()) for cell in CELLS}
+
+
+def table_09(
+    settings: DetectorTable, detection: Detection, statistics: Statistics, published: PublishedTable,
+    detections: Detections, table_dir: Path,
+) -> None:  # fmt: skip
+    """Write table_09.csv, .tex and .md: found collisions, and delays [ms], with intervals over robots.
+
+    A delay is the mean of a cell over the collisions that are found; of all together it is that of the cells, as the
+    paper's, and beside it that over all found collisions. `perfect` is the delay of an estimate without error at the
+    same thresholds, on the same collisions.
+    """
+    rows: list[Sequence[Field]] = []
+    lines: list[Line] = []
+    taus: list[str] = []
+    for level, shown in shown_tries(settings, detections, detection.collisions, settings.kind):
+        lines += [RULE] if lines else []
+        for name, own in shown.items():
+            rows += _rows(level, name, settings, own, statistics, published)
+            lines += _lines(level, name, own, statistics, published)
+        taus.append(f"{order_text(shown, published)} ({level.replace('_', ' ')})")
+    cells = [SHORT[cell] for cell in CELLS]
+    leading = ["Level", "Detector", ""]
+    found = [*cells, "all", f"{statistics.confidence:.0%}"]
+    delays = [*(f"{cell} [ms]" for cell in cells), "cells", "found", "perfect", "from onset"]
+    note = (
+        "F, A, K: foot, ankle, knee; F, S: front, side. "
+        f"Kendall's tau of the order of the found totals against the paper's: {', '.join(taus)}."
+    )
+    parts = [leading + head for head in (found, delays)]
+    ends = len(leading) + len(found)
+    cut = [[line if isinstance(line, str) else line[:ends] for line in lines],
+           [line if isinstance(line, str) else [*line[: len(leading)], *line[ends:]] for line in lines]]  # fmt: skip
+    tex = PART.join(
+        text_table("lll" + "r" * (len(head) - len(leading)), head, own) for head, own in zip(parts, cut, strict=True)
+    )
+    table = Table(DETECTION, rows, [*leading, *found, *delays], lines, left=len(leading), note=note)
+    write_table(table_dir / "table_09", table, tex)
+
+
+def order_text(shown: Mapping[str, Sequence[Try]], published: PublishedTable) -> str:
+    """Return Kendall's tau of the detectors' totals against the paper's, as text."""
+    from scipy.stats import kendalltau  # here, as it takes a second to import
+
+    totals = {name: row[ALL] for name in shown if (row := published_row(published, DETECTED, name))}
+    ours = [sum(one.is_found for one in shown[name]) / len(shown[name]) for name in totals]
+    return number_text(float(kendalltau(ours, list(totals.values())).statistic) if len(ours) > 1 else None)
+
+
+def _in_cells(tries: Sequence[Try]) -> dict[str, list[Try]]:
+    return {cell: [one for one in tries if one.cell == cell] for cell in CELLS}
+
+
+def _onset_delay(one: Try) -> float | None:
+    """Return the delay from when the force exceeds that of the second definition of a beginning [s]."""
+    late, onset = one.detected.delay_s, one.collision.onset_s
+    return None if late is None or onset is None else late - (onset - one.collision.start_s)
+
+
+DELAYS: Mapping[str, Callable[[Try], float | None]] = {  # of a collision that was found [s]
+    DELAY: delay_of, ONSET: _onset_delay, PERFECT: lambda one: one.detected.perfect_s,
+}  # fmt: skip
+
+
+def _delays(tries: Sequence[Try], quantity: str = DELAY) -> list[float]:
+    """Return delays of the collisions that were found [ms], one of `DELAYS`."""
+    found = [DELAYS[quantity](one) for one in tries if one.is_found]
+    return [MS * delay for delay in found if delay is not None]
+
+
+def _rows(
+    level: str, name: str, settings: DetectorTable, tries: Sequence[Try], statistics: Statistics,
+    published: PublishedTable,
+) -> Iterator[Sequence[Field]]:  # fmt: skip
+    printed = {place: published_row(published, place, name) for place in (DETECTED, DELAY_MS)}
+    for cell, own in {**_in_cells(tries), ALL: list(tries)}.items():
+        place = level, name, settings.leg, settings.kind, cell
+        count = TRIED * (len(CELLS) if cell == ALL else 1)
+        of_paper = printed[DETECTED].get(cell)
+        found = found_share(own, statistics)
+        share = None if of_paper is None else of_paper / count
+        yield (*place, FOUND, *found.with_ends, len(own), "-", share)
+        for quantity, delay in DELAYS.items():
+            values, number = _delays(own, quantity), mean_of([one for one in own if one.is_found], delay, statistics)
+            paper = printed[DELAY_MS].get(cell) if quantity == DELAY and cell != ALL else None
+            yield (*place, quantity, *number.with_ends, len(values), "ms", paper)
+    cells = [mean for own in _in_cells(tries).values() if (mean := _mean(_delays(own)))]
+    average = sum(cells) / len(cells) if cells else None
+    yield (level, name, settings.leg, settings.kind, "cells", DELAY, average, None, None, len(cells), "ms",
+           printed[DELAY_MS].get(ALL))  # fmt: skip
+
+
+def _lines(
+    level: str, name: str, tries: Sequence[Try], statistics: Statistics, published: PublishedTable
+) -> Iterator[Line]:  # fmt: skip
+    """Yield what a detector finds in each cell and how late, and below it what the paper prints."""
+    in_cells = _in_cells(tries)
+    counts, total = [str(len(_delays(own))) for own in in_cells.values()], found_share(tries, statistics)
+    all_found = f"{len(_delays(tries))}/{len(tries)}"
+    means = [_mean(_delays(own)) for own in in_cells.values()]
+    known = [mean for mean in means if mean is not None]
+    further = [_mean(known), *(_mean(_delays(tries, quantity)) for quantity in (DELAY, PERFECT, ONSET))]
+    delays = [number_text(mean, 1) for mean in (*means, *further)]
+    yield [level.replace("_", " "), name, "ours", *counts, all_found, total.interval(), *delays]
+    printed, late = (published_row(published, place, name) for place in (DETECTED, DELAY_MS))
+    if printed and late:
+        weighted = [(printed[cell] or 0.0, late[cell]) for cell in CELLS]
+        found = sum(count for count, _ in weighted)
+        mean = sum(count * (delay or 0.0) for count, delay in weighted) / found if found else None
+        numbers = [number_text(printed[cell], 0) for cell in CELLS]
+        total_text = f"{number_text(printed[ALL], 0)}/{TRIED * len(CELLS)}"
+        paper = [number_text(late[cell], 1) for cell in (*CELLS, ALL)]
+        yield ["", "", "paper", *numbers, total_text, "", *paper, number_text(mean, 1), "", ""]
+
+
+def _mean(values: Sequence[float]) -> float | None:
+    return sum(values) / len(values) if values else None

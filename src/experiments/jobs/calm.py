@@ -1,0 +1,128 @@
+"""The rule `watch`: thresholds of limbs that are watched all the time and of the feet's sensors, from a random walk.
+
+[5.3] Thresholds are larger than the largest signal in normal walking by a margin: so are those of the sensors. In limbs
+that are watched all the time a false alarm is as likely in each second, so that theirs are those of a wanted rate, as
+of the swings of legs; windows of time take the place of swings.
+"""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import astuple, fields, replace
+from pathlib import Path
+
+import numpy as np
+
+from experiments.jobs.reacting_robot import Robot
+from experiments.plan.parts import MethodRun
+from mobnet.core.arrays import Array
+from mobnet.core.detections import LARGEST, Threshold
+from mobnet.core.estimator import Estimator, Stretch, estimate_all
+from mobnet.core.files import write_text
+from mobnet.core.reactions import FORCE_SENSORS
+from mobnet.core.recording import Recording, read_recording
+from mobnet.core.rows import csv_text
+from mobnet.detection.calibration import unit_of
+from mobnet.detection.thresholds import calibrate
+from mobnet.detection.watch import LegSetup
+from mobnet.reaction.watchers import some
+from mobnet.settings.detection import Detection
+from mobnet.settings.methods import Observer
+from mobnet.settings.reaction import Reaction
+from mobnet.settings.walk import WalkSettings
+
+FORCE = "force"  # the signal of a foot's sensor
+COLUMNS = tuple(field.name for field in fields(Threshold))
+
+
+def watch(
+    settings: WalkSettings, reaction: Reaction, detection: Detection, observer: Observer, runs: Mapping[str, MethodRun],
+    quiet: Sequence[Path], out: Path,
+) -> None:  # fmt: skip
+    """Write the thresholds of `reaction.watched` and of the feet's sensors, rows of `Threshold`.
+
+    Args:
+        settings: the walk of the recordings on this robot.
+        reaction: numbers of the pipeline.
+        detection: gate, chain and rules of thresholds.
+        observer: the observer's settings.
+        runs: networks of the method in the loop.
+        quiet: recordings of random walking that nothing pushes; they are read until `reaction.calm_s` are full.
+        out: file.
+
+    Raises:
+        DataError: a recording is missing or damaged, or they are too short.
+    """
+    robot = Robot(settings, reaction, detection, observer, runs)
+    estimator = robot.estimator(reaction.estimator, reaction.watched)
+    limbs, forces = {limb: list[Array]() for limb in reaction.watched}, list[list[float]]()
+    for calm in calm_parts(robot, quiet):
+        for limb, signals in _signals(robot, estimator, calm):
+            limbs[limb].append(signals)
+        forces.append([swing_force(setup, calm) for setup in robot.setups])
+    rows = [*_limbs(robot, limbs), *_feet(robot, np.max(forces, axis=0))]
+    write_text(out, csv_text(COLUMNS, [astuple(row) for row in rows]))
+
+
+def calm_parts(robot: Robot, quiet: Sequence[Path]) -> Iterator[Recording]:
+    """Yield recordings, of the last one its first part, until `reaction.calm_s` are full."""
+    left = round(robot.reaction.calm_s * robot.rate_hz)
+    for path in quiet:
+        if left > 0:
+            walk = first_part(read_recording(path, robot.description.layout), left)
+            left -= len(walk.sensed)
+            yield walk
+
+
+def _signals(robot: Robot, estimator: Estimator, calm: Recording) -> Iterator[tuple[str, Array]]:
+    """Yield limb and signals (T, n) of our detector in each segment of a walk, behind the low-pass."""
+    spans = list(calm.spans())
+    estimates = estimate_all(estimator, [Stretch(calm.sensed[span]) for span in spans])
+    for span, estimate in zip(spans, estimates, strict=True):
+        for limb in robot.reaction.watched:
+            held = np.array([estimator.joints.index(joint) for joint in robot.description.layout.limb(limb)])
+            signals = robot.watched.of(some(estimate, held), calm.sensed[span].command)
+            yield limb, robot.setups[0].low_passed(signals, ((0, len(signals)),))
+
+
+def _limbs(robot: Robot, limbs: Mapping[str, Sequence[Array]]) -> Iterator[Threshold]:
+    """Yield the thresholds of limbs for the rate of our detector, from its signals (T, n) in segments."""
+    ours = robot.reaction.ours
+    for limb, signals in limbs.items():
+        names = robot.watched.names(robot.description.layout.limb(limb))
+        for name, value in zip(names, limb_thresholds(robot, signals), strict=True):
+            yield Threshold(ours.detector, limb, ours.rule, name, 1, float(value), unit_of(name))
+
+
+def limb_thresholds(robot: Robot, signals: Sequence[Array]) -> Array:
+    """Return the thresholds of a limb's signals (n,) from these (T, n) in segments, behind the low-pass."""
+    numbers, window = robot.detection.thresholds, round(robot.detection.window_s * robot.rate_hz)
+    parts = [np.abs(own[: len(own) // window * window]).reshape(-1, window, own.shape[1]) for own in signals]
+    largest = np.concatenate([part.max(axis=1) for part in parts])
+    episodes = np.repeat(np.arange(len(parts)), [len(part) for part in parts])
+    scale = np.quantile(largest, numbers.scale_quantile, axis=0)
+    rate_per_h = numbers.rates_per_h[robot.reaction.ours.rule]
+    walked_s = len(largest) * robot.detection.window_s
+    found = calibrate((largest / scale).max(axis=1), episodes.tolist(), walked_s, rate_per_h, numbers)
+    return found.factor * scale
+
+
+def _feet(robot: Robot, forces: Array) -> Iterator[Threshold]:
+    """Yield the thresholds of the feet's sensors by the paper's rule, from the largest forces in swings (k,) [N]."""
+    for setup, force in zip(robot.setups, forces, strict=True):
+        value = robot.detection.thresholds.margin * float(force)
+        yield Threshold(FORCE_SENSORS, setup.limb, LARGEST, FORCE, 1, value, "N")
+
+
+def swing_force(setup: LegSetup, walk: Recording) -> float:
+    """Return the largest force on a foot in its swing [N], by its sensor, behind the low-pass."""
+    # Without a torque the gate knows no early contact, so that the truth says where the foot is on the ground.
+    nothing = np.zeros((len(walk.sensed), len(setup.joints)))
+    watched = setup.gate.watch(walk, nothing).watched & (walk.truth.contact[:, setup.gate.foot] == 0)
+    wrench = (walk.truth.wrench_left_foot, walk.truth.wrench_right_foot)[setup.gate.foot]
+    force = setup.low_passed(np.ascontiguousarray(wrench[:, :3], dtype=np.float64), walk.segments)
+    return float(np.linalg.norm(force, axis=1)[watched].max())
+
+
+def first_part(walk: Recording, samples: int) -> Recording:
+    """Return the first samples of a recording."""
+    segments = tuple((start, min(end, samples)) for start, end in walk.segments if start < samples)
+    return replace(walk, sensed=walk.sensed[:samples], truth=walk.truth[:samples], segments=segments)

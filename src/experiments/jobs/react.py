@@ -1,0 +1,161 @@
+"""The rule `react`: a robot walks into obstacles or freely, with our detector and with others, and what comes of it."""
+
+import logging
+from collections.abc import Mapping, Sequence
+from dataclasses import astuple, dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+from experiments.jobs.calm import FORCE
+from experiments.jobs.reacting_robot import Robot
+from experiments.jobs.reaction_trial import trial_of
+from experiments.plan.parts import CaseWalks, MethodRun
+from mobnet.core.arrays import Array
+from mobnet.core.course import course_columns
+from mobnet.core.detections import Threshold
+from mobnet.core.estimator import Estimator
+from mobnet.core.files import write_text
+from mobnet.core.reactions import FORCE_SENSORS, NONE, TRIALS, Trial
+from mobnet.core.rows import csv_text, read_rows
+from mobnet.core.store import write_array
+from mobnet.detection.detector import LegDetector
+from mobnet.detection.signals import Watched
+from mobnet.detection.watch import LegSetup
+from mobnet.reaction.handler import Handler, Watcher
+from mobnet.reaction.loop import Course, walk_with
+from mobnet.reaction.watchers import FootWatcher, LegWatcher, LimbWatcher, OwnLegWatcher
+from mobnet.settings.detection import Detection
+from mobnet.settings.methods import Observer
+from mobnet.settings.reaction import Reaction, Watch, watches_of
+from mobnet.simulation.simulator import Simulator
+
+log = logging.getLogger(__name__)
+
+
+def react(
+    reaction: Reaction, detection: Detection, observer: Observer, runs: Mapping[str, MethodRun],
+    thresholds: Sequence[Path], walks: Sequence[CaseWalks],
+) -> None:  # fmt: skip
+    """Write the trials of cases with a robot, rows of `Trial`, and the course of the first walk of each.
+
+    Args:
+        reaction: numbers of the pipeline, and the cases.
+        detection: gate, chain and detectors.
+        observer: the observer's settings.
+        runs: networks and fit of the method in the loop, and of those of detectors.
+        thresholds: files of the robot's thresholds, by rules `detect` and `watch`.
+        walks: the walks of each case, and where they are written; a course as `course_columns` says.
+
+    Raises:
+        DataError: a file is missing or damaged.
+    """
+    rows = [row for path in thresholds for row in read_rows(path, Threshold)]
+    robot_walks = Walks(Robot(walks[0].settings, reaction, detection, observer, runs), rows)
+    for one in walks:
+        _walk(robot_walks, one)
+
+
+def _walk(walks: "Walks", one: CaseWalks) -> None:
+    """Make the walks of a case, with our detector and with what is compared."""
+    reaction, trials = walks.robot.reaction, list[Trial]()
+    ours, *others = watches_of(reaction, one.case)
+    for watch, seeds in [(ours, one.seeds), *((other, one.seeds[: one.sizes.compared]) for other in others)]:
+        for seed in seeds:
+            trial, walked = walks.walk(one, watch, seed)
+            if not trials and one.course is not None:
+                write_course(walked, trial, walks, one.course)
+            trials.append(trial)
+        log.info("%s, %s, %s: %d walks", one.case, watch.detector, watch.rule, len(seeds))
+    write_text(one.out, csv_text(TRIALS, [astuple(trial) for trial in trials]))
+
+
+@dataclass(frozen=True)
+class Walks:
+    """A robot with its thresholds that walks cases; `estimators` are those of the methods that it needed so far."""
+
+    robot: Robot
+    thresholds: Sequence[Threshold]
+    estimators: dict[str, Estimator] = field(default_factory=dict)
+
+    def walk(self, one: CaseWalks, watch: Watch, seed: int) -> tuple[Trial, Course]:
+        """Walk a case; return what came of it, and the course."""
+        robot, numbers, settings = self.robot, self.robot.reaction, one.settings
+        watch = watch.model_copy(update={"wrench": watch.wrench or settings.scenario.wrench})
+        told = settings.scenario.model_copy(update={"wrench": watch.wrench})
+        simulator = Simulator(settings.model_copy(update={"scenario": told}), seed)
+        simulator.start()
+        watchers, row = self.watchers(watch, simulator.sensors.wrenches), numbers.cases[one.case]
+        times_s = watch.wait_s, settings.recording.settle_s, one.sizes.longest_s, numbers.after_s
+        wait, settle, longest, after = (round(time_s * robot.rate_hz) for time_s in times_s)
+        spacing_m = settings.walking.foot_spacing_m
+        handler = Handler(robot.description, numbers, spacing_m, watchers, row.strategy, wait, settle)
+        height_m = robot.detection.gate.contact_height_m
+        estimator, sizes = self.estimator(numbers.estimator), (longest, after, numbers.touch_n, height_m)
+        course = walk_with(simulator, estimator, handler, *sizes, watch.feed_forward)
+        place = one.case, settings.level_name, seed
+        return trial_of(numbers, place, watch, course, settle, robot.rate_hz, bool(simulator.state.standing)), course
+
+    def estimator(self, method: str) -> Estimator:
+        """Return the estimator of a method; its networks are read once, its state is that of a walk."""
+        if method not in self.estimators:
+            self.estimators[method] = self.robot.estimator(method)
+        return self.estimators[method]
+
+    def watchers(self, watch: Watch, wrenches: Array) -> dict[str, Watcher]:
+        """Return what watches each limb; `wrenches` (2, 6) are the readings of the feet's sensors.
+
+        Nothing watches a robot that does not react. Limbs that are no legs are watched by the method in the loop alone.
+        """
+        if watch.detector == NONE:
+            return {}
+        setups, estimator = self.robot.setups, self.robot.reaction.estimator
+        legs = {setup.limb: watcher for setup in setups if (watcher := self._leg(setup, watch, wrenches))}
+        row = self.robot.detection.detectors.get(watch.detector)
+        if row is None or row.method != estimator:
+            return legs
+        return legs | {limb: self._limb(limb) for limb in self.robot.reaction.watched}
+
+    def _limb(self, limb: str) -> LimbWatcher:
+        """Return what watches a limb all the time."""
+        ours, robot = self.robot.reaction.ours, self.robot
+        watched, own = robot.watched, self._values(ours.detector, limb, ours.rule)
+        values = np.array([[own[1, name] for name in watched.names(robot.description.layout.limb(limb))]])
+        return LimbWatcher(watched, robot.setups[0].chain(values), robot.columns(limb))
+
+    def _leg(self, setup: LegSetup, watch: Watch, wrenches: Array) -> Watcher | None:
+        """Return what watches a leg; nothing where rule `detect` found no thresholds for the detector."""
+        columns, own = self.robot.columns(setup.limb), self._values(watch.detector, setup.limb, watch.rule)
+        if not own:  # the method does not estimate this leg, or its networks have hardly learned
+            return None
+        if watch.detector == FORCE_SENSORS:
+            return FootWatcher(setup.gate, setup.chain(np.array([[own[1, FORCE]]]), norm=True), columns, wrenches)
+        row = self.robot.detection.detectors[watch.detector]
+        watched, phases = Watched(row), range(1, row.phases + 1)
+        names = watched.names(setup.joints)
+        chain = setup.chain(np.array([[own[phase, name] for name in names] for phase in phases]))
+        detector = LegDetector(watched, setup.gate, chain)
+        if row.method == self.robot.reaction.estimator:
+            return LegWatcher(detector, columns)
+        estimator = self.estimator(row.method)
+        held = np.array([estimator.joints.index(joint) for joint in setup.joints])
+        return OwnLegWatcher(detector, columns, estimator, held)
+
+    def _values(self, detector: str, limb: str, rule: str) -> dict[tuple[int, str], float]:
+        """Return phase and signal -> threshold of a limb's detector by a rule; empty where it has none."""
+        asked = detector, limb, rule
+        rows = [row for row in self.thresholds if (row.detector, row.leg, row.kind) == asked]
+        return {(row.phase, row.signal): row.value for row in rows}
+
+
+def write_course(course: Course, trial: Trial, walks: Walks, out: Path) -> None:
+    """Write a course, with the times of its trial in the note and the places of the obstacles."""
+    robot, joints = walks.robot, walks.estimator(walks.robot.reaction.estimator).joints
+    layout = robot.description.layout
+    held = layout.columns(joints)
+    parts = course.rows, course.tau[:, held], course.std[:, held], course.force, course.point, course.base
+    array = np.concatenate(parts, axis=1)
+    meta = {"rate_hz": robot.rate_hz, "seed": trial.seed, "case": trial.case, "level": trial.level}
+    meta["obstacles"] = {name: place.tolist() for name, place in course.obstacles.items()}
+    times = {"contact_s": trial.contact_s, "alarm_s": trial.alarm_s, "reacted_s": trial.reacted_s, "limb": trial.limb}
+    write_array(out, array, course_columns(layout, joints), {**meta, **times}, [(0, len(array))])

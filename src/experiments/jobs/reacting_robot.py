@@ -1,0 +1,72 @@
+"""A robot with its estimators and the gates of its legs, as walks with an estimator in the loop need it."""
+
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+from numpy.typing import NDArray
+
+from experiments.plan.parts import MethodRun
+from mobnet.core.estimator import Estimator
+from mobnet.detection.signals import Watched
+from mobnet.detection.watch import LegSetup
+from mobnet.estimation.methods import build_estimator
+from mobnet.estimation.recipe import Recipe
+from mobnet.robot.description import RobotDescription, describe
+from mobnet.settings.detection import Detection
+from mobnet.settings.methods import Observer
+from mobnet.settings.reaction import Reaction
+from mobnet.settings.walk import WalkSettings
+
+
+@dataclass(frozen=True)
+class Robot:
+    """A robot that walks, with the networks and fits of methods.
+
+    Attributes:
+        settings: a scenario on this robot, whatever it walks.
+        reaction: numbers of the pipeline, and the cases.
+        detection: gate, chain and detectors.
+        observer: the observer's settings.
+        runs: networks and fit of each method.
+    """
+
+    settings: WalkSettings
+    reaction: Reaction
+    detection: Detection
+    observer: Observer
+    runs: Mapping[str, MethodRun]
+
+    @cached_property
+    def description(self) -> RobotDescription:
+        """The robot's body."""
+        return describe(self.settings.robot)
+
+    @property
+    def rate_hz(self) -> float:
+        """Samples per second [Hz]."""
+        return self.settings.rates.data_hz
+
+    @cached_property
+    def setups(self) -> list[LegSetup]:
+        """The legs."""
+        return [LegSetup.of(self.detection, self.description, limb, self.rate_hz) for limb in self.detection.legs]
+
+    @property
+    def watched(self) -> Watched:
+        """What our detector watches."""
+        return Watched(self.detection.detectors[self.reaction.ours.detector])
+
+    def estimator(self, method: str, limbs: Collection[str] = ()) -> Estimator:
+        """Return the estimator of a method with this robot's networks, of some limbs alone if asked, and its fit."""
+        run, settings = self.runs[method], self.settings
+        networks = {limb: folder for limb, folder in run.networks.items() if not limbs or limb in limbs}
+        gravity, own = settings.plant.gravity_m_s2, (networks, run.fitted)
+        known = settings.robot, settings.level.nominal_mass_ratio, gravity, self.observer
+        recipe = Recipe(method, run.methods, *known, self.rate_hz, *own)
+        return build_estimator(recipe)
+
+    def columns(self, limb: str) -> NDArray[Any]:
+        """Return the places of a limb's joints in a generalized velocity."""
+        return self.description.layout.columns(self.description.layout.limb(limb))

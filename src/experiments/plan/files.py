@@ -1,0 +1,308 @@
+"""Where the files of recordings, residuals, estimates and networks stand, and which of them are made."""
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, fields, is_dataclass, replace
+from functools import cached_property
+from pathlib import Path
+from typing import NamedTuple, Self, cast
+
+from experiments.plan.runs import Run, SweptSize
+from experiments.plan.seeds import Seeds
+from experiments.settings.asked import asked_in
+from experiments.settings.fleet import FIRST_SEED
+from experiments.settings.runs import Runs
+from mobnet.core.files import METRICS, RUN, WEIGHTS
+from mobnet.settings.methods import swept_name, swept_names
+
+ARRAY, NOTE = ".parquet", ".json"  # endings of the two files of an array
+COURSE = (RUN, METRICS)  # files of a trained network that say how its training went
+NETWORKS = "networks"
+Place = tuple[str, str, int]  # of a recording: scenario, level and seed
+
+
+class NetworkName(NamedTuple):
+    """A network that is trained: method, limb and seed."""
+
+    method: str
+    limb: str
+    seed: int
+
+
+@dataclass(frozen=True)
+class Files(Seeds):
+    """Where the files of a scale stand; tables, figures and the paper stand elsewhere.
+
+    Each robot of the fleet has files of its own in a folder of its name, but the motions that all share.
+    """
+
+    def owner_of(self, path: Path) -> tuple[Self, tuple[str, ...]]:
+        """Return whose file it is, this or a robot's, and its place below that folder; ("",) if it is nobody's."""
+        for owner in (*self.robots.values(), self):
+            if path.is_relative_to(owner.results):
+                return owner, path.relative_to(owner.results).parts
+        return self, ("",)
+
+    def array(self, kind: str, scenario: str, level: str, seed: int | str) -> Path:
+        """Return a recording, residual or estimate without its ending; `{seed}` and so on make a pattern."""
+        return self.results / kind / scenario / level / f"s{seed}"
+
+    def motion(self, scenario: str, seed: int) -> list[Path]:
+        """Return the motion of the upper body in a recording; none where it is still."""
+        name = self.settings.scenarios[scenario].motion
+        return [self.motion_place(name, seed)] if name else []
+
+    def motion_place(self, motion: str, seed: int) -> Path:
+        """Return a motion of the upper body, which all robots share."""
+        shared = self.results.parent if self.robot else self.results
+        return shared / "motions" / motion / f"s{seed}"
+
+    def training(self, kind: str, name: str) -> tuple[Path, ...]:
+        """Return the recordings or residuals of a training set, of all robots that learn from it where it is theirs."""
+        row = self.settings.training_sets[name]
+        if row.level in self.settings.fleet.levels:
+            own = next(own for own, other in self.settings.fleet.sets.items() if other == name)
+            robots = [files for files in self.robots.values() if own in files.learned_sets]
+            return tuple(stem for files in robots for stem in files.training(kind, own))
+        return tuple(self.array(kind, row.scenario, row.level, seed) for seed in self.training_seeds(name))
+
+    def tests(self, scenario: str, level: str, kind: str = "recordings") -> tuple[Path, ...]:
+        """Return the recordings of a test, or their residuals or estimates."""
+        return tuple(self.array(kind, scenario, level, seed) for seed in self.test_seeds)
+
+    def development(self, kind: str, task: str) -> tuple[Path, ...]:
+        """Return the recordings or residuals of the walks on which methods are chosen; no table shows them."""
+        walk = self.settings.development[task]
+        return tuple(self.array(kind, walk.scenario, walk.level, seed) for seed in self.development_seeds)
+
+    @property
+    def falls(self) -> Path:
+        """File of the falls of a robot in the trial of random torques."""
+        return self.results / "falls.csv"
+
+    def recorded(self) -> Iterator[Place]:
+        """Yield scenario, level and seed of every recording but those of robots of the fleet."""
+        for name in self.recorded_sets:
+            row = self.settings.training_sets[name]
+            yield from ((row.scenario, row.level, seed) for seed in self.training_seeds(name))
+        for scenario, levels in self.catalogue.tests.items():
+            single = [level for level in levels if self.has(level)]
+            yield from ((scenario, level, seed) for level in single for seed in self.test_seeds)
+
+    def array_s(self, path: Path) -> float:
+        """Return the duration of a recording, or of what is made from it [s], by its place."""
+        return self.duration_s([path.parts[-3]], int(path.stem.removeprefix("s")))
+
+    def run_seeds(self, method: str, scenario: str, level: str) -> tuple[int, ...]:
+        """Return the seeds with which a method runs in a test: those of the limb with the most among the test's."""
+        every = self.network_seeds(method)
+        if scenario in self.settings.detection_walks:
+            return every[:1]  # a robot detects with one network
+        source, limbs = self.catalogue.network_source_of(method), self.networks(method, every[0], scenario, level)
+        return max((self.network_seeds(source, limb) for limb in limbs), key=len, default=every)
+
+    def network(self, method: str, limb: str, seed: int) -> Path:
+        """Return the folder of a trained network; a limb with fewer seeds than others serves them in turn."""
+        seeds = self.network_seeds(method, limb)
+        return self.results / NETWORKS / f"{method}-{limb}-s{seeds[seed % len(seeds)]}"
+
+    def networks(self, method: str, seed: int, scenario: str, level: str) -> dict[str, Path]:
+        """Return the networks, limb -> folder, that a method runs in a test: those of joints that it estimates."""
+        source, joints = self.catalogue.network_source_of(method), {*self.catalogue.estimated(method, scenario, level)}
+        return {
+            limb: self.network(source, limb, seed)
+            for limb in self.catalogue.method(source).limbs
+            if joints.intersection(self.settings.layout.limbs(self.settings.robot.networks[limb].joints))
+        }
+
+    def repeated(self, method: str, seed: int) -> tuple[str, ...]:
+        """Return the limbs, groups of joints, whose network served an earlier seed of a method already."""
+        source, seeds = self.catalogue.network_source_of(method), self.network_seeds(method)
+        earlier, networks = seeds[: seeds.index(seed)], self.settings.robot.networks
+        return tuple(
+            group
+            for limb in self.catalogue.method(source).limbs
+            if self.network(source, limb, seed) in [self.network(source, limb, other) for other in earlier]
+            for group in networks[limb].joints
+        )
+
+    def network_folders(self, methods: Iterable[str], limb: str, level: str) -> tuple[Path, ...]:
+        """Return the folders of methods' networks of a limb trained at a level, on a fleet those of each robot."""
+        return tuple(
+            files.network(name, limb, seed)
+            for name in methods
+            for files in self.owners
+            if files.has(level)
+            for seed in files.network_seeds(name, limb)
+        )
+
+    @cached_property
+    def learned(self) -> frozenset[tuple[str, str]]:
+        """Method and limb of every network that runs in a test or is shown by itself."""
+        catalogue, settings, evaluation = self.catalogue, self.settings, self.settings.evaluation
+        pairs = [
+            (catalogue.network_source_of(method), limb)
+            for scenario, levels in catalogue.tests.items()
+            for level, methods in levels.items()
+            if self.has(level)
+            for method in methods
+            for limb in self.networks(method, self.network_seeds(method)[0], scenario, level)
+        ]
+        kinds, sizes, timed = evaluation.figure_17, evaluation.figure_20, evaluation.latency.method
+        if self.has(kinds.level):
+            pairs += [(method, kinds.limb) for method in kinds.methods]
+        if self.has(kinds.best_level):
+            pairs += [(method, kinds.limb) for method in kinds.best]
+        if self.has(evaluation.kinds.level):
+            pairs += [(method, kinds.limb) for method in evaluation.kinds.variants]
+        if self.has(sizes.level):
+            for key in (sizes.parameters, sizes.samples):
+                pairs += [(name, sizes.limb) for name in swept_names(key, settings.sweeps[key])]
+        if not self.robot:
+            pairs += [(timed, limb) for limb in catalogue.method(timed).limbs]
+        pairs += [(first, limb) for method, limb in pairs if (first := catalogue.method(method).start)]
+        return frozenset(pairs)
+
+    @cached_property
+    def own_networks(self) -> tuple[NetworkName, ...]:
+        """The networks that are trained of the plant of section 5.1, or of a robot."""
+        pairs = [(name, limb) for name, row in self.catalogue.all_methods.items() for limb in row.limbs]
+        return tuple(
+            NetworkName(*pair, seed) for pair in pairs if pair in self.learned for seed in self.network_seeds(*pair)
+        )
+
+    def all_networks(self) -> tuple[Path, ...]:
+        """Return the folders of every network that is trained, those of robots last."""
+        return tuple(files.network(*name) for files in self.owners for name in files.own_networks)
+
+    @cached_property
+    def tried_networks(self) -> tuple[NetworkName, ...]:
+        """The networks of these files' own tasks that the trials train."""
+        trials = [trial for trial in self.catalogue.trials if self.has(self.settings.development[trial.task].level)]
+        pairs = [(trial.name, limb) for trial in trials for limb in trial.method.limbs]
+        return tuple(NetworkName(*pair, seed) for pair in dict.fromkeys(pairs) for seed in self.network_seeds(*pair))
+
+    @cached_property
+    def own_fits(self) -> tuple[str, ...]:
+        """The methods that are fitted of the plant of section 5.1, or of a robot: for a test, or for a network."""
+        tests = [pair for levels in self.catalogue.tests.values() for pair in levels.items()]
+        named = [method for level, methods in tests if self.has(level) for method in methods]
+        sources = dict.fromkeys(map(self.catalogue.source_of, [*named, *(name.method for name in self.own_networks)]))
+        return tuple(name for name in sources if self.catalogue.method(name).fitted)
+
+    @cached_property
+    def learned_sets(self) -> tuple[str, ...]:
+        """Names of the training sets that networks and fits learn from, in the configuration's order."""
+        settings, catalogue = self.settings, self.catalogue
+        named = {method for levels in catalogue.tests.values() for methods in levels.values() for method in methods}
+        sources = {catalogue.source_of(method) for method in (*named, *(method for method, _ in self.learned))}
+        fitted = [(source, limb) for source in sources for limb in catalogue.method(source).fitted]
+        used = {catalogue.network(method, limb).data for method, limb in (*self.learned, *fitted)}
+        return tuple(name for name in settings.training_sets if name in used)
+
+    @property
+    def recorded_sets(self) -> tuple[str, ...]:
+        """Names of the training sets that are recorded: all of the plant of section 5.1, of a robot those it needs."""
+        sets = self.settings.training_sets
+        return self.learned_sets if self.robot else tuple(name for name, row in sets.items() if self.has(row.level))
+
+    def fit(self, method: str) -> list[Path]:
+        """Return the file of what a method, or the one it runs on, was fitted to; none if it is not fitted."""
+        source = self.catalogue.source_of(method)
+        return [self.results / "fits" / f"{source}.json"] if self.catalogue.method(source).fitted else []
+
+    def start(self, method: str, limb: str, seed: int) -> Path | None:
+        """Return the weights from which a method's network is fine-tuned; None of one that learns from the first."""
+        first = self.catalogue.method(method).start
+        return self.network(first, limb, seed) / WEIGHTS if first else None
+
+    def runs(self, scenario: str, level: str, methods: Iterable[str]) -> tuple[Run, ...]:
+        """Return the runs of methods on a test: every network on every recording; on a fleet, those of each robot."""
+        fleet = self.settings.fleet
+        if not self.has(level):
+            return tuple(
+                replace(run, level=level, network_seed=seed)
+                for seed, (robot, files) in enumerate(self.robots.items(), start=FIRST_SEED)
+                if level in (*fleet.levels, robot)
+                for run in files.runs(scenario, fleet.level_of(robot, level), methods)
+            )
+        return tuple(
+            run
+            for method in methods
+            for network in self.run_seeds(method, scenario, level)
+            for run in self._runs_of(scenario, level, method, network)
+        )
+
+    def _runs_of(self, scenario: str, level: str, method: str, network_seed: int) -> Iterator[Run]:
+        """Yield the runs of a method with the networks of a seed on every recording of a test."""
+        repeated = self.repeated(method, network_seed)
+        kinds = "recordings", "residuals", f"estimates/{method}/n{network_seed}"
+        for seed in self.test_seeds:
+            recording, residual, estimate = (self.array(kind, scenario, level, seed) for kind in kinds)
+            yield Run(scenario, level, method, network_seed, seed, recording, residual, estimate, repeated)
+
+    def first_runs(self, test: Runs) -> tuple[Run, ...]:
+        """Return the runs of a test that a figure of one recording shows: first network or robot, first recording."""
+        return tuple(self.runs(test.scenario, test.level, [method])[0] for method in test.methods)
+
+    def scored_runs(self, scenario: str, level: str) -> tuple[Run, ...]:
+        """Return the runs of a test at a level whose errors a product shows; detectors have others."""
+        methods = [name for name in self.catalogue.tests[scenario][level] if (scenario, level, name) in self._shown]
+        return self.runs(scenario, level, methods)
+
+    @property
+    def scored(self) -> tuple[tuple[str, str], ...]:
+        """The tests and levels whose errors are scored: those that a product shows, not those of detectors alone."""
+        shown = {(scenario, level) for scenario, level, _ in self._shown}
+        pairs = ((scenario, level) for scenario, levels in self.catalogue.tests.items() for level in levels)
+        return tuple(pair for pair in pairs if pair in shown)
+
+    @cached_property
+    def _shown(self) -> frozenset[tuple[str, str, str]]:
+        """Scenario, level and method of the runs that products show."""
+        sections = self.settings.evaluation, self.settings.claims
+        return frozenset((one.scenario, one.level, one.method) for one in asked_in(self.settings, sections, ()))
+
+    def scores(self, shown: Iterable[tuple[str, str]]) -> tuple[Path, ...]:
+        """Return the files of scores of some tests, each at a level; each file once."""
+        return tuple(self.results / "scores" / scenario / f"{level}.csv" for scenario, level in dict.fromkeys(shown))
+
+    def swept_sizes(self) -> tuple[SweptSize, ...]:
+        """Return the sizes of Figure 20; the network of all data is that of Table 1's size."""
+        figure, sweeps = self.settings.evaluation.figure_20, self.settings.sweeps
+        found: list[SweptSize] = []
+        for panel, key in (("parameters", figure.parameters), ("samples", figure.samples)):
+            for base in sweeps[key].of:
+                names = [swept_name(base, key, value) for value in sweeps[key].values]
+                if panel == "samples":
+                    full = getattr(self.catalogue.network(base, figure.limb), figure.parameters)
+                    names.append(swept_name(base, figure.parameters, full))
+                found += [
+                    SweptSize(panel, base, self.network_folders([name], figure.limb, figure.level)) for name in names
+                ]
+        return tuple(found)
+
+
+def files_in(needs: object) -> Iterator[Path]:
+    """Yield every file behind what a product needs, at any depth of containers and dataclasses."""
+    if isinstance(needs, Path):
+        yield from _files_of(needs)
+        return
+    items: list[object] = []
+    if isinstance(needs, dict):
+        items = list(cast("dict[object, object]", needs).values())
+    elif isinstance(needs, list | tuple):
+        items = list(cast("Sequence[object]", needs))
+    elif is_dataclass(needs):
+        items = [getattr(needs, field.name) for field in fields(needs)]
+    for item in items:
+        yield from files_in(item)
+
+
+def _files_of(place: Path) -> Iterator[Path]:
+    """Yield the files of a place: a file, the course of a network's training, or an array."""
+    if place.suffix:
+        yield place
+    elif place.parent.name == NETWORKS:
+        yield from (place / name for name in COURSE)
+    else:
+        yield place.with_suffix(ARRAY)

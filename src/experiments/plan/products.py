@@ -1,0 +1,307 @@
+"""Every table, figure and text: what makes it, what it needs and what it writes."""
+
+import functools
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from fnmatch import fnmatch
+from pathlib import Path
+
+from experiments.plan.call import Job, call_of, parameters
+from experiments.plan.demo import FOLDER, demo_needs, demo_outputs
+from experiments.plan.detection import all_detections
+from experiments.plan.files import Files, files_in
+from experiments.plan.needs import needs_of
+from experiments.plan.pages import explore_needs
+from experiments.settings.claims import numbers_of
+from experiments.settings.evaluation import Evaluation
+from experiments.settings.runs import Runs
+from experiments.settings.settings import Settings
+from mobnet.core.code import start_of
+
+EVALUATION = "experiments.evaluation"
+PLACES = (*(f"{kind}.{part}" for kind in ("tables", "figures") for part in ("paper", "further")), "report")
+ERRORS = f"{EVALUATION}.tables.paper.error_table:error_table"  # makes every entry of `tables`
+HANDS = ("figure_07", "figure_12")  # figures that `hand_figure` makes
+TEMPLATES = Path("src/experiments/evaluation/report/templates")  # inputs of rules: the code hash reads Python only
+EXPLORE = tuple(
+    TEMPLATES / name
+    for name in (
+        "explore.html", "page.html", "explore.css", "explore_data.js", "explore_numbers.js", "explore_pose.js",
+        "explore_robot.js", "explore_plots.js", "explore_state.js", "explore.js",
+    )
+)  # fmt: skip
+TABLE, FIGURE = ("csv", "tex", "md"), ("pdf", "svg", "png", "csv")  # endings of a table's and of a figure's files
+FILM, DRAWN = ("webp", "gif", "png", "csv"), ("method", "robot")  # endings of the film's files; drawings
+TESTS = (  # scenario and level of those whose errors the page of trainings shows, the first that has a network
+    "forward_walk/all_uncertainty", "motion_test/all_uncertainty", "walk_test/robots", "hand_wrench/robots",
+    "changed_walk/*",
+)  # fmt: skip
+CLAIMED = ("claims", "claims_summary")  # made from the claims, which are no section of `evaluation`
+FURTHER: Mapping[str, tuple[str, ...]] = {"bode": ("bode_all",), "claims": ("claims_own",)}  # more figures of a product
+MAIN_TABLES = ("legs", "limbs", "detectors")  # of the paper's main text, made with its numbers
+SOURCES = (  # tables that these are made from
+    "table_05", "table_06", "table_07", "table_08", "table_09", "table_13", "methods", "peaks", "false_alarms",
+    "found_by_rate",
+)  # fmt: skip
+QUOTED = (  # tables that the paper's text takes numbers from, beside those of errors
+    "methods", "peaks", "phases", "noise", "error_budget", "label_error", "changed", "hourly", "kinds", "table_09",
+    "false_alarms", "found_by_rate", "smallest_force", "links", "contact_points", "safety", "sensorless",
+)  # fmt: skip
+BARS = tuple(f"figure_{k:02}" for k in (5, 6, 7, 8, 9, 10, 12))  # figures whose bars have a CSV of their own
+TIMES = "TIMES.sha256"  # beside the manifest: the list of files that hold times, and so differ between equal runs
+TIMED = ("runs.html", "main.pdf", "compute.html")  # they show what jobs took, as the table of compute does
+CAPTIONS = Path("workflow/report")
+HEADINGS = {
+    "index.html": "start", "runs.html": "trainings", "explore.html": "explore", "main.pdf": "paper",
+    ".html": "tables", ".png": "figures",
+}  # fmt: skip
+CATEGORIES = {"start": "0 Read me first"}  # the page on which the report opens; the report sorts its categories
+HEADLINE = ("table_05", "table_07", "table_08")  # tables of its errors of five methods
+PICTURED = ("figure_06", "figure_10", "figure_21", "claims")  # its figures
+
+
+@dataclass(frozen=True)
+class Folders:
+    """Where a scale's products stand; `results` has everything but tables, figures and the paper."""
+
+    results: Path
+    tables: Path
+    figures: Path
+    paper: Path
+    manifest: Path
+
+
+@dataclass(frozen=True)
+class Product:
+    """A table, a figure, or a part of the paper or report: the files that one rule makes, and how it makes them."""
+
+    name: str
+    job: Job
+    outputs: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Shown:
+    """How the report shows a file: its heading, also the folder of its caption, its title, and its caption."""
+
+    heading: str
+    title: str
+    caption: Path | None
+
+    @property
+    def category(self) -> str:
+        """The category of the report."""
+        return CATEGORIES.get(self.heading, self.heading.capitalize())
+
+
+@dataclass(frozen=True)
+class Products:
+    """All products at one scale, from the files `stored`; with the paper's PDF only where TeX is there to build it."""
+
+    settings: Settings
+    files: Files
+    folders: Folders
+    with_pdf: bool
+    stored: tuple[str, ...]
+
+    @property
+    def table_names(self) -> list[str]:
+        """Names of all tables."""
+        return [*self.settings.evaluation.tables, *_made_with("table_dir"), *MAIN_TABLES]
+
+    @property
+    def figure_names(self) -> list[str]:
+        """Names of all figures, without those whose source data do not exist yet."""
+        kept = {"learning_curve": Path(self.settings.evaluation.learning_curve.data)}
+        made = [*_made_with("figure_dir"), *self.settings.evaluation.figures]
+        return [name for name in made if name not in kept or kept[name].is_file()]
+
+    def all(self) -> list[Product]:
+        """Return every product, each after those that it needs."""
+        made = [*self._tables_and_figures(), self._pictures(), *self._texts()]
+        return [*made, *self._report(made)]
+
+    def _tables_and_figures(self) -> Iterator[Product]:
+        """Yield all tables and figures."""
+        figures = self.figure_names
+        tables = [name for name in self.table_names if name not in MAIN_TABLES]
+        for name in dict.fromkeys([*tables, *figures]):
+            drawn = pictures(name) if name in figures else ()
+            outputs = [self.folders.figures / f"{picture}.{ending}" for picture in drawn for ending in FIGURE]
+            outputs += [self.folders.figures / f"{name}_bars.csv"] if name in BARS else []
+            outputs += [self.folders.tables / f"{name}.{ending}" for ending in TABLE if name in tables]
+            function = ERRORS if name in self.settings.evaluation.tables else functions()[name]
+            asked = [parameter for some in parameters(function) for parameter in some]
+            needs = needs_of(self.files, name, self._own(name).get("settings"), asked)
+            yield self._product(name, function, {**needs, **self._tables_of(name)}, outputs)
+
+    def _pictures(self) -> Product:
+        """Return the drawings of method and robot, and the film of a push where there is a robot with detectors."""
+        figures, evaluation, detections = self.folders.figures, self.settings.evaluation, all_detections(self.files)
+        story = evaluation.story
+        is_told, test = story.level in detections, Runs(**story.model_dump(include=set(Runs.model_fields)))
+        needs: dict[str, object] = {
+            "film": evaluation.push_film,
+            **{name: getattr(evaluation, name) for name in ("drawings", "story", "peaks")},
+            "runs": self.files.first_runs(test) if is_told else (),
+            "detections": {story.level: detections[story.level]} if is_told else {},
+        }
+        outputs = [figures / f"{name}.{ending}" for name in DRAWN for ending in FIGURE]
+        outputs += [figures / f"push.{ending}" for ending in FILM] if is_told else []
+        return self._product("pictures", functions()["pictures"], needs, outputs)
+
+    def _tables_of(self, name: str) -> Mapping[str, object]:
+        """Return the tables from which another table or figure is made."""
+        folder = self.folders.tables
+        if name == "claims_summary":
+            return {"claims_csv": folder / "claims.csv"}
+        made = [number for claim in self.settings.claims.values() for number in numbers_of(claim)]
+        used = dict.fromkeys(cell.table for number in made for cell in number.cells if cell.table)
+        return {"tables": {table: folder / f"{table}.csv" for table in used}} if name == "claims" else {}
+
+    def _texts(self) -> Iterator[Product]:
+        """Yield numbers and tables that the paper takes, pages of trainings and pushes, and the stored push."""
+        tables, results = self.folders.tables, self.folders.results
+        csvs = [tables / f"{name}.csv" for name in self.settings.evaluation.tables]
+        made = [tables / f"{name}.{ending}" for name in MAIN_TABLES for ending in TABLE]
+        numbers = {
+            "train": self.files.training_size("walk"),
+            "table_csvs": csvs,
+            "further_csvs": [tables / f"{name}.csv" for name in QUOTED],
+            "captions": self._captions(),
+            "compared": self.settings.evaluation.main_tables,
+            "sources": [tables / f"{name}.csv" for name in SOURCES],
+            "claims_csv": tables / "claims.csv",
+            "summary_csv": tables / "claims_summary.csv",
+        }
+        yield self._report_product("numbers", numbers, [tables / "numbers.tex", tables / "captions.tex", *made])
+        yield self._report_product("deviations", {"markdown": Path("docs/deviations.md")}, [tables / "deviations.tex"])
+        networks = {"folders": self.files.all_networks()}
+        names = ("runs.html", "page.html", "page.css", "runs.css", "page.js", "runs.js", "overlay.js")
+        parts = [TEMPLATES / name for name in names]
+        scores = self.files.scores(
+            pair for test in TESTS for pair in self.files.scored if fnmatch("/".join(pair), test)
+        )
+        needs = {**networks, "templates": parts, "scores": scores}
+        yield self._report_product("runs_page", needs, [results / "runs.html"])
+        yield self._report_product("wandb_runs", networks, [results / "wandb"])
+        push = demo_needs(self.files)
+        yield self._report_product("demo_data", push, [results / FOLDER / name for name in demo_outputs(push)])
+        scenes = explore_needs(self.files)
+        yield self._report_product("explore", {**scenes, "templates": EXPLORE}, [results / "explore.html"])
+
+    def _report(self, made: list[Product]) -> Iterator[Product]:
+        """Yield what looks at all other products: compute, the paper, the pages of the report and the manifest."""
+        tables, results, paper = self.folders.tables, self.folders.results, self.folders.paper
+        outputs = [Path(name) for product in made for name in product.outputs if product.name != "wandb_runs"]
+        accounts = {"accounts": results / "logs", "after": [*map(Path, self.stored), *outputs]}
+        compute = [results / f"compute.{ending}" for ending in TABLE]
+        yield self._report_product("compute", accounts, compute)
+        names = (*self.table_names, "numbers", "captions", "deviations")
+        texts = [*(tables / f"{name}.tex" for name in names), compute[1]]
+        sources = {"main": Path("paper/main.tex"), "references": Path("paper/refs.bib"), "tables": texts}
+        drawn = [*(picture for name in self.figure_names for picture in pictures(name)), *DRAWN]
+        figures = [self.folders.figures / f"{picture}.pdf" for picture in drawn]
+        built = [paper / "build.json", *([paper / "main.pdf"] if self.with_pdf else [])]
+        yield self._report_product("paper", {**sources, "figures": figures}, built)
+        listed = [*(tables / f"{name}.md" for name in self.table_names), results / "compute.md"]
+        pages = [results / "pages" / f"{path.stem}.html" for path in listed]
+        captions = [found.caption for page in pages if (found := shown(str(page)))]
+        pages.append(results / "pages" / "index.html")
+        yield self._report_product("pages", {"tables": listed, "captions": captions, **self._first_page()}, pages)
+        results_of_all = [*map(Path, self.stored), *outputs, *compute, *built, *pages]
+        timed = [*compute, *(path for path in results_of_all if path.name in TIMED)]
+        equal = [path for path in results_of_all if path not in timed]
+        listed = [self.folders.manifest, self.folders.manifest.with_name(TIMES)]
+        yield self._report_product("manifest", {"files": equal, "timed": timed}, listed)
+
+    def _first_page(self) -> dict[str, object]:
+        """Return what the page on which the report opens needs, and the templates of all pages."""
+        names = ("page.html", "page.css", "page.js", "bar.html", "index.css", "claims.css", "claims.js")
+        parts = [TEMPLATES / name for name in names]
+        return {
+            "pictures": [
+                (self.folders.figures / f"{name}.png", CAPTIONS / "figures" / f"{name}.rst") for name in PICTURED
+            ],
+            "first": CAPTIONS / "start" / "index.rst",
+            "templates": {name: TEMPLATES / f"{name}.html" for name in ("table", "claims", "index")},
+            "read": [*parts, *(self.folders.tables / f"{name}.csv" for name in ("claims", *HEADLINE))],
+        }
+
+    def _captions(self) -> list[Path]:
+        """Return the captions of all tables and figures that have one, for the paper."""
+        drawn = [*(picture for name in self.figure_names for picture in pictures(name)), *DRAWN]
+        names = {"tables": [*self.table_names, "compute"], "figures": drawn}
+        files = [CAPTIONS / kind / f"{name}.rst" for kind, made in names.items() for name in made]
+        return [path for path in files if path.is_file()]
+
+    def _report_product(self, name: str, needs: Mapping[str, object], outputs: list[Path]) -> Product:
+        """Return a product of the module of its name in `report`."""
+        return self._product(name, f"{EVALUATION}.report.{name}:{name}", needs, outputs)
+
+    def _product(self, name: str, function: str, needs: Mapping[str, object], outputs: list[Path]) -> Product:
+        """Return a product; its function gets what its signature names."""
+        call = call_of(function, {**self._shared, **self._own(name), **needs, "out": outputs[0]})
+        read = {key: value for key, value in needs.items() if key != "accounts"}  # jobs write these without being asked
+        files = dict.fromkeys(map(str, files_in(read)))
+        return Product(name, Job(call, tuple(files)), tuple(map(str, outputs)))
+
+    @functools.cached_property
+    def _shared(self) -> dict[str, object]:
+        """Return what any product may ask for: sections of the configuration, the robot's joints, folders."""
+        evaluation = self.settings.evaluation
+        return {
+            **{name: getattr(self.settings, name) for name in type(self.settings).model_fields if name != "evaluation"},
+            **{name: getattr(evaluation, name) for name in ("statistics", "windows", "coverage")},
+            "layout": self.settings.layout,
+            "looks": self.settings.robot.looks,
+            "sizes": self.settings.sizes,
+            "table_dir": self.folders.tables,
+            "figure_dir": self.folders.figures,
+        }
+
+    def _own(self, name: str) -> dict[str, object]:
+        """Return a product's own name, section of the configuration and numbers of the paper, None if it prints none.
+
+        A section may name the table of the paper whose numbers it shows.
+        The chosen scale may replace the start of a gait cycle [s] that the section names.
+        """
+        evaluation, published = self.settings.evaluation, self.settings.published
+        section = {**evaluation.tables, **evaluation.figures}.get(name) or getattr(evaluation, name, None)
+        printed = published.tables.get(getattr(section, "table", name)) or getattr(published, name, None)
+        shortened = self.settings.sizes.figure_start_s
+        start_s = getattr(section, "start_s", None) if shortened is None else shortened
+        own = {"name": name, "settings": section, "start_s": start_s}
+        return {**{key: value for key, value in own.items() if value is not None}, "published": printed}
+
+
+def pictures(name: str) -> tuple[str, ...]:
+    """Return the names of the files of a figure: its own, and those of what else it draws."""
+    return name, *FURTHER.get(name, ())
+
+
+def shown(file: str) -> Shown | None:
+    """Return how the report shows a file; None if it does not."""
+    path = Path(file)
+    heading = HEADINGS.get(path.name, HEADINGS.get(path.suffix))
+    if heading is None:
+        return None
+    caption = CAPTIONS / heading / f"{path.stem}.rst"
+    if not caption.is_file():
+        return Shown(heading, path.stem, None)
+    return Shown(heading, caption.read_text(encoding="utf-8").splitlines()[0], caption)
+
+
+def _made_with(folder: str) -> list[str]:
+    """Return the sections of the configuration whose function of their name writes into `table_dir` or `figure_dir`."""
+    found = [name for name in (*Evaluation.model_fields, *CLAIMED) if name in functions()]
+    return [name for name in found if any(folder in some for some in parameters(functions()[name]))]
+
+
+@functools.cache
+def functions() -> dict[str, str]:
+    """Return the function `module:name` of each module of tables, of figures and of what is both."""
+    folders = [f"{EVALUATION}.{place}" for place in PLACES]
+    found = {path.stem: folder for folder in folders for path in start_of(folder).parent.glob("[a-z]*.py")}
+    made = {name: f"{folder}.{name}:{name}" for name, folder in found.items()}
+    return made | dict.fromkeys(HANDS, made["hand_figure"])

@@ -1,0 +1,75 @@
+"""Walks into obstacles on which reactions are tried: what runs in them, and the files that say what comes of them."""
+
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+
+from experiments.plan.detection import level_of_detectors
+from experiments.plan.files import Files
+from experiments.settings.scales import ReactionSizes
+from mobnet.settings.reaction import watches_of
+
+OTHERS = "scenarios"  # job of the cases that compare little
+Reactions = Mapping[str, Mapping[str, Path]]  # level of a robot -> case -> file of its trials
+
+
+def cases_of_jobs(files: Files) -> dict[str, tuple[str, ...]]:
+    """Return job -> its cases: those that compare several detectors with ours have one each, the others share one."""
+    reaction, cases = files.settings.reaction, files.settings.reaction.cases
+    detectors = {case: {watch.detector for watch in watches_of(reaction, case)} for case in cases}
+    own = {case: (case,) for case in cases if len(detectors[case] - {reaction.ours.detector}) > 1}
+    others = tuple(case for case in cases if case not in own)
+    return {**own, **({OTHERS: others} if others else {})}
+
+
+def methods_of(files: Files, cases: Iterable[str]) -> tuple[str, ...]:
+    """Return the methods that run in some cases: that in the loop, and those of detectors."""
+    reaction, detectors = files.settings.reaction, files.settings.detection.detectors
+    names = [watch.detector for case in cases for watch in watches_of(reaction, case)]
+    return tuple(dict.fromkeys([reaction.estimator, *(detectors[name].method for name in names if name in detectors)]))
+
+
+def sizes_of(files: Files, case: str) -> ReactionSizes:
+    """Return how many walks a robot makes of a case, and of what length."""
+    sizes = files.settings.sizes.reactions
+    return sizes.cases.get(case) or (sizes.pushed if is_pushed(files, case) else sizes.free)
+
+
+def is_pushed(files: Files, case: str) -> bool:
+    """Return whether robots walk into something in a case, or something pushes them."""
+    scenario = files.settings.scenarios[files.settings.reaction.cases[case].scenario]
+    return bool(scenario.obstacles or scenario.pushes)
+
+
+def walks_in(files: Files, case: str) -> float:
+    """Return how many walks a robot makes in a case, in walks as long as those into obstacles."""
+    sizes, usual_s = sizes_of(files, case), files.settings.sizes.reactions.pushed.longest_s
+    walks = sizes.runs + min(sizes.compared, sizes.runs) * (len(watches_of(files.settings.reaction, case)) - 1)
+    return walks * sizes.longest_s / usual_s
+
+
+def watch_file(files: Files) -> Path:
+    """Return the file of a robot's thresholds of limbs and of the feet's sensors."""
+    return files.results / "reactions" / "thresholds.csv"
+
+
+def reaction_file(files: Files, case: str) -> Path:
+    """Return the file of a robot's trials of a case."""
+    return files.results / "reactions" / f"{case}.csv"
+
+
+def course_file(files: Files, case: str) -> Path:
+    """Return the course of the first walk of a robot into the obstacle of a case, without its ending."""
+    return files.results / "reactions" / case
+
+
+def courses_of(files: Files, cases: Iterable[str]) -> Mapping[str, Path]:
+    """Return the courses of the first robot in some cases."""
+    own = next(own for own in files.owners if level_of_detectors(own))
+    return {case: course_file(own, case) for case in cases}
+
+
+def all_reactions(files: Files) -> Reactions:
+    """Return the files of the trials of every robot."""
+    cases = files.settings.reaction.cases
+    levels = {level: own for own in files.owners if (level := level_of_detectors(own))}
+    return {level: {case: reaction_file(own, case) for case in cases} for level, own in levels.items()}

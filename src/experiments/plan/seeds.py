@@ -1,0 +1,87 @@
+"""Which recordings and networks a scale has, by their seeds, and how long recordings are."""
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Self
+
+from experiments.settings.catalogue import Catalogue
+from experiments.settings.fleet import as_robot
+from experiments.settings.settings import Settings
+from mobnet.settings.data import Recordings
+
+# Recordings and motions of development and of training count from these seeds; those of tests, from their scale's
+# `first_seed`, lie below.
+FIRST_DEVELOPMENT_SEED, FIRST_TRAINING_SEED = 501, 1000
+
+
+@dataclass(frozen=True)
+class Seeds:
+    """Seeds and durations of the plant of section 5.1 or, by its name, of a robot of the fleet, below `results`."""
+
+    catalogue: Catalogue
+    results: Path
+    robot: str = ""
+
+    @property
+    def settings(self) -> Settings:
+        """The configuration, of a robot as it has it."""
+        return self.catalogue.settings
+
+    @cached_property
+    def robots(self) -> Mapping[str, Self]:
+        """Robot of the fleet -> its files; a robot has none below its own."""
+        named = self.settings.fleet.robots[: self.settings.sizes.fleet]
+        return {name: type(self)(as_robot(self.catalogue, name), self.results / name, name) for name in named}
+
+    @property
+    def owners(self) -> tuple[Self, ...]:
+        """These and those of each robot of the fleet."""
+        return self, *self.robots.values()
+
+    def has(self, level: str) -> bool:
+        """Return whether a level is one of these files' own: of a robot, or of the plant of section 5.1."""
+        fleet = self.settings.fleet
+        if self.robot:
+            known = fleet.levels
+            return level in (*known, *(fleet.level_of(self.robot, name) for name in known))
+        return level in self.settings.levels and level not in fleet.robots
+
+    @property
+    def test_seeds(self) -> list[int]:
+        """Seeds of the test recordings, the same in every test."""
+        test = self.settings.sizes.test
+        return [test.first_seed + i for i in range(test.shards)]
+
+    def training_seeds(self, name: str) -> list[int]:
+        """Return the seeds of a training set's recordings."""
+        return [FIRST_TRAINING_SEED + i for i in range(self.training_size(name).shards)]
+
+    def training_size(self, name: str) -> Recordings:
+        """Return number and duration of a training set's recordings."""
+        return self.settings.training_sets[name].sizes[self.settings.scale]
+
+    @property
+    def development_seeds(self) -> range:
+        """Seeds of the walks on which methods are chosen."""
+        return range(FIRST_DEVELOPMENT_SEED, FIRST_DEVELOPMENT_SEED + self.settings.sizes.development.shards)
+
+    def duration_s(self, scenarios: Iterable[str], seed: int) -> float:
+        """Return the duration of the recordings with a seed [s]; of several scenarios, the longest."""
+        wanted, sets = list(scenarios), self.settings.training_sets
+        if seed < FIRST_DEVELOPMENT_SEED:
+            return max(self.settings.test_s(name) for name in wanted)
+        if seed < FIRST_TRAINING_SEED:
+            return self.settings.sizes.development.shard_s
+        return max(self.training_size(name).shard_s for name, row in sets.items() if row.scenario in wanted)
+
+    def motion_s(self, motion: str, seed: int) -> float:
+        """Return the duration of a motion [s]: that of the longest recording that takes it."""
+        moved = [name for name, row in self.settings.scenarios.items() if row.motion == motion]
+        return self.duration_s(moved, seed)
+
+    def network_seeds(self, method: str, limb: str | None = None) -> tuple[int, ...]:
+        """Return the seeds of a method's networks of a limb, or of that with the most; (0,) if there are none."""
+        limbs = [limb] if limb else self.catalogue.method(self.catalogue.network_source_of(method)).limbs
+        return max((self.catalogue.experiment(method, name).seeds for name in limbs), key=len, default=(0,))

@@ -1,0 +1,78 @@
+"""The trials: products that are no part of `all`. They take hours, so docs/trials holds a copy of their tables."""
+
+from collections.abc import Iterable, Iterator, Sequence
+from pathlib import Path
+
+from experiments.plan.call import Call, Job
+from experiments.plan.files import Files, files_in
+from experiments.plan.jobs import KINDS
+from experiments.plan.products import TABLE, Product
+from experiments.plan.runs import Tried, TriedTask
+from experiments.settings.trials import Trial, compared, references, tuned
+from mobnet.core.files import WEIGHTS
+
+
+def trial_products(files: Files) -> Iterator[Product]:
+    """Yield the tables of what was tried: `tuning`, what is compared, and `random_torque`."""
+    settings = files.settings
+    given = settings.trials, settings.methods
+    first = settings.trials.tuning.task
+    tables = {"tuning": [*references(*given, first), *tuned(*given, settings.development)]}
+    for name in settings.trials.compared:
+        trials = list(compared(*given, settings.development, name))
+        tasks = dict.fromkeys(trial.task for trial in trials)
+        tables[name] = [*(one for task in tasks for one in references(*given, task)), *trials]
+    for name, trials in tables.items():
+        yield _product(files, files.results / "trials" / name, trials)
+    counted, out = tuple(own.falls for own in files.robots.values()), files.results / "trials" / "random_torque"
+    arguments = {"counted": counted, "statistics": settings.evaluation.statistics, "out": out}
+    job = Job(Call("experiments.evaluation.tables.further.falls:falls", arguments), tuple(map(str, counted)))
+    yield _table(out, job)
+
+
+def _product(files: Files, out: Path, trials: Sequence[Trial]) -> Product:
+    """Return the table of some trials, which runs all their networks on the walks of their tasks."""
+    settings = files.settings
+    tasks = {
+        name: _task(files, name, [trial for trial in trials if trial.task == name])
+        for name in dict.fromkeys(trial.task for trial in trials)
+    }
+    arguments = {
+        "robot": settings.robot,
+        "gravity_m_s2": settings.plant.gravity_m_s2,
+        "observer": settings.observer,
+        "tasks": tasks,
+        "rate_hz": settings.rates.data_hz,
+        "out": out,
+    }
+    tried = [one for task in tasks.values() for one in task.tried]
+    weights = [folder / WEIGHTS for one in tried for folder in one.networks.values()]
+    inputs = dict.fromkeys(map(str, files_in([list(tasks.values()), weights])))
+    kinds = dict.fromkeys(f"{KINDS}.{row.kind}" for one in tried for row in one.methods.values())
+    call = Call("experiments.evaluation.tables.further.trials:trials", arguments)
+    return _table(out, Job(call, tuple(inputs), tuple(kinds)))
+
+
+def _table(out: Path, job: Job) -> Product:
+    """Return the product of a job that writes a table."""
+    return Product(out.name, job, tuple(f"{out}.{ending}" for ending in TABLE))
+
+
+def _task(files: Files, name: str, trials: Iterable[Trial]) -> TriedTask:
+    """Return what is tried at a task, with all networks and walks of its plant."""
+    task = files.settings.development[name]
+    own = next(owner for owner in files.owners if owner.has(task.level))
+    tried = tuple(one for trial in trials for one in _tried(own, trial))
+    walks = own.development("recordings", name), own.development("residuals", name)
+    joints = tuple(own.settings.layout.limbs(own.settings.robot.networks[task.limb].joints))
+    return TriedTask(own.settings.levels[task.level], joints, tried, *walks)
+
+
+def _tried(files: Files, trial: Trial) -> Iterator[Tried]:
+    """Yield a trial with each of its networks, or without any."""
+    source = files.catalogue.source_of(trial.name)
+    methods = {source: files.catalogue.method(source), trial.name: trial.method}
+    for seed in files.network_seeds(trial.name):
+        networks = {limb: files.network(trial.name, limb, seed) for limb in trial.method.limbs}
+        fitted = next(iter(files.fit(trial.name)), None)
+        yield Tried(trial.base, trial.name, dict(trial.changes), methods, networks, fitted, seed)

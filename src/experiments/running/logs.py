@@ -1,0 +1,165 @@
+"""What a job of the workflow tells: progress to its log and the terminal, an error as one line, and what it took."""
+
+import contextlib
+import logging
+import os
+import re
+import resource
+import shutil
+import signal
+import sys
+import tempfile
+import threading
+import time
+from collections.abc import Iterator, Mapping
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
+
+from mobnet.core.code import PACKAGES
+from mobnet.core.errors import DataError, MobnetError
+from mobnet.core.files import REFUSALS, refusal, write_json
+from mobnet.core.provenance import UNKNOWN, commit
+
+log = logging.getLogger(__name__)
+
+FORMAT = "%(asctime)s %(levelname)s %(message)s"
+LOGS = "logs"  # folder of the jobs' logs, in which each rule with several jobs has a folder of its own
+STATUS = Path("/proc/self/status")
+MIB = 2**20
+
+
+@dataclass(frozen=True)
+class Account:
+    """What a job took in time [s] and memory [MiB], from the start of its work to its end, without Python's own start.
+
+    `job` is the name of its log below the folder of logs, of which the first part is that of its rule. Start and end
+    are in seconds since 1970, UTC; `wall_s` is by a clock that nobody sets. Processor time and peak memory include the
+    children that it waited for. `succeeded` is False where it failed or was interrupted; `commit` is that of the code,
+    as results note it, `stamps` those of files of rows that it made (`experiments.running.stamp`).
+    """
+
+    job: str
+    start_s: float
+    end_s: float
+    wall_s: float
+    cpu_s: float
+    peak_mib: float
+    succeeded: bool
+    commit: str = UNKNOWN
+    stamps: Mapping[str, str] = field(default_factory=dict[str, str])
+
+
+@contextlib.contextmanager
+def job(log_file: Path | str) -> Iterator[dict[str, str]]:
+    """Log a job to its file and to the terminal, and write its account beside the log, as JSON, when it ends.
+
+    What is yielded takes the stamps of the files of rows.
+
+    Raises:
+        SystemExit: the job raised a MobnetError, whose message is the last line of the log, or was terminated.
+    """
+    path = Path(log_file)
+    with terminable(), accounted(path) as stamps, logged(path):
+        yield stamps
+
+
+@contextlib.contextmanager
+def logged(path: Path) -> Iterator[None]:
+    """Log to a file and to the terminal; an expected error is one line, and the end with status 1."""
+    handlers = [logging.StreamHandler(sys.stderr), *log_file(path)]
+    root = logging.getLogger()
+    previous = root.handlers[:], root.level
+    root.handlers[:] = []
+    for handler in handlers:
+        handler.setFormatter(logging.Formatter(FORMAT, "%H:%M:%S"))
+        root.addHandler(handler)
+    for package in PACKAGES:
+        logging.getLogger(package).setLevel(logging.INFO)
+    logging.captureWarnings(capture=True)
+    logging.raiseExceptions = False  # no job fails, or says more, because a full disk cuts its log short
+    try:
+        yield
+    except MobnetError as error:
+        log.error("%s", error)
+        raise SystemExit(1) from None
+    except OSError as error:
+        if error.errno not in REFUSALS:
+            raise
+        log.error("%s", refusal(error, Path(error.filename2 or error.filename or fullest())))
+        raise SystemExit(1) from None
+    finally:
+        logging.captureWarnings(capture=False)
+        for handler in handlers[1:]:
+            with contextlib.suppress(OSError):
+                handler.close()
+        root.handlers[:], root.level = previous
+
+
+def log_file(path: Path) -> list[logging.Handler]:
+    """Return the handler of a new log; none where it cannot be written."""
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        return [logging.FileHandler(path, mode="w", encoding="utf-8")]
+    except OSError as error:
+        sys.stderr.write(f"{refusal(error, path)}\n")
+        return []
+
+
+def fullest() -> str:
+    """Return the folder with the least free space of those in which packages write files of their own."""
+    places = [tempfile.gettempdir(), os.environ.get("NUMBA_CACHE_DIR", "."), "."]
+    return min((place for place in places if Path(place).is_dir()), key=lambda place: shutil.disk_usage(place).free)
+
+
+@contextlib.contextmanager
+def accounted(log_path: Path) -> Iterator[dict[str, str]]:
+    """Write what happens meanwhile took beside a log; a job that is killed outright leaves no account."""
+    stamps = dict[str, str]()
+    account, below = log_path.with_suffix(".json"), log_path.with_suffix("").parts
+    with contextlib.suppress(OSError):
+        account.unlink(missing_ok=True)
+    made_by = commit()
+    name = "/".join(below[below.index(LOGS) + 1 :] if LOGS in below else below[-1:])
+    start_s, begin, used_s, succeeded = time.time(), time.monotonic(), cpu_s(), False
+    try:
+        yield stamps
+        succeeded = True
+    finally:
+        wall_s, used_s = time.monotonic() - begin, cpu_s() - used_s
+        told = Account(name, start_s, time.time(), wall_s, used_s, peak_mib(), succeeded, made_by, stamps)
+        rounded = {key: round(value, 3) for key, value in asdict(told).items() if isinstance(value, float)}
+        with contextlib.suppress(DataError):  # on a full disk
+            write_json(account, asdict(told) | rounded)
+
+
+@contextlib.contextmanager
+def terminable() -> Iterator[None]:
+    """Turn the signal to terminate into an exit, so that a terminated job ends as an interrupted one does."""
+
+    def leave(number: int, frame: object) -> None:
+        raise SystemExit(128 + number)
+
+    if threading.current_thread() is not threading.main_thread():
+        yield  # other threads get no signals
+        return
+    before = signal.signal(signal.SIGTERM, leave)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, before)
+
+
+def cpu_s() -> float:
+    """Return the processor time of this process and of the children that it waited for [s]."""
+    uses = [resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)]
+    return sum(use.ru_utime + use.ru_stime for use in uses)
+
+
+def peak_mib() -> float:
+    """Return the most memory that this process, or one of the children that it waited for, held at once [MiB]."""
+    unit = 1 if sys.platform == "darwin" else 1024  # of ru_maxrss [bytes]
+    peaks = [resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss * unit]
+    # Linux counts in ru_maxrss what the process held before it became this program: the whole of Snakemake.
+    held = re.search(r"^VmHWM:\s*(\d+) kB", STATUS.read_text() if STATUS.exists() else "", re.MULTILINE)
+    peaks.append(int(held[1]) * 1024 if held else resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * unit)
+    return max(peaks) / MIB

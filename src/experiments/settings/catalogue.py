@@ -1,0 +1,191 @@
+"""What follows from the configuration: its tests, all methods with those of sweeps and trials, what each one learns."""
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+
+from experiments.settings.asked import Asked, asked_by
+from experiments.settings.scales import Experiment
+from experiments.settings.settings import Settings
+from experiments.settings.trials import Trial, compared, tuned
+from mobnet.core.errors import ConfigError, not_accepted
+from mobnet.core.joints import JointLayout
+from mobnet.settings.methods import Method, Sweep, swept_name
+from mobnet.settings.networks import Learning, Network, Training
+
+Names = tuple[str, ...]
+ByTest = Mapping[str, Mapping[str, Names]]  # scenario -> level -> names
+
+
+@dataclass(frozen=True)
+class Catalogue:
+    """Answers about a configuration; tests and limbs are `given` where they are not those that it asks for itself."""
+
+    settings: Settings
+    given: tuple[ByTest, ByTest] | None = None
+
+    @cached_property
+    def layout(self) -> JointLayout:
+        """The robot's joints and limbs, made once."""
+        return self.settings.layout
+
+    @cached_property
+    def asked(self) -> tuple[Asked, ...]:
+        """Every run that the configuration asks for."""
+        return tuple(asked_by(self.settings))
+
+    @property
+    def tests(self) -> ByTest:
+        """The methods that run in each test at each level."""
+        return self._tests_and_limbs[0]
+
+    @property
+    def limbs(self) -> ByTest:
+        """The limbs whose joints the estimates of a test at a level hold; only the networks of these limbs run.
+
+        All limbs where no network runs, as it costs nothing there.
+        """
+        return self._tests_and_limbs[1]
+
+    @cached_property
+    def _tests_and_limbs(self) -> tuple[ByTest, ByTest]:
+        """The tests in the order of scenarios and levels, and the limbs of each."""
+        if self.given:
+            return self.given
+        methods: dict[tuple[str, str], set[str]] = {}
+        shown: dict[tuple[str, str], set[str]] = {}
+        for one in self.asked:
+            methods.setdefault((one.scenario, one.level), set()).add(one.method)
+            shown.setdefault((one.scenario, one.level), set()).update(one.shown)
+        levels = [*self.settings.levels, *self.settings.fleet.levels]
+        pairs = {
+            scenario: [level for level in levels if (scenario, level) in methods]
+            for scenario in self.settings.scenarios
+        }
+        tests = {
+            name: {level: self._in_order(methods[name, level]) for level in own} for name, own in pairs.items() if own
+        }
+        limbs = {
+            name: {level: self._limbs_of(shown[name, level], ran) for level, ran in rows.items()}
+            for name, rows in tests.items()
+        }
+        return tests, limbs
+
+    def at_scale(self, scale: str) -> "Catalogue":
+        """Return the same at another scale."""
+        return Catalogue(self.settings.model_copy(update={"scale": scale}), self._tests_and_limbs)
+
+    def _in_order(self, names: Iterable[str]) -> Names:
+        """Return methods in the order of the configuration, those that are nothing but networks after the others."""
+        rows = self.all_methods
+        order = {name: (bool(row.limbs) and row.of is None, k) for k, (name, row) in enumerate(rows.items())}
+        return tuple(sorted((name for name in names if name in order), key=order.__getitem__))
+
+    def _limbs_of(self, shown: set[str], methods: Names) -> Names:
+        """Return the limbs of what is shown of some methods."""
+        if not any(self.method(self.network_source_of(name)).limbs for name in methods):
+            return tuple(self.layout.groups)
+        groups = self.layout.groups.items()
+        return tuple(limb for limb, joints in groups if limb in shown or shown.intersection(joints))
+
+    @cached_property
+    def all_methods(self) -> dict[str, Method]:
+        """The methods and those that sweeps stand for, such as `MOB-Net-hidden-44` (section 6.3)."""
+        methods = self.settings.methods
+        swept = {
+            swept_name(base, key, value): _swept(methods[base], sweep, key, value)
+            for key, sweep in self.settings.sweeps.items()
+            for base in sweep.of
+            if base in methods
+            for value in sweep.values
+        }
+        return {**methods, **swept}
+
+    @cached_property
+    def trials(self) -> tuple[Trial, ...]:
+        """Every variant that is tried."""
+        given = self.settings.trials, self.settings.methods, self.settings.development
+        return (*tuned(*given), *compared(*given))
+
+    @cached_property
+    def tried(self) -> dict[str, Method]:
+        """The methods of the trials, which no table shows, each with the limbs of all tasks that it is tried at."""
+        limbs: dict[str, dict[str, None]] = {}
+        for trial in self.trials:
+            limbs.setdefault(trial.name, {}).update(dict.fromkeys(trial.method.limbs))
+        return {one.name: one.method.model_copy(update={"limbs": tuple(limbs[one.name])}) for one in self.trials}
+
+    def method(self, name: str) -> Method:
+        """Return a method, one of the trials too; a ConfigError names an unknown one."""
+        if name in self.all_methods:
+            return self.all_methods[name]
+        if name not in self.tried:
+            raise ConfigError(not_accepted("method", name, self.all_methods))
+        return self.tried[name]
+
+    def source_of(self, method: str) -> str:
+        """Return the method whose fit a method runs on: the one that `of` names, or itself."""
+        return self.method(method).of or method
+
+    def network_source_of(self, method: str) -> str:
+        """Return the method whose networks a method runs on: itself if it has some, else that of its fit."""
+        return method if self.method(method).limbs else self.source_of(method)
+
+    def estimated(self, method: str, scenario: str, level: str) -> Names:
+        """Return the joints that a method estimates in a test.
+
+        A method with networks estimates those joints of the test's limbs that they predict, any other method all.
+        """
+        layout, networks = self.layout, self.settings.robot.networks
+        limbs = self.method(self.network_source_of(method)).limbs
+        known = layout.limbs(group for limb in limbs for group in networks[limb].joints) or layout.names
+        held = layout.limbs(self.limbs.get(scenario, {}).get(level, layout.groups))
+        return tuple(joint for joint in held if joint in known)
+
+    def network(self, method: str, limb: str) -> Network:
+        """Return a network of Table 1 with a method's changes laid over it; a ConfigError names an unknown one."""
+        rows = self.settings.networks
+        if limb not in rows:
+            raise ConfigError(not_accepted("network", limb, rows))
+        ports = self.settings.robot.networks[limb]
+        return Network.model_validate({**vars(ports), **vars(rows[limb]), **self.method(method).network})
+
+    def experiment(self, method: str, limb: str) -> Experiment:
+        """Return how long and how often a method's network is trained at the chosen scale."""
+        return self.settings.sizes.experiments[self.network(method, limb).experiment]
+
+    def learned(self, method: str) -> Learning:
+        """Return how a method's networks learn: the chosen scale's sizes, then its own changes, over `learning`."""
+        sizes = self.settings.sizes
+        scaled = {name: getattr(sizes, name) for name in ("batch_size", "stream_s", "rate_decay_share")}
+        known = {name: value for name, value in scaled.items() if value is not None}
+        return Learning.model_validate({**vars(self.settings.learning), **known, **self.method(method).learning})
+
+    def training(self, method: str, limb: str) -> Training:
+        """Return all that a training of a method's network takes.
+
+        Raises:
+            ConfigError: the method is unknown or learns nothing, or the network is unknown.
+        """
+        row = self.method(method)
+        if row.target is None:
+            accepted = [name for name, other in self.all_methods.items() if other.target]
+            raise ConfigError(not_accepted("method to train", method, accepted))
+        experiment, network = self.experiment(method, limb), self.network(method, limb)
+        return Training(
+            method=method,
+            limb=limb,
+            target=row.target,
+            network=network,
+            learning=self.learned(method),
+            epochs=experiment.epochs,
+            epoch_samples=experiment.epoch_samples,
+            held_out=self.settings.training_sets[network.data].sizes[self.settings.scale].held_out,
+        )
+
+
+def _swept(base: Method, sweep: Sweep, key: str, value: int) -> Method:
+    """Return a method with a sweep's limb, experiment and changed key."""
+    network, learning = {**base.network, "experiment": sweep.experiment}, dict(base.learning)
+    (network if sweep.section == "network" else learning)[key] = value
+    return base.model_copy(update={"limbs": (sweep.limb,), "network": network, "learning": learning})

@@ -1,0 +1,47 @@
+"""What must hold for detectors: walks differ, collisions meet points, numbers fit each other."""
+
+import re
+from collections.abc import Iterator
+
+from experiments.settings.checks.results import Results
+from mobnet.core.errors import misfit
+from mobnet.settings.checks.limits import below
+from mobnet.settings.reading import Place, Problem
+
+POINT = re.compile(r"(left|right)_[a-z]+_[a-z]+")  # side, link and direction of what a collision meets
+LARGEST, COLLISION = "largest", "collision"  # rules that are always there
+ROOT: Place = ("detection",)
+
+
+def detection_problems(results: Results) -> Iterator[Problem]:
+    """Yield what does not fit in the section of detectors."""
+    yield from _walk_problems(results)
+    yield from _number_problems(results)
+
+
+def _walk_problems(results: Results) -> Iterator[Problem]:
+    """Yield walks that are the same, and points that are not named after what a collision hits."""
+    settings, detection = results.settings, results.settings.detection
+    for key in ("collisions", "sweep", "place", "random"):
+        scenario = getattr(detection, key)
+        if settings.detection_walks.count(scenario) > 1:
+            yield (*ROOT, key), misfit(scenario, "a test of its own for each of the walks")
+        for name in settings.scenarios[scenario].pushes:
+            if not POINT.fullmatch(settings.pushes[name].point or ""):
+                text = misfit(settings.pushes[name].point, "a point named <side>_<link>_<direction>")
+                yield ("pushes", name, "point"), text
+
+
+def _number_problems(results: Results) -> Iterator[Problem]:
+    """Yield filters above what is sampled, signals that a method does not have, and names of rules that are taken."""
+    settings, detection = results.settings, results.settings.detection
+    yield from below((*ROOT, "low_pass_hz"), detection.low_pass_hz, settings.rates.data_hz / 2, "half of data_hz")
+    for name, row in detection.detectors.items():
+        if set(row.signals) - {"mean"} and (text := results.not_learned(row.method)):
+            yield (*ROOT, "detectors", name, "signals"), f"a standard deviation of {text}"
+        if row.norm and row.signals != ("mean",):
+            yield (*ROOT, "detectors", name, "norm"), misfit(list(row.signals), "the signal `mean` with `norm`")
+    rates = detection.thresholds.rates_per_h
+    if LARGEST in rates or COLLISION not in rates:
+        accepted = f"{COLLISION} and others, but for {LARGEST}, the paper's rule"
+        yield (*ROOT, "thresholds", "rates_per_h"), misfit(", ".join(rates), accepted)

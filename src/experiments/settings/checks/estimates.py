@@ -1,0 +1,52 @@
+"""What must hold for the runs that are asked for: their methods estimate what is shown, and learn what they need."""
+
+from collections.abc import Iterator
+
+from experiments.settings.asked import Asked
+from experiments.settings.catalogue import Catalogue
+from mobnet.core.errors import misfit, not_accepted
+from mobnet.settings.reading import Place, Problem
+
+ROOT: Place = ("evaluation",)
+
+
+def asked_problems(catalogue: Catalogue) -> Iterator[Problem]:
+    """Yield methods that do not estimate what is shown of them, or not of robots, and tests that nothing is run on."""
+    for one in catalogue.asked:
+        for text in (*_estimate_faults(catalogue, one), *_fleet_faults(catalogue, one)):
+            yield one.place, text
+    evaluation, layout = catalogue.settings.evaluation, catalogue.settings.layout
+    for name in ("coverage", "calibration"):
+        for k, test in enumerate(getattr(evaluation, name).tests):
+            levels = catalogue.tests.get(test.scenario, {})
+            if test.level not in levels:
+                text = not_accepted(f"level of test {test.scenario}", test.level, levels)
+                yield (*ROOT, name, "tests", k, "level"), text
+    for k, test in enumerate(evaluation.calibration.tests):
+        held = {joint for name in test.methods for joint in catalogue.estimated(name, test.scenario, test.level)}
+        if not held.issuperset(layout.limbs(test.limbs)):
+            text = misfit("a limb that no method predicts", "limbs of the networks of `methods`")
+            yield (*ROOT, "calibration", "tests", k, "limbs"), text
+
+
+def _estimate_faults(catalogue: Catalogue, one: Asked) -> Iterator[str]:
+    """Yield joints that are shown of a run and that its method does not estimate."""
+    groups, held = catalogue.layout.groups, catalogue.estimated(one.method, one.scenario, one.level)
+    missing = [joint for name in one.shown for joint in groups.get(name, (name,)) if joint not in held]
+    if missing and not (one.partly and held):
+        yield misfit(one.method, f"methods that estimate {missing[0]} in {one.scenario}, {one.level}")
+
+
+def _fleet_faults(catalogue: Catalogue, one: Asked) -> Iterator[str]:
+    """Yield data that a method learns from and that the robots of the fleet do not record, where they walk."""
+    fleet, source = catalogue.settings.fleet, catalogue.source_of(one.method)
+    if one.level not in fleet.levels:
+        return
+    learned = [(one.method, limb) for limb in catalogue.method(catalogue.network_source_of(one.method)).limbs]
+    learned += [(source, limb) for limb in catalogue.method(source).fitted]
+    data = [catalogue.network(*pair).data for pair in learned]
+    yield from (
+        misfit(f"{one.method}, which learns from {name}", f"methods that learn from {', '.join(fleet.sets)}")
+        for name in data
+        if name not in fleet.sets
+    )

@@ -1,0 +1,33 @@
+"""What must hold for reactions: cases that results and sizes name, and a closed loop where wrenches are estimated."""
+
+from collections.abc import Iterator
+
+from experiments.settings.checks.results import Results
+from mobnet.core.errors import misfit, not_accepted
+from mobnet.settings.reading import Place, Problem
+
+ROOT: Place = ("reaction",)
+
+
+def reaction_problems(results: Results) -> Iterator[Problem]:
+    """Yield unsuitable cases of results, loops without all legs, and scenarios that no loop walks but that need one."""
+    settings, reaction = results.settings, results.settings.reaction
+    walked = {row.scenario for row in reaction.cases.values()}
+    scenarios = {name: settings.scenarios[row.scenario] for name, row in reaction.cases.items()}
+    pushed = [name for name, row in scenarios.items() if row.obstacles or row.pushes]
+    free = [name for name in scenarios if name not in pushed]
+    for product, fitting in {"safety": pushed, "figure_16": pushed, "figure_22": pushed, "sensorless": free}.items():
+        for name in getattr(settings.evaluation, product).cases:
+            if name not in fitting:
+                yield ("evaluation", product, "cases"), misfit(name, ", ".join(fitting))
+    for scale, sizes in settings.scales.items():
+        for name in sizes.reactions.cases:
+            if name not in reaction.cases:
+                yield ("scales", scale, "reactions", "cases", name), not_accepted("case", name, reaction.cases)
+    limbs, legs = settings.methods[reaction.estimator].limbs, settings.detection.legs
+    if not {"V", *legs} <= {*limbs}:
+        text = misfit(reaction.estimator, f"a method with networks of V, {', '.join(legs)}: the base and all legs")
+        yield (*ROOT, "estimator"), text
+    for name, row in settings.scenarios.items():
+        if row.wrench == "estimated" and name not in walked:
+            yield ("scenarios", name, "wrench"), misfit(row.wrench, "`sensed` where reaction.cases does not walk it")

@@ -1,0 +1,101 @@
+"""What must hold between sections: names that are used exist, changes are accepted, numbers fit each other."""
+
+from collections.abc import Collection, Iterator, Mapping
+from functools import partial
+from itertools import chain
+from typing import Any
+
+from pydantic import BaseModel, ValidationError
+
+from experiments.settings.catalogue import Catalogue
+from experiments.settings.checks.data import data_problems
+from experiments.settings.checks.detection import LARGEST
+from experiments.settings.checks.learning import learning_problems
+from experiments.settings.checks.shown import shown_problems
+from experiments.settings.checks.sizes import size_problems
+from experiments.settings.checks.surrogate import surrogate_problems
+from experiments.settings.checks.walking import walking_problems
+from experiments.settings.settings import Settings
+from mobnet.core.reactions import FORCE_SENSORS, NONE
+from mobnet.settings.methods import swept_names
+from mobnet.settings.names import Use, kind_of, unknown, uses
+from mobnet.settings.networks import Learning, Network
+from mobnet.settings.reading import Place, Problem
+
+Refused = tuple[Place, type[BaseModel], Mapping[str, Any], ValidationError]
+
+
+def accepted_names(catalogue: Catalogue) -> dict[str, Collection[str]]:
+    """Return kind of name -> the names that exist."""
+    settings, detection = catalogue.settings, catalogue.settings.detection
+    experiments = chain.from_iterable(scale.experiments for scale in settings.scales.values())
+    terrains = [name for name in type(settings.terrain).model_fields if getattr(settings.terrain, name) is not None]
+    pushed = [name for name, row in settings.scenarios.items() if row.pushes]
+    learned = [name for name, row in catalogue.all_methods.items() if row.limbs]
+    struck = settings.scenarios[detection.collisions].pushes if detection.collisions in settings.scenarios else ()
+    reacts = [name for name, row in detection.detectors.items() if not (row.norm or row.commanded)]
+    points = [settings.pushes[name].point or "" for name in struck if name in settings.pushes]
+    return {
+        "scale": settings.scales, "level": [*settings.levels, *settings.fleet.levels],
+        "level of one plant": settings.levels,
+        "level of a surrogate robot": [name for name, level in settings.levels.items() if level.surrogate],
+        "terrain": terrains, "push": settings.pushes, "obstacle": settings.obstacles,
+        "motion": settings.motions, "scenario": settings.scenarios,
+        "scenario with pushes": pushed, "scenario without pushes": settings.scenarios.keys() - {*pushed},
+        "test with a window around pushes": settings.evaluation.windows,
+        "training set": settings.training_sets, "experiment": set(experiments),
+        "task of development": settings.development, "recipe": settings.trials.recipes,
+        "network": settings.networks, "sweep": settings.sweeps, "method": catalogue.all_methods,
+        "method with networks": learned,
+        "method that runs on its own": [name for name, row in settings.methods.items() if row.of is None],
+        "detector that reacts": (*reacts, FORCE_SENSORS, NONE), "case of reactions": settings.reaction.cases,
+        "detector": detection.detectors, "rule of thresholds": (LARGEST, *detection.thresholds.rates_per_h),
+        "level with detectors": (*detection.levels, *settings.fleet.robots), "leg with detectors": detection.legs,
+        "cell of collisions": [" ".join(point.split("_")[1:]) for point in points],
+        **settings.robot.accepted_names,
+    }  # fmt: skip
+
+
+def unknown_names(catalogue: Catalogue) -> Iterator[Problem]:
+    """Yield the place of every name that does not exist and what is accepted there."""
+    settings = catalogue.settings
+    yield from unknown((*uses(settings, Settings), *_changed_uses(settings)), accepted_names(catalogue))
+
+
+def _changed_uses(settings: Settings) -> Iterator[Use]:
+    """Yield the names in what methods change of their networks."""
+    for name, method in settings.methods.items():
+        for key, value in method.network.items():
+            if key in Network.model_fields:
+                yield from uses(value, kind_of(Network.model_fields[key]), ("methods", name, "network", key))
+
+
+def refused_changes(catalogue: Catalogue) -> Iterator[Refused]:
+    """Yield every change by a method that is not accepted: place, section, what is given of it, and the error."""
+    for name, method in {**catalogue.all_methods, **catalogue.tried}.items():
+        checks = [("network", Network, method.network, partial(catalogue.network, name, limb)) for limb in method.limbs]
+        checks += [("learning", Learning, method.learning, partial(catalogue.learned, name))]
+        for part, section, given, made in checks:
+            try:
+                made()
+            except ValidationError as error:
+                yield _place_of(catalogue, name, part), section, given, error
+
+
+def _place_of(catalogue: Catalogue, method: str, part: str) -> Place:
+    """Return the place of what makes a change: a method, a sweep or the trials."""
+    if method in catalogue.settings.methods:
+        return ("methods", method, part)
+    swept = [key for key, sweep in catalogue.settings.sweeps.items() if method in swept_names(key, sweep)]
+    return ("sweeps", swept[0]) if swept else ("trials",)
+
+
+def inconsistencies(catalogue: Catalogue) -> Iterator[Problem]:
+    """Yield the place and the text of everything that does not fit together."""
+    settings = catalogue.settings
+    found = [problem for check in (walking_problems, data_problems, surrogate_problems) for problem in check(settings)]
+    found += learning_problems(catalogue)
+    yield from found
+    if not found:  # only then can sizes and results be looked up
+        yield from size_problems(catalogue)
+        yield from shown_problems(catalogue)

@@ -1,0 +1,82 @@
+"""The whole configuration, and what a walk takes of it; other jobs take whole sections."""
+
+from typing import Annotated
+
+from pydantic import Field
+
+from experiments.settings.claims import Claim, ClaimName
+from experiments.settings.evaluation import Evaluation
+from experiments.settings.published import Published
+from experiments.settings.scales import Scale
+from experiments.settings.trials import Trials
+from mobnet.core.joints import JointLayout
+from mobnet.settings.base import (
+    LowerName,
+    RowName,
+    ScaleName,
+)
+from mobnet.settings.data import (
+    Commands,
+    Development,
+    Motion,
+    Obstacle,
+    Push,
+    RandomTorque,
+    RecordingSettings,
+    Scenario,
+    Terrain,
+    TrainingSet,
+)
+from mobnet.settings.lab import Lab
+from mobnet.settings.methods import Method, Sweep
+from mobnet.settings.reaction import Reaction
+from mobnet.settings.surrogate import Fleet, Level, Surrogate
+from mobnet.settings.walking import Walking
+
+
+class Settings(Lab):
+    """Every number of the artifact, once; to `seed` jobs add their names."""
+
+    scale: ScaleName
+    levels: Annotated[dict[LowerName, Level], Field(min_length=1)]
+    surrogate: Surrogate
+    fleet: Fleet
+    walking: Walking
+    terrain: Terrain
+    commands: Commands
+    random_torque: RandomTorque
+    motions: dict[LowerName, Motion]
+    pushes: dict[LowerName, Push]
+    obstacles: dict[LowerName, Obstacle]
+    scenarios: Annotated[dict[LowerName, Scenario], Field(min_length=1)]
+    training_sets: Annotated[dict[LowerName, TrainingSet], Field(min_length=1)]
+    recording: RecordingSettings
+    methods: Annotated[dict[RowName, Method], Field(min_length=1)]
+    sweeps: dict[Annotated[str, Field(pattern="^[a-z_]+$")], Sweep]
+    development: Annotated[dict[LowerName, Development], Field(min_length=1)]
+    trials: Trials
+    reaction: Reaction
+    evaluation: Evaluation
+    scales: Annotated[dict[LowerName, Scale], Field(min_length=1)]
+    published: Published
+    claims: dict[ClaimName, Claim]
+
+    @property
+    def layout(self) -> JointLayout:
+        """Joints and limbs of the robot."""
+        return self.robot.layout
+
+    @property
+    def sizes(self) -> Scale:
+        """The chosen scale."""
+        return self.scales[self.scale]
+
+    def test_s(self, scenario: str) -> float:
+        """Return the duration of a test's recordings at the chosen scale [s]."""
+        return self.sizes.durations_s.get(scenario, self.sizes.test.shard_s)
+
+    @property
+    def detection_walks(self) -> tuple[str, ...]:
+        """The tests of the detectors of collisions; no errors are scored in them."""
+        detection = self.detection
+        return detection.collisions, detection.sweep, detection.place, detection.random
