@@ -12,10 +12,10 @@ from .cluster import cluster_in, wait_for
 
 SMOKE = ("--config", "scale=smoke")
 PROFILE = ("--profile", "workflow/profiles/slurm", "--latency-wait", "5")
-NETWORK = Path("results/smoke/networks/MOB-Net-LL-s0")
+NETWORK = Path("results/smoke/networks/MOB-Net-LA-s0")
 TARGETS = tuple(str(NETWORK / name) for name in (WEIGHTS, METRICS, RUN))
 COLLECTED = "results/smoke/recordings/random_walk/all_uncertainty/s1000.parquet"
-JOB = "FTS-e2e-LL-s0"  # the first network of the job that trains this one: they learn from the same recordings
+JOB = "MOB-Net-LA-s0"  # the job that trains this network first, and those of other limbs after it
 LONGEST_S = 300.0
 
 pytestmark = [pytest.mark.slow, pytest.mark.sim]
