@@ -15,7 +15,7 @@ PROFILE = ("--profile", "workflow/profiles/slurm", "--latency-wait", "5")
 NETWORK = Path("results/smoke/networks/MOB-Net-LA-s0")
 TARGETS = tuple(str(NETWORK / name) for name in (WEIGHTS, METRICS, RUN))
 COLLECTED = "results/smoke/recordings/random_walk/all_uncertainty/s1000.parquet"
-JOB = "MOB-Net-LA-s0"  # the job that trains this network first, and those of other limbs after it
+JOB = NETWORK.name  # it trains this network first, and those of other limbs after it
 LONGEST_S = 300.0
 
 pytestmark = [pytest.mark.slow, pytest.mark.sim]
