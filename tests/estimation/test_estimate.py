@@ -8,6 +8,7 @@ import pytest
 from made_notes import network_note
 from safetensors.numpy import save_file
 
+from experiments.jobs import estimates as estimates_module
 from experiments.jobs.estimates import estimate
 from experiments.jobs.observing import observe
 from experiments.plan.parts import MethodRun
@@ -16,7 +17,6 @@ from mobnet.core.errors import ConfigError, DataError
 from mobnet.core.estimator import Estimate
 from mobnet.core.files import WEIGHTS
 from mobnet.core.store import read_array, write_array
-from mobnet.estimation import estimate as estimate_module
 from mobnet.estimation.estimate import Observed, rate_of, read_observed, run_segments, table_of
 from mobnet.estimation.methods import build_estimator
 from mobnet.learning.deployed.weights import NOTE, STD_SCALE, Z_SCORES, std_scales
@@ -105,7 +105,7 @@ def test_recordings_side_by_side_and_in_batches_are_those_alone(
     recordings = [made_up(k, seconds, segments=k) for k, seconds in ((1, 0.3), (2, 0.5), (3, 0.2))]
     pairs = [write_pair(tmp_path, recording) for recording in recordings]
     outs = [tmp_path / f"out{k}" for k in range(3)]
-    monkeypatch.setattr(estimate_module, "TOGETHER_S", 0.8)
+    monkeypatch.setattr(estimates_module, "TOGETHER_S", 0.8)
     run_methods(*map(list, zip(*pairs, strict=True)), {"MOB": outs})
     for recording, (_, residual), out in zip(recordings, pairs, outs, strict=True):
         array, meta = read_array(out)

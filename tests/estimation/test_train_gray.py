@@ -83,7 +83,7 @@ def test_a_training_reads_the_fit_that_it_builds_upon_and_no_other_does(settings
     )
     assert [name for name in gray.inputs if "/fits/" in name] == ["results/smoke/fits/MOB-fric-load.json"]
     assert not [name for name in plain.inputs if "/fits/" in name]
-    assert (gray.call.module, plain.call.module) == ("experiments.jobs.train_gray", "mobnet.learning.train")
+    assert (gray.call.module, plain.call.module) == ("experiments.jobs.train_gray", "experiments.jobs.trainings")
     estimate = maker(plan, "estimates", METHOD, "n0/hip_pitch_step/all_uncertainty/s101.parquet").job
     assert "results/smoke/fits/MOB-fric-load.json" in estimate.inputs
     assert "results/smoke/networks/MOB-Net-gray-LL-s0/weights.safetensors" in estimate.inputs

@@ -5,7 +5,7 @@ import pytest
 
 from experiments.settings.catalogue import Catalogue
 from experiments.settings.load import ROOT
-from mobnet.estimation.low_pass import filtered
+from mobnet.estimation.low_pass import filter_in_place
 from mobnet.estimation.observer import MomentumObserver
 from mobnet.learning.dataset import LimbData
 from mobnet.learning.deployed.networks import load_network
@@ -37,7 +37,7 @@ def moved(panda, settings):
     def make(seconds, seed, pushed):
         log = record_motion(robot, numbers, seconds, seed, ideal=False, pushed=pushed)
         observer = MomentumObserver(NominalModel(robot), settings.observer.gain_hz, log.rate_hz, "sample")
-        found = inputs(log.sensed), observer.residual(log.sensed), filtered(log.truth.tau_ext, observer.pole)
+        found = inputs(log.sensed), observer.residual(log.sensed), filter_in_place(log.truth.tau_ext.copy(), observer.pole)
         return [values[::EVERY].astype(np.float32) for values in found]
 
     return make

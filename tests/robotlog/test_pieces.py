@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from experiments.settings.load import load_section
+from mobnet.settings.lab import load_section
 from mobnet.robot.description import describe
 from mobnet.robot.nominal import NominalModel
 from mobnet.robotlog.hints.changes import Seen, _needed_by_angle, _waves

@@ -12,12 +12,13 @@ from experiments.settings.catalogue import Catalogue
 from experiments.settings.claims import TAKES, Claim
 from experiments.settings.settings import Settings
 from mobnet.core.errors import ConfigError
+from mobnet.settings import reading
 from mobnet.settings.names import uses
 from mobnet.settings.reading import dotted
 
-SECTIONS = Path(evaluation.__file__).parent
+FOLDERS = (Path(evaluation.__file__).parent, Path(reading.__file__).parent)  # of the experiments, and of the library
 # with properties that follow from the values and are never called by a job, or without sections
-RESOLVED = {"settings.py", "catalogue.py", "surrogate.py", "robot.py", "results.py", "reading.py", "load.py"}
+RESOLVED = {"settings.py", "lab.py", "catalogue.py", "surrogate.py", "robot.py", "reading.py", "load.py", "metrics.py"}
 CLAIM = {"printed": "Table 5", "says": "It errs.", "quantity": "ratio", "unit": "-", "published": None}
 BOUNDS = {"rule": "bar", "bar": [1.0, 2.0], "sign": [1.0, None]}
 WITHOUT = {"quantity": "value", "cells": ["MOB"]}
@@ -131,7 +132,7 @@ def test_sections_are_frozen_and_closed(settings: Settings) -> None:
 
 def test_sections_hold_values_and_checks_and_compute_nothing() -> None:
     """Jobs get values, so the code of sections is no part of their hash: it may hold nothing that a result rests on."""
-    for path in SECTIONS.glob("*.py"):
+    for path in (path for folder in FOLDERS for path in folder.glob("*.py")):
         tree = ast.parse(path.read_text())
         for section in (node for node in tree.body if isinstance(node, ast.ClassDef) and path.name not in RESOLVED):
             for method in (node for node in section.body if isinstance(node, ast.FunctionDef)):

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from mobnet.estimation.low_pass import filtered
+from mobnet.estimation.low_pass import filter_in_place
 from mobnet.estimation.observer import MomentumObserver
 from mobnet.robot.frames import rotation
 from mobnet.robot.nominal import NominalModel
@@ -29,7 +29,7 @@ def error_of(settings):
 
     def measure(robot, recording):
         observer = MomentumObserver(NominalModel(robot), settings.observer.gain_hz, recording.rate_hz, "sample")
-        truth = filtered(recording.truth.tau_ext, observer.pole)
+        truth = filter_in_place(recording.truth.tau_ext.copy(), observer.pole)
         return (observer.residual(recording.sensed) - truth)[BEGIN:]
 
     return measure

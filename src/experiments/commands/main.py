@@ -68,6 +68,8 @@ def run(root: Path, words: Words) -> int:
     python = str(root / ".venv" / "bin" / "python")
     if words.command in MODULES:
         module = [*MODULES[words.command], *words.extra]
+        if words.command == "test":
+            os.execv(python, [python, "-m", *module])  # a parent that is stopped would kill it before its summary
         if words.command in LINED:
             signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
         if words.command in OUTSIDE:

@@ -6,7 +6,7 @@ import scipy.signal
 
 from mobnet.core.errors import ConfigError
 from mobnet.estimation.kinds.kalman import Options, build, check, gains, sections_of
-from mobnet.estimation.low_pass import exact_pole, filtered
+from mobnet.estimation.low_pass import exact_pole, filter_in_place
 from mobnet.estimation.methods import build_estimator
 from mobnet.estimation.observe import observer_of
 from mobnet.robot.description import describe
@@ -38,7 +38,7 @@ def test_it_is_the_filter_by_the_book_on_what_the_observer_filters_at_first_orde
     disturbance, known = rng.standard_normal((2, 400)).cumsum(axis=1)
     momentum = np.cumsum(disturbance + known) / RATE_HZ + 0.05 * rng.standard_normal(400)
     raw = np.concatenate([[0.0], np.diff(momentum) * RATE_HZ - known[1:]])
-    residual = filtered(raw[:, None], exact_pole(GAIN_HZ, RATE_HZ))
+    residual = filter_in_place(raw[:, None].copy(), exact_pole(GAIN_HZ, RATE_HZ))
     ours = scipy.signal.sosfilt(sections_of(OPTIONS, GAIN_HZ, RATE_HZ), residual, axis=0)[:, 0]
     np.testing.assert_allclose(ours, by_the_book(OPTIONS, momentum, known), atol=1e-8 * np.abs(ours).max())
 
