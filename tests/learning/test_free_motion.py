@@ -37,7 +37,8 @@ def moved(panda, settings):
     def make(seconds, seed, pushed):
         log = record_motion(robot, numbers, seconds, seed, ideal=False, pushed=pushed)
         observer = MomentumObserver(NominalModel(robot), settings.observer.gain_hz, log.rate_hz, "sample")
-        found = inputs(log.sensed), observer.residual(log.sensed), filter_in_place(log.truth.tau_ext.copy(), observer.pole)
+        external = filter_in_place(log.truth.tau_ext.copy(), observer.pole)
+        found = inputs(log.sensed), observer.residual(log.sensed), external
         return [values[::EVERY].astype(np.float32) for values in found]
 
     return make
