@@ -32,7 +32,7 @@ from mobnet.detection.threshold_file import check_thresholds, read_thresholds
 from mobnet.detection.watch import LegSetup
 from mobnet.estimation.kinds.residual import ResidualEstimator
 from mobnet.estimation.observer import MomentumObserver, ObserverState
-from mobnet.estimation.own import Sampling, check_sampling, estimator_of, read_network_folder
+from mobnet.estimation.own import Sampling, check_drives, check_sampling, estimator_of, read_network_folder
 from mobnet.export.contract import CONTRACT
 from mobnet.learning.deployed.limbs import load_limb_networks
 from mobnet.reaction.handler import Handler, Reacted
@@ -194,16 +194,22 @@ class Estimator:
         """Read the network of a limb, as `mobnet learn` writes it, or a folder of such folders, one for each limb.
 
         Raises:
-            DataError: a file is missing or damaged, a network is another robot's, or the networks differ in their rate
-                or observer.
+            DataError: a file is missing or damaged, a network is another robot's or was trained with other friction
+                than that of its table, two are of one limb, or the networks differ in their rate or observer.
         """
         folder, layout, numbers = Path(folder), robot.description.layout, lab()
         folders = [folder] if (folder / RUN).exists() else sorted(path.parent for path in folder.glob(f"*/{RUN}"))
         networks = [read_network_folder(one, layout, numbers) for one in folders or [folder]]
         first = networks[0]
-        for one in networks[1:]:
+        of_limbs: dict[str, Path] = {}
+        for one in networks:
+            check_drives(one.folder, one.sampling.drives, robot.description)
             check_sampling(one.folder, one.sampling, first.sampling, first.folder)
-        together = load_limb_networks({one.limb: one.folder for one in networks}, layout)
+            if one.limb in of_limbs:
+                text = f"{of_limbs[one.limb]} is of limb {one.limb}, too; accepted: one of each limb"
+                raise DataError(f"{one.folder}: {text}")
+            of_limbs[one.limb] = one.folder
+        together = load_limb_networks(of_limbs, layout)
         nominal = NominalModel(robot.description, gravity_m_s2=numbers.plant.gravity_m_s2)
         sampling = first.sampling
         observer = MomentumObserver(nominal, sampling.gain_hz, sampling.rate_hz, sampling.torque)
@@ -260,6 +266,8 @@ class Detector:
         cls, robot: Robot, network: str | Path | None, thresholds: str | Path
     ) -> "Detector":  # fmt: skip
         """Read the network of `mobnet learn`, None for the observer alone, and the thresholds of `mobnet calibrate`.
+
+        Thresholds that are those of the observer alone leave the network out, as `mobnet detect` does.
 
         Raises:
             ConfigError: a file or a value is not accepted.

@@ -124,6 +124,13 @@ def test_a_folder_of_folders_is_an_estimator_of_all_their_limbs(humanoid, walk, 
     np.testing.assert_array_equal(one.std, other.std)
 
 
+def test_two_networks_of_a_limb_are_refused(humanoid, tmp_path):
+    for name in ("one", "two"):
+        shutil.copytree(LEG, tmp_path / name)
+    with pytest.raises(mobnet.MobnetError, match=f"{tmp_path}/two: {tmp_path}/one is of limb LL, too"):
+        mobnet.Estimator.from_folder(humanoid, tmp_path)
+
+
 def test_a_folder_without_networks_is_named(humanoid, tmp_path):
     with pytest.raises(mobnet.MobnetError, match=f"{tmp_path}: {RUN} is missing"):
         mobnet.Estimator.from_folder(humanoid, tmp_path)
