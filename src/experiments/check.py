@@ -149,7 +149,8 @@ def _kind(path: Path, against: Against) -> str:
 def _array(path: Path, against: Against) -> str:
     """Check a recording, residual, estimate, wrench or motion, of whose files one is given."""
     stem = path.with_suffix("")
-    note, noted = read_array_note(file_of(stem, NOTE)), file_of(stem, NOTE)
+    note = read_array_note(file_of(stem, NOTE))
+    noted = file_of(stem, NOTE)
     names = [column["name"] for column in note["columns"]]
     kind, needed = kind_of(noted, names, against.layout)
     refuse(noted, (f"columns: {name!r} is missing; accepted: all of a {kind}" for name in needed if name not in names))
@@ -160,14 +161,17 @@ def _array(path: Path, against: Against) -> str:
         if time.monotonic() - told > REPORT_S:
             told = time.monotonic()
             log.info("%s: %d of %d rows", stem, first + columns.shape[1], note["rows"])
-    rows, rate, count = note["rows"], note["rate_hz"], len(note["segments"])
+    rows = note["rows"]
+    rate = note["rate_hz"]
+    count = len(note["segments"])
     parts = f"{count} segment" + "s" * (count > 1)
     return f"{kind}, {rows} rows at {rate:g} Hz, {rows / rate:g} s in {parts}, {len(names)} columns"
 
 
 def kind_of(noted: Path, names: Sequence[str], layout: JointLayout) -> tuple[str, list[str]]:
     """Return which kind of array has columns of these names, as its note says, and the columns that it needs."""
-    held, groups = set(names), recording_columns(layout)
+    held = set(names)
+    groups = recording_columns(layout)
     signals = {name.partition(".")[0] for name in held}
     if {"q", "v"} & signals:
         told = [field for field in Truth.__dataclass_fields__ if held & {name for name, *_ in groups[field]}]

@@ -42,7 +42,8 @@ def main(words: Sequence[str]) -> int:
     """Run the command; return its exit status."""
     parser = demo_parser()
     options = parser.parse_args(words)
-    data, out = options.data or DATA, options.out or PICTURE
+    data = options.data or DATA
+    out = options.out or PICTURE
     if out.suffix not in ENDINGS:
         parser.error(not_accepted("--out: ending", out.suffix, ENDINGS))
     logging.basicConfig(level=logging.INFO, format="%(message)s", stream=sys.stdout)

@@ -107,7 +107,8 @@ def _check(options: argparse.Namespace) -> None:
 def _simulator(options: argparse.Namespace, seconds: float) -> Simulator:
     """Return a started simulator; its upper body moves for the seconds to come, for some time if they have no end."""
     settings = _settings(options)
-    motion, upper = settings.scenarios[options.scenario].motion, None
+    motion = settings.scenarios[options.scenario].motion
+    upper = None
     if motion is not None:
         moved_s = min(seconds, MOTION_S) + LOOKED_FOR_S
         log.info("%.0f s of motion of the upper body are made first", moved_s)

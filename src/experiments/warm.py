@@ -68,7 +68,8 @@ def _observe(robot: WalkingRobot, sensed: Sensed, rate_hz: float) -> None:
 
 def _learn(precision: torch.dtype) -> None:
     """Run a GRU forward and back as a training does, and forward as estimates and robots do."""
-    cell, state = nn.GRU(1, 2), torch.zeros(1, 1, 2)
+    cell = nn.GRU(1, 2)
+    state = torch.zeros(1, 1, 2)
     with torch.autocast("cpu", precision, enabled=precision != torch.float32):
         states, _ = run_gru(cell, torch.zeros(SAMPLES, 1, 1), state)
     states.sum().backward()

@@ -19,7 +19,8 @@ from mobnet.estimation.low_pass import low_pass
 from mobnet.interface import Estimator, Observer, Robot, lab, read_recording
 from mobnet.robot.description import describe
 
-NETWORK, RECORDING = DEMO / "networks" / "MOB-Net-LL", DEMO / "recording"
+NETWORK = DEMO / "networks" / "MOB-Net-LL"
+RECORDING = DEMO / "recording"
 log = logging.getLogger(__name__)
 
 
@@ -28,13 +29,15 @@ def lines() -> Iterator[str]:
     numbers = lab()
     robot = Robot(describe(numbers.robot))
     recording = read_recording(RECORDING, robot)
-    samples, rate_hz = recording.sensed, recording.rate_hz
+    samples = recording.sensed
+    rate_hz = recording.rate_hz
     estimator = Estimator.from_folder(robot, NETWORK)
     joints = list(estimator.joints)
     places = [robot.joints.index(joint) for joint in joints]
     residual = Observer(robot, rate_hz, torque=numbers.observer.torque).residual(samples)[:, places]
     estimate = estimator.estimate(samples).tau_ext
-    layout, gain_hz = robot.description.layout, numbers.observer.gain_hz
+    layout = robot.description.layout
+    gain_hz = numbers.observer.gain_hz
     external = low_pass(read_array(RECORDING, named(EXTERNAL, joints), layout)[0], gain_hz, rate_hz)
     push = low_pass(read_array(RECORDING, named(PUSH_TORQUE, joints), layout)[0], gain_hz, rate_hz)
     # Observer and network start from zero, and settle meanwhile.

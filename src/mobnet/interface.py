@@ -81,8 +81,10 @@ class Robot:
     def __init__(self, description: RobotDescription) -> None:
         """Take a description; `read` makes one of a file."""
         self.description = description
-        self.name, self.joints = description.name, description.layout.names
-        self.motors, self.limbs = description.layout.actuated, dict(description.layout.groups)
+        self.name = description.name
+        self.joints = description.layout.names
+        self.motors = description.layout.actuated
+        self.limbs = dict(description.layout.groups)
 
     @classmethod
     def read(cls, path: str | Path) -> "Robot":
@@ -160,7 +162,8 @@ class Observer:
         numbers = lab()
         nominal = NominalModel(robot.description, gravity_m_s2=numbers.plant.gravity_m_s2)
         gain_hz = numbers.observer.gain_hz if gain_hz is None else gain_hz
-        self.joints, self.rate_hz = robot.joints, rate_hz
+        self.joints = robot.joints
+        self.rate_hz = rate_hz
         self._observer = MomentumObserver(nominal, gain_hz, rate_hz, torque)
 
     def init(self) -> ObserverState:
@@ -186,7 +189,8 @@ class Estimator:
 
     def __init__(self, estimator: ResidualEstimator, rate_hz: float) -> None:
         """Take an estimator; `from_folder` reads one."""
-        self.joints, self.rate_hz = estimator.joints, rate_hz
+        self.joints = estimator.joints
+        self.rate_hz = rate_hz
         self._estimator = estimator
 
     @classmethod
@@ -197,7 +201,9 @@ class Estimator:
             DataError: a file is missing or damaged, a network is another robot's or was trained with other friction
                 than that of its table, two are of one limb, or the networks differ in their rate or observer.
         """
-        folder, layout, numbers = Path(folder), robot.description.layout, lab()
+        folder = Path(folder)
+        layout = robot.description.layout
+        numbers = lab()
         folders = [folder] if (folder / RUN).exists() else sorted(path.parent for path in folder.glob(f"*/{RUN}"))
         networks = [read_network_folder(one, layout, numbers) for one in folders or [folder]]
         first = networks[0]
@@ -255,7 +261,8 @@ class Detector:
 
     def __init__(self, robot: RobotDescription, estimator: ResidualEstimator, found: LimbThresholds) -> None:
         """Take the estimator and the thresholds of a limb; `from_files` reads them."""
-        self.joints, self.rate_hz = found.joints, found.rate_hz
+        self.joints = found.joints
+        self.rate_hz = found.rate_hz
         self.thresholds = found
         self._columns = np.array([estimator.joints.index(joint) for joint in found.joints])
         self._estimator, self._watcher = estimator, watcher_of(robot, found, self._columns)
@@ -273,7 +280,9 @@ class Detector:
             ConfigError: a file or a value is not accepted.
             DataError: network, thresholds and robot do not belong together.
         """
-        numbers, path, description = lab(), Path(thresholds), robot.description
+        numbers = lab()
+        path = Path(thresholds)
+        description = robot.description
         found = read_thresholds(path)
         own = read_network_folder(Path(network), description.layout, numbers) if network and found.network else None
         check_thresholds(path, found, description, own)
@@ -357,7 +366,8 @@ class ReactionHandler:
             ConfigError: the estimator lacks a joint that a detector watches.
         """
         description = robot.description
-        self._estimator, self._layout = estimator, description.layout
+        self._estimator = estimator
+        self._layout = description.layout
         self._columns = description.layout.columns(estimator.joints)
         watchers = {}
         for one in detectors:
@@ -466,7 +476,8 @@ def export_networks(
         DataError: a file is missing or damaged, or networks, thresholds and robot do not belong together.
         ConfigError: thresholds are not accepted.
     """
-    paths, limits = [Path(one) for one in folders], [Path(one) for one in thresholds]
+    paths = [Path(one) for one in folders]
+    limits = [Path(one) for one in thresholds]
     made = with_extra("mobnet.export.export")
     made.export_folders(paths, robot.description, limits, made.Given(), lab(), Path(out))
     return Path(out) / CONTRACT

@@ -40,7 +40,8 @@ def check_disk(root: Path, build: str) -> None:
     Raises:
         CommandError: needed and free space.
     """
-    needed, free = BUILDS[build].disk * MARGIN, shutil.disk_usage(root).free
+    needed = BUILDS[build].disk * MARGIN
+    free = shutil.disk_usage(root).free
     if free < needed:
         raise CommandError(f"{root}: {in_gb(free)} free, {in_gb(needed)} needed while packages are unpacked; make room")
 
@@ -48,7 +49,8 @@ def check_disk(root: Path, build: str) -> None:
 def costs(root: Path, build: str, *, is_asked: bool) -> str:
     """Return what a set-up takes; nobody has asked yet whether an index offers the build for CPUs."""
     free = in_gb(shutil.disk_usage(root).free)
-    disk, minutes = in_gb(BUILDS[build].disk), BUILDS[build].minutes
+    disk = in_gb(BUILDS[build].disk)
+    minutes = BUILDS[build].minutes
     if build == "cpu" and not is_asked:
         disk += f" of disk, or {in_gb(BUILDS['cuda'].disk)} where no index offers torch's CPU build"
         return f"{disk} ({free} free), {MEMORY} of memory and {minutes}"

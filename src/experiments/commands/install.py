@@ -40,7 +40,8 @@ def install(tools: Tools, build: str, *, is_asked: bool) -> str:
 
 def attempt(tools: Tools, build: str) -> list[str]:
     """Try to install a build from the cache, from pip's places, from where uv knows it, then by pip; return why not."""
-    python, places = str(tools.python), BUILDS[build].places
+    python = str(tools.python)
+    places = BUILDS[build].places
     locked = "-r", locked_packages(tools.root, build), "-c", str(tools.root / CONSTRAINTS), "--require-hashes"
     left_out = written(tools.root, "excludes.txt", f"{UNWANTED}\nuv\n")
     compiled = "--compile-bytecode"  # once, instead of at the start of every process that may not write it

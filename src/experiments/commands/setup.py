@@ -47,7 +47,8 @@ def wait_for(handle: int) -> None:
 
 def make(root: Path, fault: str, build: str | None) -> None:
     """Make `.venv` anew; its stamp comes last, so that a set-up that was stopped is begun again."""
-    venv, chosen = root / ".venv", build or installed_build(root) or wanted_build()
+    venv = root / ".venv"
+    chosen = build or installed_build(root) or wanted_build()
     needed = costs(root, chosen, is_asked=build is not None)
     say(f"{fault}: .venv is made from environment.lock; this takes {needed}, once")
     (venv / STAMP).unlink(missing_ok=True)
@@ -65,7 +66,8 @@ def make(root: Path, fault: str, build: str | None) -> None:
 
 def fault_of(root: Path, build: str | None) -> str | None:
     """Return why `.venv` has to be made, None where it is whole."""
-    venv, stamp = root / ".venv", root / ".venv" / STAMP
+    venv = root / ".venv"
+    stamp = root / ".venv" / STAMP
     if not (venv / "bin" / "python").exists():
         return "there is no environment yet" if not venv.exists() else "the Python of .venv is gone"
     if not stamp.exists():

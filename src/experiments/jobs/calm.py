@@ -53,7 +53,8 @@ def watch(
     """
     robot = Robot(settings, reaction, detection, observer, runs)
     estimator = robot.estimator(reaction.estimator, reaction.watched)
-    limbs, forces = {limb: list[Array]() for limb in reaction.watched}, list[list[float]]()
+    limbs = {limb: list[Array]() for limb in reaction.watched}
+    forces = list[list[float]]()
     for calm in calm_parts(robot, quiet):
         for limb, signals in _signals(robot, estimator, calm):
             limbs[limb].append(signals)
@@ -94,7 +95,8 @@ def _limbs(robot: Robot, limbs: Mapping[str, Sequence[Array]]) -> Iterator[Thres
 
 def limb_thresholds(robot: Robot, signals: Sequence[Array]) -> Array:
     """Return the thresholds of a limb's signals (n,) from these (T, n) in segments, behind the low-pass."""
-    numbers, window = robot.detection.thresholds, round(robot.detection.window_s * robot.rate_hz)
+    numbers = robot.detection.thresholds
+    window = round(robot.detection.window_s * robot.rate_hz)
     parts = [np.abs(own[: len(own) // window * window]).reshape(-1, window, own.shape[1]) for own in signals]
     largest = np.concatenate([part.max(axis=1) for part in parts])
     episodes = np.repeat(np.arange(len(parts)), [len(part) for part in parts])

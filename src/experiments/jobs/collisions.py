@@ -37,7 +37,9 @@ def hits_of(recording: Path, pushes: Mapping[str, Push], layout: JointLayout) ->
         DataError: a file or a column is missing.
     """
     array, meta = read_array(recording, FORCE)
-    number, force, names = array[:, 0], np.linalg.norm(array[:, 1:], axis=1).astype(np.float64), list(pushes)
+    number = array[:, 0]
+    force = np.linalg.norm(array[:, 1:], axis=1).astype(np.float64)
+    names = list(pushes)
     found: list[Hit] = []
     for start, end in runs_of(number, meta["segments"]):
         # A recording holds the number of a push, counted from 1, and not its name.

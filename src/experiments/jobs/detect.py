@@ -53,7 +53,8 @@ def detect(
     Raises:
         DataError: a walk has too few swings, a signal never changes, or a file is missing or damaged.
     """
-    description, rows = describe(robot), {name: list[Any]() for name in FILES}
+    description = describe(robot)
+    rows = {name: list[Any]() for name in FILES}
     for limb in detection.legs:
         _try_leg(LegSetup.of(detection, description, limb, rate_hz), walks, rows)
     for name, found in rows.items():

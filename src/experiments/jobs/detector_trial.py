@@ -55,7 +55,8 @@ def _hits(setup: LegSetup, walk: Walk, leg: LegRecording, residual: Path) -> Leg
     """Return the leg in a recording with collisions."""
     layout = setup.robot.layout
     every = hits_of(leg.recording, walk.pushes, layout)
-    hits, points = tuple(hit for hit in every if hit.leg == setup.limb), candidates_of(setup, walk)
+    hits = tuple(hit for hit in every if hit.leg == setup.limb)
+    points = candidates_of(setup, walk)
     # The pose of the first sample serves for the whole collision, in which a leg moves by a few degrees.
     positions = read_sensed(leg.recording, layout).sensed.q[[hit.rows.start for hit in hits]]
     units = [unit_torques(setup.robot, setup.gate.leg, q, points, setup.inward) for q in positions]
@@ -71,7 +72,8 @@ def collision_rows(setup: LegSetup, scenario: str, walk: Sequence[LegHits]) -> I
         for number, hit in enumerate(one.hits, start=1):
             # The paper does not say when a collision begins. The first contact is the simulator's; a force above
             # onset_n is what an experimenter sees in the force sensor of the tool.
-            start, above = hit.rows.start, np.flatnonzero(hit.force > setup.detection.onset_n)
+            start = hit.rows.start
+            above = np.flatnonzero(hit.force > setup.detection.onset_n)
             yield Collision(
                 scenario, one.leg.seed, number, hit.name, hit.leg, hit.link, hit.direction, start * period,
                 (start + int(above[0])) * period if len(above) else None, hit.rows.stop * period,
@@ -88,19 +90,22 @@ def detected_rows(
         signals = calibrated.watched.of(estimate, one.leg.command)
         low = setup.low_passed(estimate.tau_ext.astype(np.float64), one.leg.segments)
         for kind, chain in calibrated.chains.items():
-            alarm, perfect = one.leg.run(chain, signals), calibrated.perfect(chain, one.truth, one.leg.command)
+            alarm = one.leg.run(chain, signals)
+            perfect = calibrated.perfect(chain, one.truth, one.leg.command)
             ideal = one.leg.run(*perfect).ratio if perfect else None
             for hit, units, number in zip(one.hits, one.units, range(1, len(one.hits) + 1), strict=True):
-                row, best = (
-                    first_alarm(setup, alarm.ratio, hit),
-                    None if ideal is None else first_alarm(setup, ideal, hit),
-                )
-                signal, link, direction, force = "", "", "", None
+                row = first_alarm(setup, alarm.ratio, hit)
+                best = None if ideal is None else first_alarm(setup, ideal, hit)
+                signal = ""
+                link = ""
+                direction = ""
+                force = None
                 if row is not None:
                     # Links are told apart by the torque, also where the standard deviation raised the alarm.
                     isolated = name_push(low[row], units, calibrated.naming)
                     _, link, direction = points[isolated.candidate].split("_")
-                    signal, force = calibrated.watched.names(setup.joints)[int(alarm.signal[row])], isolated.force_n
+                    signal = calibrated.watched.names(setup.joints)[int(alarm.signal[row])]
+                    force = isolated.force_n
                 ratio = float(alarm.ratio[window_of(setup, hit)].max(initial=0.0))
                 yield Detected(
                     scenario, one.leg.seed, setup.limb, number, calibrated.name, kind, ratio, delay(setup, hit, row),
@@ -112,7 +117,8 @@ def curve_rows(
     setup: LegSetup, calibrated: CalibratedDetector, walk: Sequence[LegHits], estimates: Sequence[Estimate]
 ) -> Iterator[CurvePoint]:  # fmt: skip
     """Yield how many collisions a detector finds, and how late, at multiples of its thresholds."""
-    curve, chain = setup.detection.curve, calibrated.chains[COLLISION]
+    curve = setup.detection.curve
+    chain = calibrated.chains[COLLISION]
     pairs = [(one.leg.run(chain, calibrated.watched.of(own, one.leg.command)).ratio, hit)
              for one, own in zip(walk, estimates, strict=True) for hit in one.hits]  # fmt: skip
     for factor in np.geomspace(*curve.factors, curve.count).tolist():
@@ -128,12 +134,14 @@ def unpushed_rows(
 ) -> Iterator[FreeSwing]:  # fmt: skip
     """Yield the swings of a walk with collisions in which nothing pushes: most follow a push and recover from it."""
     for one, estimate in zip(walk, estimates, strict=True):
-        legs, signals = [one.leg], [calibrated.watched.of(estimate, one.leg.command)]
+        legs = [one.leg]
+        signals = [calibrated.watched.of(estimate, one.leg.command)]
         ratios, others = (swing_ratios(legs, calibrated.chains[kind], signals) for kind in (COLLISION, LARGEST))
         for k, (start, end) in enumerate(one.leg.swings):
             # A hit of the other leg shakes this one, so that it spoils the swing too.
             if not any(hit.rows.start < end and start < hit.rows.stop for hit in one.every):
-                place, numbers = (one.leg.terrains[k], one.leg.seed, k + 1), (float(ratios[k]), float(others[k]))
+                place = (one.leg.terrains[k], one.leg.seed, k + 1)
+                numbers = (float(ratios[k]), float(others[k]))
                 yield FreeSwing(calibrated.name, setup.limb, scenario, UNPUSHED, *place, *numbers)
 
 

@@ -69,12 +69,14 @@ def _estimate(recipe: Recipe, read: Sequence[Observed], outs: Sequence[Path], jo
 
 def batches(recordings: Sequence[Path]) -> Iterator[slice]:
     """Yield which recordings run side by side: as many as fit into memory, or a single longer one."""
-    start, held_s = 0, 0.0
+    start = 0
+    held_s = 0.0
     for k, stem in enumerate(recordings):
         note = read_array_note(file_of(stem, NOTE))
         duration_s = note["rows"] / note["rate_hz"]
         if k > start and held_s + duration_s > TOGETHER_S:
             yield slice(start, k)
-            start, held_s = k, 0.0
+            start = k
+            held_s = 0.0
         held_s += duration_s
     yield slice(start, len(recordings))

@@ -58,7 +58,8 @@ def react(
 
 def _walk(walks: "Walks", one: CaseWalks) -> None:
     """Make the walks of a case, with our detector and with what is compared."""
-    reaction, trials = walks.robot.reaction, list[Trial]()
+    reaction = walks.robot.reaction
+    trials = list[Trial]()
     ours, *others = watches_of(reaction, one.case)
     for watch, seeds in [(ours, one.seeds), *((other, one.seeds[: one.sizes.compared]) for other in others)]:
         for seed in seeds:
@@ -80,18 +81,22 @@ class Walks:
 
     def walk(self, one: CaseWalks, watch: Watch, seed: int) -> tuple[Trial, Course]:
         """Walk a case; return what came of it, and the course."""
-        robot, numbers, settings = self.robot, self.robot.reaction, one.settings
+        robot = self.robot
+        numbers = self.robot.reaction
+        settings = one.settings
         watch = watch.model_copy(update={"wrench": watch.wrench or settings.scenario.wrench})
         told = settings.scenario.model_copy(update={"wrench": watch.wrench})
         simulator = Simulator(settings.model_copy(update={"scenario": told}), seed)
         simulator.start()
-        watchers, row = self.watchers(watch, simulator.sensors.wrenches), numbers.cases[one.case]
+        watchers = self.watchers(watch, simulator.sensors.wrenches)
+        row = numbers.cases[one.case]
         times_s = watch.wait_s, settings.recording.settle_s, one.sizes.longest_s, numbers.after_s
         wait, settle, longest, after = (round(time_s * robot.rate_hz) for time_s in times_s)
         spacing_m = settings.walking.foot_spacing_m
         handler = Handler(robot.description, numbers, spacing_m, watchers, row.strategy, wait, settle)
         height_m = robot.detection.gate.contact_height_m
-        estimator, sizes = self.estimator(numbers.estimator), (longest, after, numbers.touch_n, height_m)
+        estimator = self.estimator(numbers.estimator)
+        sizes = (longest, after, numbers.touch_n, height_m)
         course = walk_with(simulator, estimator, handler, *sizes, watch.feed_forward)
         place = one.case, settings.level_name, seed
         return trial_of(numbers, place, watch, course, settle, robot.rate_hz, bool(simulator.state.standing)), course
@@ -109,7 +114,8 @@ class Walks:
         """
         if watch.detector == NONE:
             return {}
-        setups, estimator = self.robot.setups, self.robot.reaction.estimator
+        setups = self.robot.setups
+        estimator = self.robot.reaction.estimator
         legs = {setup.limb: watcher for setup in setups if (watcher := self._leg(setup, watch, wrenches))}
         row = self.robot.detection.detectors.get(watch.detector)
         if row is None or row.method != estimator:
@@ -118,20 +124,24 @@ class Walks:
 
     def _limb(self, limb: str) -> LimbWatcher:
         """Return what watches a limb all the time."""
-        ours, robot = self.robot.reaction.ours, self.robot
-        watched, own = robot.watched, self._values(ours.detector, limb, ours.rule)
+        ours = self.robot.reaction.ours
+        robot = self.robot
+        watched = robot.watched
+        own = self._values(ours.detector, limb, ours.rule)
         values = np.array([[own[1, name] for name in watched.names(robot.description.layout.limb(limb))]])
         return LimbWatcher(watched, robot.setups[0].chain(values), robot.columns(limb))
 
     def _leg(self, setup: LegSetup, watch: Watch, wrenches: Array) -> Watcher | None:
         """Return what watches a leg; nothing where rule `detect` found no thresholds for the detector."""
-        columns, own = self.robot.columns(setup.limb), self._values(watch.detector, setup.limb, watch.rule)
+        columns = self.robot.columns(setup.limb)
+        own = self._values(watch.detector, setup.limb, watch.rule)
         if not own:  # the method does not estimate this leg, or its networks have hardly learned
             return None
         if watch.detector == FORCE_SENSORS:
             return FootWatcher(setup.gate, setup.chain(np.array([[own[1, FORCE]]]), norm=True), columns, wrenches)
         row = self.robot.detection.detectors[watch.detector]
-        watched, phases = Watched(row), range(1, row.phases + 1)
+        watched = Watched(row)
+        phases = range(1, row.phases + 1)
         names = watched.names(setup.joints)
         chain = setup.chain(np.array([[own[phase, name] for name in names] for phase in phases]))
         detector = LegDetector(watched, setup.gate, chain)
@@ -150,7 +160,8 @@ class Walks:
 
 def write_course(course: Course, trial: Trial, walks: Walks, out: Path) -> None:
     """Write a course, with the times of its trial in the note and the places of the obstacles."""
-    robot, joints = walks.robot, walks.estimator(walks.robot.reaction.estimator).joints
+    robot = walks.robot
+    joints = walks.estimator(walks.robot.reaction.estimator).joints
     layout = robot.description.layout
     held = layout.columns(joints)
     parts = course.rows, course.tau[:, held], course.std[:, held], course.force, course.point, course.base

@@ -60,9 +60,11 @@ class Robot:
 
     def estimator(self, method: str, limbs: Collection[str] = ()) -> Estimator:
         """Return the estimator of a method with this robot's networks, of some limbs alone if asked, and its fit."""
-        run, settings = self.runs[method], self.settings
+        run = self.runs[method]
+        settings = self.settings
         networks = {limb: folder for limb, folder in run.networks.items() if not limbs or limb in limbs}
-        gravity, own = settings.plant.gravity_m_s2, (networks, run.fitted)
+        gravity = settings.plant.gravity_m_s2
+        own = (networks, run.fitted)
         known = settings.robot, settings.level.nominal_mass_ratio, gravity, self.observer
         recipe = Recipe(method, run.methods, *known, self.rate_hz, *own)
         return build_estimator(recipe)

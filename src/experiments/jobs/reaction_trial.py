@@ -26,7 +26,8 @@ def trial_of(
 ) -> Trial:  # fmt: skip
     """Return what came of a walk of a case with a robot and a seed; nothing is an alarm before sample `begin`."""
     contacts = contacts_of(course.force, numbers.touch_n, round(numbers.gap_s * rate_hz))
-    first, size = (contacts[0] if contacts else None), np.linalg.norm(course.force, axis=1)
+    first = contacts[0] if contacts else None
+    size = np.linalg.norm(course.force, axis=1)
     reacted_at, reacted = course.reacted or (None, None)
     ends = [at for at in (reacted_at, first.start if first else None) if at is not None]
     own = slice(begin, min(ends, default=len(course.rows)))
@@ -35,7 +36,8 @@ def trial_of(
     angle = base_angle = None
     if first is not None and reacted is not None and reacted_at is not None and reacted_at >= first.start:
         pushed = course.force[first.start : reacted_at + 1, :2].sum(axis=0)
-        angle, base_angle = angle_deg(reacted.direction, pushed), angle_deg(reacted.wrench[:2], pushed)
+        angle = angle_deg(reacted.direction, pushed)
+        base_angle = angle_deg(reacted.wrench[:2], pushed)
     return Trial(
         *place,
         watch.detector,

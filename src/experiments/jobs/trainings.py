@@ -57,5 +57,6 @@ def _files(network: Repetition) -> tuple[Path, ...]:
 
 def _reads(repetition: Repetition) -> tuple[object, ...]:
     """Return what `load_limb_data` takes of a training: trainings with the same have the same data."""
-    training, network = repetition.training, repetition.training.network
+    training = repetition.training
+    network = repetition.training.network
     return network.Q, network.T, network.joints, training.target, training.held_out, training.learning.data_s

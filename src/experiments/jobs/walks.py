@@ -31,7 +31,8 @@ def collect_walks(
         if stage.has(_files(shard)):
             continue
         log.info("recording %d of %d: %s", number, len(shards), shard.recording)
-        recording, residual = stage.place(shard.recording), stage.place(shard.residual)
+        recording = stage.place(shard.recording)
+        residual = stage.place(shard.residual)
         collect(settings, shard.seed, duration_s, recording, shard.motion)
         known = settings.robot, settings.level, settings.plant.gravity_m_s2, observer
         observe(*known, recording, residual, settings.rates.data_hz)

@@ -32,8 +32,11 @@ def estimate_place(method: str) -> str:
 
 def demo_needs(files: Files) -> Mapping[str, Any]:
     """Return what the stored push is made from: files of the first recording of its test, networks and fits."""
-    settings, story = files.settings, files.settings.evaluation.story
-    own, layout, copied = files.robots.get(story.level, files), settings.layout, dict[str, Path]()
+    settings = files.settings
+    story = files.settings.evaluation.story
+    own = files.robots.get(story.level, files)
+    layout = settings.layout
+    copied = dict[str, Path]()
     limb = next(name for name, joints in layout.groups.items() if story.joint in joints)
     runs = {method: own.runs(story.scenario, story.level, [method])[0] for method in story.methods}
     for method in story.methods:

@@ -31,7 +31,8 @@ def level_of_detectors(files: Files) -> str:
 
 def numbers_of(files: Files) -> Detection:
     """Return the section of detectors with the numbers of the chosen scale."""
-    detection, least = files.settings.detection, files.settings.sizes.least_swings
+    detection = files.settings.detection
+    least = files.settings.sizes.least_swings
     if least is None:
         return detection
     return detection.model_copy(update={"thresholds": detection.thresholds.model_copy(update={"least_swings": least})})
@@ -39,7 +40,8 @@ def numbers_of(files: Files) -> Detection:
 
 def walks_of(files: Files) -> dict[str, Walk]:
     """Return the walks of the detectors of a robot, or of the plant, by scenario."""
-    settings, level = files.settings, level_of_detectors(files)
+    settings = files.settings
+    level = level_of_detectors(files)
     detection = settings.detection
     methods = dict.fromkeys([detection.gate.method, *(row.method for row in detection.detectors.values())])
     return {

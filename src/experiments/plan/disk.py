@@ -47,7 +47,8 @@ def check_space(plan: Plan, outputs: Iterable[str]) -> None:
         check_room(folder)
         disks.setdefault(folder.stat().st_dev, []).append(folder)
     for folders in disks.values():
-        whole, free = sum(needed[folder] for folder in folders), shutil.disk_usage(folders[0]).free
+        whole = sum(needed[folder] for folder in folders)
+        free = shutil.disk_usage(folders[0]).free
         if free < whole:
             raise DataError(
                 f"{min(folders)}: too little space for what the run writes; "

@@ -97,7 +97,8 @@ class Files(Seeds):
         every = self.network_seeds(method)
         if scenario in self.settings.detection_walks:
             return every[:1]  # a robot detects with one network
-        source, limbs = self.catalogue.network_source_of(method), self.networks(method, every[0], scenario, level)
+        source = self.catalogue.network_source_of(method)
+        limbs = self.networks(method, every[0], scenario, level)
         return max((self.network_seeds(source, limb) for limb in limbs), key=len, default=every)
 
     def network(self, method: str, limb: str, seed: int) -> Path:
@@ -107,7 +108,8 @@ class Files(Seeds):
 
     def networks(self, method: str, seed: int, scenario: str, level: str) -> dict[str, Path]:
         """Return the networks, limb -> folder, that a method runs in a test: those of joints that it estimates."""
-        source, joints = self.catalogue.network_source_of(method), {*self.catalogue.estimated(method, scenario, level)}
+        source = self.catalogue.network_source_of(method)
+        joints = {*self.catalogue.estimated(method, scenario, level)}
         return {
             limb: self.network(source, limb, seed)
             for limb in self.catalogue.method(source).limbs
@@ -116,8 +118,10 @@ class Files(Seeds):
 
     def repeated(self, method: str, seed: int) -> tuple[str, ...]:
         """Return the limbs, groups of joints, whose network served an earlier seed of a method already."""
-        source, seeds = self.catalogue.network_source_of(method), self.network_seeds(method)
-        earlier, networks = seeds[: seeds.index(seed)], self.settings.robot.networks
+        source = self.catalogue.network_source_of(method)
+        seeds = self.network_seeds(method)
+        earlier = seeds[: seeds.index(seed)]
+        networks = self.settings.robot.networks
         return tuple(
             group
             for limb in self.catalogue.method(source).limbs
@@ -138,7 +142,9 @@ class Files(Seeds):
     @cached_property
     def learned(self) -> frozenset[tuple[str, str]]:
         """Method and limb of every network that runs in a test or is shown by itself."""
-        catalogue, settings, evaluation = self.catalogue, self.settings, self.settings.evaluation
+        catalogue = self.catalogue
+        settings = self.settings
+        evaluation = self.settings.evaluation
         pairs = [
             (catalogue.network_source_of(method), limb)
             for scenario, levels in catalogue.tests.items()
@@ -147,7 +153,9 @@ class Files(Seeds):
             for method in methods
             for limb in self.networks(method, self.network_seeds(method)[0], scenario, level)
         ]
-        kinds, sizes, timed = evaluation.figure_17, evaluation.figure_20, evaluation.latency.method
+        kinds = evaluation.figure_17
+        sizes = evaluation.figure_20
+        timed = evaluation.latency.method
         if self.has(kinds.level):
             pairs += [(method, kinds.limb) for method in kinds.methods]
         if self.has(kinds.best_level):
@@ -192,7 +200,8 @@ class Files(Seeds):
     @cached_property
     def learned_sets(self) -> tuple[str, ...]:
         """Names of the training sets that networks and fits learn from, in the configuration's order."""
-        settings, catalogue = self.settings, self.catalogue
+        settings = self.settings
+        catalogue = self.catalogue
         named = {method for levels in catalogue.tests.values() for methods in levels.values() for method in methods}
         sources = {catalogue.source_of(method) for method in (*named, *(method for method, _ in self.learned))}
         fitted = [(source, limb) for source in sources for limb in catalogue.method(source).fitted]
@@ -268,7 +277,8 @@ class Files(Seeds):
 
     def swept_sizes(self) -> tuple[SweptSize, ...]:
         """Return the sizes of Figure 20; the network of all data is that of Table 1's size."""
-        figure, sweeps = self.settings.evaluation.figure_20, self.settings.sweeps
+        figure = self.settings.evaluation.figure_20
+        sweeps = self.settings.sweeps
         found: list[SweptSize] = []
         for panel, key in (("parameters", figure.parameters), ("samples", figure.samples)):
             for base in sweeps[key].of:

@@ -15,7 +15,8 @@ def film_products(files: Files) -> Iterator[Product]:
     if not any(level_of_detectors(own) for own in files.owners):
         return
     settings = files.settings
-    section, ending = settings.evaluation.films, "mp4" if shutil.which("ffmpeg") else "webp"
+    section = settings.evaluation.films
+    ending = "mp4" if shutil.which("ffmpeg") else "webp"
     outs = {case: files.results / "films" / f"{case}.{ending}" for case in section.joints}
     courses = courses_of(files, section.joints)
     arguments = {

@@ -105,7 +105,8 @@ class Jobs:
             "training": training,
             "out": (out := self.files.results / "fits" / f"{method}.json"),
         }
-        call, kinds = Call("experiments.jobs.fitting:write_fit", arguments), self._kinds(method)
+        call = Call("experiments.jobs.fitting:write_fit", arguments)
+        kinds = self._kinds(method)
         return Job(call, _read(training), kinds, {str(out): code_hash(*kinds)})
 
     def train(self, name: str, networks: Sequence[NetworkName]) -> Job:
@@ -117,7 +118,8 @@ class Jobs:
         first = networks[0]
         learning = self.catalogue.training(first.method, first.limb)
         recordings, residuals = self._training(learning.network.data)
-        repetitions, fitted = tuple(map(self._repetition, networks)), self.files.fit(first.method)
+        repetitions = tuple(map(self._repetition, networks))
+        fitted = self.files.fit(first.method)
         arguments = {
             "root_seed": self.settings.seed,
             "layout": self.settings.layout,
@@ -183,7 +185,8 @@ class Jobs:
 
     def score(self, scenario: str, level: str) -> Job:
         """Return the errors of every run of a test at a level, and what else products ask for."""
-        runs, (out,) = self.files.scored_runs(scenario, level), self.files.scores([(scenario, level)])
+        runs = self.files.scored_runs(scenario, level)
+        (out,) = self.files.scores([(scenario, level)])
         asked = scoring(self.settings, scenario, level)
         arguments = {"layout": self.settings.layout, "runs": runs, "asked": asked, "out": out}
         read = [[run.residual, run.estimate, run.recording] for run in runs]
@@ -205,9 +208,13 @@ class Jobs:
 
     def watch(self) -> Job:
         """Return the thresholds of a robot's limbs that are watched all the time, and of its feet's sensors."""
-        settings, files, level = self.settings, self.files, level_of_detectors(self.files)
-        random, method = settings.detection.random, settings.reaction.estimator
-        run, quiet = self._loaded(method), files.tests(random, level)
+        settings = self.settings
+        files = self.files
+        level = level_of_detectors(self.files)
+        random = settings.detection.random
+        method = settings.reaction.estimator
+        run = self._loaded(method)
+        quiet = files.tests(random, level)
         arguments = {
             "settings": walk_settings(settings, random, level),
             "reaction": settings.reaction,
@@ -223,8 +230,11 @@ class Jobs:
 
     def react(self, cases: Sequence[str]) -> Job:
         """Return the walks of a robot in some cases, with all that is compared there."""
-        settings, files, level = self.settings, self.files, level_of_detectors(self.files)
-        methods, first = methods_of(files, cases), settings.sizes.test.first_seed
+        settings = self.settings
+        files = self.files
+        level = level_of_detectors(self.files)
+        methods = methods_of(files, cases)
+        first = settings.sizes.test.first_seed
         walks = tuple(
             CaseWalks(
                 case=case,
@@ -254,7 +264,8 @@ class Jobs:
 
     def _loaded(self, method: str) -> MethodRun:
         """Return a method with all of its networks that are trained, the first of each limb, to run in a loop."""
-        source, files = self.catalogue.network_source_of(method), self.files
+        source = self.catalogue.network_source_of(method)
+        files = self.files
         limbs = [limb for limb in self.catalogue.method(source).limbs if (source, limb) in files.learned]
         return MethodRun(
             method=method,
@@ -310,7 +321,9 @@ def scoring(settings: Settings, scenario: str, level: str) -> Scoring:
 
 def walk_settings(settings: Settings, scenario: str, level: str) -> WalkSettings:
     """Return what a walk takes: terrains, pushes and obstacles that the scenario names, gait and gains of the level."""
-    row, walking, chosen = settings.scenarios[scenario], settings.walking, settings.levels[level].surrogate
+    row = settings.scenarios[scenario]
+    walking = settings.walking
+    chosen = settings.levels[level].surrogate
     if chosen:
         gait = {name: value for name, value in chosen.gait if value is not None}
         row = row.model_copy(update={"narrowed": row.narrowed.model_copy(update=gait)})

@@ -50,7 +50,8 @@ def _struck(files: Files, section: Any) -> tuple[Path, ...]:
 
 def _estimates(files: Files, section: Any) -> Mapping[str, tuple[Path, ...]]:
     """Return the estimates of the same recordings, by the methods of a section's detectors."""
-    own, test = files.robots.get(section.level, files), (files.settings.detection.collisions, section.level)
+    own = files.robots.get(section.level, files)
+    test = (files.settings.detection.collisions, section.level)
     return {method: tuple(run.estimate for run in own.runs(*test, [method])) for method in section.detectors}
 
 
@@ -74,7 +75,8 @@ def _label_error(files: Files, _: Any) -> Needs:
 def _coverage(files: Files, _: Any) -> Needs:
     """Return the first robot's training sets with random torques and without, its tests, and what the network sees."""
     sets = {"with RTE": "walk", "without RTE": "walk_plain"}
-    settings, (robot, own) = files.settings.evaluation.coverage, next(iter(files.robots.items()))
+    settings = files.settings.evaluation.coverage
+    (robot, own) = next(iter(files.robots.items()))
     return {
         "training": {label: own.training("recordings", name) for label, name in sets.items()},
         "tests": tuple(own.tests(test.scenario, robot) for test in settings.tests),
@@ -93,7 +95,8 @@ def _folders_of_figure_17(files: Files) -> tuple[Path, ...]:
 
 def _folders_of_kinds(files: Files) -> tuple[Path, ...]:
     """Return the trained networks of Figure 17, then those of the variants that the table of kinds shows."""
-    figure, table = files.settings.evaluation.figure_17, files.settings.evaluation.kinds
+    figure = files.settings.evaluation.figure_17
+    table = files.settings.evaluation.kinds
     return *_folders_of_figure_17(files), *files.network_folders(table.variants, figure.limb, table.level)
 
 
@@ -120,7 +123,8 @@ def _hourly(files: Files, section: Any) -> Needs:
 
 def _latency(files: Files, section: Any) -> Needs:
     """Return the first trained network of each limb of the method whose time is looked at."""
-    method, limbs = section.method, files.catalogue.method(section.method).limbs
+    method = section.method
+    limbs = files.catalogue.method(section.method).limbs
     return {"networks": {limb: files.network(method, limb, files.network_seeds(method)[0]) for limb in limbs}}
 
 

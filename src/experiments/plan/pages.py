@@ -10,11 +10,13 @@ from mobnet.settings.data import Push
 def explore_needs(files: Files) -> dict[str, object]:
     """Return the scenes of the page by name, that of the story first, and what its detector said of the collisions."""
     evaluation = files.settings.evaluation
-    story, page = evaluation.story, evaluation.explore
+    story = evaluation.story
+    page = evaluation.explore
     methods = (*story.methods, *page.story.further)
     runs = files.first_runs(Runs(scenario=story.scenario, level=story.level, methods=methods))
     limb = next(name for name, joints in files.settings.layout.groups.items() if story.joint in joints)
-    told, pushes = page.story, _pushes(files, story.scenario)
+    told = page.story
+    pushes = _pushes(files, story.scenario)
     first = PageScene(told.push, told.plant, runs, (limb,), story.joint, told.threshold_nm, pushes, story.push)
     scenes = {"story": first}
     for name, row in page.scenes.items():

@@ -62,11 +62,14 @@ class Plan:
 def make_plan(settings: Settings, *, with_pdf: bool) -> Plan:
     """Return the plan of the chosen scale; without TeX there is no PDF of the paper."""
     scale = settings.scale
-    results, part = Path("results") / scale, "" if scale == MAIN else scale
+    results = Path("results") / scale
+    part = "" if scale == MAIN else scale
     paper, manifest = (Path("paper"), results.parent) if scale == MAIN else (results / "paper", results)
     folders = Folders(results, Path("tables") / part, Path("figures") / part, paper, manifest / "MANIFEST.sha256")
     files = Files(Catalogue(settings), results)
-    steps, trials, films = tuple(all_steps(files)), tuple(trial_products(files)), tuple(film_products(files))
+    steps = tuple(all_steps(files))
+    trials = tuple(trial_products(files))
+    films = tuple(film_products(files))
     docs = tuple(documentation(files))
     products = Products(settings, files, folders, with_pdf, tuple(name for step in steps for name in step.outputs))
     return Plan(settings, folders, files, steps, tuple(products.all()), tuple(trial_steps(files)), trials, films, docs)

@@ -137,9 +137,12 @@ class Products:
 
     def _pictures(self) -> Product:
         """Return the drawings of method and robot, and the film of a push where there is a robot with detectors."""
-        figures, evaluation, detections = self.folders.figures, self.settings.evaluation, all_detections(self.files)
+        figures = self.folders.figures
+        evaluation = self.settings.evaluation
+        detections = all_detections(self.files)
         story = evaluation.story
-        is_told, test = story.level in detections, Runs(**story.model_dump(include=set(Runs.model_fields)))
+        is_told = story.level in detections
+        test = Runs(**story.model_dump(include=set(Runs.model_fields)))
         needs: dict[str, object] = {
             "film": evaluation.push_film,
             **{name: getattr(evaluation, name) for name in ("drawings", "story", "peaks")},
@@ -161,7 +164,8 @@ class Products:
 
     def _texts(self) -> Iterator[Product]:
         """Yield numbers and tables that the paper takes, pages of trainings and pushes, and the stored push."""
-        tables, results = self.folders.tables, self.folders.results
+        tables = self.folders.tables
+        results = self.folders.results
         csvs = [tables / f"{name}.csv" for name in self.settings.evaluation.tables]
         made = [tables / f"{name}.{ending}" for name in MAIN_TABLES for ending in TABLE]
         numbers = {
@@ -192,7 +196,9 @@ class Products:
 
     def _report(self, made: list[Product]) -> Iterator[Product]:
         """Yield what looks at all other products: compute, the paper, the pages of the report and the manifest."""
-        tables, results, paper = self.folders.tables, self.folders.results, self.folders.paper
+        tables = self.folders.tables
+        results = self.folders.results
+        paper = self.folders.paper
         outputs = [Path(name) for product in made for name in product.outputs if product.name != "wandb_runs"]
         accounts = {"accounts": results / "logs", "after": [*map(Path, self.stored), *outputs]}
         compute = [results / f"compute.{ending}" for ending in TABLE]
@@ -266,7 +272,8 @@ class Products:
         A section may name the table of the paper whose numbers it shows.
         The chosen scale may replace the start of a gait cycle [s] that the section names.
         """
-        evaluation, published = self.settings.evaluation, self.settings.published
+        evaluation = self.settings.evaluation
+        published = self.settings.published
         section = {**evaluation.tables, **evaluation.figures}.get(name) or getattr(evaluation, name, None)
         printed = published.tables.get(getattr(section, "table", name)) or getattr(published, name, None)
         shortened = self.settings.sizes.figure_start_s

@@ -14,7 +14,8 @@ Reactions = Mapping[str, Mapping[str, Path]]  # level of a robot -> case -> file
 
 def cases_of_jobs(files: Files) -> dict[str, tuple[str, ...]]:
     """Return job -> its cases: those that compare several detectors with ours have one each, the others share one."""
-    reaction, cases = files.settings.reaction, files.settings.reaction.cases
+    reaction = files.settings.reaction
+    cases = files.settings.reaction.cases
     detectors = {case: {watch.detector for watch in watches_of(reaction, case)} for case in cases}
     own = {case: (case,) for case in cases if len(detectors[case] - {reaction.ours.detector}) > 1}
     others = tuple(case for case in cases if case not in own)
@@ -23,7 +24,8 @@ def cases_of_jobs(files: Files) -> dict[str, tuple[str, ...]]:
 
 def methods_of(files: Files, cases: Iterable[str]) -> tuple[str, ...]:
     """Return the methods that run in some cases: that in the loop, and those of detectors."""
-    reaction, detectors = files.settings.reaction, files.settings.detection.detectors
+    reaction = files.settings.reaction
+    detectors = files.settings.detection.detectors
     names = [watch.detector for case in cases for watch in watches_of(reaction, case)]
     return tuple(dict.fromkeys([reaction.estimator, *(detectors[name].method for name in names if name in detectors)]))
 
@@ -42,7 +44,8 @@ def is_pushed(files: Files, case: str) -> bool:
 
 def walks_in(files: Files, case: str) -> float:
     """Return how many walks a robot makes in a case, in walks as long as those into obstacles."""
-    sizes, usual_s = sizes_of(files, case), files.settings.sizes.reactions.pushed.longest_s
+    sizes = sizes_of(files, case)
+    usual_s = files.settings.sizes.reactions.pushed.longest_s
     walks = sizes.runs + min(sizes.compared, sizes.runs) * (len(watches_of(files.settings.reaction, case)) - 1)
     return walks * sizes.longest_s / usual_s
 

@@ -13,7 +13,8 @@ from mobnet.settings.data import Recordings
 
 # Recordings and motions of development and of training count from these seeds; those of tests, from their scale's
 # `first_seed`, lie below.
-FIRST_DEVELOPMENT_SEED, FIRST_TRAINING_SEED = 501, 1000
+FIRST_DEVELOPMENT_SEED = 501
+FIRST_TRAINING_SEED = 1000
 
 
 @dataclass(frozen=True)
@@ -69,7 +70,8 @@ class Seeds:
 
     def duration_s(self, scenarios: Iterable[str], seed: int) -> float:
         """Return the duration of the recordings with a seed [s]; of several scenarios, the longest."""
-        wanted, sets = list(scenarios), self.settings.training_sets
+        wanted = list(scenarios)
+        sets = self.settings.training_sets
         if seed < FIRST_DEVELOPMENT_SEED:
             return max(self.settings.test_s(name) for name in wanted)
         if seed < FIRST_TRAINING_SEED:

@@ -100,14 +100,16 @@ def _walks(files: Files, recorded: Iterable[Place]) -> Iterator[Step]:
 
 def _falls(files: Files, seed: int) -> Step:
     """Return the count of a robot's falls in the trial of random torques."""
-    trial, account = files.settings.trials.random_torque, _account("falls", files, "all")
+    trial = files.settings.trials.random_torque
+    account = _account("falls", files, "all")
     work = Work(account, "collect", {"surrogate s": trial.walked_s * len(trial.amplitudes_nm)}, 0.0)
     return Step(work, (str(files.falls),), partial(Jobs(files).falls, seed))
 
 
 def _fit(files: Files, method: str) -> Step:
     """Return the fit of a method."""
-    account, job = _account("fit", files, method), partial(Jobs(files).fit, method)
+    account = _account("fit", files, method)
+    job = partial(Jobs(files).fit, method)
     return Step(Work(account, "fit", *fitted(files, method)), tuple(map(str, files.fit(method))), job)
 
 
@@ -115,7 +117,8 @@ def _trainings(files: Files, networks: Iterable[NetworkName]) -> Iterator[Step]:
     """Yield trainings: those of a step learn from one set of recordings, those on the same data one after another."""
 
     def learns(name: NetworkName) -> tuple[str, ...]:
-        training, row = files.catalogue.training(name.method, name.limb), files.catalogue.method(name.method)
+        training = files.catalogue.training(name.method, name.limb)
+        row = files.catalogue.method(name.method)
         learning = training.learning
         together = training.network.data, learning.labels, row.of or "", row.start or ""
         return *together, name.limb, training.target, str(learning.data_s)
@@ -180,11 +183,13 @@ def _both(arrays: Iterable[Path]) -> tuple[str, ...]:
 
 def _parts(items: Sequence[Item], size: Callable[[Item], float], most: float) -> Iterator[list[Item]]:
     """Yield items in order, so many together that their sizes add up to at most `most`; a larger one stands alone."""
-    part, held = list[Item](), 0.0
+    part = list[Item]()
+    held = 0.0
     for item in items:
         if part and held + size(item) > most:
             yield part
-            part, held = [], 0.0
+            part = []
+            held = 0.0
         part.append(item)
         held += size(item)
     yield part

@@ -24,7 +24,8 @@ def trial_products(files: Files) -> Iterator[Product]:
         tables[name] = [*(one for task in tasks for one in references(*given, task)), *trials]
     for name, trials in tables.items():
         yield _product(files, files.results / "trials" / name, trials)
-    counted, out = tuple(own.falls for own in files.robots.values()), files.results / "trials" / "random_torque"
+    counted = tuple(own.falls for own in files.robots.values())
+    out = files.results / "trials" / "random_torque"
     arguments = {"counted": counted, "statistics": settings.evaluation.statistics, "out": out}
     job = Job(Call("experiments.evaluation.tables.further.falls:falls", arguments), tuple(map(str, counted)))
     yield _table(out, job)

@@ -48,13 +48,16 @@ def walked(files: Files, scenario: str, seeds: Sequence[int]) -> tuple[Amounts, 
 def trained(files: Files, networks: Sequence[NetworkName]) -> tuple[Amounts, float]:
     """Return the work of trainings one after another, and the most numbers of training data that one of them holds."""
     rate_hz = files.settings.rates.data_hz
-    found, held = list[Amounts](), list[float]()
+    found = list[Amounts]()
+    held = list[float]()
     for name in networks:
         training = files.catalogue.training(name.method, name.limb)
-        network, hidden = training.network, training.network.hidden or 0
+        network = training.network
+        hidden = training.network.hidden or 0
         ways = {"windows": training.learning.sequences == "windows", "spectral": network.spectral}
         cell = " ".join([network.cell, *(way for way, is_so in ways.items() if is_so)])
-        steps, read = steps_of(files, name), training_s(files, network.data)
+        steps = steps_of(files, name)
+        read = training_s(files, network.data)
         grown = {"step": steps, "step x unit": steps * hidden, "step x unit^2": steps * hidden**2}
         found.append({SECONDS: read, "network": 1.0, **{f"{cell} {name}": amount for name, amount in grown.items()}})
         held.append(read * rate_hz * _width(files, network))
@@ -72,7 +75,8 @@ def steps_of(files: Files, name: NetworkName) -> float:
 
 def estimated(files: Files, scenario: str, level: str) -> tuple[Amounts, float]:
     """Return the work of all methods of a test at a level, and the seconds [s] that run side by side."""
-    catalogue, seconds = files.catalogue, files.settings.test_s(scenario)
+    catalogue = files.catalogue
+    seconds = files.settings.test_s(scenario)
     whole = seconds * len(files.test_seeds)
     found: list[Mapping[str, float]] = [{SECONDS: whole}]
     for method in catalogue.tests[scenario][level]:

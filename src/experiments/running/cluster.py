@@ -29,7 +29,8 @@ class Limit(NamedTuple):
     unit: str
 
 
-MEMORY, TIME = Limit("mem_mb", "ended by SLURM above its", "MB"), Limit("runtime", "ended by SLURM after its", "min")
+MEMORY = Limit("mem_mb", "ended by SLURM above its", "MB")
+TIME = Limit("runtime", "ended by SLURM after its", "min")
 LIMITS = {"memory limit": MEMORY, "oom_kill": MEMORY, "oom-kill": MEMORY, "TIME LIMIT": TIME}  # by SLURM's words
 LIMITED = tuple(dict.fromkeys(limit.resource for limit in LIMITS.values()))
 Had = Mapping[str, Mapping[str, int]]  # rule -> resource -> what its jobs asked for

@@ -115,17 +115,22 @@ def fullest() -> str:
 def accounted(log_path: Path) -> Iterator[dict[str, str]]:
     """Write what happens meanwhile took beside a log; a job that is killed outright leaves no account."""
     stamps = dict[str, str]()
-    account, below = log_path.with_suffix(".json"), log_path.with_suffix("").parts
+    account = log_path.with_suffix(".json")
+    below = log_path.with_suffix("").parts
     with contextlib.suppress(OSError):
         account.unlink(missing_ok=True)
     made_by = commit()
     name = "/".join(below[below.index(LOGS) + 1 :] if LOGS in below else below[-1:])
-    start_s, begin, used_s, succeeded = time.time(), time.monotonic(), cpu_s(), False
+    start_s = time.time()
+    begin = time.monotonic()
+    used_s = cpu_s()
+    succeeded = False
     try:
         yield stamps
         succeeded = True
     finally:
-        wall_s, used_s = time.monotonic() - begin, cpu_s() - used_s
+        wall_s = time.monotonic() - begin
+        used_s = cpu_s() - used_s
         told = Account(name, start_s, time.time(), wall_s, used_s, peak_mib(), succeeded, made_by, stamps)
         rounded = {key: round(value, 3) for key, value in asdict(told).items() if isinstance(value, float)}
         with contextlib.suppress(DataError):  # on a full disk

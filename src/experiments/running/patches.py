@@ -12,7 +12,8 @@ from typing import Any, TextIO, cast
 import yaml
 
 VERSIONS = {"snakemake": "9.27.1", "yte": "1.9.4"}
-USE_CODE, HEAD = "__use_yte__", "Job stats:"
+USE_CODE = "__use_yte__"
+HEAD = "Job stats:"
 
 
 def refuse_code() -> None:

@@ -57,7 +57,8 @@ def stop(root: Path, number: int, *, alone: bool) -> None:
     Files appear whole or not at all, so that nothing is lost by killing, and no job has time to tell a fault.
     """
     signal.signal(number, signal.SIG_IGN)
-    terminal, nowhere = os.dup(sys.stderr.fileno()), os.open(os.devnull, os.O_WRONLY)
+    terminal = os.dup(sys.stderr.fileno())
+    nowhere = os.open(os.devnull, os.O_WRONLY)
     for stream in (sys.stdout, sys.stderr):
         os.dup2(nowhere, stream.fileno())
     kill_children()

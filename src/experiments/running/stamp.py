@@ -16,7 +16,8 @@ from mobnet.core.code import SHORT
 from mobnet.core.errors import DataError
 from mobnet.core.files import METRICS, RUN, WEIGHTS, read_json, write_json
 
-NOTE, KEY = ".json", "stamp"
+NOTE = ".json"
+KEY = "stamp"
 
 
 @dataclass(frozen=True)

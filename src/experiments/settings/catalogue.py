@@ -136,7 +136,8 @@ class Catalogue:
 
         A method with networks estimates those joints of the test's limbs that they predict, any other method all.
         """
-        layout, networks = self.layout, self.settings.robot.networks
+        layout = self.layout
+        networks = self.settings.robot.networks
         limbs = self.method(self.network_source_of(method)).limbs
         known = layout.limbs(group for limb in limbs for group in networks[limb].joints) or layout.names
         held = layout.limbs(self.limbs.get(scenario, {}).get(level, layout.groups))
@@ -171,7 +172,8 @@ class Catalogue:
         if row.target is None:
             accepted = [name for name, other in self.all_methods.items() if other.target]
             raise ConfigError(not_accepted("method to train", method, accepted))
-        experiment, network = self.experiment(method, limb), self.network(method, limb)
+        experiment = self.experiment(method, limb)
+        network = self.network(method, limb)
         return Training(
             method=method,
             limb=limb,
@@ -186,6 +188,7 @@ class Catalogue:
 
 def _swept(base: Method, sweep: Sweep, key: str, value: int) -> Method:
     """Return a method with a sweep's limb, experiment and changed key."""
-    network, learning = {**base.network, "experiment": sweep.experiment}, dict(base.learning)
+    network = {**base.network, "experiment": sweep.experiment}
+    learning = dict(base.learning)
     (network if sweep.section == "network" else learning)[key] = value
     return base.model_copy(update={"limbs": (sweep.limb,), "network": network, "learning": learning})

@@ -104,10 +104,8 @@ def _spelt_number(entry: Any) -> Any:
     if not isinstance(shared, Mapping) or not isinstance(typed, list):
         return entry
     cells: list[Any] = [_spelt_cell(cell) for cell in cast("list[Any]", typed)]
-    rest, shared_keys = (
-        {key: value for key, value in mapping(entry).items() if key != "at"},
-        mapping(cast("Any", shared)),
-    )
+    rest = {key: value for key, value in mapping(entry).items() if key != "at"}
+    shared_keys = mapping(cast("Any", shared))
     return {**rest, "cells": [{**shared_keys, **cell} if mapping(cell) else cell for cell in cells]}
 
 
@@ -136,7 +134,8 @@ def place_of(place: Place, claims: Mapping[str, Any]) -> Place:
     for key in before[1:]:
         entry = entry[key]
     index, key, *rest = place[len(before) + 1 :]
-    cell, shared = entry["cells"][index], mapping(entry.get("at"))
+    cell = entry["cells"][index]
+    shared = mapping(entry.get("at"))
     if isinstance(cell, list) and key in SHORT_CELL:
         return (*before, "cells", index, SHORT_CELL.index(str(key)))
     typed = _spelt_cell(cell)

@@ -13,7 +13,8 @@ FIRST_SEED = 101  # of the networks of the fleet's robots, one for each; all oth
 def as_robot(catalogue: Catalogue, robot: str) -> Catalogue:
     """Return the configuration of a robot of the fleet: its tests, training sets and experiments, and its variants."""
     settings = catalogue.settings
-    fleet, index = settings.fleet, settings.fleet.robots.index(robot)
+    fleet = settings.fleet
+    index = settings.fleet.robots.index(robot)
     following = fleet.robots[(index + 1) % len(fleet.robots)]
     levels = {
         fleet.level_of(robot, name): varied(settings.levels[following if row.other else robot], row)
@@ -60,6 +61,7 @@ def _own(fleet: Fleet, named: ByTest, robot: str) -> ByTest:
     for scenario, rows in named.items():
         for name in (*fleet.levels, robot):
             if name in rows:
-                own, level = found.setdefault(scenario, {}), fleet.level_of(robot, name)
+                own = found.setdefault(scenario, {})
+                level = fleet.level_of(robot, name)
                 own[level] = tuple(dict.fromkeys([*own.get(level, ()), *rows[name]]))
     return found

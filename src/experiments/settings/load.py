@@ -119,7 +119,8 @@ def _read(folder: Path) -> tuple[list[Document], dict[str, Document], list[str]]
     if not folder.is_dir():
         raise ConfigError(f"{folder / 'config.yaml'}: file is missing; accepted: a folder with {', '.join(PARTS)}.yaml")
     documents = [Document(folder / f"{part}.yaml") for part in PARTS]
-    files, faults = dict[str, Document](), list[str]()
+    files = dict[str, Document]()
+    faults = list[str]()
     for document in documents:
         for section in document.values:
             if section in files:

@@ -75,7 +75,8 @@ def adapt_foothold(par: WalkingParameters, s: State, ankle: Array, dt: float, wo
         return
     to_yaw_frame(s.error, s.stance_yaw, work)
     growth = 1.0 / decay(s.omega, remaining)  # of the error until the step ends, (W16)
-    band, most = par.foothold_band_m, par.foothold_change_max_m
+    band = par.foothold_band_m
+    most = par.foothold_change_max_m
     change_x = clip(dead(work[0], band[0]) * growth, -most[0], most[0])
     change_y = clip(dead(work[1], band[1]) * growth, -most[1], most[1])
     for i in range(2):

@@ -21,14 +21,19 @@ def update_base(walker: Walker, acc_base_in_base: Array, dt: float, q: Array, v:
     The walker's pose is of the sensed state before this tick of dt [s]; `acc_base_in_base` is the IMU's specific force
     (3,) [m/s^2].
     """
-    pose, par = walker.pose, walker.par
-    acceleration, velocity, arm, slip = vector3(), vector3(), vector3(), vector3()
+    pose = walker.pose
+    par = walker.par
+    acceleration = vector3()
+    velocity = vector3()
+    arm = vector3()
+    slip = vector3()
     rotate(pose.rotation[0], acc_base_in_base, acceleration)
     acceleration[2] -= walker.gravity
     slip[0] = slip[1] = slip[2] = 0.0
     weights = 0.0
     for k in range(2):
-        foot, speed2 = walker.feet[k], 0.0
+        foot = walker.feet[k]
+        speed2 = 0.0
         rotate(pose.rotation[foot], walker.sole, arm)
         cross(pose.omega[foot], arm, velocity)
         for i in range(3):

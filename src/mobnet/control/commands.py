@@ -33,7 +33,9 @@ def random_commands(settings: Commands, rng: np.random.Generator, steps: int) ->
     """
     law = settings.random
     slew = np.array([law.slew_step_x_m, law.slew_step_y_m, np.deg2rad(law.slew_turn_deg)])
-    rows, goal, left = np.zeros((steps, WIDTH)), np.zeros(WIDTH), 0
+    rows = np.zeros((steps, WIDTH))
+    goal = np.zeros(WIDTH)
+    left = 0
     current = np.zeros(DURATION)
     for k in range(steps):
         if left == 0:
@@ -76,5 +78,6 @@ def _draw_goal(settings: Commands, rng: np.random.Generator) -> Array:
     drawn = np.where(rng.random(DURATION) < law.edge_probability, edges, drawn)
     goal = np.zeros(WIDTH)
     goal[:DURATION] = np.where(MOVING[kind], drawn, 0.0)
-    goal[DURATION], goal[FOOT_HEIGHT] = rng.choice(settings.duration_s), rng.choice(settings.foot_height_m)
+    goal[DURATION] = rng.choice(settings.duration_s)
+    goal[FOOT_HEIGHT] = rng.choice(settings.foot_height_m)
     return goal

@@ -22,22 +22,30 @@ def decay(omega: float, time: float) -> float:
 @compiled
 def plan_steps(par: WalkingParameters, s: State, ankle: Array) -> None:
     """Fill next_ankle, next_yaw, plan and dcm_end for the footholds after the stance ankle (3,) [m], (W5) to (W8)."""
-    x, y, yaw, side = ankle[0], ankle[1], s.stance_yaw, s.side
+    x = ankle[0]
+    y = ankle[1]
+    yaw = s.stance_yaw
+    side = s.side
     for k in range(5):
-        c, n = np.cos(yaw), np.sin(yaw)
+        c = np.cos(yaw)
+        n = np.sin(yaw)
         # (W6): the middle of the sole lies before the ankle.
-        s.plan[k, 0], s.plan[k, 1] = x + c * par.zmp_offset_x_m, y + n * par.zmp_offset_x_m
+        s.plan[k, 0] = x + c * par.zmp_offset_x_m
+        s.plan[k, 1] = y + n * par.zmp_offset_x_m
         # (W5): only the outer foot steps sideways, so that the feet never cross.
         sideways = s.command[STEP_Y] if s.command[STEP_Y] * side < 0.0 else 0.0
         forward, left = s.command[STEP_X], -side * par.foot_spacing_m + sideways
         turn = s.command[TURN]
         if turn * side > 0.0:  # the swing foot turns inwards
             turn = clip(turn, -par.toe_in_max_rad, par.toe_in_max_rad)
-        x, y = x + c * forward - n * left, y + n * forward + c * left
+        x = x + c * forward - n * left
+        y = y + n * forward + c * left
         yaw += turn
         side = -side
         if k == 0:
-            s.next_ankle[0], s.next_ankle[1], s.next_yaw = x, y, yaw
+            s.next_ankle[0] = x
+            s.next_ankle[1] = y
+            s.next_yaw = yaw
     # (W8): the guess that ends the plan is forgotten within three steps.
     factor = decay(s.omega, s.commanded)
     for i in range(2):
@@ -60,7 +68,8 @@ def reference(s: State, double_support: float) -> None:
     waited = decay(s.omega, -s.t)
     remaining = decay(s.omega, double_support - max(s.t, 0.0))
     for i in range(2):
-        first, old = s.plan[0, i], s.zmp_old[i]
+        first = s.plan[0, i]
+        old = s.zmp_old[i]
         s.zmp_nominal[i] = old + share * (first - old)  # (W9)
         offset = (s.dcm_end[i] - first) * after
         if s.t >= double_support:

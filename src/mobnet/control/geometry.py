@@ -53,17 +53,23 @@ def wrap(angle: float) -> float:
 @compiled
 def to_yaw_frame(vector: Array, yaw: float, out: Array) -> None:
     """Turn the xy part of a world vector (2+,) into the frame turned by yaw [rad]; out (2,)."""
-    c, s = np.cos(yaw), np.sin(yaw)
-    x, y = vector[0], vector[1]
-    out[0], out[1] = c * x + s * y, -s * x + c * y
+    c = np.cos(yaw)
+    s = np.sin(yaw)
+    x = vector[0]
+    y = vector[1]
+    out[0] = c * x + s * y
+    out[1] = -s * x + c * y
 
 
 @compiled
 def to_world(vector: Array, yaw: float, out: Array) -> None:
     """Turn an xy vector (2,) of the frame turned by yaw [rad] into the world; out (2,)."""
-    c, s = np.cos(yaw), np.sin(yaw)
-    x, y = vector[0], vector[1]
-    out[0], out[1] = c * x - s * y, s * x + c * y
+    c = np.cos(yaw)
+    s = np.sin(yaw)
+    x = vector[0]
+    y = vector[1]
+    out[0] = c * x - s * y
+    out[1] = s * x + c * y
 
 
 @compiled
@@ -102,30 +108,59 @@ def multiply(a: Array, b: Array, out: Array) -> None:
 @compiled
 def quaternion_to_matrix(quaternion: Array, out: Array) -> None:
     """Write the rotation matrix (3, 3) of a unit quaternion w x y z into out."""
-    w, x, y, z = quaternion[0], quaternion[1], quaternion[2], quaternion[3]
-    out[0, 0], out[0, 1], out[0, 2] = 1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)
-    out[1, 0], out[1, 1], out[1, 2] = 2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)
-    out[2, 0], out[2, 1], out[2, 2] = 2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)
+    w = quaternion[0]
+    x = quaternion[1]
+    y = quaternion[2]
+    z = quaternion[3]
+    out[0, 0] = 1 - 2 * (y * y + z * z)
+    out[0, 1] = 2 * (x * y - w * z)
+    out[0, 2] = 2 * (x * z + w * y)
+    out[1, 0] = 2 * (x * y + w * z)
+    out[1, 1] = 1 - 2 * (x * x + z * z)
+    out[1, 2] = 2 * (y * z - w * x)
+    out[2, 0] = 2 * (x * z - w * y)
+    out[2, 1] = 2 * (y * z + w * x)
+    out[2, 2] = 1 - 2 * (x * x + y * y)
 
 
 @compiled
 def axis_angle_to_matrix(axis: Array, angle: float, out: Array) -> None:
     """Write the rotation matrix (3, 3) about a unit axis (3,) by an angle [rad] into out (Rodrigues)."""
-    c, s = np.cos(angle), np.sin(angle)
-    x, y, z = axis[0], axis[1], axis[2]
+    c = np.cos(angle)
+    s = np.sin(angle)
+    x = axis[0]
+    y = axis[1]
+    z = axis[2]
     k = 1.0 - c
-    out[0, 0], out[0, 1], out[0, 2] = c + x * x * k, x * y * k - z * s, x * z * k + y * s
-    out[1, 0], out[1, 1], out[1, 2] = y * x * k + z * s, c + y * y * k, y * z * k - x * s
-    out[2, 0], out[2, 1], out[2, 2] = z * x * k - y * s, z * y * k + x * s, c + z * z * k
+    out[0, 0] = c + x * x * k
+    out[0, 1] = x * y * k - z * s
+    out[0, 2] = x * z * k + y * s
+    out[1, 0] = y * x * k + z * s
+    out[1, 1] = c + y * y * k
+    out[1, 2] = y * z * k - x * s
+    out[2, 0] = z * x * k - y * s
+    out[2, 1] = z * y * k + x * s
+    out[2, 2] = c + z * z * k
 
 
 @compiled
 def yaw_roll_pitch_matrix(yaw: float, roll: float, pitch: float, out: Array) -> None:
     """Write Rz(yaw) Ry(pitch) Rx(roll) (3, 3), angles [rad], into out."""
-    cy, sy, cr, sr, cp, sp = np.cos(yaw), np.sin(yaw), np.cos(roll), np.sin(roll), np.cos(pitch), np.sin(pitch)
-    out[0, 0], out[0, 1], out[0, 2] = cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr
-    out[1, 0], out[1, 1], out[1, 2] = sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr
-    out[2, 0], out[2, 1], out[2, 2] = -sp, cp * sr, cp * cr
+    cy = np.cos(yaw)
+    sy = np.sin(yaw)
+    cr = np.cos(roll)
+    sr = np.sin(roll)
+    cp = np.cos(pitch)
+    sp = np.sin(pitch)
+    out[0, 0] = cy * cp
+    out[0, 1] = cy * sp * sr - sy * cr
+    out[0, 2] = cy * sp * cr + sy * sr
+    out[1, 0] = sy * cp
+    out[1, 1] = sy * sp * sr + cy * cr
+    out[1, 2] = sy * sp * cr - cy * sr
+    out[2, 0] = -sp
+    out[2, 1] = cp * sr
+    out[2, 2] = cp * cr
 
 
 @compiled

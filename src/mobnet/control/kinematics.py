@@ -48,7 +48,9 @@ def tree_of(robot: RobotDescription, mass_ratio: float) -> Tree:
     bodies = robot.bodies
     index = {body.name: i for i, body in enumerate(bodies)}
     moved = np.array([index[joint.body] for joint in robot.joints], dtype=np.int64)
-    joint, turn, axis = np.full(len(bodies), -1), np.zeros((len(bodies), 3, 3)), np.zeros((len(bodies), 3))
+    joint = np.full(len(bodies), -1)
+    turn = np.zeros((len(bodies), 3, 3))
+    axis = np.zeros((len(bodies), 3))
     joint[moved], axis[moved] = np.arange(len(moved)), [joint.axis for joint in robot.joints]
     for i, body in enumerate(bodies):
         quaternion_to_matrix(np.asarray(body.quat) / np.linalg.norm(body.quat), turn[i])
@@ -67,7 +69,8 @@ def tree_of(robot: RobotDescription, mass_ratio: float) -> Tree:
 
 def empty_pose(tree: Tree) -> Pose:
     """Return a pose of zeros for the bodies and joints of a tree."""
-    nb, nu = len(tree.parent), len(tree.body_of_joint)
+    nb = len(tree.parent)
+    nu = len(tree.body_of_joint)
     vectors = [np.zeros((nb, 3)) for _ in range(4)]
     return Pose(
         np.zeros((nb, 3, 3)), vectors[0], vectors[1], vectors[2], np.zeros((nu, 3)), vectors[3], np.zeros(nb),
@@ -91,9 +94,13 @@ def update(tree: Tree, q: Array, v: Array, gravity_m_s2: float, pose: Pose) -> N
 @compiled
 def _chain(tree: Tree, q: Array, v: Array, pose: Pose) -> None:
     """Fill orientation, position and velocity of every body from those of its parent."""
-    fixed, turned, arm, swept = matrix3(), matrix3(), vector3(), vector3()
+    fixed = matrix3()
+    turned = matrix3()
+    arm = vector3()
+    swept = vector3()
     for b in range(1, len(tree.parent)):
-        parent, joint = tree.parent[b], int(tree.joint[b])
+        parent = tree.parent[b]
+        joint = int(tree.joint[b])
         rotate(pose.rotation[parent], tree.offset[b], arm)
         cross(pose.omega[parent], arm, swept)
         multiply(pose.rotation[parent], tree.turn[b], fixed)
@@ -119,7 +126,8 @@ def _centroid(tree: Tree, pose: Pose) -> None:
 
     `weight` and `moment` get each body's own mass and first moment, to which `_subtrees` adds those of its children.
     """
-    arm, swept = vector3(), vector3()
+    arm = vector3()
+    swept = vector3()
     total = 0.0
     pose.com[:] = 0.0
     pose.com_velocity[:] = 0.0
@@ -131,19 +139,23 @@ def _centroid(tree: Tree, pose: Pose) -> None:
         rotate(pose.rotation[b], tree.com[b], arm)
         cross(pose.omega[b], arm, swept)
         for i in range(3):
-            place, speed = pose.position[b, i] + arm[i], pose.velocity[b, i] + swept[i]
-            arm[i], swept[i] = place, speed
+            place = pose.position[b, i] + arm[i]
+            speed = pose.velocity[b, i] + swept[i]
+            arm[i] = place
+            swept[i] = speed
             pose.moment[b, i] = m * place
             pose.com[i] += m * place
             pose.com_velocity[i] += m * speed
         for i in range(3):
-            j, k = (i + 1) % 3, (i + 2) % 3
+            j = (i + 1) % 3
+            k = (i + 2) % 3
             pose.spin[i] += m * (arm[j] * swept[k] - arm[k] * swept[j]) + tree.inertia[b] * pose.omega[b, i]
     for i in range(3):
         pose.com[i] /= total
         pose.com_velocity[i] /= total
     for i in range(3):  # the sum above is about the world's origin
-        j, k = (i + 1) % 3, (i + 2) % 3
+        j = (i + 1) % 3
+        k = (i + 2) % 3
         pose.spin[i] -= total * (pose.com[j] * pose.com_velocity[k] - pose.com[k] * pose.com_velocity[j])
 
 
@@ -151,7 +163,8 @@ def _centroid(tree: Tree, pose: Pose) -> None:
 def _subtrees(tree: Tree, gravity_m_s2: float, pose: Pose) -> None:
     """Sum masses and first moments of subtrees from the leaves on and fill the gravity torque of every joint, (W40)."""
     for b in range(len(tree.parent) - 1, 0, -1):
-        parent, joint = tree.parent[b], tree.joint[b]
+        parent = tree.parent[b]
+        joint = tree.joint[b]
         pose.weight[parent] += pose.weight[b]
         for i in range(3):
             pose.moment[parent, i] += pose.moment[b, i]

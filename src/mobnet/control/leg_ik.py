@@ -49,21 +49,29 @@ def leg_ik(
     knee = np.arccos(min(max(cosine, -0.5), 0.9975))
     ankle_roll = np.arctan2(y, z)
     ankle_pitch = np.arctan2(-b * np.sin(knee), b + b * np.cos(knee)) - np.arctan2(x, np.hypot(y, z))
-    q[3], q[4], q[5] = knee, ankle_pitch, ankle_roll
+    q[3] = knee
+    q[4] = ankle_pitch
+    q[5] = ankle_roll
     _hip_angles(r_base, r_foot, knee + ankle_pitch, ankle_roll, q)
 
 
 @compiled
 def _hip_angles(r_base: Array, r_foot: Array, pitch: float, roll: float, q: Array) -> None:
     """Write hip yaw, roll and pitch [rad] into q[0:3] from C = R_base^T R_foot Rx(-roll) Ry(-pitch), (W38)."""
-    cr, sr, cp, sp = np.cos(roll), np.sin(roll), np.cos(pitch), np.sin(pitch)
+    cr = np.cos(roll)
+    sr = np.sin(roll)
+    cp = np.cos(pitch)
+    sp = np.sin(pitch)
     c = matrix3()
     for i in range(3):
         a0 = r_base[0, i] * r_foot[0, 0] + r_base[1, i] * r_foot[1, 0] + r_base[2, i] * r_foot[2, 0]
         a1 = r_base[0, i] * r_foot[0, 1] + r_base[1, i] * r_foot[1, 1] + r_base[2, i] * r_foot[2, 1]
         a2 = r_base[0, i] * r_foot[0, 2] + r_base[1, i] * r_foot[1, 2] + r_base[2, i] * r_foot[2, 2]
-        b1, b2 = cr * a1 - sr * a2, sr * a1 + cr * a2
-        c[i, 0], c[i, 1], c[i, 2] = cp * a0 + sp * b2, b1, -sp * a0 + cp * b2
+        b1 = cr * a1 - sr * a2
+        b2 = sr * a1 + cr * a2
+        c[i, 0] = cp * a0 + sp * b2
+        c[i, 1] = b1
+        c[i, 2] = -sp * a0 + cp * b2
     q[0] = np.arctan2(-c[0, 1], c[1, 1])
     q[1] = np.arcsin(min(max(c[2, 1], -1.0), 1.0))
     q[2] = np.arctan2(-c[2, 0], c[2, 2])

@@ -74,7 +74,8 @@ def share_weight(walker: Walker, s: State, stance: int, double_support: float) -
     share = clip(s.t / double_support, 0.0, 1.0)
     if s.standing == 1:
         share = s.load[stance]
-    s.load[stance], s.load[1 - stance] = share, 1.0 - share
+    s.load[stance] = share
+    s.load[1 - stance] = 1.0 - share
     s.stance_yaw = foot_yaw(pose, walker.feet[stance])
     s.sole_height = walker.sole[2]
     for k in range(2):
@@ -96,19 +97,23 @@ def reached_height(walker: Walker, s: State, stance: int) -> float:
     A leg reaches `leg_reach_m` from hip to ankle. That of the swing foot must do so when the step ends; the hip is then
     where the pendulum (W2) over the nominal ZMP brings it.
     """
-    pose, par = walker.pose, walker.par
+    pose = walker.pose
+    par = walker.par
     most = par.pelvis_height_m + s.sole_height
     least = most - par.pelvis_sink_max_m
     left = max(s.total - s.t, 0.0)
     grown = 1.0 / decay(s.omega, left)
     for k in range(2):
-        hip, ankle = pose.position[walker.tree.body_of_joint[walker.first[k]]], pose.position[walker.feet[k]]
-        away2, height = 0.0, ankle[2]
+        hip = pose.position[walker.tree.body_of_joint[walker.first[k]]]
+        ankle = pose.position[walker.feet[k]]
+        away2 = 0.0
+        height = ankle[2]
         if s.swinging == 1 and k != stance:
             height = pose.position[walker.feet[stance], 2]
             for i in range(2):
                 height += s.slope[i] * (s.target[i] - pose.position[walker.feet[stance], i])  # (W30)
-                start, speed = pose.com[i] - s.zmp_nominal[i], s.velocity[i] / s.omega
+                start = pose.com[i] - s.zmp_nominal[i]
+                speed = s.velocity[i] / s.omega
                 moved = 0.5 * ((start + speed) * grown + (start - speed) / grown) - start
                 away2 += (hip[i] + moved - s.target[i]) ** 2
         else:
@@ -142,15 +147,18 @@ def feel_slope(par: WalkingParameters, s: State, foot: Array, dt: float) -> None
 def stand_reference(walker: Walker, s: State, ankle: Array, other: Array, stance: int) -> None:
     """Fill the reference of a robot that stands on its ankles (3,) [m]: DCM over the middle of the feet, (W24)."""
     par = walker.par
-    offset_x, offset_y = np.cos(s.stance_yaw) * par.zmp_offset_x_m, np.sin(s.stance_yaw) * par.zmp_offset_x_m
+    offset_x = np.cos(s.stance_yaw) * par.zmp_offset_x_m
+    offset_y = np.sin(s.stance_yaw) * par.zmp_offset_x_m
     s.dcm_reference[0] = 0.5 * (ankle[0] + other[0]) + offset_x
     s.dcm_reference[1] = 0.5 * (ankle[1] + other[1]) + offset_y
-    along, span = 0.0, 0.0
+    along = 0.0
+    span = 0.0
     for i in range(2):
         apart = ankle[i] - other[i]
         along += par.dcm_gain * (s.dcm[i] - s.dcm_reference[i]) * apart
         span += apart * apart
     share = clip(0.5 + along / span, par.stand_load_min, 1.0 - par.stand_load_min)
-    s.load[stance], s.load[1 - stance] = share, 1.0 - share
+    s.load[stance] = share
+    s.load[1 - stance] = 1.0 - share
     for i in range(2):
         s.zmp_nominal[i] = s.dcm_reference[i] + (share - 0.5) * (ankle[i] - other[i])

@@ -29,7 +29,9 @@ def make_exploration(settings: RandomTorque, layout: JointLayout, present: bool)
     Raises:
         ConfigError: the amplitudes of an arm are not as many as its joints.
     """
-    legs_waist, arms, neck = settings.legs_waist_nm, settings.arms_nm, settings.neck_nm
+    legs_waist = settings.legs_waist_nm
+    arms = settings.arms_nm
+    neck = settings.neck_nm
     amplitude = np.zeros(layout.nu)
     for limb, bound in {"LL": legs_waist, "RL": legs_waist, "W": legs_waist, "LA": arms, "RA": arms, "N": neck}.items():
         joints = layout.limb(limb)

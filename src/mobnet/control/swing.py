@@ -43,7 +43,8 @@ def swing_foot(par: WalkingParameters, s: State, double_support: float, ground: 
     span = s.total - double_support
     u = (s.t - double_support) / span
     x = u / par.swing_xy_share  # reaches 1 before the swing ends: ground that is met early is met from above
-    share, slope = rise(x), rise_slope(x) / (par.swing_xy_share * span)
+    share = rise(x)
+    slope = rise_slope(x) / (par.swing_xy_share * span)
     for i in range(2):
         s.foot[i] = s.lift[i] + (s.target[i] - s.lift[i]) * share
         s.foot_velocity[i] = (s.target[i] - s.lift[i]) * slope + share * s.target_velocity[i]
@@ -53,7 +54,8 @@ def swing_foot(par: WalkingParameters, s: State, double_support: float, ground: 
     turn = wrap(s.next_yaw - s.lift_yaw)
     level = 1.0 - rise(x)
     yaw = s.lift_yaw + turn * rise(x)
-    c, n = np.cos(yaw), np.sin(yaw)
+    c = np.cos(yaw)
+    n = np.sin(yaw)
     roll = (s.slope[1] * c - s.slope[0] * n) * rise(x) + s.lift_roll * level
     pitch = -(s.slope[0] * c + s.slope[1] * n) * rise(x) + s.lift_pitch * level
     yaw_roll_pitch_matrix(yaw, roll, pitch, s.foot_rotation)

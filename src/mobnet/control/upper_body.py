@@ -26,15 +26,23 @@ def follow(upper: UpperBody, clock: float, q: Array, v: Array) -> None:
     if last < 1 or at <= 0.0 or at >= last:
         row = 0 if last < 1 or at <= 0.0 else last
         for j in range(len(q)):
-            q[j], v[j] = upper.knots[row, j], 0.0
+            q[j] = upper.knots[row, j]
+            v[j] = 0.0
         return
     k = int(at)
     x = at - k
-    before, after = max(k - 1, 0), min(k + 2, last)
-    h1, h2, h3 = x * x * (3.0 - 2.0 * x), x * (x - 1.0) * (x - 1.0), x * x * (x - 1.0)
-    d1, d2, d3 = 6.0 * x * (1.0 - x), (x - 1.0) * (3.0 * x - 1.0), x * (3.0 * x - 2.0)
+    before = max(k - 1, 0)
+    after = min(k + 2, last)
+    h1 = x * x * (3.0 - 2.0 * x)
+    h2 = x * (x - 1.0) * (x - 1.0)
+    h3 = x * x * (x - 1.0)
+    d1 = 6.0 * x * (1.0 - x)
+    d2 = (x - 1.0) * (3.0 * x - 1.0)
+    d3 = x * (3.0 * x - 2.0)
     for j in range(len(q)):
-        a, b = upper.knots[k, j], upper.knots[k + 1, j]
-        slope_a, slope_b = 0.5 * (b - upper.knots[before, j]), 0.5 * (upper.knots[after, j] - a)
+        a = upper.knots[k, j]
+        b = upper.knots[k + 1, j]
+        slope_a = 0.5 * (b - upper.knots[before, j])
+        slope_b = 0.5 * (upper.knots[after, j] - a)
         q[j] = a + (b - a) * h1 + slope_a * h2 + slope_b * h3
         v[j] = ((b - a) * d1 + slope_a * d2 + slope_b * d3) * upper.rate_hz

@@ -70,7 +70,8 @@ def foot_yaw(pose: Pose, foot: int) -> float:
 @compiled
 def vertical_force(walker: Walker, k: int) -> float:
     """Return the ground's vertical force on foot k (0 left, 1 right) [N], world axes."""
-    up, force = walker.pose.rotation[walker.feet[k], 2], walker.wrench[k]
+    up = walker.pose.rotation[walker.feet[k], 2]
+    force = walker.wrench[k]
     return up[0] * force[0] + up[1] * force[1] + up[2] * force[2]
 
 
@@ -80,7 +81,9 @@ def is_ground(walker: Walker, k: int) -> bool:
 
     An obstacle that stops the foot pushes it back harder than up.
     """
-    pose, force, sideways2 = walker.pose.rotation[walker.feet[k]], walker.wrench[k], 0.0
+    pose = walker.pose.rotation[walker.feet[k]]
+    force = walker.wrench[k]
+    sideways2 = 0.0
     up = vertical_force(walker, k)
     for i in range(2):
         sideways2 += (pose[i, 0] * force[0] + pose[i, 1] * force[1] + pose[i, 2] * force[2]) ** 2
@@ -93,6 +96,7 @@ def move_wrenches(walker: Walker, wrenches: Array) -> None:
     r = walker.sensor
     for k in range(2):
         for i in range(3):
-            j, n = (i + 1) % 3, (i + 2) % 3
+            j = (i + 1) % 3
+            n = (i + 2) % 3
             walker.wrench[k, i] = wrenches[k, i]
             walker.wrench[k, 3 + i] = wrenches[k, 3 + i] + r[j] * wrenches[k, n] - r[n] * wrenches[k, j]

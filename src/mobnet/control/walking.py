@@ -34,13 +34,15 @@ def walk(walker: Walker, s: State, q: Array, v: Array, wrenches: Array, commands
     q (nq,) and v (nv,) are the sensed position and velocity, wrenches (2, 6) [N, N m] the measured ones of the ground
     on the left, right foot about its sensor, foot axes; commands (n, 5) hold a row a step, of which the last repeats.
     """
-    par, pose = walker.par, walker.pose
+    par = walker.par
+    pose = walker.pose
     update(walker.tree, q, v, walker.gravity, pose)
     move_wrenches(walker, wrenches)
     s.t = s.t + dt if s.standing == 0 else 0.0
     touch_down(walker, s, commands)
     stance = 0 if s.side > 0 else 1
-    ankle, other = pose.position[walker.feet[stance]], pose.position[walker.feet[1 - stance]]
+    ankle = pose.position[walker.feet[stance]]
+    other = pose.position[walker.feet[1 - stance]]
     double_support = par.double_support_share * s.commanded
     share_weight(walker, s, stance, double_support)
     measure_dcm(par, s, pose, walker.gravity)
@@ -68,11 +70,13 @@ def walk(walker: Walker, s: State, q: Array, v: Array, wrenches: Array, commands
 @compiled
 def _torques(walker: Walker, s: State, stance: int, q: Array, v: Array, dt: float, tau: Array) -> None:
     """Write the desired torques tau (nu,) [N m] of legs and upper body; arguments as those of `walk`."""
-    par, pose = walker.par, walker.pose
+    par = walker.par
+    pose = walker.pose
     for j in range(len(tau)):
         tau[j] = pose.gravity[j]  # (W40)
     for k in range(2):
-        foot, point = walker.feet[k], walker.work
+        foot = walker.feet[k]
+        point = walker.work
         swings = s.swinging == 1 and k != stance
         leg_reference(walker, s, k, swings)
         if swings:

@@ -22,7 +22,11 @@ KNEE, ANKLE_PITCH, ANKLE_ROLL = 3, 4, 5  # joints of a leg
 @compiled
 def leg_jacobian(walker: Walker, k: int, out: Array) -> None:
     """Write the Jacobian (6, 6) of the ankle against the base: linear above angular rows, world axes, (W39)."""
-    pose, first, foot, arm, column = walker.pose, walker.first[k], walker.feet[k], vector3(), vector3()
+    pose = walker.pose
+    first = walker.first[k]
+    foot = walker.feet[k]
+    arm = vector3()
+    column = vector3()
     for j in range(LEG_JOINTS):
         body = walker.tree.body_of_joint[first + j]
         for i in range(3):
@@ -40,8 +44,13 @@ def leg_reference(walker: Walker, s: State, k: int, swings: bool) -> None:
     A swing leg brings its foot to the target, seen from the measured pelvis. A stance leg brings the pelvis to its
     level orientation, height and yaw over the measured foot; the pelvis' place in x and y is left to the pendulum.
     """
-    leg, pose, foot, side = walker.leg, walker.pose, walker.feet[k], LEFT_SIDE if k == 0 else RIGHT_SIDE
-    rates, arm, swept = s.v_reference[k], vector3(), vector3()
+    leg = walker.leg
+    pose = walker.pose
+    foot = walker.feet[k]
+    side = LEFT_SIDE if k == 0 else RIGHT_SIDE
+    rates = s.v_reference[k]
+    arm = vector3()
+    swept = vector3()
     if swings:
         leg_ik(leg, side, pose.rotation[0], pose.position[0], s.foot_rotation, s.foot, s.q_reference[k])
         for i in range(3):
@@ -52,7 +61,8 @@ def leg_reference(walker: Walker, s: State, k: int, swings: bool) -> None:
             rates[3 + i] = -pose.omega[0, i]
         rates[5] += s.foot_yaw_rate
     else:
-        level, base = matrix3(), vector3()
+        level = matrix3()
+        base = vector3()
         yaw_roll_pitch_matrix(s.yaw, 0.0, 0.0, level)
         base[0], base[1], base[2] = pose.position[0, 0], pose.position[0, 1], s.height
         leg_ik(leg, side, level, base, pose.rotation[foot], pose.position[foot], s.q_reference[k])
@@ -69,8 +79,12 @@ def leg_reference(walker: Walker, s: State, k: int, swings: bool) -> None:
 @compiled
 def stance_torque(walker: Walker, s: State, k: int, q: Array, v: Array, point: Array, dt: float, tau: Array) -> None:
     """Add the torques of a stance leg that the ground pushes at point (3,) [m] to tau (nu,) [N m], (W41) and (W42)."""
-    par, pose, first = walker.par, walker.pose, walker.first[k]
-    load, arm, force = s.load[k], vector3(), vector3()
+    par = walker.par
+    pose = walker.pose
+    first = walker.first[k]
+    load = s.load[k]
+    arm = vector3()
+    force = vector3()
     for i in range(3):
         force[i] = load * s.force[i]
     force[2] += par.load_gain * s.load_error[k]  # (W23)
@@ -80,7 +94,8 @@ def stance_torque(walker: Walker, s: State, k: int, q: Array, v: Array, point: A
         for i in range(3):
             arm[i] = point[i] - pose.position[body, i]
         push = triple(pose.axis[joint], arm, force)
-        error, rate = s.q_reference[k, j] - q[7 + joint], s.v_reference[k, j] - v[6 + joint]
+        error = s.q_reference[k, j] - q[7 + joint]
+        rate = s.v_reference[k, j] - v[6 + joint]
         # (W41): hip and knee keep the pelvis level; a leg without load is soft, or it would push when it lands early.
         # (W42): the ankle has no stiffness, so that the sole takes the ground's orientation.
         if j < ANKLE_PITCH:
@@ -99,17 +114,22 @@ def _ankle_correction(walker: Walker, s: State, k: int, which: int, push: float,
 
     The ankle's axis is pitch where `which` is 0, else roll; `push` is the wanted moment of the ground about it [N m].
     """
-    par, pose, foot = walker.par, walker.pose, walker.feet[k]
+    par = walker.par
+    pose = walker.pose
+    foot = walker.feet[k]
     rotation = pose.rotation[foot]
-    sin_roll, sin_pitch = rotation[2, 1], -rotation[2, 0]
+    sin_roll = rotation[2, 1]
+    sin_pitch = -rotation[2, 0]
     column = 1 if which == 0 else 0
     omega = 0.0
     for i in range(3):
         omega += rotation[i, column] * pose.omega[foot, i]
     yaw = np.arctan2(rotation[1, 0], rotation[0, 0])
-    c, n = np.cos(yaw), np.sin(yaw)
+    c = np.cos(yaw)
+    n = np.sin(yaw)
     # (W44): the tilt against the felt slope, on which a sole may lie flat.
-    x, y = s.slope[0], s.slope[1]
+    x = s.slope[0]
+    y = s.slope[1]
     tilt = sin_pitch + x * c + y * n if which == 0 else sin_roll - (y * c - x * n)
     measured = walker.wrench[k, 4] if which == 0 else walker.wrench[k, 3]
     # (W43): the integral makes up for friction. On a tilted foot, which stands on an edge, the moment no longer follows

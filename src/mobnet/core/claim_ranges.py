@@ -10,7 +10,8 @@ from typing import Protocol
 Bounds = tuple[float | None, float | None]  # closed, lower end first; None is no bound
 ANY: Bounds = (None, None)
 TWICE = 2.0
-LEAST_ALIKE, ALIKE = 1.1, 1.5
+LEAST_ALIKE = 1.1
+ALIKE = 1.5
 LEAST_EFFECT, MOST_EFFECT = 0.5, 1.5  # shares of an effect
 FIFTH = 0.2  # of all collisions
 

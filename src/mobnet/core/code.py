@@ -150,7 +150,8 @@ class Reader:
         if isinstance(node, ast.Raise) and isinstance(node.exc, ast.Call):
             node.exc = node.exc.func
         elif isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == not_accepted.__name__:
-            node.args, node.keywords = [], []
+            node.args = []
+            node.keywords = []
         elif isinstance(node, ast.Import):
             self.imports.update(alias.name for alias in node.names)
         elif isinstance(node, ast.ImportFrom):

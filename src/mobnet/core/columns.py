@@ -11,8 +11,14 @@ Column = tuple[str, str, str]  # name, unit, frame
 # Recordings, residuals and estimates: a column is `<signal>.<joint>`, of a foot `<signal>.<foot>`.
 FEET = ("left_foot", "right_foot")
 COMMAND = (("step_x", "m"), ("step_y", "m"), ("turn", "rad"), ("duration", "s"), ("foot_height", "m"))  # Table 2
-VELOCITY, DESIRED, MOTOR, SWING, CONTACT, PUSHED = "v", "tau_des", "tau_motor", "swing", "contact", "pushed"
-LANDING, PUSH = "landing", "push"
+VELOCITY = "v"
+DESIRED = "tau_des"
+MOTOR = "tau_motor"
+SWING = "swing"
+CONTACT = "contact"
+PUSHED = "pushed"
+LANDING = "landing"
+PUSH = "push"
 FORCE = (
     ("row", "-", "scenario"),
     *((f"force_{axis}", "N", "world") for axis in "xyz"),
@@ -33,7 +39,9 @@ def named(signal: str, names: Iterable[str]) -> list[str]:
 
 def recording_columns(layout: JointLayout) -> dict[str, list[Column]]:
     """Return field -> columns (name, unit, frame) of a stored recording, in file order; some fields may have none."""
-    actuated, xyz, wxyz = layout.actuated, "xyz" if layout.virtual else "", "wxyz" if layout.virtual else ""
+    actuated = layout.actuated
+    xyz = "xyz" if layout.virtual else ""
+    wxyz = "wxyz" if layout.virtual else ""
     feet = [foot for foot in FEET if foot.removesuffix("_foot") in layout.legs]
     wrench = [(f"{kind}_{axis}", unit) for kind, unit in (("force", "N"), ("moment", "N m")) for axis in "xyz"]
     base_v = [(f"v.base_{a}", "m/s", "world") for a in xyz] + [(f"v.omega_{a}", "rad/s", "base") for a in xyz]
@@ -189,7 +197,10 @@ HOURLY = ("event", "walks", "method", "hours", "count", "value", "low", "high", 
 CLAIMED = ("score", "outcome", "statements", "firsts", "claims")  # `firsts`: statements by their first claim alone
 # `outcome` of a count: a verdict, on both or on one of size and sign, all of them, or one of the next line, of what
 # fails and of what the paper prints a number of
-UNEXPLAINED, PRINTED, HELD, NEAR = "without a cause", "printed", "in our interval", "within a factor of 1.5"
+UNEXPLAINED = "without a cause"
+PRINTED = "printed"
+HELD = "in our interval"
+NEAR = "within a factor of 1.5"
 # Verdicts on the size and on the sign of a claim; both together, in the order in which they are shown: what counts
 # against us first
 INSIDE, OUTSIDE, OPEN = SIZE_VERDICTS = ("inside", "outside", "open")

@@ -115,4 +115,5 @@ def on_stack(*shape: int) -> Any:
     return room
 
 
-vector3, matrix3 = on_stack(3), on_stack(3, 3)
+vector3 = on_stack(3)
+matrix3 = on_stack(3, 3)

@@ -44,7 +44,8 @@ def _command(name: str, unit: str) -> Rule:
     return _within(LARGEST[name], unit, "stance foot")._replace(low=-LARGEST[name] if name in SIGNED else 0.0)
 
 
-FORCE, TORQUE = ("N", "world"), ("N m", "joint")
+FORCE = ("N", "world")
+TORQUE = ("N m", "joint")
 LARGEST = {"step_x": 2.0, "step_y": 2.0, "turn": np.pi, "duration": 60.0, "foot_height": 1.0}  # of a step's command
 PUSHES = 1000.0  # of a scenario, at most
 SIGNED = ("step_x", "step_y", "turn")  # the other numbers of a command are not below zero
@@ -113,7 +114,8 @@ class Values:
 
     def __init__(self, names: Sequence[str], layout: JointLayout | None = None, everywhere: bool = False) -> None:
         """Look at columns of these names; `everywhere` says that all rows are in segments, so that each std counts."""
-        self._names, self._rules = names, [rule_of(name, layout) for name in names]
+        self._names = names
+        self._rules = [rule_of(name, layout) for name in names]
         self._low = np.array([rule.low for rule in self._rules], dtype=np.float32)
         self._high = np.array([rule.high for rule in self._rules], dtype=np.float32)
         if everywhere:
@@ -143,7 +145,8 @@ class Values:
         """Keep the first fault of a column, if it is its first."""
         if k in self._found or good.all():
             return
-        row, rule = int(np.argmin(good)), self._rules[k]
+        row = int(np.argmin(good))
+        rule = self._rules[k]
         accepted = "finite numbers"
         if np.isfinite(column[row]) and abs(rule.high) < FINITE:
             unit = rule.places[0][0] if len(rule.places) == 1 else "N or N m"

@@ -10,7 +10,9 @@ from mobnet.core.columns import ESTIMATED, STD, Column, recording_columns, torqu
 from mobnet.core.joints import JointLayout
 from mobnet.core.store import read_array
 
-FORCE, POINT, BASE = ("obstacle.force", "N"), ("obstacle.point", "m"), ("true_base", "m")
+FORCE = ("obstacle.force", "N")
+POINT = ("obstacle.point", "m")
+BASE = ("true_base", "m")
 
 
 def course_columns(layout: JointLayout, joints: Sequence[str]) -> list[Column]:
@@ -57,7 +59,8 @@ def read_course(stem: Path, layout: JointLayout) -> StoredCourse:
     recorded = recording_columns(layout)
     signals = [recorded["q"], _in_world(FORCE), _in_world(POINT), recorded["swing"], _in_world(BASE)]
     array, note = read_array(stem, [name for columns in signals for name, *_ in columns])
-    parts, at = list[Array](), 0
+    parts = list[Array]()
+    at = 0
     for columns in signals:
         parts.append(array[:, at : at + len(columns)].astype("float64"))
         at += len(columns)

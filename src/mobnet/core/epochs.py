@@ -25,7 +25,8 @@ def read_epochs(path: Path) -> tuple[tuple[Epoch, ...], dict[str, tuple[float, .
 
 def _joint_errors(path: Path) -> dict[str, tuple[float, ...]]:
     """Return joint -> its error in each epoch (E,) [N, N m], as read_epochs does."""
-    faults, found = list[str](), dict[str, tuple[float, ...]]()
+    faults = list[str]()
+    found = dict[str, tuple[float, ...]]()
     lines = [*enumerate(read_texts(path), start=2)]
     for name in lines[0][1] if lines else ():
         if name.startswith(prefix := JOINT_ERROR.format("")):

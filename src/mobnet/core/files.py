@@ -35,7 +35,8 @@ def atomic_path(path: Path, size: int = 0) -> Iterator[Path]:
     Raises:
         DataError: the disk is full, or the place cannot be written to.
     """
-    temporary, handle = None, None
+    temporary = None
+    handle = None
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         handle, name = tempfile.mkstemp(prefix=PARTIAL, suffix=f".{path.name}", dir=path.parent)

@@ -33,11 +33,14 @@ class MotionCheck:
         self._q, self._v = ([where[f"{signal}.{joint}"] for joint in self._joints] for signal in "qv")
         self._quat = _places(where, QUATERNION)
         self._omega, self._acc = (_places(where, [f"{name}{axis}" for axis in "xyz"]) for name in ("v.omega_", "acc."))
-        self._segments, self._rate_hz = segments, rate_hz
+        self._segments = segments
+        self._rate_hz = rate_hz
         longest = max(end - start for start, end in segments)
         self._steps = min(max(1, round(WINDOW_S * rate_hz)), longest - 1)
-        self._turns, self._bodies = _Agreement(len(self._joints)), _Agreement(3)
-        self._gravity, self._samples = np.zeros(3), 0
+        self._turns = _Agreement(len(self._joints))
+        self._bodies = _Agreement(3)
+        self._gravity = np.zeros(3)
+        self._samples = 0
 
     def look(self, first: int, columns: NDArray[np.float32]) -> None:
         """Look at samples, (C, n), of which `first` is the number of the first."""
@@ -113,7 +116,8 @@ class _Agreement:
 
 def turn(before: Array, after: Array) -> Array:
     """Return the small turn between quaternions w x y z (4, K) as a vector (3, K) [rad], axes of the first."""
-    w, u = before[0] * after[0] + (before[1:] * after[1:]).sum(axis=0), -np.cross(before[1:], after[1:], axis=0)
+    w = before[0] * after[0] + (before[1:] * after[1:]).sum(axis=0)
+    u = -np.cross(before[1:], after[1:], axis=0)
     return 2.0 * np.sign(w) * (u + before[0] * after[1:] - after[0] * before[1:])
 
 

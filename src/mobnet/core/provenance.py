@@ -6,7 +6,8 @@ import subprocess
 
 from mobnet.core.code import LOCK, ROOT, SHORT
 
-UNKNOWN, CHANGED = "unknown", "-changed"
+UNKNOWN = "unknown"
+CHANGED = "-changed"
 
 
 def provenance() -> dict[str, str]:

@@ -13,7 +13,8 @@ from mobnet.core.errors import DataError, not_accepted, refuse, refuse_lines
 from mobnet.core.files import read_text
 
 Row = TypeVar("Row")
-WHOLE, REAL = re.compile(r"-?[0-9]+"), re.compile(r"-?[0-9]*\.?[0-9]+(e[-+]?[0-9]+)?", re.IGNORECASE)
+WHOLE = re.compile(r"-?[0-9]+")
+REAL = re.compile(r"-?[0-9]*\.?[0-9]+(e[-+]?[0-9]+)?", re.IGNORECASE)
 
 
 def csv_text(columns: Sequence[str], rows: Iterable[Sequence[object]]) -> str:
@@ -38,7 +39,8 @@ def read_rows(path: Path, kind: type[Row]) -> list[Row]:
         DataError: the file is missing or damaged, a column is missing or a field is not a finite number where one is
             due; one line for each.
     """
-    hints, faults = get_type_hints(kind), list[str]()
+    hints = get_type_hints(kind)
+    faults = list[str]()
     rows = read_texts(path, list(hints))
     columns = [_parsed(path, name, hint, [row[name] for row in rows], faults) for name, hint in hints.items()]
     refuse_lines(faults)

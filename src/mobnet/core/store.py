@@ -26,7 +26,8 @@ from mobnet.core.joints import JointLayout
 from mobnet.core.motion import MotionCheck
 from mobnet.core.notes import check_array_note, pair_differences, read_array_note
 
-ARRAY, NOTE = ".parquet", ".json"
+ARRAY = ".parquet"
+NOTE = ".json"
 # Note 0010 has the measurements behind these numbers.
 GROUP_ROWS = 60_000  # rows stored together, a minute at 1 kHz: writer and reader hold as many besides their result
 BLOCK_ROWS = 256  # rows transposed together: they fit into the processor's cache
@@ -58,7 +59,10 @@ class ArrayWriter:
     def __init__(self, stem: Path, columns: Sequence[Column], file: pq.ParquetWriter, descriptor: int) -> None:
         """Write columns (C,) into an open file, which also has a descriptor of the operating system."""
         self.rows = 0
-        self._stem, self._columns, self._file, self._descriptor = stem, columns, file, descriptor
+        self._stem = stem
+        self._columns = columns
+        self._file = file
+        self._descriptor = descriptor
         self._names = [name for name, _, _ in columns]
         self._note: dict[str, Any] = {}
         self._group = np.empty((len(columns), GROUP_ROWS), dtype=np.float32)
@@ -193,7 +197,8 @@ def read_pieces(
     path = file_of(stem, ARRAY)
     check_regular(path)
     whole = sum(end - start for start, end in note["segments"]) == note["rows"]
-    values, motion = Values(names, layout, whole), MotionCheck(names, note["segments"], note["rate_hz"])
+    values = Values(names, layout, whole)
+    motion = MotionCheck(names, note["segments"], note["rate_hz"])
     try:
         with pq.ParquetFile(path, page_checksum_verification=True, **STREAMED) as file:
             faults = [f"{stem}{NOTE}: {fault}" for fault in column_faults(note["columns"], layout)]
@@ -213,7 +218,8 @@ def read_pieces(
 
 def _pieces(file: pq.ParquetFile, names: Sequence[str]) -> Iterator[tuple[int, NDArray[np.float32]]]:
     """Yield the pieces of an open file: the first row, and columns (C, n), each overwritten by the next one."""
-    first, rows = 0, file.metadata.num_rows
+    first = 0
+    rows = file.metadata.num_rows
     piece = np.empty((len(names), min(rows, GROUP_ROWS)), dtype=np.float32)
     for batch in file.iter_batches(GROUP_ROWS, columns=list(names), use_threads=False):
         columns = piece[:, : batch.num_rows]
@@ -242,7 +248,8 @@ def footer_hash(path: Path) -> str:
     """
     with path.open("rb") as file:
         size = os.fstat(file.fileno()).st_size
-        head, tail = file.read(len(MAGIC)), os.pread(file.fileno(), 2 * len(MAGIC), max(size - 2 * len(MAGIC), 0))
+        head = file.read(len(MAGIC))
+        tail = os.pread(file.fileno(), 2 * len(MAGIC), max(size - 2 * len(MAGIC), 0))
         if head != MAGIC or tail[-len(MAGIC) :] != MAGIC:
             raise DataError(f"{path}: {not_accepted('first and last bytes', (head, tail[-len(MAGIC) :]), [MAGIC])}")
         length = int.from_bytes(tail[: len(MAGIC)], "little") + len(tail)
@@ -260,8 +267,10 @@ def _check_footer(stem: Path, note: Mapping[str, Any]) -> None:
 
 def _disagreements(file: pq.ParquetFile, stem: Path, note: Mapping[str, Any], names: Sequence[str]) -> Iterator[str]:
     """Yield where a file's columns are not what its note says, or lack what its reader expects."""
-    schema, held = file.schema_arrow, file.schema_arrow.names
-    shape, noted_shape = (file.metadata.num_rows, len(held)), (note["rows"], len(note["columns"]))
+    schema = file.schema_arrow
+    held = file.schema_arrow.names
+    shape = (file.metadata.num_rows, len(held))
+    noted_shape = (note["rows"], len(note["columns"]))
     if shape != noted_shape:
         apart = sorted(set(held) ^ {column["name"] for column in note["columns"]})
         named = f" (columns of one alone: {', '.join(apart[:3])})" if apart else ""

@@ -70,14 +70,16 @@ def always_watched(
         length = round(length_s * setup.rate_hz)
         return [windows_of(gate.watched, one.segments, length) for gate, one in zip(gates, read, strict=True)]
 
-    least, found = setup.detection.thresholds.least_swings, windows(window_s)
+    least = setup.detection.thresholds.least_swings
+    found = windows(window_s)
     if (count := sum(map(len, found))) < least:
         what = f"seconds of free motion, in windows of {window_s:g} s"
         raise DataError(not_accepted(what, round(count * window_s, 1), [f"{least * window_s:g} or more"]))
     while (is_alike := alike([largest(*pair) for pair in zip(low, found, strict=True)])) and (
         sum(map(len, longer := windows(2.0 * window_s))) >= least
     ):
-        window_s, found = 2.0 * window_s, longer
+        window_s = 2.0 * window_s
+        found = longer
     rows = zip(paths, read, gates, found, strict=True)
     limbs = tuple(
         LegRecording(path, one.segments, one.sensed.command, gate, spans, (UNKNOWN,) * len(spans), spans)
@@ -88,7 +90,8 @@ def always_watched(
 
 def always_on(rows: int, segments: Spans, settle_s: float, rate_hz: float) -> GateSignal:
     """Return a gate (T,) that is open but for the first part [s] of each contiguous segment."""
-    watched, settling = np.zeros(rows, dtype=bool), round(settle_s * rate_hz)
+    watched = np.zeros(rows, dtype=bool)
+    settling = round(settle_s * rate_hz)
     for start, end in segments:
         watched[start + settling : end] = True
     return GateSignal(watched, np.zeros(rows))
@@ -112,7 +115,8 @@ def alike(parts: Sequence[Array]) -> bool:
     # decide the correlation of the values themselves.
     mean = np.maximum(whole.mean(axis=0), TINY)
     logs = [np.log(np.maximum((part / mean).max(axis=1), TINY)) for part in parts if len(part)]
-    centre, spread = np.mean(np.concatenate(logs)), np.var(np.concatenate(logs))
+    centre = np.mean(np.concatenate(logs))
+    spread = np.var(np.concatenate(logs))
     pairs = np.concatenate([(own[:-1] - centre) * (own[1:] - centre) for own in logs])
     if not spread or not len(pairs):
         return False

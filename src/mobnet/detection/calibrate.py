@@ -109,9 +109,12 @@ def run(options: Namespace) -> list[str]:
         found = calibrate_limb(own, robot, limb, options.signal or MEAN, options.rate, settings)
         return list(report(found, settings.detection.thresholds.confidence))
     network = read_network_folder(options.network, robot.layout, settings) if options.network else None
-    limb, logs = limb_of(robot.layout, options.limb, network), read_folders(options, robot, network)
+    limb = limb_of(robot.layout, options.limb, network)
+    logs = read_folders(options, robot, network)
     tried = list(_tried(logs, robot, limb, network, options, settings))
-    alone, kept, told = next(one for one in tried if one.name == ALONE), tried[-1], list[str]()
+    alone = next(one for one in tried if one.name == ALONE)
+    kept = tried[-1]
+    told = list[str]()
     if len(tried) > 1 and kept.found.signal != STD:  # a push does not change what a network expects of its error
         total, counts = tried_on_pushes(tried, logs[0].sampling.gain_hz, settings)
         tried = [replace(one, pushes=count) for one, count in zip(tried, counts, strict=True)]

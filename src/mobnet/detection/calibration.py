@@ -192,7 +192,8 @@ def _slopes(setup: LegSetup, watched: Watched, walk: QuietWalk) -> Array:
 
 def _whitening(setup: LegSetup, walk: QuietWalk, signals: Sequence[Array]) -> Array:
     """Return the whitening (m, m) of signals behind the low-pass, where the leg is watched in calibrating swings."""
-    parts, left = list[Array](), walk.first
+    parts = list[Array]()
+    left = walk.first
     for one, own in zip(walk.legs, signals, strict=True):
         count = min(len(one.swings), left)
         end = one.swings[count - 1][1] if count else 0
@@ -215,7 +216,8 @@ def _heights(setup: LimbSetup, watched: Watched, walk: QuietWalk) -> Array:
     It is minus infinity where a swing is not watched.
     """
     # A threshold of 1 leaves signals as they are, and a chain of one signal does not mix them.
-    norm, phases = watched.whitening is not None, watched.detector.phases
+    norm = watched.whitening is not None
+    phases = watched.detector.phases
     whole = setup.chain(np.ones((1, 1)), norm=norm)
     found: list[Array] = []
     for one, signals in zip(walk.legs, walk.signals(watched), strict=True):

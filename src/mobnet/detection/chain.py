@@ -47,7 +47,9 @@ def advance_chain(chain: Chain, state: ChainState, signals: Array, is_watched: b
     """
     # The filter runs on the ground too: a state that began at the gate would hide the first 10 ms of a swing.
     parts, count = chain.thresholds.shape
-    part, row, total = min(int(phase * parts), parts - 1), state.place[0] % chain.hold, 0.0
+    part = min(int(phase * parts), parts - 1)
+    row = state.place[0] % chain.hold
+    total = 0.0
     state.place[0] += 1
     for k in range(len(signals)):
         state.low[k] = chain.pole * state.low[k] + (1.0 - chain.pole) * signals[k]

@@ -12,7 +12,9 @@ from mobnet.estimation.own import OwnNetwork
 from mobnet.robot.nominal import NominalModel
 from mobnet.settings.lab import Lab
 
-BARE, ALONE, NETWORK = "observer without the table's friction", "observer", "network, {}"
+BARE = "observer without the table's friction"
+ALONE = "observer"
+NETWORK = "network, {}"
 SEED = 0  # of the pushes
 
 
@@ -49,7 +51,8 @@ def tried_on_pushes(tried: Sequence[Tried], gain_hz: float, settings: Lab) -> tu
     for one in tried:
         watched = watched_signal(one.found.signal, settings)
         estimates = [Estimate(own.estimate.tau_ext, own.estimate.std) for own in one.own]
-        setup, limbs = one.found.setup, one.found.limbs
+        setup = one.found.setup
+        limbs = one.found.limbs
         hits = found_pushes(setup, watched, one.found.thresholds, limbs, estimates, planted)
         counts.append(int(np.count_nonzero(hits)))
     return sum(len(one.spans) for one in planted), counts

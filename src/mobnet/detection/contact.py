@@ -107,7 +107,8 @@ class ContactFinder:
         surface = self.surface
         probable = surface.patch.area * np.exp((cost.min() - cost) / 2.0)
         likely = np.argsort(-probable, kind="stable")[: self.settings.candidates]
-        share, solids = probable[likely] / probable[likely].sum(), surface.shape[likely]
+        share = probable[likely] / probable[likely].sum()
+        solids = surface.shape[likely]
         axes, origins = map(np.array, zip(*map(self._placed, surface.carriers), strict=True))
         places = (axes[solids] @ surface.patch.points[likely, :, None])[..., 0] + origins[solids]
         # The likeliest point alone would jump from one link to another when two explain the torques nearly as well.
@@ -137,9 +138,11 @@ class ContactFinder:
 
     def _covariance(self, std: Array, standing: Sequence[str]) -> Array:
         """Return the covariance (n, n) of what torques hold beside the contact: errors, and what the ground does."""
-        numbers, units = self.settings, [self.robot.layout.unit(joint) for joint in self.joints]
+        numbers = self.settings
+        units = [self.robot.layout.unit(joint) for joint in self.joints]
         floor = np.where(np.array(units) == "N", numbers.error_n, numbers.error_nm)
-        ground, found = np.repeat([numbers.ground_n, numbers.ground_nm], 3), np.diag(std**2 + floor**2)
+        ground = np.repeat([numbers.ground_n, numbers.ground_nm], 3)
+        found = np.diag(std**2 + floor**2)
         for body in standing:
             carried = self._jacobian(carried_by(self.robot, body)) * ground[:, None]
             found += carried.T @ carried
@@ -147,7 +150,8 @@ class ContactFinder:
 
     def _jacobian(self, carrier: Carrier) -> Array:
         """Return the Jacobian (6, n) of a link to the joints, in its axes and about its origin, at the pose."""
-        frame, data = pin.ReferenceFrame.LOCAL, self.nominal.data
+        frame = pin.ReferenceFrame.LOCAL
+        data = self.nominal.data
         whole = pin.getJointJacobian(self.nominal.model, data, self._joint(carrier), frame)
         return np.reshape(whole, (-1, self.nominal.model.nv))[:, self.robot.layout.columns(self.joints)]
 

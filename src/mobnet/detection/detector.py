@@ -58,7 +58,8 @@ class LegGate:
     def of(cls, numbers: settings.SwingGate, robot: RobotDescription, limb: str, rate_hz: float) -> "LegGate":
         """Return the gate of a leg at a rate of samples [Hz]; a ConfigError names a limb that is no leg."""
         # Recordings hold the signals of the feet that the robot has, in the order of FEET.
-        leg, sides = make_leg(robot, limb), {name: side for side, name in robot.layout.legs.items()}
+        leg = make_leg(robot, limb)
+        sides = {name: side for side, name in robot.layout.legs.items()}
         feet = [foot for foot in FEET if foot.removesuffix("_foot") in robot.layout.legs]
         return cls(make_gate(numbers, rate_hz), leg, feet.index(f"{sides[limb]}_foot"))
 
@@ -72,7 +73,8 @@ class LegGate:
     def run(self, sensed: Sensed, tau: NDArray[Any]) -> GateSignal:
         """Return the same of a contiguous stretch."""
         found = GateSignal(np.zeros(len(sensed), dtype=bool), np.zeros(len(sensed)))
-        q, torque = np.asarray(sensed.q, dtype=np.float64), np.ascontiguousarray(tau, dtype=np.float64)
+        q = np.asarray(sensed.q, dtype=np.float64)
+        torque = np.ascontiguousarray(tau, dtype=np.float64)
         swing, landing = (np.asarray(part[:, self.foot], dtype=np.float64) for part in (sensed.swing, sensed.landing))
         run_gate(self.gate, self.leg, gate_state(), q, torque, swing, landing, *found)
         return found
@@ -106,9 +108,12 @@ class LegDetector:
 
         The state is changed in place.
         """
-        foot, leg = self.gate.foot, self.gate
-        q, tau = np.asarray(sample.q, dtype=np.float64), np.asarray(gating, dtype=np.float64)
-        swing, landing = float(sample.swing[foot]), float(sample.landing[foot])
+        foot = self.gate.foot
+        leg = self.gate
+        q = np.asarray(sample.q, dtype=np.float64)
+        tau = np.asarray(gating, dtype=np.float64)
+        swing = float(sample.swing[foot])
+        landing = float(sample.landing[foot])
         # The gate has the estimate of one method for all detectors, so that they differ by their signals alone.
         is_watched = advance_gate(leg.gate, leg.leg, state.gate, q, tau, swing, landing)
         signals = self.watched.of(estimate, sample.command)

@@ -41,7 +41,8 @@ def make_gate(numbers: settings.SwingGate, rate_hz: float) -> Gate:
     # Lift-off is counted in samples and the landing in seconds, since the plan moves the landing within a swing.
     lift_off, hold = (max(1, round(time_s * rate_hz)) for time_s in (numbers.lift_off_s, numbers.contact_s))
     upright = float(np.cos(np.deg2rad(numbers.contact_deg)))
-    near, low = numbers.contact_landing_s, numbers.contact_height_m
+    near = numbers.contact_landing_s
+    low = numbers.contact_height_m
     return Gate(1.0 / rate_hz, lift_off, numbers.landing_s, near, low, numbers.contact_n, upright, hold)
 
 
@@ -72,7 +73,8 @@ def advance_gate(gate: Gate, leg: Leg, s: Any, q: Array, tau: Array, swing: floa
     # meet it; a hit on the shin can have such a force too, but comes higher and earlier. At a straight knee no single
     # wrench explains the torques, and such samples leave the count as it is.
     if landing < gate.near and foot_load(leg, q, tau):
-        up, size = leg.load[2], np.sqrt(leg.load[0] ** 2 + leg.load[1] ** 2 + leg.load[2] ** 2)
+        up = leg.load[2]
+        size = np.sqrt(leg.load[0] ** 2 + leg.load[1] ** 2 + leg.load[2] ** 2)
         is_ground = size > gate.force and up > gate.upright * size and sole_height(leg) < gate.low
         s.touching = s.touching + 1 if is_ground else 0
     # An early landing ends the swing, though the plan does not know yet: what follows is the ground, not a collision.

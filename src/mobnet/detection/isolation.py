@@ -27,7 +27,8 @@ def name_push(torque: NDArray[Any], units: Array, whitening: Array) -> IsolatedP
     """
     # (D10): least squares of one unknown, the force. Whitened, as an error of 5 N m says nothing at a hip that is wrong
     # by as much in every step, and everything at an ankle.
-    seen, expected = whitening @ torque, units @ whitening.T
+    seen = whitening @ torque
+    expected = units @ whitening.T
     sizes = np.maximum((expected**2).sum(axis=1), 1e-12)
     # A push cannot pull: the best force of a candidate that explains the torque with the wrong sign is zero.
     forces = np.maximum(expected @ seen / sizes, 0.0)

@@ -46,9 +46,11 @@ def make_leg(robot: RobotDescription, limb: str) -> Leg:
     if not others or robot.sole is None:
         raise ConfigError(f"robot {robot.name}: a leg that is watched takes two feet (`feet`) and their `sole`")
     names = [body.name for body in robot.bodies]
-    foot, other = names.index(robot.feet[sides[limb]].body), names.index(others[0])
+    foot = names.index(robot.feet[sides[limb]].body)
+    other = names.index(others[0])
     first = robot.layout.actuated.index(joints[0])
-    centre, half = robot.sole.box_centre, robot.sole.box_half
+    centre = robot.sole.box_centre
+    half = robot.sole.box_half
     corners = [(centre[0] + x * half[0], centre[1] + y * half[1], robot.sole.height) for x in (-1, 1) for y in (-1, 1)]
     return Leg(
         tree, empty_pose(tree), first, foot, other, np.array(corners), np.zeros(robot.layout.nv), np.zeros((6, 6)),

@@ -110,7 +110,8 @@ def calibrate_limb(
         ConfigError: the limb is unknown.
     """
     _check_rates(own, settings.detection.sensitivity.contact_s)
-    rate_hz, walks = own[0].read.rate_hz, limb in robot.layout.legs.values() and _walks(own)
+    rate_hz = own[0].read.rate_hz
+    walks = limb in robot.layout.legs.values() and _walks(own)
     setup = _wanting(setup_of(settings.detection, robot, limb, rate_hz, walks=walks), rate_per_h, settings)
     watched = watched_signal(signal, settings)
     always, legs = _watched(setup, watched, own, settings)
@@ -130,7 +131,8 @@ def calibrate_limb(
 
 def _check_rates(own: Sequence[OwnRecording], contact_s: float) -> None:
     """Raise a DataError where recordings differ in their rate, or a collision of a length [s] is not seen at it."""
-    first, least = own[0], CONTACT_SAMPLES / contact_s
+    first = own[0]
+    least = CONTACT_SAMPLES / contact_s
     if first.read.rate_hz < least:
         accepted = [f"{least:.0f} or more, as collisions last for {contact_s * 1e3:.0f} ms"]
         raise DataError(not_accepted(f"{first.path}: rate_hz", first.read.rate_hz, accepted))

@@ -18,7 +18,8 @@ NOTHING = 1e-3  # share of the expected rate below which one counts as zero
 
 def report(found: LimbCalibration, confidence: float) -> Iterator[str]:
     """Yield what the command prints, line by line; the confidence is that of the interval."""
-    promise, unit = found.promise, unit_of(f"{found.signal}.")
+    promise = found.promise
+    unit = unit_of(f"{found.signal}.")
     what = f"windows of {found.always.window_s:g} s" if found.always else "swings"
     width = max(map(len, ("joint", *found.setup.joints)))
     if found.always and found.setup.limb in found.setup.robot.layout.legs.values():
@@ -30,7 +31,8 @@ def report(found: LimbCalibration, confidence: float) -> Iterator[str]:
     interval = f"{confidence:.0%} interval {low:.2g} to {promise.high:.2g}"
     time = "walking"
     if found.always:  # (D19) draws windows one by one: where errors last, it holds the rate less often than it is named
-        time, interval = "free motion", f"nominal {interval}, which takes windows for independent"
+        time = "free motion"
+        interval = f"nominal {interval}, which takes windows for independent"
     yield from ("", f"false alarms to expect: {promise.rate_per_h:.2g} in an hour of {time}, {interval}", "")
     if found.always and found.always.is_alike:
         yield from ("windows that follow each other are alike: the interval is too narrow, record for longer", "")
@@ -45,7 +47,8 @@ def beside(found: LimbCalibration, alone: LimbCalibration) -> Iterator[str]:
     """Yield how a network's detector stands to that of the observer alone."""
     if alone.forces:
         yield from ("", f"smallest force that the observer alone finds [N]{_along(alone)}:", *_forces(alone))
-    what, share = "forces" if found.forces else "torques", found.over(alone)
+    what = "forces" if found.forces else "torques"
+    share = found.over(alone)
     yield from ("", f"smallest {what} with the network over those of the observer alone: {share:.0%}, geometric mean")
     if share >= 1.0:
         yield "the network does not help this detector with short pushes: learn from more logs"
@@ -70,7 +73,9 @@ def thresholds_of(
     Raises:
         DataError: a threshold is not accepted; it is zero of an estimate that never changes.
     """
-    setup, promise, values = found.setup, found.promise, tuple(found.thresholds.tolist())
+    setup = found.setup
+    promise = found.promise
+    values = tuple(found.thresholds.tolist())
     for joint, value in zip(setup.joints, values, strict=True):
         refuse_lines(beyond(f"threshold of {joint}", value, THRESHOLD))
     return LimbThresholds(

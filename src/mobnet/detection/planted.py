@@ -62,7 +62,9 @@ def plant(
         pushing: numbers of the pushes.
         seed: of what is drawn.
     """
-    places, rng, found = list(_places(setup, nominal)), np.random.default_rng(seed), list[Planted]()
+    places = list(_places(setup, nominal))
+    rng = np.random.default_rng(seed)
+    found = list[Planted]()
     for _ in range(PASSES):
         for k, (limb, q) in enumerate(zip(limbs, poses, strict=True)):
             torque, spans = _planted(setup, nominal, gain_hz, limb, q, places, pushing, rng)
@@ -80,9 +82,11 @@ def found_pushes(
     planted: Sequence[Planted],
 ) -> NDArray[np.bool_]:  # fmt: skip
     """Return which pushes (k,) a detector with thresholds (n,) finds in recordings with their estimates."""
-    chain, found = setup.chain(thresholds[None]), list[bool]()
+    chain = setup.chain(thresholds[None])
+    found = list[bool]()
     for push in planted:
-        limb, estimate = limbs[push.recording], estimates[push.recording]
+        limb = limbs[push.recording]
+        estimate = estimates[push.recording]
         pushed = Estimate(estimate.tau_ext + push.torque, estimate.std)
         above = limb.run(chain, watched.of(pushed, limb.command)).ratio > ALARM_RATIO
         found += [bool(above[start:end].any()) for start, end in push.spans]
@@ -105,7 +109,9 @@ def _planted(
     places: Sequence[tuple[str, tuple[float, ...]]], pushing: Pushing, rng: np.random.Generator,
 ) -> tuple[Array, Spans]:  # fmt: skip
     """Return what pushes do to the joints in a recording (T, n) [N m], and the rows in which an alarm counts."""
-    torque, spans, numbers = np.zeros((len(q), len(setup.joints))), list[tuple[int, int]](), pushing.pushes
+    torque = np.zeros((len(q), len(setup.joints)))
+    spans = list[tuple[int, int]]()
+    numbers = pushing.pushes
     late = round(pushing.late_s * setup.rate_hz)
     for first, last in limb.segments:
         start = first + round(rng.uniform(*numbers.pause_s) * setup.rate_hz)
@@ -115,7 +121,8 @@ def _planted(
             if end > last:
                 break
             body, place = places[int(rng.integers(len(places)))]
-            direction, share = rng.normal(size=3), rng.uniform(*numbers.torque_share)
+            direction = rng.normal(size=3)
+            share = rng.uniform(*numbers.torque_share)
             size = _torque(setup, nominal, q[start], body, place, direction / np.linalg.norm(direction), share, numbers)
             if size is not None and limb.gate.watched[start:end].mean() > HALF:
                 ramp = min(max(1, round(numbers.ramp_s * setup.rate_hz)), max(1, length // 2))

@@ -37,7 +37,8 @@ def points_of(robot: RobotDescription, joints: Sequence[str]) -> list[PointRow]:
 
 def axis_torques(nominal: NominalModel, joints: Sequence[str], points: Sequence[PointRow], q: Array) -> Array:
     """Return what 1 N along each axis of the body of each point does to joints (T, 3 points, n) [N m/N] at (T, nq)."""
-    columns, found = nominal.robot.layout.columns(joints), list[Array]()
+    columns = nominal.robot.layout.columns(joints)
+    found = list[Array]()
     for row in points:
         for axis in range(len(AXES)):
             push = np.zeros((len(q), 6))
@@ -52,8 +53,10 @@ def axis_forces(setup: LimbSetup, nominal: NominalModel, poses: Array, threshold
     Poses (T, nq) are those in which the limb is watched, thresholds (T, n) [N m] those of its joints there. What no
     joint feels is infinite.
     """
-    numbers, points = setup.detection.sensitivity, points_of(setup.robot, setup.joints)
-    picked, left = some_rows(len(poses), numbers.poses), attenuation(setup)
+    numbers = setup.detection.sensitivity
+    points = points_of(setup.robot, setup.joints)
+    picked = some_rows(len(poses), numbers.poses)
+    left = attenuation(setup)
     units = axis_torques(nominal, setup.joints, points, np.asarray(poses[picked], dtype=np.float64))
     forces = np.array([smallest_forces(*pair, left) for pair in zip(units, thresholds[picked], strict=True)])
     most = np.quantile(forces, numbers.share, axis=0).reshape(len(points), len(AXES))

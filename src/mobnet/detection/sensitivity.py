@@ -18,9 +18,11 @@ def found_forces(setup: LegSetup, poses: Array, thresholds: Array) -> dict[str, 
 
     Poses (T, nq) [m, -, rad] are those in which the leg is watched, thresholds (T, 6) [N m] those of its joints there.
     """
-    numbers, robot = setup.detection.sensitivity, setup.robot
+    numbers = setup.detection.sensitivity
+    robot = setup.robot
     points = [row.name for row in robot.points if row.name.startswith(f"{setup.side}_") and row.name.count("_") == 2]
-    picked, left = some_rows(len(poses), numbers.poses), attenuation(setup)
+    picked = some_rows(len(poses), numbers.poses)
+    left = attenuation(setup)
     units = [unit_torques(robot, setup.gate.leg, q, points, setup.inward) for q in poses[picked]]
     forces = [smallest_forces(*pair, left) for pair in zip(units, thresholds[picked], strict=True)]
     return dict(zip(points, np.quantile(forces, numbers.share, axis=0).tolist(), strict=True))

@@ -15,7 +15,10 @@ from mobnet.core.errors import DataError
 from mobnet.core.estimator import Estimate
 from mobnet.settings.detection import Detector, Signal
 
-MEAN, STD, RATIO, NORM = "mean", "std", "ratio", "norm"
+MEAN = "mean"
+STD = "std"
+RATIO = "ratio"
+NORM = "norm"
 TOLD = 3  # leading columns of a command that thresholds follow: step ahead, step to the side [m], turn [rad]
 
 

@@ -34,7 +34,8 @@ def patch_of(shape: ShapeRow, spacing_m: float) -> Patch:
     elif shape.type == "ellipsoid":
         found = _stretched(_revolved(_profile("sphere", 1.0, 0.0, spacing_m / (sum(shape.size) / 3.0))), shape.size)
     else:
-        radius, half = shape.size[0], _half_length(shape)
+        radius = shape.size[0]
+        half = _half_length(shape)
         found = _revolved(_profile(shape.type, radius, half, spacing_m))
     centre, axes = placed(shape)
     return Patch(centre + found.points @ axes.T, found.normals @ axes.T, found.area)
@@ -70,7 +71,8 @@ def depth(shape: ShapeRow, points: Array) -> Array:
         return (np.array(shape.size) - np.abs(local)).min(axis=1)
     if shape.type == "ellipsoid":
         return (1.0 - np.linalg.norm(local / np.array(shape.size), axis=1)) * min(shape.size)
-    radius, half = shape.size[0], _half_length(shape)
+    radius = shape.size[0]
+    half = _half_length(shape)
     if shape.type == "cylinder":
         return np.minimum(radius - np.linalg.norm(local[:, :2], axis=1), half - np.abs(local[:, 2]))
     local[:, 2] -= np.clip(local[:, 2], -half, half)
@@ -107,7 +109,9 @@ def _profile(kind: str, radius: float, half: float, spacing_m: float) -> Iterato
 
 def _revolved(profile: Iterator[Piece]) -> Patch:
     """Return the points of rings around the last axis; they are as far apart around a ring as along the outline."""
-    points, normals, area = [], [], []
+    points = []
+    normals = []
+    area = []
     for place, height, angle, length in profile:
         count = max(1, round(2.0 * np.pi * place / length))
         turns = 2.0 * np.pi * np.arange(count) / count

@@ -56,7 +56,8 @@ def surface_of(robot: RobotDescription, limb: str, spacing_m: float) -> Surface:
     Raises:
         ConfigError: the limb is unknown, or its bodies have no `shapes` in the table.
     """
-    moved, carried = robot.layout.limb(limb), {body.name: carried_by(robot, body.name) for body in robot.bodies}
+    moved = robot.layout.limb(limb)
+    carried = {body.name: carried_by(robot, body.name) for body in robot.bodies}
     shapes = tuple(shape for shape in robot.shapes if carried[shape.body].joint in moved)
     if not shapes:
         raise ConfigError(f"robot {robot.name}: no `shapes` of limb {limb} in its table, so that nothing can touch it")

@@ -26,7 +26,8 @@ def swings_of(swing: NDArray[Any], segments: Sequence[tuple[int, int]]) -> Spans
 
 def episodes_of(walks: Iterable[tuple[Spans, Spans]]) -> list[int]:
     """Return the contiguous segment of each swing, counted over recordings: their segments and swings in order."""
-    found, before = list[int](), 0
+    found = list[int]()
+    before = 0
     for segments, swings in walks:
         found += [before + segment_of(swing, segments) for swing in swings]
         before += len(segments)

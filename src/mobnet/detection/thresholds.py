@@ -70,7 +70,8 @@ def _moments(over: Array) -> tuple[float, float]:
     """Return scale and shape of what exceeds a level (n,), in rising order, by probability-weighted moments."""
     # (D18). Moments and not likelihood: with some tens of swings they err less, and they always give a number.
     rank = (np.arange(1, len(over) + 1) - 0.35) / len(over)
-    mean, weighted = float(over.mean()), float((over * (1.0 - rank)).mean())
+    mean = float(over.mean())
+    weighted = float((over * (1.0 - rank)).mean())
     shape = float(np.clip(2.0 - mean / max(mean - 2.0 * weighted, 1e-12), *SHAPES))
     return max(mean * (1.0 - shape), 1e-12), shape
 
@@ -120,7 +121,8 @@ def _check_tail(above: Array, level: float) -> None:
     Raises:
         DataError: a law cannot be fitted to them.
     """
-    differ, wanted = len(np.unique(above)), max(DIFFER * len(above), 1.0)
+    differ = len(np.unique(above))
+    wanted = max(DIFFER * len(above), 1.0)
     if differ < wanted:
         what = f"different largest values above {level:.3g} times their scales"
         accepted = [f"{wanted:.0f} or more, those of an estimate that does not saturate"]

@@ -74,7 +74,8 @@ class LimbSetup:
 
     def low_passed(self, signals: Array, segments: Spans) -> Array:
         """Return signals (T, m) behind the low-pass of the chain, each segment from rest."""
-        pole, out = self.chain(np.ones((1, 1))).pole, np.zeros(signals.shape)
+        pole = self.chain(np.ones((1, 1))).pole
+        out = np.zeros(signals.shape)
         for start, end in segments:
             low_passed(pole, signals[start:end], out[start:end])
         return out

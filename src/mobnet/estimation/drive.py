@@ -52,7 +52,8 @@ class Drives:
 
     def run(self, bend: Array, velocity: NDArray[Any], torque: NDArray[Any], rate_hz: float) -> tuple[Array, Array]:
         """Return the bends after samples of joint velocity [rad/s] and motor torque [N m], and tau_f [N m], (T, nu)."""
-        bend, sign = bend.copy(), np.tanh(velocity / self.smoothing)
+        bend = bend.copy()
+        sign = np.tanh(velocity / self.smoothing)
         if (dahl := np.flatnonzero(self.breakaway)).size:
             own = bend[dahl]
             sign[:, dahl] = bent(own, velocity[:, dahl], self.breakaway[dahl], rate_hz)

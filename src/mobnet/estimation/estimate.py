@@ -57,7 +57,8 @@ def run_segments(estimator: Estimator, read: Sequence[Observed]) -> list[Estimat
     for (k, span), part in zip(spans, estimate_all(estimator, stretches), strict=True):
         found[k][0][span] = part.tau_ext
         if part.std is not None:
-            found[k][1][span], has_std = part.std, True
+            found[k][1][span] = part.std
+            has_std = True
     return [Estimate(tau, std if has_std else None) for tau, std in found]
 
 

@@ -19,7 +19,8 @@ class FilteredEstimator:
     def __init__(self, inner: Estimator, sections: Array) -> None:
         """Take the filter as second-order sections (sections, 6), as SciPy has them."""
         self.joints = inner.joints
-        self._inner, self._sections = inner, sections
+        self._inner = inner
+        self._sections = sections
 
     def init(self) -> State:
         """Return the state before the first sample."""

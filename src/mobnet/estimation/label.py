@@ -25,7 +25,8 @@ def foot_label(
     Wrenches side -> (T, 6) [N] and [N m] are those that the feet's sensors read. Without `plates`, the inertia of what
     lies below the sensors stays in the label.
     """
-    sensed, swings = read.sensed, dict(zip(wrenches, read.sensed.swing.T, strict=True))
+    sensed = read.sensed
+    swings = dict(zip(wrenches, read.sensed.swing.T, strict=True))
     loads = {side: zeroed(wrench, swings[side]) for side, wrench in wrenches.items()}
     torque = feet_torque(nominal, sensed.q, loads)
     models = {side: plate_of(nominal.robot, side) for side in wrenches} if plates else {}
@@ -48,7 +49,8 @@ def zeroed(wrench: NDArray[Any], swing: NDArray[Any]) -> NDArray[np.float64]:
 def plate_of(robot: RobotDescription, side: str) -> NominalModel:
     """Return the model of a robot that weighs nothing but the plate below the sensor of one foot, without gravity."""
     assert robot.sole is not None
-    foot, point = robot.feet[side].body, {"com": robot.sole.plate_com, "inertia": (0.0,) * 6}
+    foot = robot.feet[side].body
+    point = {"com": robot.sole.plate_com, "inertia": (0.0,) * 6}
     masses = {body.name: robot.sole.plate_kg if body.name == foot else 0.0 for body in robot.bodies}
     bodies = tuple(body.model_copy(update={"mass": masses[body.name], **point}) for body in robot.bodies)
     joints = tuple(joint.model_copy(update={"armature": 0.0}) for joint in robot.joints)

@@ -36,7 +36,8 @@ def residual_and_truth(
     observer: MomentumObserver, recording: SensedRecording, external: NDArray[Any]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return r of (9) and the external torque (T, nv) low-passed, (T, nv) each [N] and [N m], segment by segment."""
-    residual, truth = np.zeros(recording.sensed.v.shape), np.zeros(recording.sensed.v.shape)
+    residual = np.zeros(recording.sensed.v.shape)
+    truth = np.zeros(recording.sensed.v.shape)
     for span in recording.spans():
         # A segment begins with another state of the robot, so that no momentum is carried into it.
         residual[span] = observer.residual(recording.sensed[span])

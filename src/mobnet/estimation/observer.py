@@ -114,7 +114,8 @@ class MomentumObserver:
         Raises:
             DataError: positions, velocities or torques do not fit the model.
         """
-        layout, shapes = self.nominal.robot.layout, [sensed.q.shape, sensed.v.shape, sensed.tau_motor.shape]
+        layout = self.nominal.robot.layout
+        shapes = [sensed.q.shape, sensed.v.shape, sensed.tau_motor.shape]
         accepted = [(len(sensed), width) for width in (layout.nq, layout.nv, layout.nu)]
         if shapes != accepted:
             raise DataError(f"samples q, v, tau_motor of shapes {shapes}; accepted: {accepted}")
@@ -140,7 +141,8 @@ class MomentumObserver:
             raw[0] = 0.0
             raw = raw[1:]
         else:
-            p, beta = _behind(state.momentum, p), _behind(state.beta, beta)
+            p = _behind(state.momentum, p)
+            beta = _behind(state.beta, beta)
             torque = _behind(state.torque, torque)
             friction = None if friction is None or state.friction is None else _behind(state.friction, friction)
         np.subtract(p[1:], p[:-1], out=raw)

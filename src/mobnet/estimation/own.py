@@ -149,13 +149,16 @@ def read_network_folder(folder: Path, layout: JointLayout, settings: Lab) -> Own
     """
     if not (folder / RUN).exists():
         raise DataError(f"{folder}: {RUN} is missing; accepted: a folder that `{command('learn')}` wrote")
-    note, observer = read_note(folder / RUN, LearnedNote), settings.observer
+    note = read_note(folder / RUN, LearnedNote)
+    observer = settings.observer
     if note.target != UNCERTAINTY:
         raise DataError(not_accepted(f"{folder / RUN}: target", note.target, [UNCERTAINTY]))
-    rate_hz, gain_hz = note.rate_hz or settings.rates.data_hz, note.gain_hz or observer.gain_hz
+    rate_hz = note.rate_hz or settings.rates.data_hz
+    gain_hz = note.gain_hz or observer.gain_hz
     networks = load_limb_networks({note.limb: folder}, layout)
     sampling = Sampling(rate_hz, gain_hz, note.torque or observer.torque, note.drives)
-    folders, recordings = tuple(map(Path, note.folders or ())), note.recordings
+    folders = tuple(map(Path, note.folders or ()))
+    recordings = note.recordings
     known = None if recordings is None else tuple(recordings)
     return OwnNetwork(folder, note.limb, note.fingerprint, networks, sampling, folders, known)
 
@@ -203,7 +206,8 @@ def estimator_of(
 
 def without_friction(logs: Sequence[OwnLog], robot: RobotDescription, gravity_m_s2: float) -> list[OwnLog]:
     """Return logs with the residual of an observer that does not know the friction of the robot's table."""
-    nominal, found = NominalModel(replace(robot, friction={}), gravity_m_s2=gravity_m_s2), list[OwnLog]()
+    nominal = NominalModel(replace(robot, friction={}), gravity_m_s2=gravity_m_s2)
+    found = list[OwnLog]()
     for log in logs:
         mob = MomentumObserver(nominal, log.sampling.gain_hz, log.sampling.rate_hz, log.sampling.torque)
         residual = np.empty(log.residual.shape, dtype=np.float32)

@@ -107,7 +107,8 @@ class Recipe:
         """Return the momentum observer of the level's nominal model."""
         from mobnet.estimation.observe import observer_of
 
-        gain_hz, torque = self.observing.gain_hz, self.observing.torque
+        gain_hz = self.observing.gain_hz
+        torque = self.observing.torque
         return observer_of(describe(self.robot), self.mass_ratio, self.gravity_m_s2, gain_hz, self.rate_hz, torque)
 
     def limb_networks(self) -> LimbNetworks | None:

@@ -66,7 +66,8 @@ def regressors(
     Both are (..., n). The width of the sign function and v_s of (23), one or (n,), are in rad/s.
     """
     # (O10). tanh for the sign: a sign would switch with the noise of a joint at rest, where friction takes any value.
-    sign, fade = np.tanh(velocity / smoothing), np.exp(-np.abs(velocity) / stribeck)
+    sign = np.tanh(velocity / smoothing)
+    fade = np.exp(-np.abs(velocity) / stribeck)
     return {"coulomb": sign * (1 - fade), "static": sign * fade, "viscous": velocity, "load": sign * torque**2}
 
 

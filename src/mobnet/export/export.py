@@ -132,9 +132,11 @@ def difference(one: Trained, path: Path) -> float:
 
     It is the largest difference of mean and standard deviation, as a share of the target's standard deviation.
     """
-    tensors, rng = one.tensors, np.random.default_rng(SEED)
+    tensors = one.tensors
+    rng = np.random.default_rng(SEED)
     lane = rng.normal(tensors["input.mean"], tensors["input.std"], (SAMPLES, len(one.note.inputs))).astype(np.float32)
-    (own,), (exported,) = deployed(tensors, one.note).run_all([lane]), OnnxNetwork(path).run_all([lane])
+    (own,) = deployed(tensors, one.note).run_all([lane])
+    (exported,) = OnnxNetwork(path).run_all([lane])
     apart = np.array([own.mean, own.std], np.float32) - np.array([exported.mean, exported.std], np.float32)
     return float(np.max(np.abs(apart) / tensors["target.std"]))
 
@@ -175,7 +177,8 @@ def export_folders(
         ConfigError: a file of thresholds is not accepted, or as `export` says.
     """
     networks = [read_trained(folder, robot.layout) for folder in folders]
-    notes, own = [one.run for one in networks], settings.observer
+    notes = [one.run for one in networks]
+    own = settings.observer
     run_time = RunTime(
         agreed("rate", given.rate_hz, [note.rate_hz for note in notes], settings.rates.data_hz),
         ObserverContract(

@@ -44,7 +44,8 @@ class GraphBuilder:
 
 def graph_of(tensors: Tensors, note: WeightsNote) -> onnx.ModelProto:
     """Return the model of a trained network; equal weights give equal bytes."""
-    build, joints = GraphBuilder(), len(note.joints)
+    build = GraphBuilder()
+    joints = len(note.joints)
     centred = build.add("Sub", "x", build.constant("input_mean", tensors["input.mean"]))
     scaled = build.add("Div", centred, build.constant("input_std", tensors["input.std"]))
     features = CELLS[note.cell.cell](build, note.cell, tensors, scaled)
@@ -70,7 +71,9 @@ def graph_of(tensors: Tensors, note: WeightsNote) -> onnx.ModelProto:
 
 def state_size(cell: NetworkCell, inputs: int) -> int:
     """Return the size s of the state: hidden state, that and cell state of an LSTM, or the inputs of a window."""
-    hidden, window, kernel = cell.hidden or 0, cell.window_steps or 1, cell.kernel_steps or 1
+    hidden = cell.hidden or 0
+    window = cell.window_steps or 1
+    kernel = cell.kernel_steps or 1
     past = window - 1 + sum(2 * (kernel - 1) * dilation for dilation in cell.dilations or ())
     return {"GRU": hidden, "RNN": hidden, "LSTM": 2 * hidden, "constant": 0}.get(cell.cell, past * inputs)
 

@@ -30,7 +30,8 @@ from mobnet.learning.gates import ordered
 from mobnet.settings.detection import Signal
 from mobnet.settings.methods import Target
 
-MAGIC, VERSION = b"MOBNETRT", 1
+MAGIC = b"MOBNETRT"
+VERSION = 1
 HEADER, ENTRY, ALIGNED, NAME = 64, 32, 64, 32  # bytes
 CHECKED = 12  # bytes in front of what the checksum covers
 ROBOT, JOINTS, COLUMNS, OBSERVER, NETWORK, DETECTOR, DRIVES = range(1, 8)  # kinds of sections
@@ -125,7 +126,9 @@ def _number_faults(
     """Yield the numbers of files from outside that the library would not accept."""
     yield from beyond("rate_hz", observer.rate_hz, BOUNDS)
     for network in networks:
-        tensors, note, place = network.tensors, network.note, f"network of {network.note.limb}"
+        tensors = network.tensors
+        note = network.note
+        place = f"network of {network.note.limb}"
         yield from beyond(f"{place}: inputs", len(note.inputs), (0, MOST_UNITS))
         yield from beyond(f"{place}: hidden units", note.cell.hidden or 0, (0, MOST_UNITS))
         least_std = float(np.float32(note.std_min))
@@ -153,7 +156,8 @@ def _number_faults(
 def file_of(sections: Sequence[tuple[int, bytes]]) -> bytes:
     """Return the bytes of a file of sections, each a kind and its bytes, with the header in front."""
     place = _up(HEADER + ENTRY * len(sections))
-    table, body = b"", b""
+    table = b""
+    body = b""
     for kind, content in sections:
         table += struct.pack("<IIQQQ", kind, 0, place + len(body), len(content), 0)
         body += content.ljust(_up(len(content)), b"\0")
@@ -218,7 +222,8 @@ def _check_networks(networks: Sequence[RuntimeNetwork]) -> None:
 
 def _network(network: RuntimeNetwork, layout: JointLayout) -> bytes:
     """Return a network: sizes, what its inputs are, joints, z-scores, weights as `mobnet.learning.gates` has them."""
-    tensors, note = network.tensors, network.note
+    tensors = network.tensors
+    note = network.note
     recurrent = note.cell.cell == "GRU"
     if recurrent:
         *trained, w_out, b_out = (tensors[name] for name in GRU_TENSORS)
@@ -226,7 +231,8 @@ def _network(network: RuntimeNetwork, layout: JointLayout) -> bytes:
     else:
         w_in = w_state = bias = w_out = np.zeros((0, 0))
         b_out = tensors["head.bias"]
-    inputs, hidden = note.inputs if recurrent else [], w_state.shape[1]
+    inputs = note.inputs if recurrent else []
+    hidden = w_state.shape[1]
     means = [tensors[f"input.{part}"][: len(inputs)] for part in ("mean", "std")]
     target = tensors["target.mean"], tensors["target.std"]
     sizes = struct.pack("<4If", len(inputs), hidden, len(note.joints), network.estimates == "external", note.std_min)
@@ -241,7 +247,8 @@ def _source(name: str, layout: JointLayout) -> tuple[int, int]:
     sources = [[f"{signal}.{joint}" for joint in layout.actuated] for signal in JOINT_SOURCES]
     accepted = [f"{signal}.<joint>" for signal in JOINT_SOURCES]
     if layout.virtual:
-        sources, accepted = [*sources, *BASE_SOURCES], [*accepted, *(f"{names[0]}, ..." for names in BASE_SOURCES)]
+        sources = [*sources, *BASE_SOURCES]
+        accepted = [*accepted, *(f"{names[0]}, ..." for names in BASE_SOURCES)]
     for k, names in enumerate(sources):
         if name in names:
             return k, names.index(name)
@@ -250,7 +257,9 @@ def _source(name: str, layout: JointLayout) -> tuple[int, int]:
 
 def _detector(detector: RuntimeDetector, observer: MomentumObserver) -> bytes:
     """Return a detector: sizes, low-pass, thresholds, gate, joints."""
-    chain, gate, kinds = detector.chain, detector.gate, [KINDS.index(kind) for kind in detector.signals]
+    chain = detector.chain
+    gate = detector.gate
+    kinds = [KINDS.index(kind) for kind in detector.signals]
     phases, columns = chain.thresholds.shape
     if chain.norm or columns != len(kinds) * len(detector.joints):
         accepted = [f"{len(kinds) * len(detector.joints)}, one for each signal, and no norm"]

@@ -48,7 +48,8 @@ class OnnxNetwork:
             raise DataError(f"{path}: {text}") from None
         self.contract = _contract(path, self._session.get_modelmeta().custom_metadata_map)
         (network,) = self.contract.networks
-        self.limb, self.joints = network.limb, network.joints
+        self.limb = network.limb
+        self.joints = network.joints
         self.input_names = tuple(one.name for one in network.inputs)
         self._binding = self._session.io_binding()
         self._x, self._state = (self._bound(self._binding.bind_input, one) for one in self._session.get_inputs())
@@ -69,7 +70,8 @@ class OnnxNetwork:
 
     def step(self, state: Array, x: Array) -> tuple[Array, Prediction]:
         """Advance by one sample of inputs (n_in,); return the new state (s,) and the prediction (n,) [N, N m]."""
-        self._x[:], self._state[:] = x, state
+        self._x[:] = x
+        self._state[:] = state
         self._session.run_with_iobinding(self._binding)
         return self._after.copy(), Prediction(self._mean.copy(), self._std.copy())
 
@@ -83,7 +85,8 @@ class OnnxNetwork:
         state = self.init()
         for k, x in enumerate(lane):
             state, found = self.step(state, x)
-            mean[k], std[k] = found.mean, found.std
+            mean[k] = found.mean
+            std[k] = found.std
         return Prediction(mean, std)
 
 

@@ -14,17 +14,20 @@ from mobnet.robot.nominal import NominalModel
 
 def leg_record(nominal: NominalModel, gate: LegGate) -> bytes:
     """Return the bytes of a leg's gate: `struct gate` and `struct leg` of internal.h."""
-    numbers, leg = gate.gate, gate.leg
+    numbers = gate.gate
+    leg = gate.leg
     head = struct.pack("<dq5dq", *numbers) + struct.pack("<q", leg.first)
     return head + _sole(nominal, leg, leg.foot) + _sole(nominal, leg, leg.other)
 
 
 def _sole(nominal: NominalModel, leg: Leg, foot: int) -> bytes:
     """Return the link that carries a foot, and in its axes the foot's origin and the corners of its sole [m]."""
-    body, robot = foot, nominal.robot
+    body = foot
+    robot = nominal.robot
     while body > 0 and leg.tree.joint[body] < 0:  # welded to its parent
         body = int(leg.tree.parent[body])
-    pose, q = empty_pose(leg.tree), np.zeros(robot.layout.nq)
+    pose = empty_pose(leg.tree)
+    q = np.zeros(robot.layout.nq)
     q[NQ_BASE - 4] = 1.0
     update(leg.tree, q, leg.still, 0.0, pose)
     corners = leg.corners @ pose.rotation[foot].T + pose.position[foot]

@@ -102,7 +102,8 @@ def contract_of(
 
 def _network(one: Trained, layout: JointLayout) -> NetworkContract:
     """Return the contract of a network."""
-    tensors, note = one.tensors, one.note
+    tensors = one.tensors
+    note = one.note
     scores = {name: tensors[name].tolist() for name in ("input.mean", "input.std", "target.mean", "target.std")}
     signals = {name: (unit, frame) for name, unit, frame in _signals(layout)}
     formulas = dict(zip(ROTATION_NAMES, FORMULAS, strict=True))
@@ -112,7 +113,8 @@ def _network(one: Trained, layout: JointLayout) -> NetworkContract:
             note.inputs, (signals[name] for name in note.inputs), scores["input.mean"], scores["input.std"], strict=True
         )
     ]
-    columns, scale = torque_columns(layout, ["tau"], note.joints), std_scale_of(tensors).tolist()
+    columns = torque_columns(layout, ["tau"], note.joints)
+    scale = std_scale_of(tensors).tolist()
     outputs = [
         OutputContract(joint=joint, unit=unit, frame=frame, mean=mean, std=std, std_scale=factor)
         for joint, (_, unit, frame), mean, std, factor in zip(

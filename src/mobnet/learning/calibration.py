@@ -77,7 +77,8 @@ def predict(network: LimbNetwork, samples: Samples, plan: EpochPlan, horizon: in
 
     Return error and standard deviation, z-scored, (T, n) each, lane after lane: in the order of time.
     """
-    errors, stds = [], []
+    errors = []
+    stds = []
     for mean, std, target in predictions(network, samples, plan, horizon):
         errors.append((mean - target).cpu())
         stds.append(std.cpu())

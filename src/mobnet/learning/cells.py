@@ -92,7 +92,8 @@ class Block(nn.Module):
         self.second = nn.Conv2d(width, width, (kernel, 1), dilation=(dilation, 1))
         self.shortcut = nn.Identity() if inputs == width else nn.Conv2d(inputs, width, 1)
         self.dropout = nn.Dropout(dropout)
-        self.width, self.past = width, 2 * (kernel - 1) * dilation
+        self.width = width
+        self.past = 2 * (kernel - 1) * dilation
 
     def forward(self, x: Tensor) -> Tensor:
         """Return (1, width, T - past, B) of (1, inputs, T, B), unitless."""

@@ -86,7 +86,8 @@ def load_limb_data(
     Raises:
         DataError: a file is damaged, or a residual does not belong to its recording.
     """
-    inputs, joints = limb_inputs(layout, limb), layout.limbs(limb.joints)
+    inputs = limb_inputs(layout, limb)
+    joints = layout.limbs(limb.joints)
     for stem in recordings:
         check_rate(stem, rate_hz)
     parts: list[tuple[NDArray[np.float32], NDArray[np.float32]]] = []

@@ -50,7 +50,8 @@ class LimbInputs:
 
     def from_recorded(self, values: NDArray[np.float32]) -> NDArray[np.float32]:
         """Return the inputs (T, n_in) from the columns `recorded`, the same as from a whole recording."""
-        inputs, width = np.empty((len(values), len(self.names)), dtype=np.float32), len(self._turned)
+        inputs = np.empty((len(values), len(self.names)), dtype=np.float32)
+        width = len(self._turned)
         turned = np.isin(self.names, ROTATION_NAMES)
         if width:
             inputs[:, turned] = _first_columns(values[:, :width])

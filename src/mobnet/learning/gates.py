@@ -152,7 +152,8 @@ def go_back(
     n, lanes = d.shape
     flat = d.reshape(d.size)
     for k in range(len(given) - 1, -1, -1):
-        output, g = given[k], gates[k]
+        output = given[k]
+        g = gates[k]
         for i in range(n):
             for j in range(len(output)):
                 d[i, j] += output[j, i]

@@ -20,23 +20,28 @@ class FusedGru(torch.autograd.Function):
     @staticmethod
     def forward(ctx: Any, x: Tensor, state: Tensor, precision: torch.dtype, *weights: Tensor) -> Tensor:
         """Return the states (h, B, H) after each of the inputs (h, B, n_in), from a state (B, H), unitless."""
-        steps, (lanes, hidden), paired = len(x), state.shape, precision == torch.bfloat16
+        steps = len(x)
+        (lanes, hidden) = state.shape
+        paired = precision == torch.bfloat16
         w_in, w_state, bias = ordered(*(weight.detach().numpy() for weight in weights))
         x = with_ones(x.detach(), inputs := x.shape[2])
-        states, gates = x.new_zeros(steps + 1, hidden, up(lanes)), x.new_empty(steps, 4, hidden * up(lanes))
+        states = x.new_zeros(steps + 1, hidden, up(lanes))
+        gates = x.new_empty(steps, 4, hidden * up(lanes))
         states[0, :, :lanes] = state.detach().T
         arrays = w_in, bias, gates.numpy(), states.flatten(1).numpy()
         h = with_ones(x.new_empty(steps + 1, lanes, 0), hidden)
         columns = x[..., :inputs].permute(2, 0, 1).contiguous().numpy()
         go_forward(left_factor(w_state, paired), room(hidden, up(lanes), paired), columns, *arrays, h.numpy())
-        ctx.inputs, ctx.kept = inputs, (x, w_state, gates, states, h, paired)
+        ctx.inputs = inputs
+        ctx.kept = (x, w_state, gates, states, h, paired)
         return h[1:, :lanes, :hidden]
 
     @staticmethod
     def backward(ctx: Any, *gradients: Tensor) -> tuple[Tensor | None, ...]:
         """Return the gradients of the weights from that of the states (h, B, H), unitless."""
         x, w_state, gates, states, h, paired = ctx.kept
-        given, d = gradients[0].contiguous(), torch.zeros_like(states[0])
+        given = gradients[0].contiguous()
+        d = torch.zeros_like(states[0])
         hidden, padded = d.shape
         d_in, d_state = (torch.zeros(3 * hidden, rows.shape[2]) for rows in (x, h))
         sizes = (3 * hidden, padded), (padded, x.shape[2]), (padded, h.shape[2])
@@ -48,7 +53,8 @@ class FusedGru(torch.autograd.Function):
             *(tensor.numpy() for tensor in tensors),
         )
         # Torch has the order r, z, c, and the loops have i, r, z, whose first is c's part of the state's weights.
-        d_state, n = d_state.roll(-hidden, 0), ctx.inputs
+        d_state = d_state.roll(-hidden, 0)
+        n = ctx.inputs
         return None, None, None, d_in[:, :n], d_state[:, :hidden], d_in[:, n], d_state[:, hidden]
 
 

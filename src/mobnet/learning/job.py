@@ -62,7 +62,8 @@ class TrainingJob:
 
         Coarse time is for cells that learn how long they keep their state, on streams.
         """
-        network, learning = self.training.network, self.training.learning
+        network = self.training.network
+        learning = self.training.learning
         if network.cell not in KEEPING_CELLS or learning.sequences != "carried":
             return 1
         ends = accumulate(phase.share for phase in learning.coarse)

@@ -57,7 +57,8 @@ class LimbNetwork(nn.Module):
             mean, raw = self.head(features).chunk(2, dim=-1)
             return mean, raw
         # (N18) trains the mean alone through the cell; sigma sees the features as they come.
-        (mean_weight, std_weight), (mean_bias, std_bias) = self.head.weight.chunk(2), self.head.bias.chunk(2)
+        (mean_weight, std_weight) = self.head.weight.chunk(2)
+        (mean_bias, std_bias) = self.head.bias.chunk(2)
         linear = nn.functional.linear
         return linear(features, mean_weight, mean_bias), linear(features.detach(), std_weight, std_bias)
 

@@ -72,7 +72,8 @@ def train_epoch(
     norm before the clip of each update, (updates,) unitless.
     """
     network.train()
-    losses, norms = [], []
+    losses = []
+    norms = []
     state = network.fresh_state(plan.rows.shape[1], samples.inputs.device)
     for x, target, keep in samples.horizons(plan, horizon):
         # (N20): the state goes on from horizon to horizon as on a robot, the gradient does not.
@@ -125,7 +126,8 @@ def validate(
 
     Return mean loss (22), and the root mean square error of each joint (n,), z-scored.
     """
-    losses, squares = [], []
+    losses = []
+    squares = []
     for predicted in predictions(network, samples, plan, horizon):
         mean, std, target = samples.told(*(part[scored] for part in predicted))
         if target.numel():

@@ -37,7 +37,9 @@ class Soap(torch.optim.Optimizer):
         `betas` are the decay rates of Adam's moments and `beta_basis` that of L and R; their eigenvectors are renewed
         every so many updates. The learning rate is set before each update, in `param_groups`.
         """
-        self._betas, self._beta_basis, self._basis_every = betas, beta_basis, basis_every
+        self._betas = betas
+        self._beta_basis = beta_basis
+        self._basis_every = basis_every
         groups = [{"params": list(gated), "gates": gates}, {"params": list(others), "gates": 0}]
         super().__init__([group for group in groups if group["params"]], {"lr": 0.0})
 
@@ -46,7 +48,9 @@ class Soap(torch.optim.Optimizer):
         """Make one update with the gradients of all parameters."""
         for group in self.param_groups:
             for weight in group["params"]:
-                gates, rate, state = group["gates"], group["lr"], self.state[weight]
+                gates = group["gates"]
+                rate = group["lr"]
+                state = self.state[weight]
                 shape = (gates, -1, weight.shape[-1]) if gates else weight.shape
                 self._update(weight.view(shape), weight.grad.view(shape), state, rate, gated=gates > 0)
 
@@ -64,7 +68,8 @@ class Soap(torch.optim.Optimizer):
         state["steps"] += 1
         turned = state["left"].mT @ gradient @ state["right"] if gated else gradient
         slow, fast = self._betas
-        first, second = state["first"].lerp_(turned, 1 - slow), state["second"]
+        first = state["first"].lerp_(turned, 1 - slow)
+        second = state["second"]
         second.mul_(fast).addcmul_(turned, turned, value=1 - fast)
         count = int(state["steps"])
         root = (second / (1 - fast**count)).sqrt_().add_(EPSILON)
@@ -106,7 +111,8 @@ def _renew(state: dict[str, Tensor]) -> None:
     that it belonged to stands after sorting by eigenvalue.
     """
     for side, name in SIDES.items():
-        old, axis = state[side], -2 if side == "left" else -1
+        old = state[side]
+        axis = -2 if side == "left" else -1
         powered = state[name] @ old
         order = (old * powered).sum(-2).argsort(dim=-1, descending=True, stable=True)
         columns = order[:, None, :].expand_as(old)

@@ -45,7 +45,8 @@ def split(
     if held_out is not None:
         return [span for span in segments if span[0] < held_out], [span for span in segments if span[0] >= held_out]
     # Samples a millisecond apart are nearly the same, so that single ones held out would validate nothing.
-    training, validation = [], []
+    training = []
+    validation = []
     for start, end in segments:
         cut = end - round((end - start) * validation_share)
         training.append((start, cut))
@@ -121,7 +122,8 @@ def epoch_plan(
     held = sum(b - a for a, b in streams)
     while 0 < held < samples:
         more = cut_streams(blocks, stream, horizon, rng)
-        streams, held = streams + more, held + sum(b - a for a, b in more)
+        streams = streams + more
+        held = held + sum(b - a for a, b in more)
     enough = int(np.searchsorted(np.cumsum([b - a for a, b in streams]), samples)) + 1
     return deal(streams[:enough], lanes, horizon)
 

@@ -65,7 +65,8 @@ def _fused_pairs(builder: Any, a: Any, b: Any, total: Any) -> Any:
 
 def _at(builder: Any, array: Any, row: Any, column: Any, kind: Any) -> Any:
     """Return a pointer to a `kind` that begins at an element of an array (m, n) of 4 bytes a number."""
-    start, step = builder.ptrtoint(array.data, row.type), cgutils.unpack_tuple(builder, array.strides)[0]
+    start = builder.ptrtoint(array.data, row.type)
+    step = cgutils.unpack_tuple(builder, array.strides)[0]
     offset = builder.add(builder.mul(row, step), builder.mul(column, row.type(4)))
     return builder.inttoptr(builder.add(start, offset), kind.as_pointer())
 
@@ -107,14 +108,17 @@ def _tile(rows: int, vectors: int) -> Any:
     return intrinsic(add_tile)
 
 
-_block, _row = _tile(ROWS, VECTORS), _tile(1, VECTORS)
-_narrow_block, _narrow_row = _tile(ROWS, 1), _tile(1, 1)
+_block = _tile(ROWS, VECTORS)
+_row = _tile(1, VECTORS)
+_narrow_block = _tile(ROWS, 1)
+_narrow_row = _tile(1, 1)
 
 
 @compiled
 def add_product(out: NDArray[np.float32], left: Factor, right: Factor) -> None:
     """Add the product of a left factor (m, k) and a right one (k, n), n a multiple of `PADDED`, to out (m, n)."""
-    blocks, wide = len(out) // ROWS * ROWS, out.shape[1] // (VECTORS * WIDE) * VECTORS * WIDE
+    blocks = len(out) // ROWS * ROWS
+    wide = out.shape[1] // (VECTORS * WIDE) * VECTORS * WIDE
     for j in range(0, wide, VECTORS * WIDE):
         for i in range(0, blocks, ROWS):
             _block(out, left, right, i, j)
@@ -139,7 +143,8 @@ def rounded(value: np.float32) -> np.uint32:
 def lay_left(values: NDArray[np.float32], factor: Factor) -> None:
     """Lay a matrix (m, k) out as a left factor: as it is, or pairs of columns (m, ceil(k / 2)) in bfloat16."""
     for i in range(len(factor)):
-        row, laid = values[i], factor[i]
+        row = values[i]
+        laid = factor[i]
         if factor.dtype == WORD:
             for j in range(len(row) // 2):
                 laid[j] = rounded(row[2 * j]) | rounded(row[2 * j + 1]) << np.uint32(16)
@@ -156,7 +161,8 @@ def lay_right(values: NDArray[np.float32], factor: Factor) -> None:
     for i in range(len(factor)):
         laid = factor[i]
         if factor.dtype == WORD:
-            first, second = values[2 * i], values[min(2 * i + 1, len(values) - 1)]
+            first = values[2 * i]
+            second = values[min(2 * i + 1, len(values) - 1)]
             for j in range(len(laid)):
                 laid[j] = rounded(first[j]) | rounded(second[j]) << np.uint32(16)
         else:

@@ -73,7 +73,8 @@ def write_weights(path: Path, trainer: Trainer, data: LimbData, done: Progress, 
 
 def run_note(trainer: Trainer, data: LimbData, done: Progress, calibration: StdFactors) -> dict[str, Any]:
     """Return the content of `run.json`: settings, sizes, the best epoch, calibration and provenance."""
-    job, training = trainer.job, trainer.job.training
+    job = trainer.job
+    training = trainer.job.training
     return {
         "name": job.name,
         "method": training.method,

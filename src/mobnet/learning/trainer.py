@@ -43,13 +43,16 @@ class Trainer:
         Raises:
             DataError: the network that it starts from is damaged, or another one.
         """
-        self.job, self.joints = job, data.joints
+        self.job = job
+        self.joints = data.joints
         self.device = own_device()
         first = read_start(start, job, data) if start else None
         self.fingerprint = job.fingerprint(data.digest + (first.digest if first else ""), self.device)
-        network, learning = job.training.network, job.training.learning
+        network = job.training.network
+        learning = job.training.learning
         blocks, held_out = split(data.segments, learning.validation_share, data.held_out)
-        self._held_out, stream = held_out, job.stream(data.rate_hz)
+        self._held_out = held_out
+        stream = job.stream(data.rate_hz)
         self._blocks = some_of(blocks, stream, learning.data_parts, job.shared_generator("data"))
         arrays = data.inputs, data.targets
         # A network that goes on learning keeps its z-scores: with others its weights would mean something else.
@@ -124,9 +127,11 @@ class Trainer:
         error, std = predict(self.network, self._samples, self._validation, self.job.horizon)
         if self._samples.partial:
             known = ~np.isnan(error[:, 0])
-            error, std = error[known], std[known]
+            error = error[known]
+            std = std[known]
         # In N m, as coverage does not depend on the unit but likelihood and CRPS do.
-        unit, learning = self.scales[1].std.astype(np.float64), self.job.training.learning
+        unit = self.scales[1].std.astype(np.float64)
+        learning = self.job.training.learning
         return calibrate(error * unit, std * unit, learning.calibration_share, learning.calibration_levels)
 
     def on_windows(self, done: Progress) -> dict[str, float]:
@@ -142,7 +147,9 @@ class Trainer:
 
     def _epoch(self, epoch: int) -> tuple[Epoch, list[float]]:
         """Learn from the data once, and return what the epoch shows and the RMSE of each joint (n,) [N, N m]."""
-        job, rate, learning = self.job, self.job.rate(epoch), self.job.training.learning
+        job = self.job
+        rate = self.job.rate(epoch)
+        learning = self.job.training.learning
         for group in self._optimizer.param_groups:
             group["lr"] = rate
         stride = job.stride(epoch)
@@ -158,7 +165,8 @@ class Trainer:
         self._check("median training", epoch, losses.median().item(), rate, learning.divergence_loss)
         validation, errors = self._validate(self._validation_at(stride))
         self._check("validation", epoch, validation, rate)
-        loss, rmse = losses.mean().item(), float(errors.mean())
+        loss = losses.mean().item()
+        rmse = float(errors.mean())
         return Epoch(epoch + 1, loss, validation, rmse, rate, norms.mean().item(), stride), errors.tolist()
 
     def _plan(self, epoch: int, stride: int) -> tuple[EpochPlan, slice]:
@@ -167,7 +175,8 @@ class Trainer:
         An epoch at coarse time goes through the data as many times more often as it has fewer of their samples, so that
         it has as many updates as the others.
         """
-        job, (stream, horizon, lanes) = self.job, self._shape
+        job = self.job
+        (stream, horizon, lanes) = self._shape
         plan_of, scored = SEQUENCES[job.training.learning.sequences]
         samples = job.training.epoch_samples
         if stride > 1:
@@ -191,7 +200,8 @@ class Trainer:
 
     def _report(self, done: Progress) -> None:
         """Log the last epoch with its losses and rate, and the time left."""
-        last, epochs = done.epochs[-1], self.job.training.epochs
+        last = done.epochs[-1]
+        epochs = self.job.training.epochs
         log.info(
             "%s: epoch %d/%d, loss %.3f, validation %.3f (%.3g N m), rate %.2g, %.0f s left",
             self.job.name, last.epoch, epochs, last.train_loss, last.validation_loss, last.validation_rmse, last.rate,

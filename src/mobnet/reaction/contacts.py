@@ -50,8 +50,10 @@ def make_ends(robot: RobotDescription, bodies: Mapping[str, str], numbers: Ident
     names = [body.name for body in robot.bodies]
     limbs = [robot.layout.limb(limb) for limb in bodies]
     first = [robot.layout.actuated.index(joints[0]) for joints in limbs]
-    count, body = [len(joints) for joints in limbs], [names.index(name) for name in bodies.values()]
-    per_force, per_moment = numbers.torque_error_nm / numbers.force_n, numbers.torque_error_nm / numbers.moment_nm
+    count = [len(joints) for joints in limbs]
+    body = [names.index(name) for name in bodies.values()]
+    per_force = numbers.torque_error_nm / numbers.force_n
+    per_moment = numbers.torque_error_nm / numbers.moment_nm
     return Ends(
         tree, empty_pose(tree), np.array(body), np.array(first), np.array(count),
         np.repeat([per_force**2, per_moment**2], 3), np.zeros(robot.layout.nv), np.zeros((6, max(count))),
@@ -68,9 +70,11 @@ def identify(ends: Ends, q: Array, tau: Array) -> None:
     decides where the joints say nothing, as of a force along a straight leg (section 8.4).
     """
     update(ends.tree, q, ends.still, 0.0, ends.pose)
-    arm, column = vector3(), vector3()
+    arm = vector3()
+    column = vector3()
     for e in range(len(ends.body)):
-        end, wrench = ends.body[e], ends.wrench[e]
+        end = ends.body[e]
+        wrench = ends.wrench[e]
         wrench[:] = 0.0
         for j in range(ends.joints[e]):
             joint = ends.first[e] + j
@@ -98,7 +102,8 @@ def unexpected_wrench(ends: Ends, tau: Array, expected: Collection[int]) -> Arra
     tau (nv,) are the estimated torques, of which the first six are the base's: a force in world axes and a moment in
     base axes; `expected` are end-effectors that the plan has in contact, by their number.
     """
-    rotation, origin = ends.pose.rotation[0], ends.pose.position[0]
+    rotation = ends.pose.rotation[0]
+    origin = ends.pose.position[0]
     found = np.concatenate([tau[:3], rotation @ tau[3:N_VIRTUAL]])
     for e in expected:
         force, arm = ends.wrench[e, :3], ends.pose.position[ends.body[e]] - origin
@@ -117,7 +122,8 @@ def tell_feet(ends: Ends, sensor: Array, swing: NDArray[Any], height_m: float, t
     """
     arm = vector3()
     for k in range(len(told)):
-        rotation, wrench = ends.pose.rotation[ends.body[k]], ends.wrench[k]
+        rotation = ends.pose.rotation[ends.body[k]]
+        wrench = ends.wrench[k]
         height = ends.pose.position[ends.body[k], 2] - ends.pose.position[ends.body[1 - k], 2]
         if swing[k] > IN_THE_AIR and height > height_m:
             told[k] = 0.0

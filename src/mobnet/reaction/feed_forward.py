@@ -39,7 +39,8 @@ class FeedForward:
 
         Random torque acts on the leg that swings, as this does, so that its place is taken.
         """
-        layout, law = simulator.robot.layout, simulator.torque
+        layout = simulator.robot.layout
+        law = simulator.torque
         legs = [joint for limb in layout.legs.values() for joint in layout.limb(limb)]
         law.left[:] = np.inf
         law.value[:] = 0.0

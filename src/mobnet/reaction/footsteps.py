@@ -74,7 +74,9 @@ def rewound_steps(
     The swing foot returns towards where it stood last, but no further than it can be sent; the other one to where it
     stood before, and so on. A robot that has made no step yet steps in place.
     """
-    rows, foot, side = list[Array](), stance.foot, stance.side
+    rows = list[Array]()
+    foot = stance.foot
+    side = stance.side
     for goal in list(reversed(kept))[:count]:
         if not rows:
             way = goal[:2] - stance.swing
@@ -86,7 +88,8 @@ def rewound_steps(
         least, most = (-step_m, step_m) if rows else (stance.landing_m(first), max(step_m, stance.ahead_m))
         row[STEP_X] = min(max(row[STEP_X], least), most)
         rows.append(row)
-        foot, side = goal, -side
+        foot = goal
+        side = -side
     return np.array(rows) if rows else in_place(command, 1)
 
 
@@ -95,7 +98,8 @@ def step_to(goal: Array, foot: Array, side: float, command: Array, spacing_m: fl
 
     A command knows outward steps alone: a goal nearer to the stance foot than spacing_m [m] is passed by (W5).
     """
-    row, place = command.copy(), turned(goal[:2] - foot[:2], -foot[2])
+    row = command.copy()
+    place = turned(goal[:2] - foot[:2], -foot[2])
     row[STEP_X], row[STEP_Y], row[TURN] = place[0], place[1] + side * spacing_m, wrap(goal[2] - foot[2])
     return row
 
@@ -109,5 +113,6 @@ def in_place(command: Array, count: int) -> Array:
 
 def turned(vector: Array, yaw: float) -> Array:
     """Return a vector (2,) turned by yaw [rad]."""
-    c, n = np.cos(yaw), np.sin(yaw)
+    c = np.cos(yaw)
+    n = np.sin(yaw)
     return np.array([c * vector[0] - n * vector[1], n * vector[0] + c * vector[1]])

@@ -89,10 +89,15 @@ class Handler:
 
         In the first `settle` samples, while filters and networks begin from rest, nothing is an alarm.
         """
-        self.numbers, self.spacing, self.watchers = numbers, spacing_m, watchers
-        self.strategy, self.delay, self.settle = strategy, delay, settle
+        self.numbers = numbers
+        self.spacing = spacing_m
+        self.watchers = watchers
+        self.strategy = strategy
+        self.delay = delay
+        self.settle = settle
         bodies = end_effectors(robot)
-        self.limbs, self.identified = list(bodies), make_ends(robot, bodies, numbers.identification)
+        self.limbs = list(bodies)
+        self.identified = make_ends(robot, bodies, numbers.identification)
 
     def init(self) -> State:
         """Return the state before the first sample."""
@@ -112,7 +117,8 @@ class Handler:
             return None
         limb = max(ratios, key=ratios.__getitem__, default="")
         if state.waiting is None and limb and ratios[limb] > ALARM_RATIO:
-            state.waiting, state.limb = self.delay, limb
+            state.waiting = self.delay
+            state.limb = limb
         if state.waiting is None:
             return None
         state.waiting -= 1
@@ -132,12 +138,15 @@ class Handler:
         force = self.identified.wrench[self.limbs.index(state.limb), :2] if known else wrench[:2]
         size = float(np.hypot(*force))
         direction = force / size if size > 0.0 else np.zeros(2)
-        stance, command = self._stance(state, sample), np.asarray(sample.command, dtype=np.float64)
-        numbers, first = self.numbers, self.numbers.first_step
+        stance = self._stance(state, sample)
+        command = np.asarray(sample.command, dtype=np.float64)
+        numbers = self.numbers
+        first = self.numbers.first_step
         if self.strategy == "compliant":
             steps = compliant_steps(numbers.compliant, first, stance, direction, command, self.spacing)
         else:
-            kept, count = self._behind(state), numbers.rewind.steps
+            kept = self._behind(state)
+            count = numbers.rewind.steps
             steps = rewound_steps(kept, count, numbers.compliant.step_m, first, stance, command, self.spacing)
         steps = np.vstack([steps, in_place(command, numbers.stop_steps)])
         # The step that is being made keeps its duration, from which the foot's way and the balance were planned.
@@ -146,11 +155,14 @@ class Handler:
 
     def _stance(self, state: State, sample: Sensed) -> Stance:
         """Return how the robot stands, by its joints; on both feet it is about to swing the one that stood longer."""
-        swing, pose = state.swing, self.identified.pose
-        foot, other = self.identified.body[1 - swing], self.identified.body[swing]
+        swing = state.swing
+        pose = self.identified.pose
+        foot = self.identified.body[1 - swing]
+        other = self.identified.body[swing]
         in_air = sample.swing[swing] >= IN_THE_AIR
         landing = float(sample.landing[swing]) if in_air else np.inf
-        place, height = pose.position[other, :2].copy(), float(pose.position[other, 2] - pose.position[foot, 2])
+        place = pose.position[other, :2].copy()
+        height = float(pose.position[other, 2] - pose.position[foot, 2])
         return Stance(pose_of(self.identified, foot), SIDES[1 - swing], place, height, landing)
 
     def _keep_footsteps(self, state: State, sample: Sensed) -> None:
@@ -172,5 +184,6 @@ class Handler:
 
 def pose_of(ends: Ends, body: Any) -> Array:
     """Return place and yaw of a body (3,) [m, m, rad]."""
-    rotation, place = ends.pose.rotation[body], ends.pose.position[body]
+    rotation = ends.pose.rotation[body]
+    place = ends.pose.position[body]
     return np.array([place[0], place[1], np.arctan2(rotation[1, 0], rotation[0, 0])])

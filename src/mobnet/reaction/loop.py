@@ -55,11 +55,13 @@ class Course:
     @classmethod
     def of(cls, samples: int, simulator: Simulator) -> "Course":
         """Return room for so many samples."""
-        width, nv = simulator.width, simulator.robot.layout.nv
+        width = simulator.width
+        nv = simulator.robot.layout.nv
         rows, tau, std = (np.zeros((samples, n), np.float32) for n in (width, nv, nv))
         places = {name: place_of(simulator.world.model, name) for name in simulator.settings.obstacles}
         force, point, base, error = (np.zeros((samples, 3), np.float32) for _ in range(4))
-        tracking, power = np.full((samples, LEG_JOINTS), np.nan, np.float32), np.zeros((samples, 1), np.float32)
+        tracking = np.full((samples, LEG_JOINTS), np.nan, np.float32)
+        power = np.zeros((samples, 1), np.float32)
         return cls(rows, tau, std, force, point, base, error, tracking, power, places)
 
     def cut(self, samples: int) -> "Course":
@@ -84,11 +86,16 @@ def walk_with(
     height_m [m] above the other one touches no ground. Motors of the leg that swings make up for the share
     `feed_forward` of the uncertainty torque that the estimate knows.
     """
-    layout, sensors = simulator.robot.layout, simulator.sensors
-    places, columns = columns_of(layout), layout.columns(estimator.joints)
+    layout = simulator.robot.layout
+    sensors = simulator.sensors
+    places = columns_of(layout)
+    columns = layout.columns(estimator.joints)
     pushed = slice(places["push"].stop - 3, places["push"].stop)  # the force follows the push's row
-    course, row = Course.of(longest, simulator), np.zeros((1, simulator.width), np.float32)
-    state, estimating, left = handler.init(), estimator.init(), longest
+    course = Course.of(longest, simulator)
+    row = np.zeros((1, simulator.width), np.float32)
+    state = handler.init()
+    estimating = estimator.init()
+    left = longest
     fed = FeedForward.of(simulator, estimator.joints, feed_forward) if feed_forward else None
     for k in range(longest):
         if left == 0:
@@ -98,7 +105,8 @@ def walk_with(
             return course.cut(k)
         sample = Sensed(*(row[0, places[name]] for name in Sensed.__dataclass_fields__))
         estimating, estimate = estimator.step(estimating, sample)
-        course.rows[k], course.tau[k, columns] = row[0], estimate.tau_ext
+        course.rows[k] = row[0]
+        course.tau[k, columns] = estimate.tau_ext
         course.force[k] = force_on(simulator) + row[0, pushed]
         course.base[k] = simulator.plant.qpos[:3]
         if course.force[k].any() and len(points := points_on(simulator.world.model, simulator.world.data)):
@@ -124,13 +132,15 @@ def walk_with(
 
 def force_on(simulator: Simulator) -> Array:
     """Return the force of all obstacles on the robot in the last step (3,) [N], world axes."""
-    model, data = simulator.world.model, simulator.world.data
+    model = simulator.world.model
+    data = simulator.world.data
     return sum((obstacle_force(model, data, name) for name in simulator.settings.obstacles), np.zeros(3))
 
 
 def columns_of(layout: JointLayout) -> Mapping[str, slice]:
     """Return field -> its columns in a row of a recording."""
-    found, at = dict[str, slice](), 0
+    found = dict[str, slice]()
+    at = 0
     for name, columns in recording_columns(layout).items():
         found[name] = slice(at, at + len(columns))
         at += len(columns)

@@ -102,8 +102,10 @@ class FootWatcher:
 
     def ratio(self, state: State, sample: Sensed, estimate: Estimate) -> float:
         """Return how far the force lies above its threshold in the watched part of a swing, else zero."""
-        foot, gate = self.gate.foot, self.gate
-        q, tau = np.asarray(sample.q, dtype=np.float64), estimate.tau_ext[self.columns].astype(np.float64)
+        foot = self.gate.foot
+        gate = self.gate
+        q = np.asarray(sample.q, dtype=np.float64)
+        tau = estimate.tau_ext[self.columns].astype(np.float64)
         times = float(sample.swing[foot]), float(sample.landing[foot])
         is_watched = advance_gate(gate.gate, gate.leg, state.gate, q, tau, *times)
         return float(advance_chain(self.chain, state.chain, self.wrenches[foot, :3], is_watched, state.gate.phase))

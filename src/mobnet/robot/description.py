@@ -156,7 +156,8 @@ def for_walking(robot: RobotDescription) -> WalkingRobot:
         ConfigError: its table lacks something that walking takes; one line names all of it.
     """
     limbs = [robot.layout.limb(robot.feet[side].limb) for side in SIDES if side in robot.feet]
-    legs, axes = sum(limbs, ()), {_axes(robot, limb) for limb in limbs if len(limb) == LEG_JOINTS}
+    legs = sum(limbs, ())
+    axes = {_axes(robot, limb) for limb in limbs if len(limb) == LEG_JOINTS}
     needed = {
         "a floating base": robot.floating,
         "feet on both sides": robot.feet.keys() >= set(SIDES),

@@ -48,9 +48,11 @@ def momentum_and_beta(nominal: NominalModel, q: NDArray[Any], v: NDArray[Any]) -
     Raises:
         DataError: their shapes do not fit the model or each other.
     """
-    nv, samples = nominal.model.nv, np.shape(v)[:-1]
+    nv = nominal.model.nv
+    samples = np.shape(v)[:-1]
     rows = rows_of("q", q, samples, nominal.model.nq), rows_of("v", v, samples, nv)
-    p, result = np.empty((*samples, nv)), np.empty((*samples, nv))
+    p = np.empty((*samples, nv))
+    result = np.empty((*samples, nv))
     sweep(nominal.linkage, *rows, p.reshape(-1, nv), result.reshape(-1, nv))
     return p, result
 

@@ -111,11 +111,15 @@ def _shown(joint: Joint) -> str:
 
 def _coupled(joint: Joint, joints: Mapping[int, Joint], asked: Mapping[int, float]) -> float:
     """Return the coordinate of a joint whose leader, or the leader of that one, is locked or else at zero."""
-    value, factor, seen = 0.0, 1.0, set[int]()
-    follows, index = joint.follows, joint.index
+    value = 0.0
+    factor = 1.0
+    seen = set[int]()
+    follows = joint.follows
+    index = joint.index
     while follows is not None and index not in seen:
         seen.add(index)
-        value, factor = value + factor * follows.offset, factor * follows.factor
+        value = value + factor * follows.offset
+        factor = factor * follows.factor
         if follows.leader is None or follows.leader not in joints:
             return value
         index = follows.leader

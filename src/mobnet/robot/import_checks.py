@@ -57,7 +57,8 @@ def differences(
 
 def _compared(nominal: NominalModel, read: Terms) -> tuple[float, float]:
     """Return the largest differences of mass matrix and bias over some poses."""
-    rng, rows = np.random.default_rng(SEED), list[tuple[float, float]]()
+    rng = np.random.default_rng(SEED)
+    rows = list[tuple[float, float]]()
     for _ in range(POSES):
         q, v = _pose(nominal.robot, rng)
         inertia, terms = read(q, v)
@@ -90,7 +91,8 @@ def _pinocchio(robot: RobotDescription, found: Imported, path: Path) -> Terms:
     text = _plain(read_root(path), found)
     whole = pin.buildModelFromXML(text, pin.JointModelFreeFlyer()) if robot.floating else pin.buildModelFromXML(text)
     names = ["root_joint"] * robot.floating + [f"j{joint.index}" for joint in found.hinges]
-    locked, start = [k for k, name in enumerate(whole.names) if k and name not in names], pin.neutral(whole)
+    locked = [k for k, name in enumerate(whole.names) if k and name not in names]
+    start = pin.neutral(whole)
     for index, value in found.robot.held.items():
         if whole.existJointName(f"j{index}"):
             _set(whole, start, whole.getJointId(f"j{index}"), value)
@@ -101,11 +103,15 @@ def _pinocchio(robot: RobotDescription, found: Imported, path: Path) -> Terms:
         if mass.is_changed and not mass.dropped:
             changed, moments = balanced(own.mass, own.inertia)
             model.inertias[number] = pin.Inertia(changed, own.lever, moments)
-    data, columns = model.createData(), np.concatenate([_columns(model, number) for number in numbers])
+    data = model.createData()
+    columns = np.concatenate([_columns(model, number) for number in numbers])
 
     def terms(q: Array, v: Array) -> tuple[Array, Array]:
-        own, speeds, turn = pin.neutral(model), np.zeros(model.nv), np.eye(model.nv)
-        angles, base = q[len(q) - robot.layout.nu :], np.zeros(model.nv)
+        own = pin.neutral(model)
+        speeds = np.zeros(model.nv)
+        turn = np.eye(model.nv)
+        angles = q[len(q) - robot.layout.nu :]
+        base = np.zeros(model.nv)
         speeds[columns] = v
         for number, angle in zip(numbers[robot.floating :], angles, strict=True):
             _set(model, own, number, angle)
@@ -144,7 +150,8 @@ def _plain(root: ET.Element, found: Imported) -> str:
     dropped = {link for mass in found.masses for link in mass.dropped}
     plain = ET.Element("robot", name="robot")
     for row in root.findall("link"):
-        number, inertial = names[row.get("name", "")], row.find("inertial")
+        number = names[row.get("name", "")]
+        inertial = row.find("inertial")
         if found.robot.kept[number]:
             link = ET.SubElement(plain, "link", name=f"l{number}")
             if inertial is not None and number not in dropped:
@@ -191,16 +198,19 @@ def _mujoco(robot: RobotDescription, found: Imported, path: Path) -> Terms:
     model.tendon_armature[:] = 0.0
     dofs = model.jnt_dofadr[hinges]
     model.dof_armature[dofs] = robot.armature
-    data, first = mujoco.MjData(model), 0
+    data = mujoco.MjData(model)
+    first = 0
     if robot.floating:
         body = _body(model, found, found.robot.base)
         first = int(model.body_jntadr[body])
         dofs = np.concatenate([np.arange(BASE) + model.jnt_dofadr[first], dofs])
 
     def terms(q: Array, v: Array) -> tuple[Array, Array]:
-        data.qpos[:], data.qvel[:] = model.qpos0, 0.0
+        data.qpos[:] = model.qpos0
+        data.qvel[:] = 0.0
         data.qpos[list(held)] = list(held.values())
-        data.qpos[model.jnt_qposadr[hinges]], data.qvel[dofs] = q[len(q) - robot.layout.nu :], v
+        data.qpos[model.jnt_qposadr[hinges]] = q[len(q) - robot.layout.nu :]
+        data.qvel[dofs] = v
         if robot.floating:
             data.qpos[model.jnt_qposadr[first] + np.arange(7)] = q[:7]
         mujoco.mj_forward(model, data)
@@ -249,10 +259,12 @@ def _change(model: mujoco.MjModel, found: Imported) -> None:
             first = body.parts[0]
             for part in body.parts:
                 number = _body(model, found, part.link)
-                model.body_mass[number], model.body_inertia[number] = 0.0, 0.0
+                model.body_mass[number] = 0.0
+                model.body_inertia[number] = 0.0
             number = _body(model, found, first.link)
             moments, axes = np.linalg.eigh(first.turn.T @ mass.inertia @ first.turn)
             axes[:, 0] *= np.sign(np.linalg.det(axes))
-            model.body_mass[number], model.body_inertia[number] = mass.mass, moments
+            model.body_mass[number] = mass.mass
+            model.body_inertia[number] = moments
             model.body_ipos[number] = first.turn.T @ (mass.com - first.pos)
             model.body_iquat[number] = pin.Quaternion(axes).coeffs()[[3, 0, 1, 2]]

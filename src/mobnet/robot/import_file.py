@@ -39,7 +39,8 @@ def read_root(path: Path) -> ET.Element:
 
 def _parsed(content: bytes) -> ET.Element:
     """Return the first element; a file that nests elements without end would end the process elsewhere."""
-    parser, depth = ET.XMLPullParser(("start", "end")), 0
+    parser = ET.XMLPullParser(("start", "end"))
+    depth = 0
     for start in range(0, len(content), 2**16):
         parser.feed(content[start : start + 2**16])
         for event in parser.read_events():

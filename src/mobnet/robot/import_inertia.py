@@ -12,7 +12,8 @@ from mobnet.settings.parts import is_possible
 
 # Of a body without mass between joints, [kg] and [kg m^2]: it changes no torque by a digit that counts, and MuJoCo
 # simulates it.
-TOKEN_MASS, TOKEN_INERTIA = 1e-12, 1e-14
+TOKEN_MASS = 1e-12
+TOKEN_INERTIA = 1e-14
 TOKEN_SHARE = 1e-3  # of the mass of a body, below which a link with an impossible inertia stands for a frame
 LIGHT_KG = 1e-3  # a link of less mass may get more, where its inertia asks for it
 LARGE_M = 1.5  # a radius of gyration above this is told

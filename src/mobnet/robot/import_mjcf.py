@@ -23,7 +23,8 @@ OF_JOINTS = (int(mujoco.mjtTrn.mjTRN_JOINT), int(mujoco.mjtTrn.mjTRN_JOINTINPARE
 GRAVITY = (0.0, 0.0, -9.81)  # [m/s^2], of the table's models
 NEAR = 0.05  # [m/s^2]: 9.8 and 9.81 are the same
 # MuJoCo takes no body that moves without mass; these change no mass matrix in its first ten digits, [kg] and [kg m^2]
-BOUND_MASS, BOUND_INERTIA = 1e-12, 1e-14
+BOUND_MASS = 1e-12
+BOUND_INERTIA = 1e-14
 CORNERS = np.array([0.0, 0, 0, 0.1, 0, 0, 0, 0.1, 0, 0, 0, 0.1])  # of the tetrahedron in place of a mesh [m]
 FACES = np.array([0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3])
 SMALL_TEXTURE, CUBE_SIDES = 8, 6  # [pixels]
@@ -66,16 +67,26 @@ def spec_of(path: Path) -> mujoco.MjSpec:
         spec.delete(row)
     for texture in spec.textures:
         is_flat = texture.type == mujoco.mjtTexture.mjTEXTURE_2D
-        texture.file, texture.content_type, texture.cubefiles = "", "", [""] * CUBE_SIDES
+        texture.file = ""
+        texture.content_type = ""
+        texture.cubefiles = [""] * CUBE_SIDES
         texture.builtin = mujoco.mjtBuiltin.mjBUILTIN_FLAT
-        texture.width, texture.height = SMALL_TEXTURE, SMALL_TEXTURE * (1 if is_flat else CUBE_SIDES)
+        texture.width = SMALL_TEXTURE
+        texture.height = SMALL_TEXTURE * (1 if is_flat else CUBE_SIDES)
     for field in spec.hfields:
-        field.file, field.content_type, field.nrow, field.ncol, field.userdata = "", "", 2, 2, [0.0] * 4
+        field.file = ""
+        field.content_type = ""
+        field.nrow = 2
+        field.ncol = 2
+        field.userdata = [0.0] * 4
     weighed = _weighed(spec)
     for mesh in spec.meshes:
         if mesh.file and _name(mesh) not in weighed:
-            mesh.name, mesh.file, mesh.content_type = _name(mesh), "", ""
-            mesh.uservert, mesh.userface = CORNERS, FACES
+            mesh.name = _name(mesh)
+            mesh.file = ""
+            mesh.content_type = ""
+            mesh.uservert = CORNERS
+            mesh.userface = FACES
     return spec
 
 
@@ -121,10 +132,12 @@ def _weighed(spec: mujoco.MjSpec) -> dict[str, str]:
 
 def _link(model: mujoco.MjModel, b: int, couplings: Mapping[int, Follows]) -> Link:
     """Return a body with its joints and its mass, none where MuJoCo took the least one."""
-    first, count = int(model.body_jntadr[b]), int(model.body_jntnum[b])
+    first = int(model.body_jntadr[b])
+    count = int(model.body_jntnum[b])
     joints = [_joint(model, k, couplings) for k in range(first, first + count)] if count else []
     axes = _turn(model.body_iquat[b])
-    mass, inertia = float(model.body_mass[b]), axes @ np.diag(model.body_inertia[b]) @ axes.T
+    mass = float(model.body_mass[b])
+    inertia = axes @ np.diag(model.body_inertia[b]) @ axes.T
     if mass <= BOUND_MASS:
         mass = 0.0
     if model.body_inertia[b].max() <= BOUND_INERTIA:
@@ -145,7 +158,8 @@ def _turn(quat: Array) -> Array:
 
 def _joint(model: mujoco.MjModel, k: int, couplings: Mapping[int, Follows]) -> Joint:
     """Return a joint; its largest torque follows from its motors."""
-    dof, actuators = int(model.jnt_dofadr[k]), list(_actuators(model, k))
+    dof = int(model.jnt_dofadr[k])
+    actuators = list(_actuators(model, k))
     torques = [_largest(model, a) for a in actuators]
     if model.jnt_actfrclimited[k]:
         torques.append(float(np.abs(model.jnt_actfrcrange[k]).max()))
@@ -170,7 +184,8 @@ def _actuators(model: mujoco.MjModel, joint: int) -> Iterator[int]:
 
 def _largest(model: mujoco.MjModel, actuator: int) -> float:
     """Return the largest torque of an actuator behind its gear [N m], infinite where it has no limit."""
-    gear, largest = abs(float(model.actuator_gear[actuator, 0])), np.inf
+    gear = abs(float(model.actuator_gear[actuator, 0]))
+    largest = np.inf
     if model.actuator_forcelimited[actuator]:
         largest = float(np.abs(model.actuator_forcerange[actuator]).max())
     is_motor = model.actuator_biastype[actuator] == mujoco.mjtBias.mjBIAS_NONE
@@ -185,7 +200,8 @@ def _couplings(model: mujoco.MjModel) -> dict[int, Follows]:
     found = {}
     for k in range(model.neq):
         if model.eq_type[k] == mujoco.mjtEq.mjEQ_JOINT and model.eq_active0[k]:
-            joint, leader = int(model.eq_obj1id[k]), int(model.eq_obj2id[k])
+            joint = int(model.eq_obj1id[k])
+            leader = int(model.eq_obj2id[k])
             offset, factor = (float(value) for value in model.eq_data[k, :2])
             offset += float(model.qpos0[model.jnt_qposadr[joint]])  # both count from where the file places the joints
             if leader < 0:

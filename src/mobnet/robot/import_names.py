@@ -16,7 +16,8 @@ def words_of(names: Sequence[str], kind: str, taken: Collection[str] = ()) -> li
     A name without a letter of ASCII becomes the kind with its number, such as `body_3`.
     """
     words = [_word(name, f"{kind}_{k}") for k, name in enumerate(names)]
-    used, found = set(taken), list[str]()
+    used = set(taken)
+    found = list[str]()
     kept = {name for name, word in zip(names, words, strict=True) if name == word and name not in used}
     for name, word in zip(names, words, strict=True):
         if name in kept:
@@ -36,9 +37,11 @@ def _word(name: str, otherwise: str) -> str:
 
 def _free(word: str, used: Collection[str]) -> str:
     """Return a word, with a number if it is used."""
-    found, number = word, 2
+    found = word
+    number = 2
     while found in used:
-        found, number = f"{word[: LONGEST - NUMBER]}_{number}", number + 1
+        found = f"{word[: LONGEST - NUMBER]}_{number}"
+        number = number + 1
     return found
 
 
@@ -94,7 +97,9 @@ def _limb_name(chain: Sequence[str], taken: Iterable[str]) -> str:
     shared += [part for part, marks in PARTS.items() if shared and marks & words and part not in shared]
     stem = "".join(shared)[: MOST_NAME - 2] if shared and shared[0][0].isalpha() else "limb"
     lowered = {name.casefold() for name in taken}
-    name, number = stem, 2
+    name = stem
+    number = 2
     while name.casefold() in lowered:
-        name, number = f"{stem[: MOST_NAME - len(str(number))]}{number}", number + 1
+        name = f"{stem[: MOST_NAME - len(str(number))]}{number}"
+        number = number + 1
     return name

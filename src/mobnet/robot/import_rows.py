@@ -73,7 +73,8 @@ def joint_rows(
     unlimited: dict[str, list[str]] = {"range": [], "torque": [], "speed": []}
     for joint, word, body in zip(hinges, words, bodies, strict=True):
         low, high = _range(joint)
-        torque, speed = _within(joint.torque, TORQUE_NM), _within(joint.speed, SPEED_RAD_S)
+        torque = _within(joint.torque, TORQUE_NM)
+        speed = _within(joint.speed, SPEED_RAD_S)
         unlimited["range"] += [word] if (low, high) != joint.range else []
         unlimited["torque"] += [] if torque else [word]
         unlimited["speed"] += [] if speed else [word]
@@ -93,7 +94,8 @@ def _range(joint: Joint) -> tuple[float, float]:
     """Return the range of a joint [rad] as a table takes it, two turns to each side where there is none."""
     if joint.range is None:
         return -MOST_RAD, MOST_RAD
-    low, high = max(joint.range[0], -MOST_RAD), min(joint.range[1], MOST_RAD)
+    low = max(joint.range[0], -MOST_RAD)
+    high = min(joint.range[1], MOST_RAD)
     return (low, high) if low < high else (-MOST_RAD, MOST_RAD)
 
 

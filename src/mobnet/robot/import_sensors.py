@@ -22,10 +22,12 @@ def sensors_of(
 
     A link or a site is taken for a sensor by its name; a site also if an accelerometer or a gyroscope is there.
     """
-    row, notes = None, list[str]()
+    row = None
+    notes = list[str]()
     for name, body, pos, turn in _places(tree, parts):
         if body != 0:
-            carrier, base = rows[body]["name"], rows[0]["name"]
+            carrier = rows[body]["name"]
+            base = rows[0]["name"]
             notes.append(f"{name}: an inertial sensor on {carrier}; a table has that of the base, {base}")
         elif row is not None:
             notes.append(f"{name}: another inertial sensor on the base; `imu` of the table is the first")

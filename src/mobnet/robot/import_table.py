@@ -119,7 +119,8 @@ def told(robot: RobotDescription, found: Imported, path: Path) -> Iterator[str]:
     Raises:
         DataError: the table differs from another reading of the file.
     """
-    kind, notes = "floating" if robot.floating else "fixed", list[str]()
+    kind = "floating" if robot.floating else "fixed"
+    notes = list[str]()
     compared = list(differences(robot, found, path, notes))
     for reading, *apart in compared:
         if not max(apart) <= EQUAL:

@@ -12,7 +12,11 @@ import pinocchio as pin
 from mobnet.core.arrays import Array
 
 WORLD = -1  # parent of a link that stands in the world
-HINGE, SLIDE, BALL, FREE, PLANAR = "hinge", "slide", "ball", "free", "planar"
+HINGE = "hinge"
+SLIDE = "slide"
+BALL = "ball"
+FREE = "free"
+PLANAR = "planar"
 
 
 @dataclass(frozen=True)
@@ -169,16 +173,20 @@ def _hung(
 ) -> tuple[int, Array, Array]:
     """Return body and place of a link whose parent has a place; each hinge that turns adds a body."""
     body, pos, turn = place
-    pos, turn = pos + turn @ link.pos, turn @ link.turn
+    pos = pos + turn @ link.pos
+    turn = turn @ link.turn
     turning = [joint for joint in link.joints if joint.kind == HINGE and joint.index not in held]
     for joint in link.joints:
         if joint.kind == HINGE:
             angle = held.get(joint.index, 0.0) - joint.at
-            anchor, turn = pos + turn @ joint.pos, turn @ pin.exp3(angle * joint.axis)
+            anchor = pos + turn @ joint.pos
+            turn = turn @ pin.exp3(angle * joint.axis)
             if joint.index not in held:
                 name = link.name if joint is turning[-1] else f"{link.name}_{joint.name}"
                 bodies.append(Body(name, body, anchor, turn, joint))
-                body, anchor, turn = len(bodies) - 1, np.zeros(3), np.eye(3)
+                body = len(bodies) - 1
+                anchor = np.zeros(3)
+                turn = np.eye(3)
             pos = anchor - turn @ joint.pos
         elif joint.kind == SLIDE:
             pos = pos + (held.get(joint.index, joint.at) - joint.at) * turn @ joint.axis

@@ -47,7 +47,9 @@ class _Row:
     """A joint of the file: the links that it ties, and how."""
 
     def __init__(self, row: ET.Element, index: int, links: Iterable[str]) -> None:
-        self.name, self.row, self.index = _named(row), row, index
+        self.name = _named(row)
+        self.row = row
+        self.index = index
         kind = row.get("type", "")
         if kind not in KINDS:
             raise DataError(not_accepted(f"joint {self.name}: type", kind, KINDS))
@@ -142,7 +144,8 @@ def _mass(row: ET.Element, where: str) -> tuple[float, Array, Array]:
     inertial = row.find("inertial")
     if inertial is None:
         return 0.0, np.zeros(3), np.zeros((3, 3))
-    weight, moments = inertial.find("mass"), inertial.find("inertia")
+    weight = inertial.find("mass")
+    moments = inertial.find("inertia")
     mass = 0.0 if weight is None else number(weight.get("value", "0"), f"{where}: mass")
     if mass < 0.0:
         raise DataError(f"{where}: mass {mass:g} kg is not accepted; accepted: 0 or more")
@@ -154,7 +157,8 @@ def _mass(row: ET.Element, where: str) -> tuple[float, Array, Array]:
 
 def _joint(row: _Row, kind: str, numbers: Mapping[str, int]) -> Joint:
     """Return a joint with its limits."""
-    where, found = f"joint {row.name}", row.row.find("axis")
+    where = f"joint {row.name}"
+    found = row.row.find("axis")
     axis = np.array([1.0, 0.0, 0.0]) if found is None else _vector(found.get("xyz", "1 0 0"), f"{where}: axis")
     length = float(np.linalg.norm(axis))
     if length < TURN and kind in (HINGE, SLIDE):
@@ -178,7 +182,8 @@ def _joint(row: _Row, kind: str, numbers: Mapping[str, int]) -> Joint:
 
 
 def _coupling(row: ET.Element, where: str, numbers: Mapping[str, int]) -> Follows:
-    factor, offset = row.get("multiplier", "1"), row.get("offset", "0")
+    factor = row.get("multiplier", "1")
+    offset = row.get("offset", "0")
     leader = numbers.get(row.get("joint", ""))
     return Follows(leader, number(factor, f"{where}: multiplier"), number(offset, f"{where}: offset of mimic"))
 

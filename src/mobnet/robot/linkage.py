@@ -46,11 +46,13 @@ class Linkage(NamedTuple):
 def linkage_of(model: pin.Model) -> Linkage:
     """Return the constants of a model of hinges on a base that is fixed, or floats as `NominalModel` has it."""
     root = ROOT_JOINTS if model.nv >= model.njoints else 0  # the joint of the base: its six velocities are of two
-    links, data = np.zeros(model.njoints - root, LINK), model.createData()
+    links = np.zeros(model.njoints - root, LINK)
+    data = model.createData()
     pin.computeJointJacobians(model, data, pin.neutral(model))
     for link, body in zip(links, model.inertias[root:], strict=True):
         lever = pin.skew(body.lever)
-        link["mass"], link["moment"] = body.mass, body.mass * body.lever
+        link["mass"] = body.mass
+        link["moment"] = body.mass * body.lever
         link["inertia"] = body.inertia - body.mass * lever @ lever
     for joint, link in enumerate(links[1:], root + 1):
         _place(model, data, joint, link)
@@ -63,13 +65,15 @@ def linkage_of(model: pin.Model) -> Linkage:
 
 def _place(model: pin.Model, data: pin.Data, joint: int, link: Any) -> None:
     """Set the hinge of a link: where it is in its parent, its axis and its rotor."""
-    placement, column = model.jointPlacements[joint], model.idx_vs[joint]
+    placement = model.jointPlacements[joint]
+    column = model.idx_vs[joint]
     # of a model with one velocity it is a vector
     whole = np.reshape(pin.getJointJacobian(model, data, joint, pin.ReferenceFrame.LOCAL), (-1, model.nv))
     axis = whole[3:, column]
     along = np.outer(axis, axis)
     # Rodrigues' formula, behind the rotation of the joint's frame in its parent's
-    link["still"], link["cosine"] = placement.rotation @ along, placement.rotation @ (np.eye(3) - along)
+    link["still"] = placement.rotation @ along
+    link["cosine"] = placement.rotation @ (np.eye(3) - along)
     link["sine"] = placement.rotation @ pin.skew(axis)
     link["axis"], link["offset"], link["armature"] = axis, placement.translation, model.armature[column]
 
@@ -85,7 +89,10 @@ def turn(link: Any, cosine: float, sine: float, rotation: Array, lane: int) -> N
 @compiled
 def turn_base(q: Array, rotation: Array, lane: int) -> None:
     """Set the rotation of a floating base to the world from a position (nq,), whose quaternion is of any length."""
-    w, x, y, z = q[3], q[4], q[5], q[6]
+    w = q[3]
+    x = q[4]
+    y = q[5]
+    z = q[6]
     s = 2.0 / (w * w + x * x + y * y + z * z)
     put(rotation[0], lane, (1.0 - s * (y * y + z * z), s * (x * y - w * z), s * (x * z + w * y)))
     put(rotation[1], lane, (s * (x * y + w * z), 1.0 - s * (x * x + z * z), s * (y * z - w * x)))

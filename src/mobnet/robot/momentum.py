@@ -53,7 +53,8 @@ def lanes(width: int) -> np.dtype[np.void]:
     return np.dtype([(name, np.float64, shape) for name, shape in shapes.items()])
 
 
-WIDE, NARROW = lanes(LANES), lanes(1)
+WIDE = lanes(LANES)
+NARROW = lanes(1)
 
 
 @compiled(allocating=True)
@@ -62,8 +63,10 @@ def sweep(linkage: Linkage, q: Array, v: Array, p: Array, beta: Array) -> None:
 
     Quaternions may be of any length; velocities are (T, nv) [m/s], [rad/s].
     """
-    links, row = len(linkage.links), 0
-    wide, narrow = np.empty(links, WIDE), np.empty(links, NARROW)
+    links = len(linkage.links)
+    row = 0
+    wide = np.empty(links, WIDE)
+    narrow = np.empty(links, NARROW)
     while row + LANES <= len(q):
         _sweep(linkage, wide, q[row:], v[row:], p[row:], beta[row:])
         row += LANES
@@ -75,7 +78,8 @@ def sweep(linkage: Linkage, q: Array, v: Array, p: Array, beta: Array) -> None:
 @compiled
 def _sweep(linkage: Linkage, work: Records, q: Array, v: Array, p: Array, beta: Array) -> None:
     """Write p and beta of as many samples as there are lanes, the first ones."""
-    links, floating = linkage.links, v.shape[1] >= len(linkage.links)
+    links = linkage.links
+    floating = v.shape[1] >= len(linkage.links)
     _start(linkage, work[0], floating, q, v)
     for k in range(1, len(links)):
         _go_out(links[k], work[k], work[links[k].parent], q[:, k - len(links)], v[:, k - len(links)])
@@ -109,7 +113,8 @@ def _go_out(link: Any, own: Any, parent: Any, q: Array, v: Array) -> None:
         own.cosine[lane], own.sine[lane] = math.cos(q[lane]), math.sin(q[lane])
     for lane in range(own.cosine.shape[0]):
         turn(link, own.cosine[lane], own.sine[lane], own.rotation, lane)
-        omega, axis = at(parent.omega, lane), vector(link.axis)
+        omega = at(parent.omega, lane)
+        axis = vector(link.axis)
         here = add(at(parent.velocity, lane), cross(omega, vector(link.offset)))
         put(own.velocity, lane, into(own.rotation, lane, here))
         put(own.omega, lane, add(into(own.rotation, lane, omega), times(v[lane], axis)))
@@ -120,7 +125,9 @@ def _go_out(link: Any, own: Any, parent: Any, q: Array, v: Array) -> None:
 @compiled
 def _carry(link: Any, own: Any, lane: int) -> None:
     """Set the momentum and first moment of the link alone."""
-    velocity, omega, moment = at(own.velocity, lane), at(own.omega, lane), vector(link.moment)
+    velocity = at(own.velocity, lane)
+    omega = at(own.omega, lane)
+    moment = vector(link.moment)
     turning = product(link.inertia, omega)
     put(own.momentum, lane, add(times(link.mass, velocity), cross(omega, moment)))
     put(own.spin, lane, add(turning, cross(moment, velocity)))
@@ -147,7 +154,8 @@ def _rate(own: Any, lane: int) -> Triple:
 @compiled
 def _go_back(link: Any, own: Any, parent: Any) -> None:
     """Add a subtree's momentum and first moment to its parent's."""
-    offset, shift = vector(link.offset), times(link.behind, vector(link.offset))
+    offset = vector(link.offset)
+    shift = times(link.behind, vector(link.offset))
     for lane in range(own.cosine.shape[0]):
         momentum = out_of(own.rotation, lane, at(own.momentum, lane))
         spin = add(out_of(own.rotation, lane, at(own.spin, lane)), cross(offset, momentum))
@@ -161,8 +169,10 @@ def _go_back(link: Any, own: Any, parent: Any) -> None:
 def _tell_base(linkage: Linkage, base: Any, p: Array, beta: Array) -> None:
     """Write p and beta of a floating base: of its translation, and of its ball by (d)."""
     for lane in range(base.cosine.shape[0]):
-        momentum, spin = out_of(base.rotation, lane, at(base.momentum, lane)), at(base.spin, lane)
-        weight, rate = times(linkage.links[0].behind, vector(linkage.gravity)), _rate(base, lane)
+        momentum = out_of(base.rotation, lane, at(base.momentum, lane))
+        spin = at(base.spin, lane)
+        weight = times(linkage.links[0].behind, vector(linkage.gravity))
+        rate = _rate(base, lane)
         for i in range(3):
             p[lane, i], p[lane, 3 + i] = momentum[i], spin[i]
             beta[lane, i], beta[lane, 3 + i] = weight[i], rate[i]

@@ -25,7 +25,8 @@ def point_jacobian(nominal: NominalModel, body: str, place: Sequence[float], q: 
         ConfigError: the robot has no such body.
         DataError: positions do not fit the model.
     """
-    robot, samples = nominal.robot, np.shape(q)[:-1]
+    robot = nominal.robot
+    samples = np.shape(q)[:-1]
     positions = rows_of("q", q, samples, nominal.model.nq)
     joint, placement = carrier_of(robot, body)
     found = np.zeros((len(positions), robot.layout.nu, 2, 3, 1))
@@ -44,9 +45,11 @@ def _fill(linkage: Linkage, link: int, point: Array, q: Array, floating: bool, f
     """
     rotation = np.empty((3, 3, 1))
     for row in range(len(q)):
-        place, k = vector(point), link
+        place = vector(point)
+        k = link
         while k > 0:
-            carrier, columns = linkage.links[k], found[row]
+            carrier = linkage.links[k]
+            columns = found[row]
             axis = vector(carrier.axis)
             put(columns[k - 1, 0], 0, cross(axis, place))
             put(columns[k - 1, 1], 0, axis)

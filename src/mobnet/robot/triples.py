@@ -63,5 +63,6 @@ def out_of(rotation: Array, lane: int, x: Triple) -> Triple:
 @compiled
 def into(rotation: Array, lane: int, x: Triple) -> Triple:
     """Return the transpose of a lane of rotations (3, 3, lanes) times x: out of the parent's axes."""
-    first, second = times(x[0], at(rotation[0], lane)), times(x[1], at(rotation[1], lane))
+    first = times(x[0], at(rotation[0], lane))
+    second = times(x[1], at(rotation[1], lane))
     return add(add(first, second), times(x[2], at(rotation[2], lane)))

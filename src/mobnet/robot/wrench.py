@@ -27,12 +27,16 @@ def feet_torque(nominal: NominalModel, q: NDArray[Any], wrenches: Mapping[str, N
         ConfigError: a side is unknown.
         DataError: positions or wrenches do not fit the model or each other.
     """
-    model, samples = nominal.model, np.shape(q)[:-1]
-    tau, positions = np.zeros((*samples, model.nv)), rows_of("q", q, samples, model.nq)
+    model = nominal.model
+    samples = np.shape(q)[:-1]
+    tau = np.zeros((*samples, model.nv))
+    positions = rows_of("q", q, samples, model.nq)
     for side, wrench in wrenches.items():
-        frame, loads = model.frames[_frame(nominal, side)], rows_of(f"the {side} wrench", wrench, samples, 6)
+        frame = model.frames[_frame(nominal, side)]
+        loads = rows_of(f"the {side} wrench", wrench, samples, 6)
         link = len(nominal.linkage.links) - model.njoints + frame.parentJoint
-        axes, point = np.ascontiguousarray(frame.placement.rotation), np.array(frame.placement.translation)
+        axes = np.ascontiguousarray(frame.placement.rotation)
+        point = np.array(frame.placement.translation)
         _pull(nominal.linkage, link, axes, point, positions, loads, tau.reshape(-1, model.nv))
     return tau
 
@@ -49,8 +53,10 @@ def point_torque(
         ConfigError: the robot has no such body.
         DataError: positions or wrenches do not fit the model or each other.
     """
-    model, samples = nominal.model, np.shape(q)[:-1]
-    tau, positions = np.zeros((*samples, model.nv)), rows_of("q", q, samples, model.nq)
+    model = nominal.model
+    samples = np.shape(q)[:-1]
+    tau = np.zeros((*samples, model.nv))
+    positions = rows_of("q", q, samples, model.nq)
     joint, placement = carrier_of(nominal.robot, body)
     link = 1 + nominal.robot.layout.actuated.index(joint) if joint else 0
     turned = np.ascontiguousarray(placement.rotation @ np.asarray(axes, dtype=np.float64))
@@ -61,7 +67,8 @@ def point_torque(
 
 def carrier_of(robot: RobotDescription, body: str) -> tuple[str | None, pin.SE3]:
     """Return the joint that carries a body, none for the base, and the body's placement in what the joint moves."""
-    rows, placement = {row.name: row for row in robot.bodies}, pin.SE3.Identity()
+    rows = {row.name: row for row in robot.bodies}
+    placement = pin.SE3.Identity()
     if body not in rows:
         raise ConfigError(not_accepted("body", body, rows))
     while (joint := robot.joint_of(body)) is None and body != robot.base:
@@ -77,12 +84,14 @@ def _pull(linkage: Linkage, link: int, axes: Array, point: Array, q: Array, wren
 
     A joint takes the share of the moment about its axis and passes the wrench on to its parent.
     """
-    rotation, floating = np.empty((3, 3, 1)), tau.shape[1] >= len(linkage.links)
+    rotation = np.empty((3, 3, 1))
+    floating = tau.shape[1] >= len(linkage.links)
     for row in range(len(q)):
         force, k = product(axes, vector(wrench[row])), link
         moment = add(product(axes, vector(wrench[row, 3:])), cross(vector(point), force))
         while k > 0:
-            carrier, column = linkage.links[k], k - len(linkage.links)
+            carrier = linkage.links[k]
+            column = k - len(linkage.links)
             tau[row, column] += dot(vector(carrier.axis), moment)
             turn(carrier, math.cos(q[row, column]), math.sin(q[row, column]), rotation, 0)
             force = out_of(rotation, 0, force)

@@ -60,7 +60,8 @@ def rising(path: Path, time_s: Array, bounds: RobotLog) -> Rising:
     hints = [f"clock: {len(time_s) - len(rows)} of {len(time_s)} rows have no time, and are left out"] * (
         len(rows) < len(time_s)
     )
-    own, steps = time_s[rows], np.diff(time_s[rows])
+    own = time_s[rows]
+    steps = np.diff(time_s[rows])
     if len(own) < 2 or np.mean(steps <= 0.0) > bounds.backward:
         row = int(rows[1:][steps <= 0.0][0]) if len(own) > 1 else 0
         back = f"row {row} is not after the one before it" + f", as {(steps <= 0.0).sum()} of {len(time_s)} rows"
@@ -118,13 +119,16 @@ def common_ticks(path: Path, clocks: Mapping[str, Array], rate_hz: float, bounds
     if is_one and even and abs(1.0 / np.median(steps) - rate_hz) <= ROUND * rate_hz:
         ends = [0, *(np.flatnonzero(pauses) + 1).tolist(), len(first)]
         return Ticks(first, _long_enough(path, pairwise(ends)), interpolated=False)
-    last, earliest = max(clocks, key=lambda key: clocks[key][0]), min(clocks, key=lambda key: clocks[key][-1])
-    start, end = clocks[last][0], clocks[earliest][-1]
+    last = max(clocks, key=lambda key: clocks[key][0])
+    earliest = min(clocks, key=lambda key: clocks[key][-1])
+    start = clocks[last][0]
+    end = clocks[earliest][-1]
     if end - start < 2 / rate_hz:
         text = f"clock: {last} begins at {start:.3f} s and {earliest} ends at {end:.3f} s"
         raise DataError(f"{path}: {text}; accepted: signals that overlap; of messages `clock: {{stamp: recorded}}`")
     spans = _spans(first, pauses, start, end, rate_hz)
-    wanted, samples = int((spans[1] - spans[0] + 1).sum()), max(map(len, clocks.values()))
+    wanted = int((spans[1] - spans[0] + 1).sum())
+    samples = max(map(len, clocks.values()))
     if wanted > bounds.ticks * samples:
         text = f"{wanted} ticks at {rate_hz:g} Hz for {samples} samples, over {end - start:.4g} s"
         raise DataError(f"{path}: clock: {text}; accepted: up to {bounds.ticks:g} for each: is clock.unit right?")
@@ -158,7 +162,8 @@ def _long_enough(path: Path, segments: Iterable[tuple[int, int]]) -> Segments:
 def at(signal: Timed, ticks: Array) -> Array:
     """Return a signal at other times, by linear interpolation (T, n)."""
     before = np.clip(np.searchsorted(signal.time_s, ticks, side="right") - 1, 0, len(signal.time_s) - 2)
-    start, end = signal.time_s[before], signal.time_s[before + 1]
+    start = signal.time_s[before]
+    end = signal.time_s[before + 1]
     share = np.clip((ticks - start) / (end - start), 0.0, 1.0)[:, None]
     found = signal.values[before]
     found += share * (signal.values[before + 1] - found)

@@ -144,13 +144,16 @@ def _own(path: Path, name: str, column: Column, meaning: LogMap, clock: Rising) 
         if len(values) != clock.length:
             text = f"column {name!r} has {len(values)} rows, and the clock {clock.length}"
             raise DataError(f"{path}: {text}; accepted: columns of one length")
-        time_s, values = clock.time_s, values if clock.rows is None else values[clock.rows]
+        time_s = clock.time_s
+        values = values if clock.rows is None else values[clock.rows]
     elif not (np.diff(time_s) > 0).all():  # of equal stamps the first one counts
         kept = np.unique(time_s, return_index=True)[1]
-        time_s, values = time_s[kept], values[kept]
+        time_s = time_s[kept]
+        values = values[kept]
     is_number = np.isfinite(values)
     if not is_number.all():
-        time_s, values = time_s[is_number], values[is_number]
+        time_s = time_s[is_number]
+        values = values[is_number]
     if len(time_s) < 2:
         what = f"column {name!r}: {len(time_s)} of {len(column.values)} rows have a number"
         what = f"{column.topic}: {len(time_s)} message with {name}" if column.topic else what
@@ -164,7 +167,8 @@ def _table_clock(path: Path, columns: Columns, meaning: LogMap, bounds: RobotLog
     Raises:
         DataError: a table has none, or it does not rise.
     """
-    clock, unit = meaning.clock.column, SI.get(meaning.clock.unit, 1.0)
+    clock = meaning.clock.column
+    unit = SI.get(meaning.clock.unit, 1.0)
     if clock in columns and columns[clock].time_s is None:
         return rising(path, columns[clock].values * unit, bounds)
     first = next(column for name, column in columns.items() if name != clock)
@@ -230,7 +234,8 @@ def _recording(
     wanted |= {foot: foot.removesuffix("_foot") in layout.legs for foot in FEET}
     absent = ("tau_ext", *(name for name, has in wanted.items() if has and name not in values))
     place = values.get("position", np.zeros((rows, 3)))
-    q, v = values["q"], values["v"]
+    q = values["q"]
+    v = values["v"]
     if layout.virtual:
         q[:, :3] = place
         q[:, 3:7] = values["quaternion"] / np.linalg.norm(values["quaternion"], axis=1)[:, None]

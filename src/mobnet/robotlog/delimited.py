@@ -203,7 +203,8 @@ def _separated(path: Path, layout: Layout, asked: Sequence[str]) -> dict[str, Co
         names = [file.schema.names[k] for k in held]
         most = _most_rows(path)
         values = [np.empty(most) for _ in held]
-        others, rows = dict[str, str](), 0
+        others = dict[str, str]()
+        rows = 0
         for batch in file:
             # Whole columns of Arrow's own reader would take twice the memory.
             for column, k in zip(values, held, strict=True):

@@ -27,7 +27,8 @@ from mobnet.settings.limb_thresholds import LimbThresholds
 from mobnet.settings.robotlog import LogMap
 
 log = logging.getLogger(__name__)
-FLAGS, PLOT = "flags.csv", "flags"
+FLAGS = "flags.csv"
+PLOT = "flags"
 
 
 def write_detected(
@@ -80,7 +81,8 @@ def run(options: Namespace) -> Iterator[str]:
     check_place(out)
     sweep(out)
     made = detect_log(options.log, robot, meaning, network, found, settings)
-    read, numbers = made.observed.converted.recording, settings.robotlog.wrench
+    read = made.observed.converted.recording
+    numbers = settings.robotlog.wrench
     wrenches = [wrenches_of(nominal, place, read.sensed.q, made.estimate, numbers) for place in places]
     write_detected(made, robot, network, found, out)
     write_wrenches(wrenches, read, found.method, out)

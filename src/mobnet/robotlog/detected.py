@@ -52,7 +52,8 @@ def detect_log(
             is watched in its swings is in the air.
         ConfigError: the map does not fit the robot.
     """
-    sampling, gravity = Sampling(found.rate_hz, found.gain_hz, found.torque, found.drives), settings.plant.gravity_m_s2
+    sampling = Sampling(found.rate_hz, found.gain_hz, found.torque, found.drives)
+    gravity = settings.plant.gravity_m_s2
     if meaning and meaning.rate_hz is None:
         meaning = meaning.model_copy(update={"rate_hz": sampling.rate_hz})
     observed = observe_log(path, robot, meaning, found.torque, found.gain_hz, gravity, settings.robotlog)
@@ -63,7 +64,8 @@ def detect_log(
     own = OwnLog(path, read, observed.residual.astype(np.float32), sampling)
     (estimate,) = estimates_of([own], estimator_of(robot, gravity, sampling, network), found.joints)
     filters = {"low_pass_hz": found.low_pass_hz, "hold_s": found.hold_s}
-    detection, walks = settings.detection.model_copy(update=filters), found.watched == "swing"
+    detection = settings.detection.model_copy(update=filters)
+    walks = found.watched == "swing"
     setup = setup_of(detection, robot, found.limb, sampling.rate_hz, walks=walks)
     gate = _gate(path, setup, observed, estimate, found)
     signals = Watched(Detector(method=found.method, signals=(found.signal,))).of(estimate, read.sensed.command)

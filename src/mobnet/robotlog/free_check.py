@@ -111,9 +111,12 @@ def free_check(held: Held, data: LimbData, label: Array, cut: int, units: Sequen
         units: of the joints' torques (n,).
         margin: share of an input's range by which it may lie outside.
     """
-    rows, errors, std = held.rows, held.estimate.tau_ext, held.estimate.std
+    rows = held.rows
+    errors = held.estimate.tau_ext
+    std = held.estimate.std
     assert std is not None
-    low, high = data.inputs[:cut].min(axis=0), data.inputs[:cut].max(axis=0)
+    low = data.inputs[:cut].min(axis=0)
+    high = data.inputs[:cut].max(axis=0)
     beyond = np.maximum(low - data.inputs[rows], data.inputs[rows] - high) > margin * (high - low)
     often = beyond.mean(axis=0)
     return FreeCheck(

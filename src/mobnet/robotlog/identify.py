@@ -73,7 +73,8 @@ def identify(
         DataError: the logs are too short.
         ConfigError: no joint moves the body.
     """
-    numbers, gravity = settings.robotlog.identify, settings.plant.gravity_m_s2
+    numbers = settings.robotlog.identify
+    gravity = settings.plant.gravity_m_s2
     carrier = _carrier(robot, payload) if payload else None
     windows = [windows_of(robot, one.recording, one.torque, gravity, numbers, carrier) for one in logs]
     known, held_out = split(windows, numbers)
@@ -127,7 +128,8 @@ def with_payload(table: RobotTable, body: str, found: Payload) -> RobotTable:
     """Return a table with one more body, a payload welded to one of its bodies; published totals are left out."""
     names = [row.name for row in table.bodies]
     free = (name for name in chain((PAYLOAD,), (f"{PAYLOAD}_{k}" for k in count(2))) if name not in names)
-    own, (x, y, z) = _rounded(found.inertia), map(_rounded, found.com)
+    own = _rounded(found.inertia)
+    (x, y, z) = map(_rounded, found.com)
     row = BodyRow(
         name=next(free), parent=body, pos=(0.0, 0.0, 0.0), quat=(1.0, 0.0, 0.0, 0.0), mass=_rounded(found.mass),
         com=(x, y, z), inertia=(own, own, own, 0.0, 0.0, 0.0),

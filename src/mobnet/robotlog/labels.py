@@ -27,10 +27,12 @@ def label_of(log: OwnLog, nominal: NominalModel, labels: str) -> Array:
     Raises:
         DataError: the log does not have the sensors that tell it.
     """
-    read, absent = log.recording, log.recording.meta.get(ABSENT, ())
+    read = log.recording
+    absent = log.recording.meta.get(ABSENT, ())
     if labels == "free":
         return np.zeros(log.residual.shape)
-    layout, path = nominal.robot.layout, log.folder / RECORDING
+    layout = nominal.robot.layout
+    path = log.folder / RECORDING
     needed = ("swing", *(foot for foot in FEET if foot.removesuffix("_foot") in layout.legs))
     missing = [name for name in (needed if labels == "feet" else (EXTERNAL,)) if name in absent]
     if missing or (labels == "feet" and not layout.legs):
@@ -52,7 +54,8 @@ def limb_data(logs: Sequence[OwnLog], labels: Sequence[Array], layout: JointLayo
     first = logs[0]
     for log in logs[1:]:
         check_sampling(log.folder, log.sampling, first.sampling, first.folder)
-    inputs, joints = limb_inputs(layout, limb), layout.limbs(limb.joints)
+    inputs = limb_inputs(layout, limb)
+    joints = layout.limbs(limb.joints)
     columns = layout.columns(joints)
     x = np.concatenate([inputs(log.recording.sensed) for log in logs])
     y = np.concatenate([(log.residual - own)[:, columns] for log, own in zip(logs, labels, strict=True)])

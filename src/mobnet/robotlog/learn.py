@@ -59,7 +59,8 @@ def learn(
             another network.
         TrainingError: the loss diverged.
     """
-    robot, first = describe(table), logs[0].sampling
+    robot = describe(table)
+    first = logs[0].sampling
     nominal = NominalModel(robot, gravity_m_s2=settings.plant.gravity_m_s2)
     known = [label_of(one, nominal, labels) for one in logs]
     training = training_of(settings, table, limb, labels, first.rate_hz, epochs)
@@ -69,7 +70,8 @@ def learn(
     job = TrainingJob(filled(training, trained.segments, settings), SEED, settings.seed)
     if _is_new(job.fingerprint(trained.digest, own_device()), out, force=force):
         train_on(trained, job, out, out / STATE)
-    columns, units = robot.layout.columns(data.joints), [robot.layout.unit(joint) for joint in data.joints]
+    columns = robot.layout.columns(data.joints)
+    units = [robot.layout.unit(joint) for joint in data.joints]
     label = np.concatenate(known)[:, columns]
     numbers = settings.robotlog.learn
     held = held_out(load_network(out), data, cut)
@@ -92,7 +94,8 @@ def _planted(
 
     There is none of a network of several limbs, or of a part that is too short.
     """
-    robot, gravity = nominal.robot, settings.plant.gravity_m_s2
+    robot = nominal.robot
+    gravity = settings.plant.gravity_m_s2
     if data.joints != robot.layout.limb(limb):
         return None
     observers: list[NDArray[Any]] = [data.targets[held.rows]]

@@ -35,7 +35,9 @@ def default_map(path: Path, names: Collection[str], layout: JointLayout) -> LogM
     Raises:
         DataError: the log has no such columns, and needs a map.
     """
-    fields, taken, held = recording_columns(layout), dict[str, Signal](), set(names)
+    fields = recording_columns(layout)
+    taken = dict[str, Signal]()
+    held = set(names)
     base = 7 if layout.virtual else 0
     own = {key: [name for name, *_ in group] for key, group in fields.items()}
     groups = {
@@ -88,10 +90,8 @@ def _joint_state(path: Path, names: Collection[str], layout: JointLayout) -> str
         if field not in topics[near]:
             raise DataError(f"{path}: {near}: {field} is empty; accepted: position, velocity and effort of each joint")
         if missing := [joint for joint in layout.actuated if joint not in topics[near][field]]:
-            held, accepted = (
-                sorted(topics[near][field]),
-                "all joints of the robot, or `joints` of a --map for other names",
-            )
+            held = sorted(topics[near][field])
+            accepted = "all joints of the robot, or `joints` of a --map for other names"
             raise DataError(
                 f"{path}: {near}: {field} has {listed(held)}, and not {listed(missing)}; accepted: {accepted}"
             )
@@ -107,7 +107,8 @@ def resolved(path: Path, meaning: LogMap, names: Collection[str], layout: JointL
         ConfigError: the map does not fit the robot.
         DataError: a column is missing; the line has the names that are most like it.
     """
-    given, held = given_signals(meaning), set(names)
+    given = given_signals(meaning)
+    held = set(names)
     needed = [*MOTORS, *(BASE if layout.virtual else ())]
     if missing := [name for name in needed if name not in given]:
         why = "a robot with a floating base, such as the one taken without --robot, needs them"
@@ -141,7 +142,8 @@ def _full(key: str, signal: Signal, held: Collection[str], joints: Collection[st
         return signal
     named = [f"{stem}.{end}" for end in (joints if key in MOTORS else ENDS.get(key, ()))]
     numbered = [f"{stem}.{k}" for k in range(width)]
-    by_names, by_numbers = joints if key in MOTORS else (), map(str, range(width))
+    by_names = joints if key in MOTORS else ()
+    by_numbers = map(str, range(width))
     starred = [[stem.replace("*", end) for end in ends] for ends in (by_names, by_numbers)] if "*" in stem else []
     for columns in (named, *starred, numbered):
         if columns and set(columns) <= set(held):
@@ -152,7 +154,8 @@ def _full(key: str, signal: Signal, held: Collection[str], joints: Collection[st
 
 def _faults(key: str, signal: Signal, names: Collection[str], width: int) -> Iterator[str]:
     """Yield what does not fit about the columns of a signal."""
-    count, held = len(signal.columns), set(names)
+    count = len(signal.columns)
+    held = set(names)
     missing = [name for name in signal.columns if name not in held]
     if missing:
         near = near_names(names, missing[0])

@@ -178,7 +178,8 @@ def _stamp_of(content: Any) -> Callable[[Any], int] | None:
     pair = next(((fields[whole], fields[rest]) for whole, rest in STAMPS if {whole, rest} <= fields.keys()), None)
     if pair is None:
         return None
-    (header, stamp), (whole, rest) = steps, pair
+    (header, stamp) = steps
+    (whole, rest) = pair
 
     def stamp_ns(message: Any) -> int:
         own = stamp(header(message))
@@ -247,7 +248,8 @@ def _columns_of(topic: str, own: Gathered, began_ns: int, hint: str) -> dict[str
     found = dict[str, Column]()
     for name, parts in pieces.items():
         rows = np.concatenate([rows for rows, _ in parts])
-        values, order = np.concatenate([values for _, values in parts]), np.argsort(rows, kind="stable")
+        values = np.concatenate([values for _, values in parts])
+        order = np.argsort(rows, kind="stable")
         clocks = (times, recorded) if len(rows) == len(times) else (times[rows[order]], recorded[rows[order]])
         found[name] = Column(values[order], *clocks, topic, is_stamped, hint)
     return found

@@ -52,7 +52,8 @@ def told(recording: Recording, robot: RobotDescription, out: Path, truth: bool) 
     """Yield what the command prints."""
     held = "; the base is held in the air" if robot.floating else ""
     apart = "shapes keep apart" if robot.shapes else "the table has no shapes: nothing keeps its bodies apart"
-    samples, rate_hz = len(recording.sensed), recording.rate_hz
+    samples = len(recording.sensed)
+    rate_hz = recording.rate_hz
     yield f"{robot.name}: {samples} samples at {rate_hz:g} Hz, {samples / rate_hz:g} s{held}; {apart}"
     speeds = np.abs(recording.sensed.v[:, -robot.layout.nu :]).max(axis=0)
     shares = np.abs(recording.sensed.tau_motor).max(axis=0) / robot.torque_limits

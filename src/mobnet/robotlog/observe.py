@@ -130,8 +130,11 @@ def looked_at(
 
     The second list says what the residual comes from, if neither motion nor torques are wrong.
     """
-    read, layout = found.recording, nominal.robot.layout
-    sensed, spans, rate_hz = read.sensed, read.spans(), read.rate_hz
+    read = found.recording
+    layout = nominal.robot.layout
+    sensed = read.sensed
+    spans = read.spans()
+    rate_hz = read.rate_hz
     hints = list(found.hints)
     if units := list(unit_hints(found.clocks)):
         return hints + units, []
@@ -205,7 +208,8 @@ def _write_recording(stem: Path, recording: Recording, layout: JointLayout) -> N
 def told(found: Observed, robot: RobotDescription, out: Path) -> Iterator[str]:
     """Yield what the command prints."""
     read = found.converted.recording
-    rows, count = len(read.sensed), len(read.segments)
+    rows = len(read.sensed)
+    count = len(read.segments)
     way = "interpolated linearly" if found.converted.interpolated else "as they are in the log"
     parts = f"{count} segment{'s' * (count > 1)}"
     yield f"{rows} samples at {read.rate_hz:g} Hz, {rows / read.rate_hz:.6g} s in {parts}, {way}"
@@ -213,7 +217,8 @@ def told(found: Observed, robot: RobotDescription, out: Path) -> Iterator[str]:
         yield f"rates of the log: {', '.join(_rates(found.converted.clocks))}"
     if absent := [name for name in found.converted.absent if name != EXTERNAL]:
         yield f"not in the log, and zero in the recording: {', '.join(absent)}"
-    size, motor = root_mean_square(found.residual), root_mean_square(read.sensed.tau_motor)
+    size = root_mean_square(found.residual)
+    motor = root_mean_square(read.sensed.tau_motor)
     yield "residual: what the model does not explain, root mean square beside that of the motor"
     width = max(map(len, robot.layout.names))
     for k, (name, value) in enumerate(zip(robot.layout.names, size, strict=True)):
@@ -244,7 +249,8 @@ def run(options: Namespace) -> Iterator[str]:
     gain_hz = settings.observer.gain_hz if options.gain is None else options.gain
     refuse_lines(beyond("--gain", gain_hz, GAIN_HZ))
     torque = options.torque or (meaning.torque if meaning else "sample")
-    bounds, gravity = settings.robotlog, settings.plant.gravity_m_s2
+    bounds = settings.robotlog
+    gravity = settings.plant.gravity_m_s2
     places = [place_of(NominalModel(robot), name) for name in dict.fromkeys(options.wrench)]
     out = options.out or Path(f"{options.log.stem}_observed")
     check_place(out)

@@ -22,7 +22,8 @@ def pieces(start: int, stop: int, rows: int = PIECE_ROWS) -> Iterator[slice]:
 
 def ranges(values: NDArray[np.floating]) -> tuple[NDArray[np.floating], NDArray[np.floating]]:
     """Return the smallest and the largest number of each column of values (T, n), (n,) each."""
-    low, high = values[0].copy(), values[0].copy()
+    low = values[0].copy()
+    high = values[0].copy()
     for rows in pieces(0, len(values)):
         np.minimum(low, values[rows].min(axis=0), out=low)
         np.maximum(high, values[rows].max(axis=0), out=high)

@@ -85,7 +85,8 @@ def _folder(path: Path) -> Iterator[Source]:
 @contextlib.contextmanager
 def _bag(path: Path) -> Iterator[Source]:
     """Open a bag of ROS 1 or 2; definitions of messages come from the bag, or are those of ROS 2 where it has none."""
-    highlevel, stores = module_of("rosbags.highlevel", path), module_of("rosbags.typesys", path)
+    highlevel = module_of("rosbags.highlevel", path)
+    stores = module_of("rosbags.typesys", path)
     if path.is_file():
         _check_magic(path)
     with highlevel.AnyReader([path], default_typestore=stores.get_typestore(stores.Stores.LATEST)) as bag:
@@ -138,9 +139,11 @@ def _mcap(path: Path) -> Iterator[Source]:
     with path.open("rb") as file:
         reader = reading.make_reader(file)
         try:
-            summary, is_cut = reader.get_summary(), False
+            summary = reader.get_summary()
+            is_cut = False
         except Exception:  # noqa: BLE001  the file has no end, in whose place may stand anything
-            summary, is_cut = None, True
+            summary = None
+            is_cut = True
 
         def every(topics: Collection[str] | None) -> Iterator[tuple[Any, Any, Any]]:
             if not is_cut:
@@ -164,7 +167,8 @@ def _mcap(path: Path) -> Iterator[Source]:
 def _whole(file: IO[bytes], path: Path) -> Iterator[tuple[Any, Any, Any]]:
     """Yield schema, channel and message of each message of a MCAP file that ends early, up to there."""
     records = module_of("mcap.records", path)
-    schemas, channels = dict[int, Any](), dict[int, Any]()
+    schemas = dict[int, Any]()
+    channels = dict[int, Any]()
     for record in _records(file, path):
         if isinstance(record, records.Schema):
             schemas[record.id] = record
@@ -177,7 +181,8 @@ def _whole(file: IO[bytes], path: Path) -> Iterator[tuple[Any, Any, Any]]:
 
 def _records(file: IO[bytes], path: Path) -> Iterator[Any]:
     """Yield the whole records of a MCAP file that ends early, those of a last chunk too if it is not compressed."""
-    streams, most = module_of("mcap.stream_reader", path), path.stat().st_size
+    streams = module_of("mcap.stream_reader", path)
+    most = path.stat().st_size
     start = 0
     for is_inside in (False, True):
         file.seek(start)
@@ -221,7 +226,8 @@ def _decoder(channel: Any, schema: Any, path: Path) -> Decoder:
 def _ros1(schema: Any, path: Path) -> Decoder:
     """Return the function that decodes messages of ROS 1."""
     stores = module_of("rosbags.typesys", path)
-    types, name = stores.get_typestore(stores.Stores.EMPTY), schema.name
+    types = stores.get_typestore(stores.Stores.EMPTY)
+    name = schema.name
     package, _, kind = name.rpartition("/")
     full = f"{package.removesuffix('/msg') or 'own'}/msg/{kind}"
     types.register(stores.get_types_from_msg(schema.data.decode(), full))

@@ -44,7 +44,8 @@ def parquet_columns(path: Path, wanted: Collection[str]) -> dict[str, Column]:
         parts = _parquet_parts(file)
         asked = {name: parts[name] for name in wanted if name in parts}
         check_memory(path, file.metadata.num_rows, len(asked))
-        found, lists = dict[str, Column](), dict[str, NDArray[Any]]()
+        found = dict[str, Column]()
+        lists = dict[str, NDArray[Any]]()
         kinds = {field.name: field.type for field in file.schema_arrow}
         for name, part in asked.items():
             if part.number is not None:
@@ -107,7 +108,8 @@ def array_names(path: Path) -> list[str]:
 
 def array_columns(path: Path, wanted: Collection[str]) -> dict[str, Column]:
     """Read columns of a file of arrays; an array is read once."""
-    asked, found = dict[tuple[str, str | None], dict[str, int | None]](), dict[str, Column]()
+    asked = dict[tuple[str, str | None], dict[str, int | None]]()
+    found = dict[str, Column]()
     with _arrays(path) as arrays:
         parts = _array_parts(arrays)
         for name in wanted:

@@ -21,7 +21,8 @@ def with_tool(found: Converted, nominal: NominalModel, tool: Tool) -> Converted:
     """
     if found.tool is None:
         return found
-    read, axes = found.recording, rotation(np.array(tool.quat))
+    read = found.recording
+    axes = rotation(np.array(tool.quat))
     torque = point_torque(nominal, tool.body, tool.pos, axes, read.sensed.q, found.tool)
     absent = tuple(name for name in found.absent if name != EXTERNAL)
     known = replace(read, truth=replace(read.truth, tau_ext=torque), meta={**read.meta, ABSENT: list(absent)})

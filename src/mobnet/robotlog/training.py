@@ -23,7 +23,8 @@ def training_of(settings: Lab, table: RobotTable, limb: str, labels: str, rate_h
     # observer, and take away every push with it.
     ports = ports.model_copy(update={"T": ()}) if labels == "free" else ports
     row = settings.networks.get(limb) or settings.networks[numbers.cell]
-    learning, horizon = in_precision(settings.learning, of_processor()), row.horizon_steps
+    learning = in_precision(settings.learning, of_processor())
+    horizon = row.horizon_steps
     return Training(
         method=LEARNED, limb=limb, target="uncertainty", network=Network.model_validate({**vars(ports), **vars(row)}),
         learning=_at_rate(learning, rate_hz / settings.rates.data_hz), epochs=epochs,

@@ -69,7 +69,8 @@ def place_of(nominal: NominalModel, name: str, joints: Sequence[str] | None = No
     Raises:
         ConfigError: there is no such point or body, or none of the joints moves it.
     """
-    robot, origin = nominal.robot, (0.0, 0.0, 0.0)
+    robot = nominal.robot
+    origin = (0.0, 0.0, 0.0)
     known = {body.name: (body.name, origin) for body in robot.bodies}
     known |= {point.name: (point.body, point.pos) for point in robot.points}
     if name not in known:
@@ -88,7 +89,8 @@ def place_of(nominal: NominalModel, name: str, joints: Sequence[str] | None = No
 
 def _joints_ahead(nominal: NominalModel, joint: str) -> list[str]:
     """Return a joint and those that carry it."""
-    joints, link = nominal.robot.layout.actuated, 1 + nominal.robot.layout.actuated.index(joint)
+    joints = nominal.robot.layout.actuated
+    link = 1 + nominal.robot.layout.actuated.index(joint)
     found = []
     while link > 0:
         found.append(joints[link - 1])

@@ -77,7 +77,9 @@ RowName = Annotated[str, Field(pattern="^[A-Za-z0-9][A-Za-z0-9-]*$", max_length=
 PartName = Annotated[str, Field(pattern="^[A-Za-z][A-Za-z0-9_]*$", max_length=50)]
 
 # Of files that people pass on, too: what the C library accepts (src/runtime/cursor.h) lies further out.
-RATE_HZ, GAIN_HZ, LOW_PASS_HZ = (1.0, 100_000.0), (0.1, 5000.0), (0.01, 100_000.0)
+RATE_HZ = (1.0, 100_000.0)
+GAIN_HZ = (0.1, 5000.0)
+LOW_PASS_HZ = (0.01, 100_000.0)
 THRESHOLD = 1e-9, 1e6  # [N m], of a ratio [-]
 RateHz = Annotated[Real, Field(ge=RATE_HZ[0], le=RATE_HZ[1])]
 GainHz = Annotated[Real, Field(ge=GAIN_HZ[0], le=GAIN_HZ[1])]

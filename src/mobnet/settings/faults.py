@@ -48,7 +48,8 @@ def once(lines: Iterable[str]) -> str:
 
 def problems(error: ValidationError, kind: type[BaseModel], given: object) -> Iterator[tuple[Place, str]]:
     """Yield place and text of all that pydantic found in the values given of a section, with what is accepted."""
-    schema, found = _schema_of(kind), dict[Place, list[Fault]]()
+    schema = _schema_of(kind)
+    found = dict[Place, list[Fault]]()
     errors = cast("list[Mapping[str, Any]]", error.errors(include_url=False))
     for each in errors:
         loc = tuple(each["loc"])
@@ -76,19 +77,23 @@ def accepted_at(schema: Schema, place: Place) -> str:
 
 def _typed(loc: Place, what: str, given: object) -> tuple[Place, Place, str]:
     """Return the place of an error without the tags of unions, the place of the first union, and its tag."""
-    place, union, branch = list[str | int](), (), ""
+    place = list[str | int]()
+    union = ()
+    branch = ""
     for index, key in enumerate(loc):
         is_last = index == len(loc) - 1
         if _has(_at(given, tuple(place)), key) or (is_last and what in ("missing", "extra_forbidden", "value_error")):
             place.append(key)
         elif not branch and key != "[key]":
-            union, branch = tuple(place), str(key)
+            union = tuple(place)
+            branch = str(key)
     return tuple(place), union, branch
 
 
 def _text(place: Place, found: Mapping[str, Any], schema: Schema, given: object) -> str:
     """Return the text of one error of pydantic at its place."""
-    what, context = found["type"], found.get("ctx", {})
+    what = found["type"]
+    context = found.get("ctx", {})
     if found["loc"][-1:] == ("[key]",):
         accepted = context.get("pattern") or context.get("expected") or "a shorter name"
         return f"key {place[-1]!r} is not accepted; accepted: {accepted}"
@@ -165,7 +170,8 @@ def _described(node: Schema, schema: Schema) -> str:
         return ", ".join(map(repr, node.get("enum", [node.get("const")])))
     kind = node.get("type", "")
     if kind == "array":
-        least, most = node.get("minItems", 0), node.get("maxItems")
+        least = node.get("minItems", 0)
+        most = node.get("maxItems")
         count = most if most == least else f"{least} or more" if least else "any number of"
         items = node.get("prefixItems", [node.get("items", {})])
         inner = dict.fromkeys(_all_of(_parts(item, schema), schema) for item in items)

@@ -60,7 +60,8 @@ def load_lab(folder: Path = CONFIGS) -> Lab:
     refuse_faults(fault for document in documents.values() for fault in document.faults)
     homes = {section: documents[name] for name, sections in FILES.items() for section in sections}
     values = {section: home.values[section] for section, home in homes.items() if section in home.values}
-    robot, config = folder.parent / str(values.get("robot")), homes["robot"]
+    robot = folder.parent / str(values.get("robot"))
+    config = homes["robot"]
     if not robot.is_file():
         text = f"{values.get('robot')!r} is not accepted; accepted: the path of a YAML file"
         refuse_faults([config.told(("robot",), text)])

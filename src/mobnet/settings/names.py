@@ -24,7 +24,8 @@ def unknown(found: Iterable[Use], accepted: Mapping[str, Collection[str]]) -> It
 
 def uses(value: Any, kind: Any, place: Place = ()) -> Iterator[Use]:
     """Yield every name that a value of an annotated kind holds, below the keys that lead to it."""
-    origin, args = get_origin(kind), get_args(kind)
+    origin = get_origin(kind)
+    args = get_args(kind)
     if origin is Annotated:
         if isinstance(value, str):  # anything else is refused where the section is made
             yield from ((place, mark.kind, value) for mark in args[1:] if isinstance(mark, Named))

@@ -94,7 +94,8 @@ class Reaction(Section):
 
 def watches_of(reaction: Reaction, case: str) -> tuple[Watch, ...]:
     """Return our detector, then what a case compares with it, and our detector with reactions that wait."""
-    ours, row = reaction.ours, reaction.cases[case]
+    ours = reaction.ours
+    row = reaction.cases[case]
     return ours, *row.compared, *(ours.model_copy(update={"wait_s": wait_s}) for wait_s in row.waits_s)
 
 

@@ -56,7 +56,8 @@ class Document:
 
     def __init__(self, path: Path, *, nulls: bool = False) -> None:
         """Read a file; it may be missing."""
-        self.path, self.faults = path, list[str]()
+        self.path = path
+        self.faults = list[str]()
         self.values: dict[str, Any] = {}
         self._nulls, self._root = nulls, self._composed()
         self._read: dict[int, tuple[Any, int]] = {}  # nodes that an alias may name again, with their sizes
@@ -72,7 +73,8 @@ class Document:
 
     def line(self, place: Place) -> int:
         """Return the line of a place, or of what stands nearest above it."""
-        node, line = self._root, 1
+        node = self._root
+        line = 1
         for key in place:
             key_node, node = _child(node, key)
             if key_node is None:
@@ -115,7 +117,8 @@ class Document:
         except UnicodeDecodeError as error:
             self.faults.append(f"{self.path}: byte {error.start} is not UTF-8; accepted: a YAML file in UTF-8")
         except (yaml.YAMLError, RecursionError) as error:
-            mark, place = getattr(error, "problem_mark", None), getattr(error, "position", 0)
+            mark = getattr(error, "problem_mark", None)
+            place = getattr(error, "position", 0)
             what = getattr(error, "problem", None) or getattr(error, "reason", None) or error
             line = mark.line + 1 if mark else text.count("\n", 0, place) + 1
             said = f"{what} {_token(text, mark)}" if mark else str(what)
@@ -154,9 +157,13 @@ class Document:
 
     def _mapping(self, node: Node, place: Place) -> tuple[dict[str, Any], int]:
         """Return a mapping, what is merged into it first, and its size."""
-        merged, own, lines, total = dict[str, Any](), dict[str, Any](), dict[str, int](), 1
+        merged = dict[str, Any]()
+        own = dict[str, Any]()
+        lines = dict[str, int]()
+        total = 1
         for key_node, value_node in node.value:
-            line, key = _line(key_node), key_node.value
+            line = _line(key_node)
+            key = key_node.value
             if key_node.tag not in (f"{TAG}str", MERGE):
                 shown = key if isinstance(key, str) else "?"
                 self._refuse(line, place, f"key {shown!r} is not accepted; accepted: text")

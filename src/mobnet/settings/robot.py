@@ -94,7 +94,8 @@ class RobotTable(Section):
     def accepted_names(self) -> dict[str, Collection[str]]:
         """Kind of name -> the names that exist on the robot."""
         order = self.order
-        joints, legs = (*order.virtual, *order.actuated), [foot.limb for foot in self.feet.values()]
+        joints = (*order.virtual, *order.actuated)
+        legs = [foot.limb for foot in self.feet.values()]
         return {
             "joint": joints, "motor": order.actuated, "limb": self.groups, "limb or joint": (*self.groups, *joints),
             "leg": legs, "joint of a leg": [joint for limb in legs for joint in self.groups.get(limb, ())],

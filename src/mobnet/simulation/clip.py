@@ -61,7 +61,8 @@ def _write_images(frames: Iterator[Pixels], rate_hz: float, path: Path) -> None:
         palette = first
         images = (image.quantize(palette=palette, dither=Image.Dither.NONE) for image in images)
     options = {} if path.suffix == ".gif" else {"quality": WEBP_QUALITY}
-    kind, frame_ms = path.suffix.removeprefix("."), round(1000 / rate_hz)
+    kind = path.suffix.removeprefix(".")
+    frame_ms = round(1000 / rate_hz)
     with path.open("wb") as file:  # Pillow would leave a file of its own open at Ctrl-C
         first.save(file, kind, save_all=True, append_images=images, duration=frame_ms, loop=0, **options)
 

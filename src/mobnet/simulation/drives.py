@@ -60,7 +60,8 @@ def draw_drives(
 
     What a gear's spring turns on the side of the link has the inertia `link` (nu,) [kg m^2].
     """
-    drive, drives = surrogate.drive, no_drives(robot.layout.nu)
+    drive = surrogate.drive
+    drives = no_drives(robot.layout.nu)
     law = drives.law
     typical = {
         joint: {name: values[i] for name, values in dict(row).items()}
@@ -69,7 +70,8 @@ def draw_drives(
     }
     for k, joint in enumerate(robot.layout.actuated):
         row = {name: value * rng.uniform(1 - drive.spread, 1 + drive.spread) for name, value in typical[joint].items()}
-        rotor, either = max(robot.joints[k].armature, drive.rotor_min_kg_m2), rng.choice([-1.0, 1.0])
+        rotor = max(robot.joints[k].armature, drive.rotor_min_kg_m2)
+        either = rng.choice([-1.0, 1.0])
         shared = rotor * link[k] / (rotor + link[k])
         found = {
             "constant": rng.uniform(*drive.torque_constant), "lag": rng.uniform(*drive.lag_s),
@@ -93,7 +95,8 @@ def draw_drives(
 def reset_drives(drives: Drives, q: Array, v: Array, running_s: float) -> None:
     """Begin an episode with the rotors at the joints, q (nu,) [rad], v (nu,) [rad/s], after running so long [s]."""
     drives.state[:] = 0
-    drives.state["angle"], drives.state["rate"] = q, v
+    drives.state["angle"] = q
+    drives.state["rate"] = v
     drives.clock[:] = running_s, 0.0
 
 
@@ -104,9 +107,11 @@ def drive(drives: Drives, tau: Array, q: Array, v: Array, dt: float, link: Array
     Joints are at q (nu,) [rad], v (nu,) [rad/s]. Written are the torques on the links (nu,) [N m], and added what the
     drives report of their motors (nu,) [N m].
     """
-    step, size = int(drives.clock[1]), drives.wanted.shape[1]
+    step = int(drives.clock[1])
+    size = drives.wanted.shape[1]
     for j in range(len(tau)):
-        law, s = drives.law[j], drives.state[j]
+        law = drives.law[j]
+        s = drives.state[j]
         drives.wanted[j, step % size] = tau[j]
         past = drives.wanted[j, max(step - law.delay, 0) % size]
         s.current += (past - s.current) * (1.0 - np.exp(-dt / law.lag))

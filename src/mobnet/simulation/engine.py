@@ -80,10 +80,17 @@ def run(
     rng_pushes: np.random.Generator, log: NDArray[np.float32],
 ) -> int:  # fmt: skip
     """Simulate len(log) samples into log (n, C), columns of `recording_columns`; return how many before a fall."""
-    nv, nu = len(plant.qvel), len(plant.ctrl)
-    tau, tau_des, tau_motor, tau_ext = np.zeros(nu), np.zeros(nu), np.zeros(nu), np.zeros(nv)
-    tau_random, tau_push = np.zeros(nu), np.zeros(nv)
-    wrenches, touch, told = np.zeros((2, 6)), np.zeros(2), np.zeros(4)
+    nv = len(plant.qvel)
+    nu = len(plant.ctrl)
+    tau = np.zeros(nu)
+    tau_des = np.zeros(nu)
+    tau_motor = np.zeros(nu)
+    tau_ext = np.zeros(nv)
+    tau_random = np.zeros(nu)
+    tau_push = np.zeros(nv)
+    wrenches = np.zeros((2, 6))
+    touch = np.zeros(2)
+    told = np.zeros(4)
     for row in range(len(log)):
         pushed = 0
         tau_des[:] = 0.0

@@ -63,7 +63,8 @@ def draw_faults(
     errors: SensorErrors, robot: WalkingRobot, model: mujoco.MjModel, rate_hz: float, rng: np.random.Generator
 ) -> Faults:
     """Draw the errors of a surrogate robot's sensors, a plant stepped at a rate [1/s]."""
-    late, sizes = round(rng.uniform(*errors.imu_late_s) * rate_hz), [errors.foot_force_n, errors.foot_moment_nm]
+    late = round(rng.uniform(*errors.imu_late_s) * rate_hz)
+    sizes = [errors.foot_force_n, errors.foot_moment_nm]
     known = robot.sole.plate_kg
     plate = known * (1.0 + errors.plate_share * rng.standard_normal())
     return no_faults(model)._replace(
@@ -153,7 +154,8 @@ def _weigh_foot(faults: Faults, sensors: Sensors, k: int, axes: Array, gravity: 
     """
     force, torque, acc = sensors.force[k], sensors.torque[k], faults.foot_acc[k]
     for i in range(3):
-        j, n = (i + 1) % 3, (i + 2) % 3
+        j = (i + 1) % 3
+        n = (i + 2) % 3
         # Specific force: acceleration less gravity, foot axes; the world's vertical is the third row of the axes.
         lost = faults.plate[0] * faults.data[acc + i] - faults.plate[1] * gravity * axes[6 + i]
         lost_j = faults.plate[0] * faults.data[acc + j] - faults.plate[1] * gravity * axes[6 + j]

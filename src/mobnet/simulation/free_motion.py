@@ -40,7 +40,8 @@ class TableModel:
     def torque(self, q: Array, v: Array, acceleration: Array) -> Array:
         """Return the motors' torques (nu,) [N m] at q (nq,), v (nv,) for the joints' accelerations (nu,) [rad/s^2]."""
         data = self.data
-        data.qpos[:], data.qvel[:] = q, v
+        data.qpos[:] = q
+        data.qvel[:] = v
         data.qacc[-self.nu :] = acceleration
         mujoco.mj_inverse(self.model, data)
         return data.qfrc_inverse[-self.nu :]
@@ -54,7 +55,8 @@ def plan_motion(
     Raises:
         SimulationError: the posture needs too much torque, or the robot touches itself in it.
     """
-    table, clearance = TableModel(robot, gravity_m_s2), Clearance(robot, REACH_M)
+    table = TableModel(robot, gravity_m_s2)
+    clearance = Clearance(robot, REACH_M)
     low, high = bounds_of(robot, settings.span_share)
     step = settings.knot_s * speeds_of(robot, settings)
     points = [start_of(robot, low, high)] * DEGREE
@@ -83,7 +85,8 @@ def curve(points: Sequence[Array], knot_s: float) -> BSpline:
 def bounds_of(robot: RobotDescription, share: float) -> tuple[Array, Array]:
     """Return the lowest and the highest positions (nu,) [rad] of a share of each joint's range."""
     low, high = np.array([joint.range for joint in robot.joints]).T
-    middle, half = (low + high) / 2, share * (high - low) / 2
+    middle = (low + high) / 2
+    half = share * (high - low) / 2
     return middle - half, middle + half
 
 
@@ -109,7 +112,8 @@ def _fault(
     points: Sequence[Array], robot: RobotDescription, settings: FreeMotion, table: TableModel, clearance: Clearance
 ) -> str | None:
     """Return what is wrong with the stretch of a curve between four points; None where nothing is."""
-    stretch, most = curve(points, settings.knot_s), settings.torque_share * robot.torque_limits
+    stretch = curve(points, settings.knot_s)
+    most = settings.torque_share * robot.torque_limits
     times = LOOKS * settings.knot_s
     for angles, rates, accelerations in zip(*(stretch(times, order) for order in range(3)), strict=True):
         q, v = whole_state(robot, angles)

@@ -102,7 +102,8 @@ def draw_pushes(
         {int(body) for k, body in enumerate(model.jnt_bodyid) if model.jnt_type[k] == mujoco.mjtJoint.mjJNT_HINGE}
     )
     places = places or [(body, model.body_ipos[body]) for body in moved]
-    pushes, start = list[Push](), rng.uniform(*settings.pause_s)
+    pushes = list[Push]()
+    start = rng.uniform(*settings.pause_s)
     while True:
         end = start + rng.uniform(*(settings.short_s if rng.random() < 0.5 else settings.long_s))
         if end >= seconds:
@@ -119,14 +120,19 @@ class Pushing:
 
     def __init__(self, pushes: Sequence[Push], limits: Array, settings: LinkPushes) -> None:
         """Take pushes in the order of their times, and the largest torques of the joints (nu,) [N m]."""
-        self.waiting, self.limits, self.settings, self.size, self.acts = list(pushes), limits, settings, 0.0, False
+        self.waiting = list(pushes)
+        self.limits = limits
+        self.settings = settings
+        self.size = 0.0
+        self.acts = False
 
     def torque(self, model: mujoco.MjModel, data: mujoco.MjData) -> Array:
         """Return J^T F of what pushes at the time of the plant, (nv,) [N], [N m]."""
         torque = np.zeros(model.nv)
         if self.acts and data.time >= self.waiting[0].end:
             self.waiting.pop(0)
-        was, self.acts = self.acts, bool(self.waiting) and self.waiting[0].start <= data.time < self.waiting[0].end
+        was = self.acts
+        self.acts = bool(self.waiting) and self.waiting[0].start <= data.time < self.waiting[0].end
         if not self.acts:
             return torque
         push = self.waiting[0]

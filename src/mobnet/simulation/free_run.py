@@ -57,7 +57,8 @@ def record_motion(
     """
     own = zlib.crc32(robot.name.encode())
     rng = {**streams(STREAMS, [own, seed]), **streams(HIDDEN, [own])}
-    settings, gravity = numbers.motion, numbers.plant.gravity_m_s2
+    settings = numbers.motion
+    gravity = numbers.plant.gravity_m_s2
     motion = plan_motion(robot, settings, seconds, gravity, rng["motion"])
     built = robot if ideal else hidden_links(robot, settings.body, rng["body"])
     model = held_model(built, settings, numbers.rates.plant_hz, gravity)
@@ -86,7 +87,11 @@ class Run:
         ideal: bool,
     ) -> None:  # fmt: skip
         """Put a robot at the start of a motion; `constants` (nu,) are true torques over reported ones."""
-        self.robot, self.numbers, self.model, self.motion, self.constants = robot, numbers, model, motion, constants
+        self.robot = robot
+        self.numbers = numbers
+        self.model = model
+        self.motion = motion
+        self.constants = constants
         self.data = mujoco.MjData(model)
         self.data.qpos[:], self.data.qvel[:] = whole_state(robot, motion(0.0))
         mujoco.mj_forward(model, self.data)
@@ -97,10 +102,16 @@ class Run:
 
     def through(self, samples: int, pushes: Pushing) -> None:
         """Simulate so many samples."""
-        model, data, nu, rate_hz = self.model, self.data, self.robot.layout.nu, self.numbers.rates.data_hz
-        self.q, self.v = np.zeros((samples, model.nq)), np.zeros((samples, model.nv))
-        self.tau, self.ext = np.zeros((samples, nu)), np.zeros((samples, model.nv))
-        self.push, self.pushed = np.zeros((samples, model.nv)), np.zeros((samples, 1))
+        model = self.model
+        data = self.data
+        nu = self.robot.layout.nu
+        rate_hz = self.numbers.rates.data_hz
+        self.q = np.zeros((samples, model.nq))
+        self.v = np.zeros((samples, model.nv))
+        self.tau = np.zeros((samples, nu))
+        self.ext = np.zeros((samples, model.nv))
+        self.push = np.zeros((samples, model.nv))
+        self.pushed = np.zeros((samples, 1))
         self.acc = np.zeros((samples, 3))
         before = self.control(*(self.motion(0.0, order) for order in range(3)))
         told = time.monotonic()
@@ -112,25 +123,34 @@ class Run:
             for k, *wanted in zip(
                 range(start, samples), *(self.motion(times, order) for order in range(3)), strict=False
             ):
-                self.q[k], self.v[k] = data.qpos, data.qvel
+                self.q[k] = data.qpos
+                self.v[k] = data.qvel
                 self.acc[k] = 0.0 if self.imu is None else data.sensordata[self.imu]
                 torque = self.control(*wanted)
-                self.tau[k], before = (before + torque) / 2, torque
+                self.tau[k] = (before + torque) / 2
+                before = torque
                 held, pushed = self.step(torque, pushes)
                 if k + 1 < samples:
-                    self.ext[k + 1], self.push[k + 1], self.pushed[k + 1] = held + pushed, pushed, pushed.any()
+                    self.ext[k + 1] = held + pushed
+                    self.push[k + 1] = pushed
+                    self.pushed[k + 1] = pushed.any()
 
     def control(self, q: Array, v: Array, acceleration: Array) -> Array:
         """Return the motors' torques (nu,) [N m] that follow a motion (nu,) by the model of the table."""
-        data, nu, (stiff, damp) = self.data, self.robot.layout.nu, self.gains
+        data = self.data
+        nu = self.robot.layout.nu
+        (stiff, damp) = self.gains
         wanted = acceleration + stiff * (q - data.qpos[-nu:]) + damp * (v - data.qvel[-nu:])
         limits = self.robot.torque_limits
         return np.clip(self.table.torque(data.qpos, data.qvel, wanted), -limits, limits)
 
     def step(self, torque: Array, pushes: Pushing) -> tuple[Array, Array]:
         """Advance by a sample; return its mean torques of what holds the base, and of pushes, (nv,) [N], [N m] each."""
-        model, data, rates = self.model, self.data, self.numbers.rates
-        held, pushed = np.zeros(model.nv), np.zeros(model.nv)
+        model = self.model
+        data = self.data
+        rates = self.numbers.rates
+        held = np.zeros(model.nv)
+        pushed = np.zeros(model.nv)
         every = round(rates.plant_hz / rates.data_hz)
         data.ctrl[:] = self.constants * torque
         for _ in range(every):
@@ -145,7 +165,10 @@ class Run:
 
 def add_noise(run: Run, robot: RobotDescription, numbers: Numbers, rng: np.random.Generator) -> None:
     """Add errors of sensors to the samples: steps of encoders, noise of speeds, base and torques (Table 3, our own)."""
-    noise, own, nu, rows = numbers.plant.noise, numbers.plant.own_noise, robot.layout.nu, len(run.q)
+    noise = numbers.plant.noise
+    own = numbers.plant.own_noise
+    nu = robot.layout.nu
+    rows = len(run.q)
     run.q[:, -nu:] = own.encoder_step_rad * np.rint(run.q[:, -nu:] / own.encoder_step_rad)
     run.v[:, -nu:] += noise.joint_velocity_rad_s * rng.normal(size=(rows, nu))
     run.tau += numbers.motion.joints.torque_noise_share * robot.torque_limits * rng.normal(size=(rows, nu))
@@ -159,7 +182,8 @@ def add_noise(run: Run, robot: RobotDescription, numbers: Numbers, rng: np.rando
 
 def slightly_turned(quaternion: Array, half: Array) -> Array:
     """Return quaternions w x y z (T, 4), turned by small rotation vectors 2 `half`, (T, 3) [rad] in base axes."""
-    w, u = quaternion[:, :1], quaternion[:, 1:]
+    w = quaternion[:, :1]
+    u = quaternion[:, 1:]
     turned = np.hstack([w - (u * half).sum(axis=1, keepdims=True), u + w * half + np.cross(u, half)])
     return turned / np.linalg.norm(turned, axis=1, keepdims=True)
 

@@ -28,7 +28,9 @@ def make_friction(plant: Plant, legs: NDArray[np.bool_], terms: Collection[Frict
 
     Of the terms of (23), `stribeck` comes with the viscous one, and `loss` is left to MuJoCo.
     """
-    table, speed, load = plant.friction, float("stribeck" in terms), float("load" in terms)
+    table = plant.friction
+    speed = float("stribeck" in terms)
+    load = float("load" in terms)
     return PlantFriction(
         coulomb=speed * table.coulomb_nm,
         static=speed * table.static_nm,

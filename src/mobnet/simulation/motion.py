@@ -26,13 +26,15 @@ def plan(
     robot: RobotDescription, motion: Motion, reacher: Reacher, variant: int, rng: np.random.Generator, duration_s: float
 ) -> Array:
     """Return knots (T, n) [rad] that start at rest where the reacher is."""
-    change, limits = motion.variants[variant], working_range(motion)
+    change = motion.variants[variant]
+    limits = working_range(motion)
     time = np.arange(round(duration_s * motion.knot_hz) + 1) / motion.knot_hz
     waves = band_limited(change.speed * time, HAND_WAVES + len(limits), motion, rng)
     hands = hand_targets(shoulder(robot) + np.array(change.hand_offset_m), motion, waves[:, :HAND_WAVES])
     joints = limits.mean(axis=1) + 0.5 * np.diff(limits)[:, 0] * waves[:, HAND_WAVES:]
     share = smooth_step((time - motion.still_s) / motion.ease_s)
-    place, posture = reacher.hand_positions(), reacher.configuration.q
+    place = reacher.hand_positions()
+    posture = reacher.configuration.q
     knots = np.zeros((len(time), len(limits)))
     for i, s in enumerate(share):
         knots[i] = reacher.step(place + s * (hands[i] - place), posture + s * (joints[i] - posture))
@@ -82,7 +84,8 @@ def shoulder(robot: RobotDescription) -> Array:
 
 def band_limited(time: Array, count: int, settings: Motion, rng: np.random.Generator) -> Array:
     """Return signals (T, count), spread evenly over -1..1, of sines within the band [Hz] at time (T,) [s]."""
-    waves, (lowest, highest) = settings.waves, settings.band_hz
+    waves = settings.waves
+    (lowest, highest) = settings.band_hz
     frequency = 2 * np.pi * rng.uniform(lowest, highest, (waves, count))
     phase = rng.uniform(0, 2 * np.pi, (waves, count))
     total = np.zeros((len(time), count))

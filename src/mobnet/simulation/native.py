@@ -104,7 +104,8 @@ def offsets() -> tuple[int, ...]:
     mujoco.mj_forward(model, data)
     found = tuple(offset(field) for field in READ)
     for (field, kind), at in zip(READ.items(), found, strict=True):
-        told, viewed = read_at(data._address + at, field), np.asarray(getattr(data, field))
+        told = read_at(data._address + at, field)
+        viewed = np.asarray(getattr(data, field))
         wanted = viewed.ctypes.data if viewed.ndim else int(viewed)
         if told != wanted:
             raise SimulationError(f"mjData.{field}: {told} by its address, Python says {wanted}")

@@ -98,7 +98,8 @@ def reset_pushes(pushes: Pushes, start_s: float, rng: np.random.Generator) -> No
 @compiled
 def plan(pushes: Pushes, k: int, now: float, rng: np.random.Generator) -> None:
     """Draw when push k comes next: at its next set time [s], or after a pause from now [s] on."""
-    law, p = pushes.law[k], pushes.state[k]
+    law = pushes.law[k]
+    p = pushes.state[k]
     p.active = 0
     if law.timed == 1:
         p.start = pushes.times[k, min(p.count, pushes.times.shape[1] - 1)]
@@ -135,7 +136,9 @@ def _begin(law: Any, p: Any, now: float, axes: Array, rng: np.random.Generator) 
         _draw_direction(p.moment, True, rng)
         p.moment *= rng.uniform(law.moment[0], law.moment[1])
     if law.direction == DOWN:
-        p.direction[0], p.direction[1], p.direction[2] = 0.0, 0.0, -1.0
+        p.direction[0] = 0.0
+        p.direction[1] = 0.0
+        p.direction[2] = -1.0
     elif law.direction >= BACKWARD:
         axis, sign = (0, -1.0) if law.direction == BACKWARD else (1, 1.0 if law.direction == LEFTWARD else -1.0)
         for i in range(3):
@@ -148,7 +151,9 @@ def _draw_direction(vector: Array, anywhere: bool, rng: np.random.Generator) -> 
     yaw = rng.uniform(-np.pi, np.pi)
     up = rng.uniform(-1.0, 1.0) if anywhere else 0.0
     flat = np.sqrt(1.0 - up * up)
-    vector[0], vector[1], vector[2] = flat * np.cos(yaw), flat * np.sin(yaw), up
+    vector[0] = flat * np.cos(yaw)
+    vector[1] = flat * np.sin(yaw)
+    vector[2] = up
 
 
 @compiled
@@ -184,7 +189,8 @@ def _advance(
     pushes: Pushes, k: int, s: State, xmat: Array, site_xpos: Array, dt: float, rng: np.random.Generator
 ) -> float:
     """End or begin push k if it is time to; return how hard it pushes now [N] or [N m], zero between two pushes."""
-    law, p = pushes.law[k], pushes.state[k]
+    law = pushes.law[k]
+    p = pushes.state[k]
     if p.active == 1 and law.shape != IMPACTOR and s.clock >= p.end:
         plan(pushes, k, s.clock, rng)
     if p.active == 0 and s.clock >= p.start and in_phase(law.phase, p.share, s):
@@ -205,7 +211,9 @@ def _advance(
 @compiled
 def advance_impactor(pushes: Pushes, k: int, clock: float, place: Array, dt: float, rng: np.random.Generator) -> float:
     """Return the force of an impactor [N] on a point at place (3,) [m], and plan the next one once it has parted."""
-    law, p, force = pushes.law[k], pushes.state[k], 0.0
+    law = pushes.law[k]
+    p = pushes.state[k]
+    force = 0.0
     if p.active == 1:
         force = max(hit(p, law.mass, place, dt), 0.0)
         if force == 0.0 and clock > p.start:  # at the start they just touch
@@ -240,7 +248,8 @@ def push(
         if pushes.law[k].dof < 0:
             xfrc[pushes.law[k].body] = 0.0
     for k in range(len(pushes.law)):
-        law, size = pushes.law[k], _advance(pushes, k, s, xmat, site_xpos, dt, rng)
+        law = pushes.law[k]
+        size = _advance(pushes, k, s, xmat, site_xpos, dt, rng)
         if law.dof >= 0:
             qfrc[law.dof] += size
             tau_joints[law.dof] += size
@@ -257,6 +266,7 @@ def push(
 def _force_at(point: Array, centre: Array, size: float, direction: Array, wrench: Array) -> None:
     """Add a force [N] in a direction (3,) at a point (3,) [m] to the wrench (6,) [N, N m] about a centre (3,) [m]."""
     for i in range(3):
-        j, n = (i + 1) % 3, (i + 2) % 3
+        j = (i + 1) % 3
+        n = (i + 2) % 3
         wrench[i] += size * direction[i]
         wrench[3 + i] += size * ((point[j] - centre[j]) * direction[n] - (point[n] - centre[n]) * direction[j])

@@ -25,7 +25,9 @@ class ClearanceLimit(mink.Limit):
 
     def __init__(self, model: mujoco.MjModel, least_m: float, gain: float) -> None:
         """Set the least distance [m] and the share of what is left of it that one step may use up."""
-        self.model, self.least, self.gain = model, least_m, gain
+        self.model = model
+        self.least = least_m
+        self.gain = gain
         self.jacobians = np.zeros((2, 3, model.nv))
 
     def compute_qp_inequalities(self, configuration: mink.Configuration, dt: float) -> mink.Constraint:
@@ -51,7 +53,8 @@ class Reacher:
     def __init__(self, robot: RobotDescription, settings: Motion, limits: Array, posture: Array) -> None:
         """Start at a posture (n,) [rad] of the joints above the legs, whose working range is limits (n, 2) [rad]."""
         model = upper_body(robot, limits, settings.guard_m, settings.leg_poses_rad)
-        self.dt, self.reach = 1.0 / settings.knot_hz, settings.guard_m
+        self.dt = 1.0 / settings.knot_hz
+        self.reach = settings.guard_m
         self.lead = settings.hand_speed_max_m_s * self.dt / settings.gain
         self.configuration = mink.Configuration(model, posture)
         self.hands = [
@@ -104,8 +107,10 @@ class Reacher:
 
     def look(self, knots: Array) -> tuple[Array, Array]:
         """Return the least distance (T,) [m] and both hands from the pelvis (T, 2, 3) [m] along knots (T, n) [rad]."""
-        model, data = self.configuration.model, self.configuration.data
-        nearest, hands = np.zeros(len(knots)), np.zeros((len(knots), 2, 3))
+        model = self.configuration.model
+        data = self.configuration.data
+        nearest = np.zeros(len(knots))
+        hands = np.zeros((len(knots), 2, 3))
         for i, q in enumerate(knots):
             nearest[i] = collide(model, data, q, self.reach)
             hands[i] = [data.site(f"{side}_hand").xpos for side in SIDES]
@@ -128,7 +133,8 @@ def upper_body(
     for joint in [joint for joint in spec.joints if joint.name not in robot.layout.above_legs]:
         spec.delete(joint)
     for joint, span in zip(spec.joints, limits, strict=True):
-        joint.limited, joint.range = True, span
+        joint.limited = True
+        joint.range = span
     moved = {body.name for joint in spec.joints for body in [joint.parent, *joint.parent.find_all("body")]}
     for geom in spec.geoms:
         geom.conaffinity |= ZONE_TYPE * (geom.parent.name in moved and geom.contype > 0)
@@ -137,7 +143,8 @@ def upper_body(
         geom = base.add_geom(
             type=mujoco.mjtGeom.mjGEOM_CAPSULE, contype=ZONE_TYPE, conaffinity=0, margin=reach_m / 2, mass=0
         )
-        geom.fromto, geom.size[0] = fromto, radius
+        geom.fromto = fromto
+        geom.size[0] = radius
     return spec.compile()
 
 

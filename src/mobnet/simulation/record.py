@@ -41,8 +41,11 @@ class CollisionWatch:
 
     def __init__(self, clearance: Clearance, every: int, nq: int) -> None:
         """Look at each `every`-th sample of a chunk, at its first nq columns."""
-        self.clearance, self.every, self.nq = clearance, every, nq
-        self.nearest, self.collisions = clearance.reach, 0
+        self.clearance = clearance
+        self.every = every
+        self.nq = nq
+        self.nearest = clearance.reach
+        self.collisions = 0
 
     def look(self, rows: Rows) -> None:
         """Note the smallest distance [m] in some of the samples (n, C), and in how many of them solids overlap."""
@@ -63,7 +66,8 @@ def collect(settings: WalkSettings, seed: int, duration_s: float, out: Path, mot
     """
     started = time.perf_counter()
     simulator = Simulator(settings, seed, read_motion(motion) if motion else None)
-    layout, rate = simulator.robot.layout, settings.rates.data_hz
+    layout = simulator.robot.layout
+    rate = settings.rates.data_hz
     samples = round(duration_s * rate)
     columns = [column for group in recording_columns(layout).values() for column in group]
     watch = CollisionWatch(Clearance(simulator.robot), round(rate / settings.recording.clearance_hz), layout.nq)
@@ -99,7 +103,9 @@ def record(
     Raises:
         SimulationError: the robot keeps falling.
     """
-    course, end, reported = RecordingCourse(), 0, time.perf_counter()
+    course = RecordingCourse()
+    end = 0
+    reported = time.perf_counter()
     while end < samples:
         begin = end
         longest = min(samples - begin, round(settings.episode_s * rate_hz))
@@ -124,7 +130,8 @@ def _episode(
 
     The last seconds are held back until it is known that no fall follows them.
     """
-    chunk, settle = round(settings.chunk_s * rate_hz), round(settings.settle_s * rate_hz)
+    chunk = round(settings.chunk_s * rate_hz)
+    settle = round(settings.settle_s * rate_hz)
     dropped = round(settings.dropped_before_fall_s * rate_hz)
     simulator.start(begin / rate_hz)
     width = simulator.width

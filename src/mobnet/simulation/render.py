@@ -47,7 +47,8 @@ def picture_model(robot: RobotDescription, terrain: DrawnTerrain, size: tuple[in
     """Compile the robot under a sky on a wider part of its terrain, for pictures of a width and height [pixels]."""
     spec = robot_spec(robot)
     add_terrain(spec, _cut(terrain), WIDE_M)
-    spec.stat.extent, spec.stat.center = EXTENT_M, [0.0, 0.0, EXTENT_M / 2]
+    spec.stat.extent = EXTENT_M
+    spec.stat.center = [0.0, 0.0, EXTENT_M / 2]
     _set_view(spec.visual, size)
     spec.add_texture(
         name="sky", type=mujoco.mjtTexture.mjTEXTURE_SKYBOX, builtin=mujoco.mjtBuiltin.mjBUILTIN_FLAT, rgb1=SKY_RGB,
@@ -80,7 +81,8 @@ def _set_view(visual: Any, size: tuple[int, int]) -> None:
     visual.map.shadowclip = SHADOW_CLIP
     visual.rgba.fog = visual.rgba.haze = [*SKY_RGB, 1.0]
     shrunk = SIZE[0] // size[0]
-    visual.quality.shadowsize, visual.quality.offsamples = SHADOW_PIXELS // max(shrunk, 1), SAMPLES
+    visual.quality.shadowsize = SHADOW_PIXELS // max(shrunk, 1)
+    visual.quality.offsamples = SAMPLES
 
 
 def aim(camera: mujoco.MjvCamera, base: NDArray[Any]) -> None:
@@ -98,7 +100,9 @@ def draw_frames(model: mujoco.MjModel, qs: Iterable[NDArray[Any]]) -> Iterator[P
     Raises:
         DrawingError: the machine cannot draw off screen.
     """
-    data, camera, option = mujoco.MjData(model), mujoco.MjvCamera(), mujoco.MjvOption()
+    data = mujoco.MjData(model)
+    camera = mujoco.MjvCamera()
+    option = mujoco.MjvOption()
     option.sitegroup[:] = 0  # sensors and points of pushes are no part of a picture
     scene = mujoco.MjvScene(model, maxgeom=2 * model.ngeom)
     everything = mujoco.mjtCatBit.mjCAT_ALL.value
@@ -140,8 +144,10 @@ def _off_screen(model: mujoco.MjModel) -> Iterator[mujoco.MjrContext]:
 
 def _pixels(model: mujoco.MjModel, scene: mujoco.MjvScene, target: mujoco.MjrContext) -> Pixels:
     """Draw a scene; return pixels (height, width, 3), the top row first, each the mean of `FINER` times `FINER`."""
-    width, height = model.vis.global_.offwidth, model.vis.global_.offheight
-    frame, pixels = mujoco.MjrRect(0, 0, width, height), np.empty((height, width, 3), dtype=np.uint8)
+    width = model.vis.global_.offwidth
+    height = model.vis.global_.offheight
+    frame = mujoco.MjrRect(0, 0, width, height)
+    pixels = np.empty((height, width, 3), dtype=np.uint8)
     mujoco.mjr_render(frame, scene, target)
     mujoco.mjr_readPixels(pixels, None, frame, target)
     fine = pixels[::-1].reshape(height // FINER, FINER, width // FINER, FINER, 3)

@@ -61,7 +61,9 @@ def check_spec(robot: RobotDescription, reach_m: float) -> mujoco.MjSpec:
     spec = robot_spec(robot)
     for geom in spec.geoms:
         own = OWN_TYPE if geom.group == SHAPE_GROUP else 0
-        geom.contype, geom.conaffinity, geom.condim = own, own, 1
+        geom.contype = own
+        geom.conaffinity = own
+        geom.condim = 1
         geom.margin = reach_m / 2  # MuJoCo adds the two margins of a pair
         if own and geom.type == mujoco.mjtGeom.mjGEOM_BOX:
             _as_hull(spec, geom)
@@ -76,7 +78,8 @@ def _as_hull(spec: mujoco.MjSpec, box: mujoco.MjsGeom) -> None:
     """Make a box a convex mesh: MuJoCo's own test of two boxes misses some that are near without touching."""
     corners = np.array(list(itertools.product((-1.0, 1.0), repeat=3))) * box.size
     spec.add_mesh(name=box.name, uservert=corners.ravel())
-    box.type, box.meshname = mujoco.mjtGeom.mjGEOM_MESH, box.name
+    box.type = mujoco.mjtGeom.mjGEOM_MESH
+    box.meshname = box.name
 
 
 def held_together(robot: RobotDescription, body: BodyRow, other: BodyRow) -> bool:
@@ -89,7 +92,8 @@ def held_together(robot: RobotDescription, body: BodyRow, other: BodyRow) -> boo
 def _to_base(robot: RobotDescription, body: BodyRow) -> frozenset[str]:
     """Return the names of a body and of all bodies between it and the world."""
     parents = {link.name: link.parent for link in robot.bodies}
-    names, name = set(), body.name
+    names = set()
+    name = body.name
     while name in parents:
         names.add(name)
         name = parents[name]

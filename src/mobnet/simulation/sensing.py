@@ -45,7 +45,8 @@ class Sensors(NamedTuple):
 def make_sensors(plant: Plant, level: Level, model: mujoco.MjModel, estimated: bool = False) -> Sensors:
     """Build the sensors of a plant at an uncertainty level (section 5.1); see `Sensors.estimated`."""
     q_std, v_std, acc_std, omega_std = read_table_03(plant.noise, level)
-    own, noisy = plant.own_noise, level.noise != "none"
+    own = plant.own_noise
+    noisy = level.noise != "none"
     return Sensors(
         q_std=q_std,
         v_std=v_std,
@@ -77,12 +78,10 @@ def read_table_03(noise: Noise, level: Level) -> tuple[float, ...]:
     The level says how the numbers of Table 3 are read: as standard deviations (`std`), so with those of acceleration
     and angular velocity exchanged (`swapped`), or as variances (`variance`), as the table calls them.
     """
-    q, v, acc, omega = (
-        noise.joint_position_rad,
-        noise.joint_velocity_rad_s,
-        noise.base_acceleration_m_s2,
-        noise.base_angular_velocity_rad_s,
-    )
+    q = noise.joint_position_rad
+    v = noise.joint_velocity_rad_s
+    acc = noise.base_acceleration_m_s2
+    omega = noise.base_angular_velocity_rad_s
     readings = {
         "none": (0.0, 0.0, 0.0, 0.0),
         "std": (q, v, acc, omega),
@@ -94,7 +93,8 @@ def read_table_03(noise: Noise, level: Level) -> tuple[float, ...]:
 
 def reset_sensors(sensors: Sensors, q: Array, v: Array, rng: np.random.Generator) -> None:
     """Begin an episode at a known q (nq,), v (nv,) without load on the feet; the orientation's error is drawn."""
-    sensors.q[:], sensors.v[:] = q, v
+    sensors.q[:] = q
+    sensors.v[:] = v
     sensors.wrenches[:] = 0.0
     sensors.offset[:] = sensors.offset_std * rng.standard_normal(3)
 
@@ -136,7 +136,11 @@ def _read_feet(sensors: Sensors, sensordata: Array, rng: np.random.Generator) ->
 @compiled
 def _read_orientation(sensors: Sensors, qpos: Array, rng: np.random.Generator) -> None:
     """Fill the base's orientation: the true one, turned in base axes by the episode's error and by noise."""
-    half, w, x, y, z = vector3(), qpos[3], qpos[4], qpos[5], qpos[6]
+    half = vector3()
+    w = qpos[3]
+    x = qpos[4]
+    y = qpos[5]
+    z = qpos[6]
     for i in range(3):
         half[i] = 0.5 * (sensors.offset[i] + sensors.turn_std * rng.standard_normal())
     # The product of the quaternion w x y z with 1 + half, which turns by the small rotation vector 2 half.

@@ -55,9 +55,11 @@ class Simulator:
         Raises:
             ConfigError: the robot cannot walk, or plates find no room.
         """
-        self.settings, scenario = settings, settings.scenario
+        self.settings = settings
+        scenario = settings.scenario
         self.robot = for_walking(describe(settings.robot))
-        ratio, gravity = settings.level.nominal_mass_ratio, settings.plant.gravity_m_s2
+        ratio = settings.level.nominal_mass_ratio
+        gravity = settings.plant.gravity_m_s2
         self.walker = make_walker(self.robot, settings.walking, ratio, gravity)
         self.torque = make_exploration(settings.random_torque, self.robot.layout, bool(scenario.random_torque))
         self.upper = upper or UpperBody(self.robot.posture.angle[None].copy(), 1.0, np.zeros(1))
@@ -65,7 +67,8 @@ class Simulator:
         draws = scenario.draws or settings.scenario_name  # scenarios that differ in their pushes alone draw the same
         seeds = np.random.SeedSequence([settings.seed, zlib.crc32(draws.encode()), seed]).spawn(len(STREAMS))
         self.rng = {name: np.random.default_rng(stream) for name, stream in zip(STREAMS, seeds, strict=True)}
-        chosen, rate = settings.level.surrogate, settings.rates.plant_hz
+        chosen = settings.level.surrogate
+        rate = settings.rates.plant_hz
         self.hidden = draw_hidden(self.robot, settings.plant, rate, settings.surrogate, chosen, settings.seed)
         self.running_s = self.rng["running"].uniform(*chosen.running_s) if chosen else 0.0
         self.episode = seed  # the first of the scenario's kinds of episodes depends on the seed
@@ -82,7 +85,8 @@ class Simulator:
 
     def _enter(self, terrain: str) -> None:
         """Put the robot on a terrain that is drawn anew."""
-        settings, rates = self.settings, self.settings.rates
+        settings = self.settings
+        rates = self.settings.rates
         robot, plant, drives, faults = self.hidden
         drawn = draw_terrain(dict(settings.terrain)[terrain], self.rng["terrain"])
         world = make_world(
@@ -91,7 +95,8 @@ class Simulator:
         friction = make_friction(plant, leg_mask(self.robot), settings.level.friction)
         every = round(rates.plant_hz / rates.data_hz)
         limits = np.maximum(self.robot.torque_limits, plant.motor_limit_min_nm)
-        native, fall_height = bind(world.model, world.data), settings.recording.fall_height_m
+        native = bind(world.model, world.data)
+        fall_height = settings.recording.fall_height_m
         sensors = make_sensors(plant, settings.level, world.model, settings.scenario.wrench == "estimated")
         pushes = make_pushes(settings.pushes, world.model, self.robot)
         plant = make_plant(world, native, friction, drives, faults, limits, fall_height, every)
@@ -116,9 +121,11 @@ class Simulator:
         follow(self.upper, clock, self.walker.posture, self.walker.posture_rate)
         begin = start_standing if kind == STAND else start_walking
         q, v = begin(self.walker, self.robot, self.state, self.commands[0])
-        yaw, place = self.rng["place"].uniform(-np.pi, np.pi), self.rng["place"].uniform(-0.5, 0.5, 2)
+        yaw = self.rng["place"].uniform(-np.pi, np.pi)
+        place = self.rng["place"].uniform(-0.5, 0.5, 2)
         if self.settings.obstacles:
-            yaw, place = 0.0, np.zeros(2)
+            yaw = 0.0
+            place = np.zeros(2)
         turn(self.state, q, v, yaw, place * self.world.period)
         raise_start(self.state, q, ground_height(self.world, self._sole_points(yaw)).max())
         self.state.clock = clock
@@ -128,7 +135,8 @@ class Simulator:
 
     def _commands(self, kind: CommandSource | FixedCommand) -> Array:
         """Return the commands of an episode (n, 5)."""
-        commands, narrowed = self.settings.commands, self.settings.scenario.narrowed
+        commands = self.settings.commands
+        narrowed = self.settings.scenario.narrowed
         if isinstance(kind, FixedCommand):
             return fixed_commands(kind, commands.random.in_place_steps)
         ranges = commands.model_copy(update={name: value for name, value in narrowed if value is not None})
@@ -137,19 +145,24 @@ class Simulator:
 
     def _sole_points(self, yaw: float) -> Array:
         """Return points (n, 2) [m] under both soles of a start that faces yaw [rad]."""
-        robot, spacing = self.robot, self.walker.par.foot_spacing_m
+        robot = self.robot
+        spacing = self.walker.par.foot_spacing_m
         x = robot.sole.box_centre[0] + robot.sole.box_half[0] * np.linspace(-1.0, 1.0, SOLE_POINTS[0])
         y = robot.sole.box_half[1] * np.linspace(-1.0, 1.0, SOLE_POINTS[1])
         x, y = (grid.ravel() for grid in np.meshgrid(x, np.concatenate([y, y + spacing])))
-        c, n = np.cos(yaw), np.sin(yaw)
+        c = np.cos(yaw)
+        n = np.sin(yaw)
         return self.state.old_ankle[:2] + np.column_stack([c * x - n * y, n * x + c * y])  # of the right foot
 
     def _put(self, q: Array, v: Array) -> None:
         """Put the plant and what its sensors read at q (nq,), v (nv,), at rest in all else."""
-        plant, data = self.plant, self.world.data
+        plant = self.plant
+        data = self.world.data
         data.qacc_warmstart[:] = 0.0
         plant.xfrc_applied[:] = 0.0
-        plant.qpos[:], plant.qvel[:], plant.sensordata[:] = q, v, 0.0
+        plant.qpos[:] = q
+        plant.qvel[:] = v
+        plant.sensordata[:] = 0.0
         reset_sensors(self.sensors, q, v, self.rng["noise"])
         reset_faults(self.hidden.faults, self.sensors)
 

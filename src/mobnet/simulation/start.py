@@ -21,8 +21,10 @@ ITERATIONS = 20  # of the feet's place under the centre of mass; converges by a 
 def place(walker: Walker, robot: WalkingRobot) -> tuple[Array, Array]:
     """Return q (nq,) and the ankles (2, 3) [m] of standing in the walker's posture: level, weight over the ZMP."""
     par = walker.par
-    q, v = np.zeros(robot.layout.nq), np.zeros(robot.layout.nv)
-    q[2], q[3] = CLEARANCE_M + par.pelvis_height_m, 1.0
+    q = np.zeros(robot.layout.nq)
+    v = np.zeros(robot.layout.nv)
+    q[2] = CLEARANCE_M + par.pelvis_height_m
+    q[3] = 1.0
     q[7 + walker.upper :] = walker.posture
     ankles = np.zeros((2, 3))
     ankles[:, 2] = CLEARANCE_M - robot.sole.height
@@ -49,7 +51,8 @@ def start_walking(walker: Walker, robot: WalkingRobot, s: State, command: Array)
     v[6 + walker.upper :] = walker.posture_rate
     v[1] = sway
     for k in range(2):
-        jacobian, rates = np.zeros((6, 6)), np.zeros(6)
+        jacobian = np.zeros((6, 6))
+        rates = np.zeros(6)
         leg_jacobian(walker, k, jacobian)
         rates[1] = -sway
         solve(jacobian, rates)
@@ -72,7 +75,8 @@ def start_standing(walker: Walker, robot: WalkingRobot, s: State, command: Array
 
 def turn(s: State, q: Array, v: Array, yaw: float, place: Array) -> None:
     """Turn a start about the origin by yaw [rad] and move it to place (2,) [m]; q (nq,), v (nv,) and s are changed."""
-    c, n = np.cos(yaw), np.sin(yaw)
+    c = np.cos(yaw)
+    n = np.sin(yaw)
     rotation = np.array([[c, -n], [n, c]])
     for vector in (q[:2], v[:2], s.old_ankle[:2], s.velocity):
         vector[:] = rotation @ vector
@@ -93,8 +97,10 @@ def _set_state(walker: Walker, s: State, command: Array, q: Array, ankles: Array
     """Set the controller's state to both feet on the ground, the left one about to carry the robot."""
     for name in s.dtype.names or ():
         s[name] = 0
-    s.side, s.command = SIDES[0], command
+    s.side = SIDES[0]
+    s.command = command
     s.total = s.commanded = command[DURATION]
     s.old_ankle = ankles[1]
-    s.height, s.load = q[2], 0.5
+    s.height = q[2]
+    s.load = 0.5
     s.omega = np.sqrt(walker.gravity / walker.par.pelvis_height_m)

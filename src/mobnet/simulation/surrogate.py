@@ -39,7 +39,8 @@ def draw_hidden(
     if "body" in parts:
         robot = _other_links(surrogate.body, robot, chosen.payload_kg, body)
         plant = plant.model_copy(update={"sole_stiffness_n_m": body.uniform(*surrogate.body.sole_stiffness_n_m)})
-    moved, rotors = no_drives(robot.layout.nu), robot
+    moved = no_drives(robot.layout.nu)
+    rotors = robot
     robot = _without_rotors(robot) if "drives" in parts else robot
     model = robot_spec(robot).compile()
     if "drives" in parts:
@@ -56,7 +57,8 @@ def _other_links(settings: Body, robot: WalkingRobot, load_kg: float, rng: np.ra
     """Return a robot whose links have other masses and centres of mass, one of them a payload and `load_kg` [kg]."""
     bodies: list[BodyRow] = []
     for row in robot.bodies:
-        ratio, com = rng.uniform(1 - settings.mass_share, 1 + settings.mass_share), rng.uniform(-1, 1, 3)
+        ratio = rng.uniform(1 - settings.mass_share, 1 + settings.mass_share)
+        com = rng.uniform(-1, 1, 3)
         update = {
             "mass": ratio * row.mass,
             "inertia": tuple(ratio * value for value in row.inertia),

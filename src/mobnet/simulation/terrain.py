@@ -70,7 +70,8 @@ def top_of(terrain: DrawnTerrain) -> float:
 
 def _checks(row: Checks, rng: np.random.Generator) -> DrawnTerrain:
     """Return drawn cells of a square field, all raised by one drawn height (Figure 3 a)."""
-    half, height = np.full(2, row.cell_m / 2), rng.uniform(*row.height_m)
+    half = np.full(2, row.cell_m / 2)
+    height = rng.uniform(*row.height_m)
     raised = np.argwhere(rng.random((row.cells, row.cells)) < row.raised_share)
     places = (raised - (row.cells - 1) / 2) * row.cell_m
     pieces = tuple(Piece(half, half - row.bevel_m, height, place) for place in places)
@@ -84,7 +85,8 @@ def _plates(row: Plates, rng: np.random.Generator) -> DrawnTerrain:
     for size in row.sizes_m:
         half = np.array(size) / 2
         for _ in range(DRAWS_MAX):
-            place, yaw = rng.uniform(-0.5, 0.5, 2) * period, rng.uniform(0, np.pi)
+            place = rng.uniform(-0.5, 0.5, 2) * period
+            yaw = rng.uniform(0, np.pi)
             plate = Piece(half, half - row.bevel_m, row.height_m, place, yaw)
             if all(_apart(plate, other, period, row.gap_m) for other in (*plates, plate)):
                 plates.append(plate)
@@ -96,11 +98,17 @@ def _plates(row: Plates, rng: np.random.Generator) -> DrawnTerrain:
 
 def _slope(row: Slope, rng: np.random.Generator) -> DrawnTerrain:
     """Return even ground, a slope up, even ground and a slope down, along x or y (Figure 3 c)."""
-    run, even = row.slope_m, row.even_m
+    run = row.slope_m
+    even = row.even_m
     period = 2 * (run + even)
-    along, place = rng.integers(2), rng.uniform(-0.5, 0.5) * period
-    bottom, top, centre = np.full(2, np.inf), np.full(2, np.inf), np.zeros(2)
-    bottom[along], top[along], centre[along] = even / 2 + run, even / 2, place
+    along = rng.integers(2)
+    place = rng.uniform(-0.5, 0.5) * period
+    bottom = np.full(2, np.inf)
+    top = np.full(2, np.inf)
+    centre = np.zeros(2)
+    bottom[along] = even / 2 + run
+    top[along] = even / 2
+    centre[along] = place
     return DrawnTerrain(period, (Piece(bottom, top, run * np.tan(np.deg2rad(row.angle_deg)), centre),))
 
 
@@ -127,7 +135,8 @@ def add_terrain(spec: mujoco.MjSpec, terrain: DrawnTerrain, half_width: float | 
     touch = {"contype": TERRAIN_TYPE, "conaffinity": SOLE_TYPE, "group": TERRAIN_GROUP}
     spec.worldbody.add_geom(name="ground", type=mujoco.mjtGeom.mjGEOM_PLANE, size=[0, 0, 1], rgba=GROUND_RGBA, **touch)
     for number, piece in enumerate(terrain.pieces):
-        bottom, top = np.minimum(piece.bottom, half_width), np.minimum(piece.top, half_width)
+        bottom = np.minimum(piece.bottom, half_width)
+        top = np.minimum(piece.top, half_width)
         spec.add_mesh(name=f"piece{number}", uservert=frustum(bottom, top, piece.height).ravel())
         for x, y in _copies(piece, terrain.period, half_width):
             spec.worldbody.add_geom(

@@ -69,7 +69,8 @@ def ground_height(world: World, points: NDArray[np.float64]) -> NDArray[np.float
     data = mujoco.MjData(model)  # the world's own may have been reset and not know where its geoms are
     mujoco.mj_kinematics(model, data)
     groups = (np.arange(mujoco.mjNGROUP) == TERRAIN_GROUP).astype(np.uint8)
-    above, hit = top_of(world.terrain) + RAY_M, np.zeros(1, dtype=np.int32)
+    above = top_of(world.terrain) + RAY_M
+    hit = np.zeros(1, dtype=np.int32)
     starts = np.column_stack([points, np.full(len(points), above)])
     return above - np.array([mujoco.mj_ray(model, data, start, DOWN, groups, 1, -1, hit) for start in starts])
 

@@ -75,7 +75,8 @@ class Curves:
         self, title: str, joint: str, rows: slice, zero: int, shown: Mapping[str, NDArray[Any]], band: bool
     ) -> Panel:
         """Return a panel of a joint in some rows; shown are label -> curves of all joints (T, n) [N m], V1..V3 [N]."""
-        k, time = self.joints.index(joint), (np.arange(len(self.truth))[rows] - zero) / self.rate_hz
+        k = self.joints.index(joint)
+        time = (np.arange(len(self.truth))[rows] - zero) / self.rate_hz
         stds = {name: std[rows, k] for name, std in self.stds.items() if band and std is not None}
         curves = [TorqueCurve(name, values[rows, k], stds.get(name)) for name, values in shown.items()]
         return Panel(title, time, curves, {name: flags[rows] for name, flags in self.flags.items()})
@@ -92,7 +93,8 @@ def read_curves(
         ConfigError: a joint is not estimated by a method.
         DataError: a file or a column is missing, or files do not belong together.
     """
-    wanted, flags = tuple(joints), flags or {}
+    wanted = tuple(joints)
+    flags = flags or {}
     pairs = [read_pair(run, layout) for run in runs]
     first = pairs[0]
     return Curves(

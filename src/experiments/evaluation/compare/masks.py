@@ -10,8 +10,10 @@ from experiments.evaluation.compare.scene import Scene
 from experiments.evaluation.compare.windows import rows_in
 from mobnet.core.arrays import Array
 
-STUCK, MOVING = "stuck", "moving"
-PUSHED, CALM = "pushed", "calm"
+STUCK = "stuck"
+MOVING = "moving"
+PUSHED = "pushed"
+CALM = "calm"
 Masks = Mapping[str, NDArray[np.bool_]]  # part of a walk -> whether each joint is in it (T, n)
 
 

@@ -54,7 +54,8 @@ class Scene:
     def phases(self) -> dict[str, NDArray[np.bool_]]:
         """Phase -> whether each joint's own leg is in it (T, nv); a joint of no leg is in none."""
         note = read_array_note(file_of(self.stem, NOTE))
-        rows, spans = round(self.asked.touch_down_s * note["rate_hz"]), note["segments"]
+        rows = round(self.asked.touch_down_s * note["rate_hz"])
+        spans = note["segments"]
         found = {name: np.zeros((note["rows"], self.layout.nv), dtype=bool) for name in (SWINGING, TOUCH_DOWN, STANCE)}
         for side, limb in self.layout.legs.items():
             foot = next(name for name in FEET if name.startswith(side))

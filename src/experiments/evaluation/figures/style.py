@@ -21,7 +21,8 @@ log = logging.getLogger(__name__)
 
 LETTERS = "abcdefghijkl"
 CLIP = re.compile(r"(?:(?<=id=\")|(?<=url\(#))p[0-9a-f]{10}\b")  # name of an area that a drawing is cut to
-PATHS, DIGITS = re.compile(r' d="[^"]*"'), re.compile(r"(\.\d\d)\d+")
+PATHS = re.compile(r' d="[^"]*"')
+DIGITS = re.compile(r"(\.\d\d)\d+")
 UNDATED: Mapping[str, dict[str, Any]] = {  # ending of a picture -> what would make equal pictures differ
     ".pdf": {"CreationDate": None, "Producer": None},
     ".svg": {"Date": None, "Creator": None},
@@ -104,7 +105,8 @@ def stacked(units: Sequence[str], panel_inch: float, legend_inch: float, columns
 
     With several `columns` of panels it has the width of the page.
     """
-    rows, width = ceil(len(units) / columns), COLUMN_INCH if columns == 1 else PAGE_INCH
+    rows = ceil(len(units) / columns)
+    width = COLUMN_INCH if columns == 1 else PAGE_INCH
     figure = Figure(figsize=(width, panel_inch * rows + legend_inch), layout="constrained")
     axes: list[Axes] = figure.subplots(rows, columns, squeeze=False).ravel().tolist()
     for axis, unit in zip(axes, units, strict=True):

@@ -126,12 +126,16 @@ class StoredPush:
         """Return a method's estimator; a ConfigError names a method whose files are not stored."""
         if method not in self.story.methods:
             raise ConfigError(not_accepted("method", method, self.story.methods))
-        catalogue, limb, settings = Catalogue(self.settings), self.collision.leg, self.settings
-        source, fitted = catalogue.network_source_of(method), catalogue.source_of(method)
+        catalogue = Catalogue(self.settings)
+        limb = self.collision.leg
+        settings = self.settings
+        source = catalogue.network_source_of(method)
+        fitted = catalogue.source_of(method)
         networks = {limb: self.folder / network_place(source, limb)} if catalogue.method(source).limbs else {}
         fit = self.folder / fit_place(fitted) if catalogue.method(fitted).fitted else None
         methods = {name: catalogue.method(name) for name in (method, fitted)}
-        ratio, gravity = settings.levels[self.story.level].nominal_mass_ratio, settings.plant.gravity_m_s2
+        ratio = settings.levels[self.story.level].nominal_mass_ratio
+        gravity = settings.plant.gravity_m_s2
         rate_hz = self.recording.rate_hz
         return build_estimator(
             Recipe(method, methods, settings.robot, ratio, gravity, settings.observer, rate_hz, networks, fit)
@@ -139,22 +143,24 @@ class StoredPush:
 
     def estimate(self, method: str) -> Estimate:
         """Return what a method makes of the leg's joints, step by step from its first state, (T, n) [N m]."""
-        estimator, sensed = self.estimator(method), self.recording.sensed
-        held, state, steps = (
-            [estimator.joints.index(joint) for joint in self.joints],
-            estimator.init(),
-            list[Estimate](),
-        )
+        estimator = self.estimator(method)
+        sensed = self.recording.sensed
+        held = [estimator.joints.index(joint) for joint in self.joints]
+        state = estimator.init()
+        steps = list[Estimate]()
         for k in range(len(sensed)):
             state, estimate = estimator.step(state, sensed[k])
             steps.append(estimate)
-        tau, std = np.array([one.tau_ext for one in steps]), [one.std for one in steps if one.std is not None]
+        tau = np.array([one.tau_ext for one in steps])
+        std = [one.std for one in steps if one.std is not None]
         return Estimate(tau[:, held], np.array(std)[:, held] if std else None)
 
     def felt(self, estimate: Estimate) -> Felt:
         """Return what an estimate of the leg shows of the push at the joint of the story."""
-        k, rate_hz = self.place, self.recording.rate_hz
-        spans, peaks = ((0, len(self.pushed)),), self.settings.evaluation.peaks
+        k = self.place
+        rate_hz = self.recording.rate_hz
+        spans = ((0, len(self.pushed)),)
+        peaks = self.settings.evaluation.peaks
         rise = next(rows for _, rows in push_rows(self.pushed, spans, peaks, rate_hz))
         push, truth, tau = (part[:, k].astype(np.float64) for part in (self.push, self.truth, estimate.tau_ext))
         behind = self.filtered(push)
@@ -189,7 +195,8 @@ class StoredPush:
 
     def _thresholds(self, row: Detector) -> Array:
         """Return the thresholds of a detector, (phases, signals) [N m], of a ratio [-]."""
-        path, names = self.folder / "thresholds.csv", Watched(row).names(self.joints)
+        path = self.folder / "thresholds.csv"
+        names = Watched(row).names(self.joints)
         stored: list[Threshold] = read_detections(path, "thresholds")
         values = {(one.phase, one.signal): one.value for one in stored}
         wanted = [[(phase, name) for name in names] for phase in range(1, row.phases + 1)]

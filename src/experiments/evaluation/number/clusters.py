@@ -55,7 +55,8 @@ def share_in(flags: Sequence[bool], places: Sequence[Place], statistics: Statist
     if not flags:
         return Number(None)
     found = np.array(flags, dtype=np.float64)
-    value, n = float(found.mean()), len(found)
+    value = float(found.mean())
+    n = len(found)
     effects = _effects((found - value) / n, places)
     if not effects:
         return Number(value)
@@ -66,8 +67,10 @@ def share_in(flags: Sequence[bool], places: Sequence[Place], statistics: Statist
 
 def rate_in(counts: Sequence[int], hours: Sequence[float], places: Sequence[Place], statistics: Statistics) -> Number:
     """Return how many events there are in an hour [1/h] of the time at places [h], with its interval."""
-    events, time = np.array(counts, dtype=np.float64), np.array(hours, dtype=np.float64)
-    total, whole = float(events.sum()), float(time.sum())
+    events = np.array(counts, dtype=np.float64)
+    time = np.array(hours, dtype=np.float64)
+    total = float(events.sum())
+    whole = float(time.sum())
     if whole <= 0.0:
         return Number(None, unit="1/h")
     effects = _effects(events - time * total / whole, places)

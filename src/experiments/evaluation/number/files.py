@@ -22,7 +22,8 @@ def read_numbers(path: Path) -> list[tuple[dict[str, str], Number]]:
     Raises:
         DataError: the file is missing, a column is missing or a field is not a number where one is due.
     """
-    names, faults = ("value", "low", "high", "published"), list[str]()
+    names = ("value", "low", "high", "published")
+    faults = list[str]()
     found: list[tuple[dict[str, str], Number]] = []
     for line, row in enumerate(read_texts(path, [*names, "unit"]), start=2):
         numbers = {name: parse_field(row[name], float | None, f"{path}:{line}: {name}", faults) for name in names}

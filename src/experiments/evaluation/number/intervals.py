@@ -79,13 +79,15 @@ def summarise(grids: Sequence[RunGrid], statistics: Statistics, formula: Formula
     """
     means = np.array([grid.mean for grid in grids])
     with np.errstate(divide="ignore", invalid="ignore"):
-        parts, slopes = formula.parts(means), slopes_of(formula.parts, means)
+        parts = formula.parts(means)
+        slopes = slopes_of(formula.parts, means)
     networks, walks = (effects_of(grids, slopes, axis) for axis in (0, 1))
     found = Number(None, unit=unit, networks=counts_of(networks), walks=counts_of(walks))
     if not np.isfinite(parts).all() or not np.isfinite(slopes).all():
         return found
     shown = formula.shown(parts)
-    least, drawn = int(shown.argmin()), [each for each in (*networks, *walks) if each.count > 1]
+    least = int(shown.argmin())
+    drawn = [each for each in (*networks, *walks) if each.count > 1]
     on_logs = formula.positive and all((grid.values > 0).all() for grid in grids)
     low, high = ends_of(formula, parts, drawn, statistics.confidence, on_logs) if drawn else (None, None)
     steepness = abs(float(slopes_of(formula.shown, parts)[least, least]))
@@ -154,8 +156,10 @@ def quantile_of(degrees: int, confidence: float) -> float:
 def shown_range(formula: Formula, parts: Array, reach: Array, on_logs: bool) -> Array:
     """Return the lowest and the highest number (2, P) of parts (P,) within their reach (P,) [their unit]."""
     if on_logs:
-        low, high = parts * np.exp(-reach / parts), parts * np.exp(reach / parts)
+        low = parts * np.exp(-reach / parts)
+        high = parts * np.exp(reach / parts)
     else:
-        low, high = parts - reach, parts + reach
+        low = parts - reach
+        high = parts + reach
     shown = np.stack([formula.shown(each) for each in (low, high, np.clip(0.0, low, high))])
     return np.stack([shown.min(axis=0), shown.max(axis=0)])

@@ -16,7 +16,8 @@ def trend(grids: Sequence[RunGrid], statistics: Statistics, unit: str = "-") -> 
     It needs a single run of each: how the means scatter around the line stands for all that varies.
     """
     line = scipy.stats.linregress(np.arange(len(grids)), [grid.mean for grid in grids])
-    value, reach = float(line.slope), quantile_of(len(grids) - 2, statistics.confidence) * float(line.stderr)
+    value = float(line.slope)
+    reach = quantile_of(len(grids) - 2, statistics.confidence) * float(line.stderr)
     networks = tuple(len(grid.values) for grid in grids)
     return Number(value, value - reach, value + reach, unit=unit, networks=networks, walks=(1,))
 

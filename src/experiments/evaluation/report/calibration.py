@@ -21,7 +21,8 @@ def calibration(
 
     `folders` are the trained networks by the level that they learned at, `runs` those of each test of `settings`.
     """
-    levels, points = learning.calibration_levels, nominal_points(settings.points)
+    levels = learning.calibration_levels
+    points = nominal_points(settings.points)
     grids = in_tests(layout, coverage, settings.tests, runs, [*levels, *points])
     held = held_out(layout, folders, levels)
     trust_table(settings, learning, statistics, [*held, *grids], table_dir)

@@ -43,7 +43,8 @@ def caption_tex(path: Path) -> str:
 
 def inline_tex(text: str) -> str:
     """Return a line of reStructuredText as TeX."""
-    done, end = "", 0
+    done = ""
+    end = 0
     for found in MARKUP.finditer(text):
         kind = found.lastgroup or ""
         done += tex_escape(text[end : found.start()]) + rf"\{COMMANDS[kind]}{{{tex_escape(found[kind])}}}"

@@ -18,7 +18,8 @@ def cells_of(path: Path) -> dict[str, Number]:
     Raises:
         DataError: the file or a column is missing, or a field is not a number where one is due.
     """
-    faults, found = list[str](), dict[str, Number]()
+    faults = list[str]()
+    found = dict[str, Number]()
     for line, row in enumerate(read_texts(path, ["value", "unit"]), start=2):
         before = list(row)[: list(row).index("value")]
         name = "@".join([path.stem, *(row[column] for column in before if column not in COUNTS)])

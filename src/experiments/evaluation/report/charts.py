@@ -50,7 +50,8 @@ def line_chart(key: str, title: str, x: Sequence[float], lines: Mapping[str, Seq
 
 def span(values: Sequence[float]) -> tuple[float, float]:
     """Return the smallest and largest value, drawn apart where they are equal."""
-    low, high = min(values), max(values)
+    low = min(values)
+    high = max(values)
     apart = abs(low) / 2 or FLAT
     return (low, high) if low < high else (low - apart, high + apart)
 

@@ -188,7 +188,8 @@ def _claim(row: Mapping[str, str]) -> ClaimRow:
     """Return a row of claims.csv with its numbers."""
     names = ("published", "value", "low", "high", "from", "to", "sign_from", "sign_to")
     published, value, low, high, *ends = (float(row[name]) if row[name] else None for name in names)
-    size, sign = (ends[0], ends[1]), (ends[2], ends[3])
+    size = (ends[0], ends[1])
+    sign = (ends[2], ends[3])
     has_own_sign = row["sign_value"] == row["value"]  # a sign of another number has another axis
     is_sized = size != ANY
     return ClaimRow(

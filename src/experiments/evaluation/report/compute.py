@@ -25,8 +25,10 @@ STAGES = {  # stage -> its rules; those of no stage make tables and figures
     "paper": ("numbers", "deviations", "paper", "manifest"),
 }
 REST = "tables and figures"
-WHOLE, ELAPSED = "all jobs", "elapsed"
-HOUR_S, PERCENT = 3600.0, 100.0
+WHOLE = "all jobs"
+ELAPSED = "elapsed"
+HOUR_S = 3600.0
+PERCENT = 100.0
 HEADER = ["Stage", "Jobs", "CPU time [h]", "Wall time [h]", "Load [%]", "Peak memory [MiB]"]
 Uses = dict[tuple[str, str], Number]  # stage (a name of `STAGES`, `WHOLE` or `ELAPSED`), quantity
 
@@ -65,7 +67,8 @@ def stage_of(job: str) -> str:
 
 def uses_of(stage: str, jobs: Sequence[Account]) -> Uses:
     """Return what jobs took together [-, h, %, MiB]; the load is CPU time over wall time."""
-    cpu_s, wall_s = sum(job.cpu_s for job in jobs), sum(job.wall_s for job in jobs)
+    cpu_s = sum(job.cpu_s for job in jobs)
+    wall_s = sum(job.wall_s for job in jobs)
     return {
         (stage, "jobs"): Number(len(jobs)),
         (stage, "CPU time"): Number(cpu_s / HOUR_S, unit="h"),
@@ -80,7 +83,8 @@ def whole_run(jobs: Sequence[Account], pause_s: float) -> Uses:
 
     The jobs may be of several runs, one after another: a time without any job longer than `pause_s` [s] does not count.
     """
-    cores, elapsed_s = at_once(jobs), elapsed(jobs, pause_s)
+    cores = at_once(jobs)
+    elapsed_s = elapsed(jobs, pause_s)
     shares = {"taken": sum(job.wall_s for job in jobs), "load": sum(job.cpu_s for job in jobs)}
     uses = {(ELAPSED, "wall time"): Number(elapsed_s / HOUR_S, unit="h"), (ELAPSED, "cores"): Number(cores)}
     for name, seconds in shares.items():

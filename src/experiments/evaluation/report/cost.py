@@ -30,7 +30,8 @@ from mobnet.core.printed import printed
 log = logging.getLogger(__name__)
 
 HEADER = ("stage", "jobs", "core-hours", "memory [MiB]")
-GIB, PERCENT = 2**30, 100.0
+GIB = 2**30
+PERCENT = 100.0
 RULE = re.compile(r"^ *(?:local)?rule (\w+):$", re.MULTILINE)  # of a job that a dry run lists
 Cost = tuple[int, float, float]  # jobs, processor time [s], largest peak of the memory [MiB]
 
@@ -50,7 +51,8 @@ def costs(works: Iterable[Work], kinds: dict[str, Kind]) -> dict[str, Cost]:
 def report(plan: Plan, rates: RatesNote, rules: Collection[str]) -> str:
     """Return the price of some rules of a plan as text: a row for each stage, the disk, and what has no rate."""
     chosen = [made for rule, made in plan.rules.items() if rule in rules]
-    works, files = [work for work, _ in chosen], [name for _, outputs in chosen for name in outputs]
+    works = [work for work, _ in chosen]
+    files = [name for _, outputs in chosen for name in outputs]
     found = costs(works, rates.kinds)
     rows = [[stage, str(n), f"{cpu_s / HOUR_S:.2f}", f"{mib:.0f}"] for stage, (n, cpu_s, mib) in found.items()]
     unknown = sorted({work.kind for work in works} - {*rates.kinds})

@@ -157,7 +157,8 @@ def sizes(settings: Settings) -> str:
 
 def tests(settings: Settings, entry: Scale) -> Iterator[tuple[tuple[str, str, str], Recordings]]:
     """Yield set, scenario and level of the tests of a scale, each with its size; a robot's may be fewer recordings."""
-    asked, own = "as its table asks", entry.test.model_copy(update={"shards": entry.fleet_shards or entry.test.shards})
+    asked = "as its table asks"
+    own = entry.test.model_copy(update={"shards": entry.fleet_shards or entry.test.shards})
     yield ("test", "each test", asked), entry.test
     yield ("test", "each test of a robot", asked), own
     plants = settings.levels.keys() - set(settings.fleet.robots)

@@ -13,7 +13,8 @@ Estimates = Mapping[str, Estimate]  # method -> its estimate of the leg's joints
 
 def title_of(push: StoredPush) -> str:
     """Return which push it is."""
-    hit, story = push.collision, push.story
+    hit = push.collision
+    story = push.story
     where = f"{story.level} walks and is pushed on the {hit.direction} of the {hit.link} of its leg {hit.leg}"
     return f"{where}: {hit.force_n:.0f} N, {MS * (hit.end_s - hit.start_s):.0f} ms. Joint {story.joint}:"
 
@@ -36,7 +37,9 @@ def draw(push: StoredPush, estimates: Estimates, out: Path) -> None:
     # Matplotlib takes a second to import, which estimators do without.
     from experiments.evaluation.figures.drawing.felt import FeltPush, save_felt
 
-    rows, k, peaks = push.settled, push.place, push.settings.evaluation.peaks
+    rows = push.settled
+    k = push.place
+    peaks = push.settings.evaluation.peaks
     curves = [
         TorqueCurve(method, one.tau_ext[rows, k], None if one.std is None else one.std[rows, k])
         for method, one in estimates.items()

@@ -24,7 +24,9 @@ from mobnet.core.files import read_text, write_text
 
 log = logging.getLogger(__name__)
 
-INDEX, RESULTS, TRIALS = Path("docs/README.md"), Path("docs/results"), Path("docs/trials")
+INDEX = Path("docs/README.md")
+RESULTS = Path("docs/results")
+TRIALS = Path("docs/trials")
 FIRST = "index.md"  # the README, where a browser looks for the first page
 MADE = {  # section of the index -> pages that are made
     "Reference": ("reference/commands.md", "reference/configuration.md", "reference/python.md"),

@@ -33,7 +33,8 @@ from mobnet.settings.detection import Detection
 from mobnet.settings.parts import Looks
 from mobnet.settings.robot import RobotTable
 
-OBSERVER, STORY = "MOB", "story"
+OBSERVER = "MOB"
+STORY = "story"
 ROLES = {OBSERVER: "observer", "MOB-Net": "network", "FTS-e2e": "direct"}  # method -> its colour; others are formulas
 SIDES = {"L": ("left",), "R": ("right",)}  # first letter of a joint's name in the source of the table -> word
 STEP_M, STEP_N = 1e-4, 0.1  # of positions [m, rad, -] and forces [N]
@@ -131,7 +132,9 @@ def scene_note(
     name: str, shown: Shown, robot: RobotDescription, settings: Explore, alarm: Mapping[str, Any] | None
 ) -> dict[str, Any]:  # fmt: skip
     """Return what the page must know of a scene besides its arrays."""
-    scene, push, names = shown.scene, shown.scene.pushes[shown.pushed], joint_names(robot)
+    scene = shown.scene
+    push = shown.scene.pushes[shown.pushed]
+    names = joint_names(robot)
     bodies = [body.name for body in robot.bodies]
     point = next((point for point in robot.points if point.name == push.point), None)
     return {

@@ -57,10 +57,12 @@ def push_numbers(
     They are those of the time that the table of peaks looks at: from the last sample before the push to some time after
     it, or the rise of one that lasts.
     """
-    k, rate_hz = shown.joints.index(joint), shown.rate_hz
+    k = shown.joints.index(joint)
+    rate_hz = shown.rate_hz
     after, longest = (round(time_s * rate_hz) for time_s in (peaks.after_s, peaks.longest_s))
     rise = slice(shown.start - 1, min(shown.end + after, shown.start + longest, len(shown.truth)))
-    truth, push = shown.truth[:, k].astype(np.float64), shown.push[:, k].astype(np.float64)
+    truth = shown.truth[:, k].astype(np.float64)
+    push = shown.push[:, k].astype(np.float64)
     behind = low_pass(push, shown.gain_hz, rate_hz)[rise]
     torques = {TRUTH: truth, **{name: found[:, k].astype(np.float64) for name, found in shown.estimates.items()}}
     rows: list[PushNumbers] = []
@@ -81,8 +83,10 @@ def alarms(
 
     An alarm is the torque behind the low-pass of the detectors above the threshold, held without a gap while watched.
     """
-    ratio, watched = held_ratio(shown, torque, threshold_nm, detection), shown.flags["watched"]
-    over, calm = ratio > ALARM_RATIO, calm_rows(shown)
+    ratio = held_ratio(shown, torque, threshold_nm, detection)
+    watched = shown.flags["watched"]
+    over = ratio > ALARM_RATIO
+    calm = calm_rows(shown)
     rises = over & calm & ~np.concatenate([[False], over[:-1] & calm[:-1]])
     largest = float(ratio[calm].max(initial=0.0)) * threshold_nm
     return _delay(shown, over, detection), int(rises.sum()), largest if watched[shown.lead :].any() else None
@@ -98,7 +102,8 @@ def held_ratio(shown: Shown, torque: NDArray[Any], threshold_nm: float, detectio
 
 def calm_rows(shown: Shown) -> NDArray[np.bool_]:
     """Return the rows in which an alarm is a false one (T,): watched, and nothing has pushed since that began."""
-    calm, pushed = shown.flags["watched"].copy(), shown.flags["pushed"]
+    calm = shown.flags["watched"].copy()
+    pushed = shown.flags["pushed"]
     calm[: shown.lead] = False
     for start, end in stretches(shown.flags["watched"]):
         # A leg that was hit still recovers until it lands.

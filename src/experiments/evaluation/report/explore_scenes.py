@@ -82,9 +82,11 @@ def read_scene(
     Raises:
         DataError: a file is missing or damaged, or some method estimates none of the joints.
     """
-    first, layout = scene.runs[0], robot.layout
+    first = scene.runs[0]
+    layout = robot.layout
     arrows, meta = read_array(first.recording, [PUSHED, *ARROWS])
-    rate, gain_hz = float(meta["rate_hz"]), float(read_array_note(file_of(first.residual, NOTE))["gain_hz"])
+    rate = float(meta["rate_hz"])
+    gain_hz = float(read_array_note(file_of(first.residual, NOTE))["gain_hz"])
     lead, before, after, earliest = (
         round(time_s * rate) for time_s in (settings.lead_s, story.before_s, story.after_s, scene.from_s)
     )
@@ -149,7 +151,8 @@ def read_flags(
 
     A joint of no leg has no swing, and is watched all the time.
     """
-    recording, layout = scene.runs[0].recording, robot.layout
+    recording = scene.runs[0].recording
+    layout = robot.layout
     limb = next((leg for leg in layout.legs.values() if scene.joint in layout.limb(leg)), None)
     if limb is None:
         return {"swing": np.zeros_like(pushed), "watched": np.ones_like(pushed), "pushed": pushed}
@@ -168,7 +171,8 @@ def read_poses(recording: Path, robot: RobotDescription, rows: slice, every: int
     """
     names = [name for name, *_ in recording_columns(robot.layout)["q"]]
     moved = read_array(recording, [*names, *FORCES])[0][rows][::every].astype(np.float64)
-    poses, forces = moved[:, : len(names)], moved[:, len(names) :]
+    poses = moved[:, : len(names)]
+    forces = moved[:, len(names) :]
     steps = np.diff(poses[:, :2], axis=0, prepend=poses[:1, :2])
     poses[:, :2] = np.cumsum(np.where(np.abs(steps) < JUMP_M, steps, 0.0), axis=0)
     poses[:, 2] -= sole_heights(robot, poses)
@@ -180,8 +184,10 @@ def sole_heights(robot: RobotDescription, poses: NDArray[np.float64]) -> NDArray
     found = np.zeros(len(poses))
     if robot.sole is None:
         return found
-    tree, still = tree_of(robot, 1.0), np.zeros(robot.layout.nv)
-    pose, names = empty_pose(tree), [body.name for body in robot.bodies]
+    tree = tree_of(robot, 1.0)
+    still = np.zeros(robot.layout.nv)
+    pose = empty_pose(tree)
+    names = [body.name for body in robot.bodies]
     feet = [names.index(foot.body) for foot in robot.feet.values()]
     signs = np.array(np.meshgrid(*[(-1.0, 1.0)] * 3)).reshape(3, -1).T
     corners = np.asarray(robot.sole.box_centre) + signs * np.asarray(robot.sole.box_half)

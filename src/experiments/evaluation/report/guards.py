@@ -21,7 +21,8 @@ def turned_guards(text: str, numbers: Mapping[str, str]) -> list[str]:
     lines = []
     for guard, first, second in GUARDS.findall(" ".join(text.split())):
         if guard == "holds":
-            now, wanted = numbers.get(f"verdict@{first}", "missing"), [one.strip() for one in second.split(",")]
+            now = numbers.get(f"verdict@{first}", "missing")
+            wanted = [one.strip() for one in second.split(",")]
             if now not in wanted:
                 lines.append(f"claim {first!r} is {now!r}, and the text needs {' or '.join(map(repr, wanted))}")
         else:

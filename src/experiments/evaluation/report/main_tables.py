@@ -49,7 +49,9 @@ def main_tables(settings: MainTables, sources: Sequence[Path], out: Path) -> Non
 
 def legs_table(settings: LegsTable, cells: Cells) -> Table:
     """Return errors [N m] of the left leg in walking, and shares [-] and delays [ms] of pushes, by method."""
-    header, rows, lines = ["Method"], list[Fields](), list[Line]()
+    header = ["Method"]
+    rows = list[Fields]()
+    lines = list[Line]()
     for plant in settings.plants:
         header += [f"{plant.title}: error [N m]", "95%", "paper", "push share", "delay [ms]"]
     for method in settings.methods:
@@ -68,7 +70,8 @@ def legs_table(settings: LegsTable, cells: Cells) -> Table:
 
 def limbs_table(settings: LimbsTable, cells: Cells) -> Table:
     """Return errors over that of estimating nothing [-], limb by limb, after the latter in the limb's unit."""
-    rows, lines = list[Fields](), list[Line]()
+    rows = list[Fields]()
+    lines = list[Line]()
     for limb in settings.lines:
         nothing = cells.get(f"{limb.test}@{ZERO}@{limb.column}", NONE)
         line = [limb.title, limb.part, f"{nothing.text()} {nothing.unit}"]
@@ -83,7 +86,8 @@ def limbs_table(settings: LimbsTable, cells: Cells) -> Table:
 
 def detectors_table(settings: AlarmTable, cells: Cells) -> Table:
     """Return what detectors find by the paper's rule and at one false alarm an hour, and how often they are wrong."""
-    rows, lines = list[Fields](), list[Line]()
+    rows = list[Fields]()
+    lines = list[Line]()
     for level, detector in product(settings.levels, settings.detectors):
         found = {name: cells.get(cell.format(f"{level}@{detector}@{settings.leg}"), NONE)
                  for name, cell in DETECTED.items()}  # fmt: skip

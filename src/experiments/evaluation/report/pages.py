@@ -33,7 +33,8 @@ def pages(
     Raises:
         DataError: a file is missing or damaged.
     """
-    claims_csv, titles = table_dir / f"{CLAIMS}.csv", dict[str, str]()
+    claims_csv = table_dir / f"{CLAIMS}.csv"
+    titles = dict[str, str]()
     for table, caption in zip(tables, captions, strict=True):
         title, text = titled(read_text(caption) if caption else table.stem)
         if table.stem == CLAIMS:

@@ -53,7 +53,8 @@ def paper(
             label is defined twice or not at all, a guard turned or the main text is too long, and the message names
             each.
     """
-    pdf, missing = out.with_name(f"{main.stem}.pdf"), missing_packages()
+    pdf = out.with_name(f"{main.stem}.pdf")
+    missing = missing_packages()
     pdf.unlink(missing_ok=True)
     if missing:
         log.warning("%s: no PDF, TeX is not complete; install: apt-get install %s", pdf, " ".join(PACKAGES))

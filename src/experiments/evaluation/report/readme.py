@@ -95,7 +95,8 @@ def verdicts(results: Path) -> str:
     head = "| Verdict | statements of the paper | of these by their first claim | our own statements |\n"
     lines = [head, "| --- | ---: | ---: | ---: |\n"]
     for verdict in (*VERDICTS, "all"):
-        paper, ours = counts[PAPER, verdict], counts[OURS, verdict]
+        paper = counts[PAPER, verdict]
+        ours = counts[OURS, verdict]
         lines.append(f"| {verdict} | {paper['statements']} | {paper['firsts']} | {ours['statements']} |\n")
     failed = sum(int(counts[PAPER, verdict]["statements"]) for verdict in (NOT_REPRODUCED, SIGN_ONLY))
     unexplained = counts[PAPER, UNEXPLAINED]["statements"]
@@ -125,7 +126,8 @@ def scales(results: Path) -> str:
     Raises:
         DataError: the account of the run, or the note of its rates, is missing or damaged.
     """
-    rates, account = read_note(results / RATES.name, RatesNote), results / "compute.md"
+    rates = read_note(results / RATES.name, RatesNote)
+    account = results / "compute.md"
     elapsed = ELAPSED.search(read_text(account))
     if elapsed is None:
         raise DataError(f"{account}: the time of the run is missing, of which the README tells")
@@ -143,7 +145,8 @@ def _cell(rows: Sequence[Row], place: Row) -> str:
     found = next((row for row in rows if place.items() <= row.items()), None)
     if found is None:
         return "-"
-    value, published = found["value"], found["published"]
+    value = found["value"]
+    published = found["published"]
     return f"{float(value):.1f}" + (f" ({float(published):.1f})" if published else "")
 
 

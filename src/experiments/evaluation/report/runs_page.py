@@ -21,7 +21,8 @@ from mobnet.core.files import METRICS, RUN, read_json, write_text
 # keys of run.json that say what was trained on what
 SETTINGS = ("target", "settings", "device", "precision", "fingerprint", "provenance")
 SHOWN = ("name", "limb")  # keys that are shown as they are
-ENDED, DIVERGED = "done", "diverged"
+ENDED = "done"
+DIVERGED = "diverged"
 MISSING = "–"
 
 
@@ -123,7 +124,8 @@ def read_training_run(folder: Path, tested: Mapping[Key, TestError] | None = Non
     Raises:
         DataError: a file is missing or damaged, or lacks a key or a column.
     """
-    training, note = read_training(folder), read_json(folder / RUN)
+    training = read_training(folder)
+    note = read_json(folder / RUN)
     return TrainingRun(
         **vars(training),
         **{key: note[key] for key in SHOWN},
@@ -218,7 +220,8 @@ def charts(run: TrainingRun) -> list[Chart]:
     """Return a training's curves over its epochs: loss (22) [-], RMSE [N m] and learning rate [-]; none without one."""
     if run.best is None:
         return []
-    x, best = [row.epoch for row in run.epochs], run.best.epoch
+    x = [row.epoch for row in run.epochs]
+    best = run.best.epoch
     training, validation = ([getattr(row, name) for row in run.epochs] for name in ("train_loss", "validation_loss"))
     return [
         line_chart("loss", "loss [-]", x, {"training": training, "validation": validation}, best),

@@ -17,6 +17,7 @@ def sigma(
     scores: Sequence[Path], table_dir: Path, figure_dir: Path,
 ) -> None:  # fmt: skip
     """Write sigma.csv, .tex and .md, and sigma.pdf, .png and .csv."""
-    lookup, share = read_lookup(scores, statistics), learning.calibration_share
+    lookup = read_lookup(scores, statistics)
+    share = learning.calibration_share
     sigma_table(settings, layout, lookup, share, table_dir)
     sigma_figure(settings, lookup, share, figure_dir)

@@ -15,7 +15,8 @@ from mobnet.core.reactions import TRIALS
 from mobnet.core.rows import csv_text, read_rows
 
 FOLDER = "rows"  # of the snapshot
-WALKS, COLLISIONS = "reactions.csv.gz", "collisions.csv.gz"
+WALKS = "reactions.csv.gz"
+COLLISIONS = "collisions.csv.gz"
 COLUMNS = (
     "level", "scenario", "seed", "number", "leg", "hit_link", "hit_direction", "force_n", "impulse_ns", "swing_share",
     "detector", "kind", "ratio", "delay_s", "perfect_s", "link", "direction",

@@ -37,8 +37,11 @@ from mobnet.core.rows import read_texts
 
 log = logging.getLogger(__name__)
 
-TABLES, FIGURES, SNAPSHOT = Path("tables"), Path("figures"), Path("docs/results")
-DEMO, DEMO_PAGE = Path("docs/demo"), Path("docs/demo.md")
+TABLES = Path("tables")
+FIGURES = Path("figures")
+SNAPSHOT = Path("docs/results")
+DEMO = Path("docs/demo")
+DEMO_PAGE = Path("docs/demo.md")
 RESULTS = Path("results/default")
 FURTHER = tuple(RESULTS / name for name in ("compute.md", "explore.html"))
 UP_TO_DATE = "Nothing to be done"  # by which Snakemake says that no job would run
@@ -63,7 +66,8 @@ def check_run(results: Path, manifest: Path) -> None:
         DataError: one line for each fault: tracked files were changed, another commit ran a job or made a file, or a
             file is not as the run wrote it.
     """
-    head, faults = commit(), differences(manifest)
+    head = commit()
+    faults = differences(manifest)
     if head == UNKNOWN or head.endswith(CHANGED):
         faults.append(f"commit {head}: is not accepted; accepted: a checkout without changed files")
     made = made_by(results)
@@ -157,7 +161,8 @@ def tell_demo(push: StoredPush, page: Path) -> None:
 
 def with_block(text: str, name: str, block: str, page: Path = README) -> str:
     """Return a page with a block between its marks, which it must have."""
-    first, last = f"<!-- {name} -->\n", f"<!-- /{name} -->"
+    first = f"<!-- {name} -->\n"
+    last = f"<!-- /{name} -->"
     if first not in text or last not in text:
         raise DataError(f"{page}: the marks {first.strip()!r} and {last!r} are missing")
     return text[: text.index(first)] + first + block.strip() + "\n" + text[text.index(last) :]
@@ -178,7 +183,8 @@ def figure_differences(old: Path, new: Path) -> Iterator[str]:
     if not new.exists():
         yield f"{new}: file is missing; ./reproduce all makes it"
         return
-    before, after = gzip.decompress(old.read_bytes()).decode().splitlines(), read_text(new).splitlines()
+    before = gzip.decompress(old.read_bytes()).decode().splitlines()
+    after = read_text(new).splitlines()
     count = sum(was != now for was, now in zip_longest(before, after))
     if count:
         yield f"{new}: {count} of {max(len(before), len(after))} rows differ"
@@ -189,7 +195,8 @@ def table_differences(old: Path, new: Path) -> Iterator[str]:
     if not new.exists():
         yield f"{new}: file is missing; ./reproduce all makes it"
         return
-    before, after = read_keyed(old), read_keyed(new)
+    before = read_keyed(old)
+    after = read_keyed(new)
     for key in before | after:
         where = f"{new.name}: {' '.join(key)}"
         if key not in after:
@@ -203,7 +210,8 @@ def table_differences(old: Path, new: Path) -> Iterator[str]:
 def cell_differences(old: Mapping[str, str], new: Mapping[str, str]) -> Iterator[str]:
     """Yield `column old -> new` for each column in which two rows differ."""
     for column in dict.fromkeys([*old, *new]):
-        was, now = old.get(column, "no such column"), new.get(column, "no such column")
+        was = old.get(column, "no such column")
+        now = new.get(column, "no such column")
         if was != now:
             yield f"{column} {was} -> {now}"
 
@@ -224,11 +232,13 @@ def store(manifest: Path) -> None:
     settings = load_settings()
     check_run(RESULTS, manifest)
     check_fingerprints("all")
-    plan, published = make_plan(settings, with_pdf=not missing_packages()), read_history(SEEDS)
+    plan = make_plan(settings, with_pdf=not missing_packages())
+    published = read_history(SEEDS)
     run = walked(plan.files, commit())
     check_seeds(run, published)
     write_snapshot(settings, TABLES, FIGURES, FURTHER, SNAPSHOT)
-    detections, reactions = all_detections(plan.files), all_reactions(plan.files)
+    detections = all_detections(plan.files)
+    reactions = all_reactions(plan.files)
     write_single_rows(detections, reactions, tuple(settings.reaction.cases), SNAPSHOT)
     copy_demo(RESULTS / FOLDER, DEMO)
     tell_demo(StoredPush(DEMO, settings), DEMO_PAGE)

@@ -21,7 +21,8 @@ def page_faults(log: str) -> list[str]:
     What is too large is followed by the file of TeX that was read last: the table at fault, unless it is in prose.
     `log` is that of one run, with lines that TeX did not break.
     """
-    faults, last = [], "main file"
+    faults = []
+    last = "main file"
     for line in log.splitlines():
         last = next(reversed(INPUT.findall(line)), last)
         if large := LARGE.search(line):

@@ -54,7 +54,8 @@ class Follower:
 
     def __init__(self, results: Path, scratch: Path) -> None:
         """Take the folder of results, and a folder of the same disk for what wandb writes beside the runs."""
-        self._results, self._scratch = results, scratch
+        self._results = results
+        self._scratch = scratch
         self._live: dict[Path, Live] = {}
         self._left = self._checkpoints()  # by an earlier run: their trainings need not go on
 
@@ -92,7 +93,8 @@ class Follower:
         """Begin the run of a training named by method, limb and seed, such as `MOB-Net-LL-s0`."""
         method, limb, seed = name.rsplit("-", 2)
         settings = {"name": name, "method": method, "limb": limb, "seed": int(seed[1:])}
-        run, runs = begin(self._scratch, name, method, limb, settings), self._results / RUNS
+        run = begin(self._scratch, name, method, limb, settings)
+        runs = self._results / RUNS
         put(self._scratch, name, runs)
         os.utime(runs, (0, 0))  # or Snakemake would take the folder for what `wandb_runs` has made
         return Live(run)

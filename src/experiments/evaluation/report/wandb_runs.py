@@ -54,7 +54,8 @@ def _log_run(scratch: Path, folder: Path) -> str:
     The keys SETTINGS of its note become the run's configuration, all others its summary. Runs are grouped by method,
     and the limb is their type of job.
     """
-    training, note = read_training(folder), read_json(folder / RUN)
+    training = read_training(folder)
+    note = read_json(folder / RUN)
     settings = {key: note[key] for key in SETTINGS}
     with begin(scratch, note["name"], note["method"], note["limb"], settings) as run:
         for row in rows(training.epochs, training.joint_errors):

@@ -29,7 +29,9 @@ def data_problems(settings: Settings) -> Iterator[Problem]:
 
 def _terrain_problems(settings: Settings) -> Iterator[Problem]:
     """Yield edges wider than what they belong to, plates that find no room, and heights that no foot clears."""
-    checks, plates, least = settings.terrain.checks, settings.terrain.plates, min(settings.commands.foot_height_m)
+    checks = settings.terrain.checks
+    plates = settings.terrain.plates
+    least = min(settings.commands.foot_height_m)
     if checks:
         yield from below(("terrain", "checks", "bevel_m"), checks.bevel_m, checks.cell_m / 2, "half of cell_m")
     if plates:
@@ -59,16 +61,19 @@ def _command_problems(settings: Settings) -> Iterator[Problem]:
         if not isclose(total, 1.0, abs_tol=NARROW):
             yield ("commands", name, "kinds"), misfit(f"a sum of {total:g}", "probabilities with the sum 1")
     steps = (settings.recording.episode_s + settings.recording.settle_s) / settings.walking.step_min_s
-    place, most = ("recording", "episode_steps"), settings.recording.episode_steps
+    place = ("recording", "episode_steps")
+    most = settings.recording.episode_steps
     yield from at_least(place, most, steps, "the steps of an episode")
 
 
 def _torque_problems(settings: Settings) -> Iterator[Problem]:
     """Yield random torques that are not those of the robot's joints."""
     limits = {joint.id: joint.torque_limit for joint in settings.robot.joints}
-    groups, torque = settings.robot.groups, settings.random_torque
+    groups = settings.robot.groups
+    torque = settings.random_torque
     for limb in ("LA", "RA"):
-        place, joints = ("random_torque", "arms_nm"), groups.get(limb, ())
+        place = ("random_torque", "arms_nm")
+        joints = groups.get(limb, ())
         if joints:
             yield from as_many(place, len(torque.arms_nm), len(joints), f"one for each joint of {limb}")
         for index, (joint, value) in enumerate(zip(joints, torque.arms_nm, strict=False)):
@@ -94,7 +99,8 @@ def _joint_range_problems(settings: Settings, motion: Motion) -> Iterator[Proble
     limits = {joint.id: joint.range for joint in robot.joints}
     posture = robot.posture_rad
     for name, limb in (("waist_rad", "W"), ("neck_rad", "N"), ("arm_rad", "LA")):
-        spans, joints = getattr(motion, name), robot.groups.get(limb, ())
+        spans = getattr(motion, name)
+        joints = robot.groups.get(limb, ())
         if len(spans) != len(joints):
             yield (name,), misfit(f"{len(spans)} ranges", f"{len(joints)}, one for each joint of {limb}")
         for index, (joint, (low, high)) in enumerate(zip(joints, spans, strict=False)):
@@ -179,7 +185,8 @@ def _scenario_problems(settings: Settings, name: str, row: Scenario) -> Iterator
 
 def _draw_problems(settings: Settings, name: str, row: Scenario) -> Iterator[Problem]:
     """Yield where a scenario that uses the random draws of another one differs in what is drawn."""
-    own, other = {"pushes", "random_torque", "draws"}, settings.scenarios[str(row.draws)]
+    own = {"pushes", "random_torque", "draws"}
+    other = settings.scenarios[str(row.draws)]
     if other.draws is not None or row.draws == name:
         yield ("draws",), not_accepted("scenario", row.draws, [k for k, v in settings.scenarios.items() if not v.draws])
     for key, value in other:
@@ -194,7 +201,8 @@ def _set_problems(settings: Settings) -> Iterator[Problem]:
         if scale not in sets[name].sizes:
             yield ("training_sets", name, "sizes"), misfit(f"no scale {scale}", ", ".join(settings.scales))
         else:
-            size, place = sets[name].sizes[scale], ("training_sets", name, "sizes", scale, "held_out")
+            size = sets[name].sizes[scale]
+            place = ("training_sets", name, "sizes", scale, "held_out")
             yield from below(place, size.held_out, size.shards, "the number of shards")
     seen = dict[tuple[str, str], str]()
     for name, row in sets.items():

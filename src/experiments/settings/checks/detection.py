@@ -21,7 +21,8 @@ def detection_problems(results: Results) -> Iterator[Problem]:
 
 def _walk_problems(results: Results) -> Iterator[Problem]:
     """Yield walks that are the same, and points that are not named after what a collision hits."""
-    settings, detection = results.settings, results.settings.detection
+    settings = results.settings
+    detection = results.settings.detection
     for key in ("collisions", "sweep", "place", "random"):
         scenario = getattr(detection, key)
         if settings.detection_walks.count(scenario) > 1:
@@ -34,7 +35,8 @@ def _walk_problems(results: Results) -> Iterator[Problem]:
 
 def _number_problems(results: Results) -> Iterator[Problem]:
     """Yield filters above what is sampled, signals that a method does not have, and names of rules that are taken."""
-    settings, detection = results.settings, results.settings.detection
+    settings = results.settings
+    detection = results.settings.detection
     yield from below((*ROOT, "low_pass_hz"), detection.low_pass_hz, settings.rates.data_hz / 2, "half of data_hz")
     for name, row in detection.detectors.items():
         if set(row.signals) - {"mean"} and (text := results.not_learned(row.method)):

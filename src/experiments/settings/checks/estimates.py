@@ -15,7 +15,8 @@ def asked_problems(catalogue: Catalogue) -> Iterator[Problem]:
     for one in catalogue.asked:
         for text in (*_estimate_faults(catalogue, one), *_fleet_faults(catalogue, one)):
             yield one.place, text
-    evaluation, layout = catalogue.settings.evaluation, catalogue.settings.layout
+    evaluation = catalogue.settings.evaluation
+    layout = catalogue.settings.layout
     for name in ("coverage", "calibration"):
         for k, test in enumerate(getattr(evaluation, name).tests):
             levels = catalogue.tests.get(test.scenario, {})
@@ -31,7 +32,8 @@ def asked_problems(catalogue: Catalogue) -> Iterator[Problem]:
 
 def _estimate_faults(catalogue: Catalogue, one: Asked) -> Iterator[str]:
     """Yield joints that are shown of a run and that its method does not estimate."""
-    groups, held = catalogue.layout.groups, catalogue.estimated(one.method, one.scenario, one.level)
+    groups = catalogue.layout.groups
+    held = catalogue.estimated(one.method, one.scenario, one.level)
     missing = [joint for name in one.shown for joint in groups.get(name, (name,)) if joint not in held]
     if missing and not (one.partly and held):
         yield misfit(one.method, f"methods that estimate {missing[0]} in {one.scenario}, {one.level}")
@@ -39,7 +41,8 @@ def _estimate_faults(catalogue: Catalogue, one: Asked) -> Iterator[str]:
 
 def _fleet_faults(catalogue: Catalogue, one: Asked) -> Iterator[str]:
     """Yield data that a method learns from and that the robots of the fleet do not record, where they walk."""
-    fleet, source = catalogue.settings.fleet, catalogue.source_of(one.method)
+    fleet = catalogue.settings.fleet
+    source = catalogue.source_of(one.method)
     if one.level not in fleet.levels:
         return
     learned = [(one.method, limb) for limb in catalogue.method(catalogue.network_source_of(one.method)).limbs]

@@ -31,7 +31,8 @@ def learning_problems(catalogue: Catalogue) -> Iterator[Problem]:
 def _trial_problems(catalogue: Catalogue) -> Iterator[Problem]:
     """Yield trials of how a method learns that does not, and development walks that are tests."""
     settings = catalogue.settings
-    grids, place = settings.trials.tuning.grids, ("trials", "tuning", "grids")
+    grids = settings.trials.tuning.grids
+    place = ("trials", "tuning", "grids")
     for name, grid in grids.items():
         if grid.learning and name in settings.methods and not settings.methods[name].limbs:
             accepted = "`options` of a method without networks"
@@ -78,7 +79,8 @@ def _method_problems(catalogue: Catalogue, name: str, method: Method) -> Iterato
 def _tuning_problems(catalogue: Catalogue, name: str, method: Method) -> Iterator[Problem]:
     """Yield methods that are fine-tuned from other networks, or learn from swings with nothing to start from."""
     settings = catalogue.settings
-    first, swings = settings.methods.get(method.start or ""), method.learning.get("labels") == "swing"
+    first = settings.methods.get(method.start or "")
+    swings = method.learning.get("labels") == "swing"
     if swings and (first is None or method.target != "uncertainty"):
         yield ("learning", "labels"), misfit("swing", "`labels: swing` of a method with `start` and target uncertainty")
     if first is None:

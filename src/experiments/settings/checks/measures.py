@@ -30,7 +30,9 @@ def measured_problems(results: Results) -> Iterator[Problem]:
 
 def _push_problems(results: Results) -> Iterator[Problem]:
     """Yield more steps than begin during the pushes, where swing and stance take their shortest time."""
-    settings, drift, place = results.settings, results.settings.evaluation.drift, (*ROOT, "drift", "steps")
+    settings = results.settings
+    drift = results.settings.evaluation.drift
+    place = (*ROOT, "drift", "steps")
     for test in drift.tests.values():
         pushes = [settings.pushes[name] for name in settings.scenarios[test.scenario].pushes]
         longest = max((push.duration_s[1] for push in pushes), default=0.0)
@@ -47,7 +49,8 @@ def _learned_problems(results: Results) -> Iterator[Problem]:
 
 def _line_problems(results: Results) -> Iterator[Problem]:
     """Yield joints that are driven at another number of lines than there are bands, or not at all, and shown anyhow."""
-    settings, bode = results.settings, results.settings.evaluation.bode
+    settings = results.settings
+    bode = results.settings.evaluation.bode
     pushes = [settings.pushes[name] for name in settings.scenarios[bode.scenario].pushes]
     lines = {push.joint: push.sines.frequency_hz for push in pushes if push.joint and push.sines}
     if len(lines) < len(pushes):
@@ -85,11 +88,13 @@ def _sigma_problems(results: Results) -> Iterator[Problem]:
 
 def _changed_problems(results: Results) -> Iterator[Problem]:
     """Yield windows that no recording is long enough for, and tests that are named elsewhere and do not exist."""
-    settings, changed = results.settings, results.settings.evaluation.changed
+    settings = results.settings
+    changed = results.settings.evaluation.changed
     for index, title in enumerate(settings.evaluation.hourly.known):
         if title not in changed.tests:
             yield (*ROOT, "hourly", "known", index), not_accepted("test of section changed", title, changed.tests)
     for test in changed.tests.values():
         longest = min(settings.test_s(test.scenario), settings.recording.episode_s)
-        place, what = (*ROOT, "changed", "window_s"), f"for {test.scenario} lasts so long"
+        place = (*ROOT, "changed", "window_s")
+        what = f"for {test.scenario} lasts so long"
         yield from at_most(place, changed.window_s, longest, what)

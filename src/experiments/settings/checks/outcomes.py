@@ -30,7 +30,8 @@ def outcome_problems(catalogue: Catalogue) -> Iterator[Problem]:
         if not is_decided or bounds is None or claim.quantity not in ("value", "share") or len(claim.cells) > 1:
             continue
         cell = next(iter(claim.cells))
-        trials, hours = trials_of(catalogue, cell), hours_of(settings, cell)
+        trials = trials_of(catalogue, cell)
+        hours = hours_of(settings, cell)
         confidence = settings.evaluation.statistics.confidence
         part = independent_part(settings, cell, confidence)
         if trials is not None and not is_met_by_a_share(bounds, trials, part, confidence):
@@ -84,7 +85,8 @@ def is_met_by_a_rate(bounds: Bounds, hours: float, confidence: float) -> bool:
 
 def trials_of(catalogue: Catalogue, cell: Cell) -> int | None:
     """Return of how many trials a cell is a share at the chosen scale; None where it is no share of a known number."""
-    settings, where = catalogue.settings, cell.where
+    settings = catalogue.settings
+    where = cell.where
     if cell.metric == DIVERGED:
         limbs = catalogue.all_methods[str(cell.method)].limbs
         experiment = catalogue.network(str(cell.method), limbs[0]).experiment
@@ -96,7 +98,8 @@ def trials_of(catalogue: Catalogue, cell: Cell) -> int | None:
     if cell.table in ("table_09", "found_by_rate") and where.get("quantity") == "found":
         return robots_of(settings) * shards_of(settings) * hits_of(settings, where["leg"], where["cell"])
     if cell.table == "safety" and where.get("measure") == "falls":
-        ours, reactions = settings.reaction.ours, settings.sizes.reactions
+        ours = settings.reaction.ours
+        reactions = settings.sizes.reactions
         sizes = reactions.cases.get(where["case"], reactions.pushed)
         is_ours = (where["detector"], where["thresholds"]) == (ours.detector, ours.rule)
         return robots_of(settings) * (sizes.runs if is_ours else min(sizes.compared, sizes.runs))

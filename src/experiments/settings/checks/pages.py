@@ -12,16 +12,16 @@ ROOT: Place = ("evaluation",)
 
 def page_problems(results: Results) -> Iterator[Problem]:
     """Yield joints and methods that a scene does not have, and numbers beyond a slider."""
-    settings, story, page = results.settings, results.settings.evaluation.story, results.settings.evaluation.explore
+    settings = results.settings
+    story = results.settings.evaluation.story
+    page = results.settings.evaluation.explore
     gate = settings.detection.gate.method
     methods = {"story": (*story.methods, *page.story.further)}
     places: dict[str, Place] = {"story": (*ROOT, "explore", "story")}
     for name, scene in page.scenes.items():
         place = places[name] = (*ROOT, "explore", "scenes", name)
-        joints, pushed = (
-            [joint for limb in scene.limbs for joint in results.joints(limb)],
-            results.pushed_joints(scene.scenario),
-        )
+        joints = [joint for limb in scene.limbs for joint in results.joints(limb)]
+        pushed = results.pushed_joints(scene.scenario)
         if scene.joint not in joints or scene.joint not in pushed:
             yield (*place, "joint"), misfit(scene.joint, f"a joint of {', '.join(scene.limbs)} that its push turns")
         methods[name] = scene.methods

@@ -11,7 +11,8 @@ ROOT: Place = ("reaction",)
 
 def reaction_problems(results: Results) -> Iterator[Problem]:
     """Yield unsuitable cases of results, loops without all legs, and scenarios that no loop walks but that need one."""
-    settings, reaction = results.settings, results.settings.reaction
+    settings = results.settings
+    reaction = results.settings.reaction
     walked = {row.scenario for row in reaction.cases.values()}
     scenarios = {name: settings.scenarios[row.scenario] for name, row in reaction.cases.items()}
     pushed = [name for name, row in scenarios.items() if row.obstacles or row.pushes]
@@ -24,7 +25,8 @@ def reaction_problems(results: Results) -> Iterator[Problem]:
         for name in sizes.reactions.cases:
             if name not in reaction.cases:
                 yield ("scales", scale, "reactions", "cases", name), not_accepted("case", name, reaction.cases)
-    limbs, legs = settings.methods[reaction.estimator].limbs, settings.detection.legs
+    limbs = settings.methods[reaction.estimator].limbs
+    legs = settings.detection.legs
     if not {"V", *legs} <= {*limbs}:
         text = misfit(reaction.estimator, f"a method with networks of V, {', '.join(legs)}: the base and all legs")
         yield (*ROOT, "estimator"), text

@@ -102,7 +102,8 @@ class Results:
 
     def claimed_trainings(self) -> list[str]:
         """Return the methods whose trainings claims may ask about: those of Figures 17 and 20, and their variants."""
-        evaluation, sweeps = self.settings.evaluation, self.settings.sweeps
+        evaluation = self.settings.evaluation
+        sweeps = self.settings.sweeps
         keys = (evaluation.figure_20.parameters, evaluation.figure_20.samples)
         swept = [name for key in keys for name in swept_names(key, sweeps[key])]
         figure = evaluation.figure_17
@@ -119,7 +120,8 @@ class Results:
 
     def turned_joints(self, name: str) -> list[str]:
         """Return the joints that a push turns: the one that is driven, or all above a point."""
-        robot, push = self.settings.robot, self.settings.pushes[name]
+        robot = self.settings.robot
+        push = self.settings.pushes[name]
         bodies = {f"{side}_sole": foot.body for side, foot in robot.feet.items()}
         for point in robot.points:
             bodies |= dict(zip(with_image(point.name), (point.body, right_of(point.body)), strict=False))

@@ -27,7 +27,8 @@ Refused = tuple[Place, type[BaseModel], Mapping[str, Any], ValidationError]
 
 def accepted_names(catalogue: Catalogue) -> dict[str, Collection[str]]:
     """Return kind of name -> the names that exist."""
-    settings, detection = catalogue.settings, catalogue.settings.detection
+    settings = catalogue.settings
+    detection = catalogue.settings.detection
     experiments = chain.from_iterable(scale.experiments for scale in settings.scales.values())
     terrains = [name for name in type(settings.terrain).model_fields if getattr(settings.terrain, name) is not None]
     pushed = [name for name, row in settings.scenarios.items() if row.pushes]

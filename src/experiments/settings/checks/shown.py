@@ -23,7 +23,8 @@ LEAST_DRAWN = 10  # samples of a figure
 
 def shown_problems(catalogue: Catalogue) -> Iterator[Problem]:
     """Yield what does not fit in tables, figures, claims and printed numbers."""
-    settings, results = catalogue.settings, Results(catalogue)
+    settings = catalogue.settings
+    results = Results(catalogue)
     for name, table in settings.evaluation.tables.items():
         for place, text in _table_problems(results, table):
             yield (*ROOT, "tables", name, *place), text
@@ -88,7 +89,8 @@ def _table_problems(results: Results, table: ErrorTable) -> Iterator[Problem]:
 
 def _budget_problems(results: Results) -> Iterator[Problem]:
     """Yield rows of the error budget that cannot be compared with the first one."""
-    budget, place = results.settings.evaluation.error_budget, (*ROOT, "error_budget")
+    budget = results.settings.evaluation.error_budget
+    place = (*ROOT, "error_budget")
     for inner, text in _column_problems(results, budget.joints):
         yield (*place, "joints", *inner), text
     first = budget.tests[0]
@@ -103,7 +105,8 @@ def _budget_problems(results: Results) -> Iterator[Problem]:
 def _figure_problems(results: Results) -> Iterator[Problem]:
     """Yield what single figures cannot show."""
     evaluation = results.settings.evaluation
-    figure, against = evaluation.figure_07, evaluation.figure_10.against.methods
+    figure = evaluation.figure_07
+    against = evaluation.figure_10.against.methods
     drawn = (figure.end_s - figure.start_s) * results.settings.rates.data_hz / figure.every
     if drawn < LEAST_DRAWN:
         text = misfit(figure.end_s, f"{LEAST_DRAWN} drawn samples or more after {figure.start_s}")
@@ -117,12 +120,14 @@ def _figure_problems(results: Results) -> Iterator[Problem]:
 
 def _leg_problems(results: Results) -> Iterator[Problem]:
     """Yield a limb of the coverage that is no leg, and joints that no push of the test turns."""
-    settings, evaluation = results.settings, results.settings.evaluation
+    settings = results.settings
+    evaluation = results.settings.evaluation
     limb = evaluation.coverage.limb
     if limb not in results.legs or limb not in settings.robot.networks[limb].T:
         text = misfit(limb, f"a leg whose network sees its torques, `T`: {' or '.join(results.legs)}")
         yield (*ROOT, "coverage", "limb"), text
-    step, knee = evaluation.figure_06, evaluation.figure_10
+    step = evaluation.figure_06
+    knee = evaluation.figure_10
     asked: list[tuple[Place, str, str]] = [((*ROOT, "figure_06", "joint"), step.scenario, step.joint)]
     for title, test in knee.tests.items():
         asked.append(((*ROOT, "figure_10", "tests", title, "scenario"), test.scenario, knee.joint))
@@ -153,7 +158,8 @@ def _trained_problems(results: Results) -> Iterator[Problem]:
 
 def _kind_problems(results: Results) -> Iterator[Problem]:
     """Yield pairs of methods in Figure 17 that are not of one kind: those of a pair differ in how they learn alone."""
-    figure, catalogue = results.settings.evaluation.figure_17, results.catalogue
+    figure = results.settings.evaluation.figure_17
+    catalogue = results.catalogue
     place: Place = (*ROOT, "figure_17", "best")
     if len(figure.best) != len(figure.methods):
         yield place, misfit(f"{len(figure.best)} methods", f"{len(figure.methods)}, one for each of `methods`")
@@ -170,7 +176,8 @@ def _kind_problems(results: Results) -> Iterator[Problem]:
 
 def _sweep_problems(results: Results) -> Iterator[Problem]:
     """Yield sweeps that Figure 20 cannot show, and networks that Table 1 lacks."""
-    settings, evaluation = results.settings, results.settings.evaluation
+    settings = results.settings
+    evaluation = results.settings.evaluation
     figure = evaluation.figure_20
     for key, section in (("parameters", "network"), ("samples", "learning")):
         sweep = settings.sweeps[getattr(figure, key)]
@@ -178,7 +185,8 @@ def _sweep_problems(results: Results) -> Iterator[Problem]:
             accepted = f"a sweep of section {section} for {figure.limb}"
             yield (*ROOT, "figure_20", key), misfit(getattr(figure, key), accepted)
             return
-    sizes, own = settings.sweeps[figure.parameters], settings.networks[figure.limb]
+    sizes = settings.sweeps[figure.parameters]
+    own = settings.networks[figure.limb]
     if getattr(own, figure.parameters, None) not in sizes.values:
         text = misfit(list(sizes.values), f"values with {getattr(own, figure.parameters, None)}, that of Table 1")
         yield ("sweeps", figure.parameters, "values"), text
@@ -195,7 +203,8 @@ def _sweep_problems(results: Results) -> Iterator[Problem]:
 
 def _test_problems(results: Results) -> Iterator[Problem]:
     """Yield bounds for what the paper does not print, and tests without a dot."""
-    settings, evaluation = results.settings, results.settings.evaluation
+    settings = results.settings
+    evaluation = results.settings.evaluation
     for limb in evaluation.uncertainty.ratio:
         if limb not in settings.published.uncertainty.std:
             text = not_accepted("limb", limb, settings.published.uncertainty.std)
@@ -217,7 +226,8 @@ def _method_table_problems(results: Results) -> Iterator[Problem]:
 
 def _printed_problems(settings: Settings) -> Iterator[Problem]:
     """Yield places of numbers of the paper that are shown and that it does not print."""
-    evaluation, printed = settings.evaluation, settings.published.tables
+    evaluation = settings.evaluation
+    printed = settings.published.tables
     shown: list[tuple[Place, str, str | None]] = [
         (("tables", name, "rows", k, "paper"), name, row.paper)
         for name, table in evaluation.tables.items()

@@ -51,7 +51,8 @@ def size_problems(catalogue: Catalogue) -> Iterator[Problem]:
 
 def _result_count(catalogue: Catalogue) -> int:
     """Return how many recordings, residuals, networks and estimates the chosen scale has."""
-    settings, tests = catalogue.settings, catalogue.tests.values()
+    settings = catalogue.settings
+    tests = catalogue.tests.values()
     shards = settings.sizes.test.shards
     recorded = sum(row.sizes[settings.scale].shards for row in settings.training_sets.values())
     recorded += shards * sum(map(len, tests))
@@ -66,7 +67,8 @@ def _result_count(catalogue: Catalogue) -> int:
 
 def _length_problems(settings: Settings, scale: Scale) -> Iterator[Problem]:
     """Yield durations of recordings that are no whole number of samples."""
-    rate, name = settings.rates.data_hz, settings.scale
+    rate = settings.rates.data_hz
+    name = settings.scale
     sizes: dict[Place, float] = {("scales", name, "test", "shard_s"): scale.test.shard_s}
     for test, duration in scale.durations_s.items():
         sizes["scales", name, "durations_s", test] = duration
@@ -80,9 +82,11 @@ def _length_problems(settings: Settings, scale: Scale) -> Iterator[Problem]:
 def _time_problems(catalogue: Catalogue, scale: Scale) -> Iterator[Problem]:
     """Yield figures and pushes behind the end of a test; a scale with `figure_start_s` is too short for pushes."""
     settings = catalogue.settings
-    length, cycle = scale.test.shard_s, CYCLES * 2 * max(settings.commands.duration_s)
+    length = scale.test.shard_s
+    cycle = CYCLES * 2 * max(settings.commands.duration_s)
     if scale.figure_start_s is not None:
-        place, what = ("scales", settings.scale, "figure_start_s"), f"{CYCLES} gait cycles before the end of a test"
+        place = ("scales", settings.scale, "figure_start_s")
+        what = f"{CYCLES} gait cycles before the end of a test"
         yield from at_most(place, scale.figure_start_s, length - cycle, what)
         return
     ends = list[tuple[Place, str, float, float]]()  # place, test, value and time after it that the test must last
@@ -100,7 +104,8 @@ def _time_problems(catalogue: Catalogue, scale: Scale) -> Iterator[Problem]:
         most = min(settings.test_s(test), settings.recording.episode_s) - after
         lasts = f"for {test} lasts {settings.test_s(test)} s at scale {settings.scale}"
         yield from at_most(place, value, most, lasts)
-    place, block_s = ("evaluation", "coverage", "block_s"), settings.evaluation.coverage.block_s
+    place = ("evaluation", "coverage", "block_s")
+    block_s = settings.evaluation.coverage.block_s
     yield from at_most(place, block_s, length, f"a test at scale {settings.scale}")
 
 
@@ -114,9 +119,13 @@ def _training_problems(catalogue: Catalogue) -> Iterator[Problem]:
 def _filling_problems(catalogue: Catalogue, name: str, limb: str) -> Iterator[Problem]:
     """Yield what does not fit in the training of a method's network."""
     settings = catalogue.settings
-    training, rate = catalogue.training(name, limb), settings.rates.data_hz
-    network, learning, scale = training.network, training.learning, settings.scale
-    size, horizon = settings.training_sets[network.data].sizes[scale], network.horizon_steps
+    training = catalogue.training(name, limb)
+    rate = settings.rates.data_hz
+    network = training.network
+    learning = training.learning
+    scale = settings.scale
+    size = settings.training_sets[network.data].sizes[scale]
+    horizon = network.horizon_steps
     contiguous = min(size.shard_s, settings.recording.episode_s) * rate
     own: Place = ("learning",) if settings.sizes.stream_s is None else ("scales", scale)
     where = f"of {name}-{limb} at scale {scale}"
@@ -132,7 +141,8 @@ def _filling_problems(catalogue: Catalogue, name: str, limb: str) -> Iterator[Pr
     if learning.batch_size * horizon > held:
         accepted = f"at most {held // horizon:.0f}, the horizons in the data {where}"
         yield (*own, "batch_size"), misfit(learning.batch_size, accepted)
-    most, wanted = PASSES_MAX * size.shards * size.shard_s * rate, training.epoch_samples
+    most = PASSES_MAX * size.shards * size.shard_s * rate
+    wanted = training.epoch_samples
     if wanted is not None and not learning.batch_size * horizon <= wanted <= most:
         place = "scales", scale, "experiments", network.experiment, "epoch_samples"
         yield place, misfit(wanted, f"{learning.batch_size * horizon} (a batch) to {most:.0f} {where}")

@@ -12,7 +12,9 @@ ROOT: Place = ("evaluation", "story")
 
 def story_problems(results: Results) -> Iterator[Problem]:
     """Yield a test, push, joint, method or detector of the story that the results do not have."""
-    settings, story, detection = results.settings, results.settings.evaluation.story, results.settings.detection
+    settings = results.settings
+    story = results.settings.evaluation.story
+    detection = results.settings.detection
     if story.scenario != detection.collisions:
         yield (*ROOT, "scenario"), misfit(story.scenario, f"{detection.collisions}, that of detection.collisions")
         return
@@ -31,7 +33,8 @@ def story_problems(results: Results) -> Iterator[Problem]:
 
 def _method_problems(results: Results) -> Iterator[Problem]:
     """Yield methods that do not run in the test, and a detector that needs others, or more than thresholds."""
-    story, detection = results.settings.evaluation.story, results.settings.detection
+    story = results.settings.evaluation.story
+    detection = results.settings.detection
     known = {row.method for row in detection.detectors.values()}
     for k, method in enumerate(story.methods):
         if method not in known:

@@ -17,10 +17,12 @@ def surrogate_problems(settings: Settings) -> Iterator[Problem]:
 
 def _drive_problems(settings: Settings) -> Iterator[Problem]:
     """Yield limbs whose drives are not those of their joints, and motors without a drive."""
-    limbs, groups = settings.surrogate.limbs, settings.robot.groups
+    limbs = settings.surrogate.limbs
+    groups = settings.robot.groups
     for limb, row in limbs.items():
         for name, values in row:
-            place, what = ("surrogate", "limbs", limb, name), f"one for each joint of {limb}"
+            place = ("surrogate", "limbs", limb, name)
+            what = f"one for each joint of {limb}"
             yield from as_many(place, len(values), len(groups[limb]), what)
     driven = {joint for limb in limbs for joint in groups[limb]}
     for joint in settings.robot.order.actuated:
@@ -41,7 +43,8 @@ def _level_problems(settings: Settings) -> Iterator[Problem]:
 
 def _fleet_problems(settings: Settings) -> Iterator[Problem]:
     """Yield a fleet that has the name of a level, and training sets without a counterpart."""
-    fleet, sets = settings.fleet, settings.training_sets
+    fleet = settings.fleet
+    sets = settings.training_sets
     taken = [*settings.levels, *(fleet.level_of(robot, name) for robot in fleet.robots for name in fleet.variants)]
     for place, name in ((("name",), fleet.name), *((("variants", name), name) for name in fleet.variants)):
         if name in taken or (name == fleet.name and place != ("name",)):

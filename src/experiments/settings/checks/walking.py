@@ -46,7 +46,9 @@ def is_whole(value: float) -> bool:
 
 def _rate_problems(settings: Settings) -> Iterator[Problem]:
     """Yield rates that do not divide each other, durations of no whole number of samples, and filters too fast."""
-    rates, recording, plant = settings.rates, settings.recording, settings.plant
+    rates = settings.rates
+    recording = settings.recording
+    plant = settings.plant
     if not is_whole(rates.plant_hz / rates.data_hz):
         yield ("rates", "plant_hz"), misfit(rates.plant_hz, f"a whole multiple of data_hz, {rates.data_hz}")
     if not is_whole(rates.data_hz / recording.clearance_hz):
@@ -56,7 +58,8 @@ def _rate_problems(settings: Settings) -> Iterator[Problem]:
         value = getattr(recording, name)
         if value and not is_whole(value * rates.data_hz):
             yield ("recording", name), misfit(value, f"a whole number of samples at {rates.data_hz} Hz")
-    least, most = SOLREF_STEPS / rates.plant_hz, rates.data_hz / 2
+    least = SOLREF_STEPS / rates.plant_hz
+    most = rates.data_hz / 2
     place = ("plant", "loss_time_constant_s")
     yield from at_least(place, plant.loss_time_constant_s, least, "two steps of the plant")
     yield from at_most(("observer", "gain_hz"), settings.observer.gain_hz, most, "half of data_hz")
@@ -66,7 +69,8 @@ def _rate_problems(settings: Settings) -> Iterator[Problem]:
 
 def _controller_problems(settings: Settings) -> Iterator[Problem]:
     """Yield numbers of the controller that stand in the wrong order."""
-    walking, shortest = settings.walking, min(settings.commands.duration_s)
+    walking = settings.walking
+    shortest = min(settings.commands.duration_s)
     slow = max(settings.commands.duration_s)
     limits = {
         "step_min_s": shortest, "double_support_share": walking.swing_xy_share, "swing_apex": walking.swing_level_share,
@@ -85,19 +89,22 @@ def _controller_problems(settings: Settings) -> Iterator[Problem]:
     for name, reach in (("step_x_m", walking.foothold_x_max_m), ("step_y_m", sideways)):
         for index, value in enumerate(getattr(settings.commands, name)):
             yield from within(("commands", name, index), value, (-reach, reach), "where a foot may stand")
-    fallen, most = settings.recording.fall_height_m, walking.pelvis_height_m
+    fallen = settings.recording.fall_height_m
+    most = walking.pelvis_height_m
     yield from below(("recording", "fall_height_m"), fallen, most, "walking.pelvis_height_m")
 
 
 def _body_problems(settings: Settings) -> Iterator[Problem]:
     """Yield numbers of the controller that do not fit legs, soles and motors of the robot."""
-    walking, robot = settings.walking, settings.robot
+    walking = settings.walking
+    robot = settings.robot
     sole = robot.sole
     assert sole is not None
     joints = robot.groups[robot.feet["left"].limb]
     for name in ("leg_stiffness_nm_rad", "leg_damping_nms_rad"):
         yield from as_many(("walking", name), len(getattr(walking, name)), len(joints), "one for each joint of a leg")
-    (middle, *_), half = sole.box_centre, sole.box_half
+    (middle, *_) = sole.box_centre
+    half = sole.box_half
     for index, value in enumerate(walking.sole_x_m):
         ends = middle - half[0], middle + half[0]
         yield from within(("walking", "sole_x_m", index), value, ends, "the robot's sole")
@@ -105,14 +112,17 @@ def _body_problems(settings: Settings) -> Iterator[Problem]:
         ends = -half[index], half[index]
         yield from within(("walking", "stand_shift_m", index), value, ends, "half the robot's sole")
     yield from at_most(("walking", "sole_y_m"), walking.sole_y_m, half[1], "half the robot's sole")
-    nearest, width = walking.foothold_y_m[0], 2 * half[1]
+    nearest = walking.foothold_y_m[0]
+    width = 2 * half[1]
     yield from at_least(("walking", "foothold_y_m", 0), nearest, width, "the width of the robot's sole")
 
 
 def _leg_problems(settings: Settings) -> Iterator[Problem]:
     """Yield numbers of the controller that legs, weight or motors of the robot do not allow."""
-    walking, robot = settings.walking, settings.robot
-    sole, leg = robot.sole, robot.leg
+    walking = settings.walking
+    robot = settings.robot
+    sole = robot.sole
+    leg = robot.leg
     assert sole is not None
     assert leg is not None
     joints = robot.groups[robot.feet["left"].limb]
@@ -122,6 +132,7 @@ def _leg_problems(settings: Settings) -> Iterator[Problem]:
     yield from below(("walking", "leg_reach_m"), walking.leg_reach_m, reach, "of stretched legs")
     weight = sum(body.mass for body in robot.bodies) * settings.plant.gravity_m_s2
     yield from below(("walking", "touch_force_n"), walking.touch_force_n, weight / 2, "half the weight")
-    place, fastest = ("walking", "joint_speed_max_rad_s"), walking.joint_speed_max_rad_s
+    place = ("walking", "joint_speed_max_rad_s")
+    fastest = walking.joint_speed_max_rad_s
     slowest = min(joint.velocity_limit for joint in robot.joints if joint.id in joints)
     yield from at_most(place, fastest, slowest, "the velocity limit of a leg's joint")

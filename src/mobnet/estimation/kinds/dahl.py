@@ -101,7 +101,8 @@ class DahlFriction:
 
 def regressors(velocity: NDArray[Any], torque: NDArray[Any], bend: Array) -> dict[str, NDArray[Any]]:
     """Return term -> what its factor multiplies in -tau_f of (O20), of velocity [rad/s], torque [N m] and bend."""
-    loaded, drives = np.abs(torque) * bend, torque * bend > 0
+    loaded = np.abs(torque) * bend
+    drives = torque * bend > 0
     columns = (
         np.maximum(bend, 0.0), np.minimum(bend, 0.0), loaded * drives, loaded * ~drives,
         velocity, np.ones_like(velocity), torque,
@@ -126,7 +127,8 @@ def fit(
     Return `law`, and `joints`: name -> numbers of (O20), units in the keys, and the root mean square of the target and
     of what is left of it [N m].
     """
-    angles, found = np.array(options.breakaway_rad), dict[str, Mapping[str, float]]()
+    angles = np.array(options.breakaway_rad)
+    found = dict[str, Mapping[str, float]]()
     for limb, pairs in training.items():
         terms = fitted_joints(layout, TERMS, OF_TORQUE, [networks[limb]])
         sums = square_sums(partial(_columns, angles), list(terms), observer.gain_hz, pairs)
@@ -156,7 +158,8 @@ def _solve(products: Array, terms: Sequence[str], angles: Array) -> dict[str, fl
 def _at_angle(products: Array, terms: Sequence[str], i: int, count: int) -> tuple[dict[str, float], float]:
     """Return the factors with the i-th of so many angles, none negative but those of `FREE`, and what is left [N m]."""
     unit = np.eye(len(products))
-    bending, others = unit[i : len(BENT) * count : count], unit[len(BENT) * count :]
+    bending = unit[i : len(BENT) * count : count]
+    others = unit[len(BENT) * count :]
     columns: dict[str, Array] = dict(zip(TERMS, (*bending, *others), strict=False))  # without the target's
     moved = {term: columns[term] for term in terms if columns[term] @ products @ columns[term] > STILL**2}
     return non_negative(products, moved, FREE)

@@ -127,7 +127,9 @@ class FrictionModel:
         self.joints = layout.names
         self._base = len(layout.virtual)  # generalized velocities without a motor
         self._friction = friction
-        self._gain_hz, self._rate_hz, self._pole = gain_hz, rate_hz, exact_pole(gain_hz, rate_hz)
+        self._gain_hz = gain_hz
+        self._rate_hz = rate_hz
+        self._pole = exact_pole(gain_hz, rate_hz)
 
     def init(self) -> State:
         """Return the state before the first sample: nothing is filtered yet."""
@@ -205,7 +207,8 @@ def fitted_joints(
     """
     found: dict[str, list[Named]] = {}
     for limb in limbs:
-        learned, seen = layout.limbs(limb.joints), layout.limbs(limb.T)
+        learned = layout.limbs(limb.joints)
+        seen = layout.limbs(limb.T)
         for joint in learned:
             if joint in layout.actuated:
                 found[joint] = [term for term in terms if term not in of_torque or joint in seen]

@@ -23,7 +23,8 @@ class FrictionAndNetworks:
 
     def __init__(self, layout: JointLayout, friction: FrictionModel, networks: LimbNetworks) -> None:
         self.joints = networks.joints
-        self._friction, self._networks = friction, networks
+        self._friction = friction
+        self._networks = networks
         self._columns = layout.columns(networks.joints)
 
     def init(self) -> State:
@@ -38,7 +39,8 @@ class FrictionAndNetworks:
 
     def run_all(self, recordings: Sequence[Sensed]) -> list[Prediction]:
         """Run over contiguous recordings, each from a fresh state; return the predictions (T_i, n) [N, N m]."""
-        known, rest = self._friction.run_all(recordings), self._networks.run_all(recordings)
+        known = self._friction.run_all(recordings)
+        rest = self._networks.run_all(recordings)
         return [self._sum(*pair) for pair in zip(known, rest, strict=True)]
 
     def _sum(self, known: Prediction, rest: Prediction) -> Prediction:

@@ -31,8 +31,10 @@ def gains(options: Options, rate_hz: float) -> tuple[float, float]:
     """Return the gains k_1, k_2 [-] of the steady state at a rate [Hz]."""
     step = 1.0 / rate_hz
     # (O15): d adds to the momentum's rate, and the momentum alone is measured.
-    transition, seen = np.array([[1.0, step], [0.0, 1.0]]), np.array([[1.0], [0.0]])
-    walk, noise = np.diag([0.0, options.walk_nm**2 * step]), np.array([[options.momentum_nms**2]])
+    transition = np.array([[1.0, step], [0.0, 1.0]])
+    seen = np.array([[1.0], [0.0]])
+    walk = np.diag([0.0, options.walk_nm**2 * step])
+    noise = np.array([[options.momentum_nms**2]])
     # (O16): the noise does not change, so neither do the gains; the first samples alone would have others.
     ahead = scipy.linalg.solve_discrete_are(transition.T, seen, walk, noise)
     first, second = ahead[:, 0] / (ahead[0, 0] + noise[0, 0])
@@ -41,7 +43,8 @@ def gains(options: Options, rate_hz: float) -> tuple[float, float]:
 
 def sections_of(options: Options, gain_hz: float, rate_hz: float) -> Array:
     """Return the inverse of the observer's low-pass of K_0 [1/s] and the filter as a second-order section (1, 6)."""
-    (first, second), pole = gains(options, rate_hz), exact_pole(gain_hz, rate_hz)
+    (first, second) = gains(options, rate_hz)
+    pole = exact_pole(gain_hz, rate_hz)
     # (O18): the zero undoes the observer's low-pass, the poles are those of (O17).
     scale = second / (1.0 - pole)
     return np.array([[scale, -scale * pole, 0.0, 1.0, first + second - 2.0, 1.0 - first]])

@@ -52,7 +52,8 @@ class ResidualEstimator:
     ) -> None:
         """Join an observer and a model of what it cannot know; None for MOB."""
         self.joints = layout.names if uncertainty is None else uncertainty.joints
-        self._observer, self._uncertainty = observer, uncertainty
+        self._observer = observer
+        self._uncertainty = uncertainty
         self._columns = layout.columns(self.joints)
 
     def init(self) -> State:

@@ -47,7 +47,8 @@ def gru_states(weights: Sequence[Array], state: Array, inputs: Array) -> tuple[A
     Weights are those that torch names weight_ih (3 H, n_in), weight_hh (3 H, H), bias_ih (3 H,) and bias_hh (3 H,).
     """
     w_in, w_state, bias = ordered(*weights)
-    steps, (lanes, hidden) = len(inputs), state.shape[1:]
+    steps = len(inputs)
+    (lanes, hidden) = state.shape[1:]
     columns = np.zeros((inputs.shape[2], steps, up(lanes)), np.float32)
     columns[..., :lanes] = inputs.transpose(2, 0, 1)
     gates = np.empty((1, 4, hidden * up(lanes)), np.float32)

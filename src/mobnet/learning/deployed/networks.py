@@ -69,7 +69,9 @@ class Deployed(ABC):
         `std.scale` (n,); `std_min`, the smallest standard deviation, is z-scored.
         """
         one_thread()
-        self.limb, self.joints, self.input_names = limb, joints, input_names
+        self.limb = limb
+        self.joints = joints
+        self.input_names = input_names
         self.std_min = np.float32(std_min)
         self._input_mean, self._input_std, self._target_mean, self._target_std = (
             np.asarray(tensors[name], dtype=np.float32) for name in Z_SCORES
@@ -98,7 +100,8 @@ class Deployed(ABC):
     def _predict(self, output: Array) -> Prediction:
         """Return the prediction in physical units from the linear layer's output (..., 2 n)."""
         n = len(self.joints)
-        mean, raw = output[..., :n], output[..., n:]
+        mean = output[..., :n]
+        raw = output[..., n:]
         # (N10) by log(exp(raw) + exp(0)), which does not overflow.
         return self._physical(mean, np.maximum(np.logaddexp(raw, 0.0, dtype=np.float32), self.std_min))
 
@@ -140,7 +143,8 @@ class GruNetwork(Deployed):
         w_in, w_state, bias = ordered(*self._as_trained)
         self.hidden = w_state.shape[1]
         room = np.empty(w_in.shape[1], dtype=np.float32), np.empty(len(bias), dtype=np.float32)
-        inputs, targets = (self._input_mean, self._input_std), (self._target_mean, self._target_std, self._std_unit)
+        inputs = (self._input_mean, self._input_std)
+        targets = (self._target_mean, self._target_std, self._std_unit)
         self._weights = GruWeights(
             w_in, w_state, bias, self._w_out, self._b_out, *inputs, *targets, self.std_min, *room
         )
@@ -152,7 +156,8 @@ class GruNetwork(Deployed):
 
     def step(self, state: Array, x: Array) -> tuple[Array, Prediction]:
         """Advance by one sample of inputs (n_in,); return the new state (hidden,) and the prediction (n,) [N, N m]."""
-        after, (mean, std) = np.empty_like(state), np.empty((2, len(self.joints)), dtype=np.float32)
+        after = np.empty_like(state)
+        (mean, std) = np.empty((2, len(self.joints)), dtype=np.float32)
         self._advance(self._weights, state, x, after, mean, std)
         return after, Prediction(mean, std)
 

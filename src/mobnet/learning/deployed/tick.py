@@ -57,10 +57,14 @@ def advance(net: GruWeights, state: Array, x: Array, after: Array, mean: Array, 
         net.gates[j] = net.bias[j] + dot(net.w_state[j], state) + dot(net.w_in[j - hidden], net.scaled)
     for j in range(3 * hidden, 4 * hidden):
         net.gates[j] = net.bias[j] + dot(net.w_in[j - hidden], net.scaled)
-    inner, reset = net.gates[:hidden], net.gates[hidden : 2 * hidden]
-    update, new = net.gates[2 * hidden : 3 * hidden], net.gates[3 * hidden :]
+    inner = net.gates[:hidden]
+    reset = net.gates[hidden : 2 * hidden]
+    update = net.gates[2 * hidden : 3 * hidden]
+    new = net.gates[3 * hidden :]
     open_gates(inner, reset, update, new, state, after)
-    joints, zero, one = len(mean), np.float32(0.0), np.float32(1.0)
+    joints = len(mean)
+    zero = np.float32(0.0)
+    one = np.float32(1.0)
     for k in range(joints):
         mean[k] = (net.b_out[k] + dot(net.w_out[k], after)) * net.target_std[k] + net.target_mean[k]
         raw = net.b_out[joints + k] + dot(net.w_out[joints + k], after)

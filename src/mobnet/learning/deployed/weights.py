@@ -122,14 +122,16 @@ def shapes(cell: NetworkCell, inputs: int, joints: int) -> dict[str, Shape]:
 
 def _cell_shapes(cell: NetworkCell, inputs: int) -> tuple[int, dict[str, Shape]]:
     """Return the features of a cell, and name -> shape of its tensors, as torch names them."""
-    hidden, steps = cell.hidden or 0, cell.window_steps or 1
+    hidden = cell.hidden or 0
+    steps = cell.window_steps or 1
     if cell.cell in GATES:
         rows = GATES[cell.cell] * hidden
         return hidden, {"weight_ih_l0": (rows, inputs), "weight_hh_l0": (rows, hidden),
                         "bias_ih_l0": (rows,), "bias_hh_l0": (rows,)}  # fmt: skip
     if cell.cell == "constant":
         return 0, {}
-    found, width = {}, inputs
+    found = {}
+    width = inputs
     for k in range(len(cell.dilations or ()) if cell.cell == "TCN" else 0):
         convolutions = {"first": (width, cell.kernel_steps), "second": (hidden, cell.kernel_steps)}
         if width != hidden:

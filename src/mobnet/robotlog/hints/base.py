@@ -19,7 +19,8 @@ UPRIGHT = 0.9  # cosine between the mean specific force in world axes and the ve
 
 def base_hints(sensed: Sensed, spans: Sequence[slice], rate_hz: float, bounds: RobotLog) -> Iterator[str]:
     """Yield hints on the inertial sensor and the orientation of a floating base."""
-    quat, acc = sensed.q[:, 3:7].T, sensed.acc_base_in_base.T
+    quat = sensed.q[:, 3:7].T
+    acc = sensed.acc_base_in_base.T
     size = float(np.linalg.norm(acc.mean(axis=1)))  # of the mean: steps shake the base by half of gravity
     if abs(size / G - 1) > bounds.gravity:
         meanings = {1.0: ": in units of g", 0.0: ": gravity is removed", G**2: ": taken for units of g"}
@@ -67,14 +68,17 @@ def _orders(quat: Array) -> dict[str, Array]:
 def _turning(quat: Array, omega: Array, spans: Sequence[slice], rate_hz: float, bounds: RobotLog) -> float | None:
     """Return the integral of omega over the turn of quaternions (largest axis), None where noise hides it."""
     steps = max(1, round(bounds.window_s * rate_hz))
-    turns, integrals = [np.zeros((3, 0))], [np.zeros((3, 0))]
+    turns = [np.zeros((3, 0))]
+    integrals = [np.zeros((3, 0))]
     for span in spans:
         own = quat[:, span]
         travelled = np.cumsum(omega[:, span], axis=1) / rate_hz
         turns.append(turn(own[:, :-steps:steps], own[:, steps::steps]))
         integrals.append(np.diff(travelled[:, ::steps], axis=1)[:, : turns[-1].shape[1]])
-    change, integral = np.concatenate(turns, axis=1), np.concatenate(integrals, axis=1)
+    change = np.concatenate(turns, axis=1)
+    integral = np.concatenate(integrals, axis=1)
     axis = int(np.argmax(np.square(integral).sum(axis=1)))
-    one, other = change[axis], integral[axis]
+    one = change[axis]
+    other = integral[axis]
     both = float(one @ other) / max(float(np.linalg.norm(one) * np.linalg.norm(other)), np.finfo(float).tiny)
     return float(one @ other) / float(one @ one) if abs(both) > ALIKE else None

@@ -82,7 +82,8 @@ class Seen(NamedTuple):
 
         The offset of its torque is at most so large [N m], that which needs no word where none is given.
         """
-        needed, torque = self.asked.needed[:, [i]] * factors, self.windows.torque[:, [i]]
+        needed = self.asked.needed[:, [i]] * factors
+        torque = self.windows.torque[:, [i]]
         return unexplained(self.asked.terms[:, i], needed, torque, self.offset(i) if offset is None else offset)
 
 
@@ -146,7 +147,9 @@ def _factor_change(seen: Seen, factors: Mapping[int, float], numbers: int) -> It
 
 def order_changes(seen: Seen) -> Iterator[Change]:
     """Yield orders of torques: two exchanged, or many in another order."""
-    nu, suspects, torque = len(seen.left), sorted(seen.suspects), seen.windows.torque
+    nu = len(seen.left)
+    suspects = sorted(seen.suspects)
+    torque = seen.windows.torque
     for i in seen.few:
         for j in (j for j in seen.few if j > i):
             yield Change("tau_motor of the two is exchanged", (i, j), 1, _in_order(_exchanged(nu, i, j)))
@@ -196,8 +199,11 @@ def payload_changes(seen: Seen) -> Iterator[Change]:
 
 def motion_changes(seen: Seen) -> Iterator[Moved]:
     """Yield changes of motion, for which the model has to be asked again, and those of torques that may go with it."""
-    nu, few, every = len(seen.left), seen.few, tuple(sorted(seen.suspects))
-    order, same = np.arange(nu), np.ones(nu)
+    nu = len(seen.left)
+    few = seen.few
+    every = tuple(sorted(seen.suspects))
+    order = np.arange(nu)
+    same = np.ones(nu)
     # A joint that is explained is exchanged with none; one that tells nothing may be.
     others = [k for k in range(nu) if k in few or k not in seen.known]
     for i in few:
@@ -232,11 +238,13 @@ def zero_changes(seen: Seen, thin: Windows) -> Iterator[Moved]:
     for i in seen.few:
         by_angle = _needed_by_angle(seen, thin, i)
         left = partial(_left_by_shifts, seen, asked, thin.torque, by_angle, i)
-        best, apart = 0.0, APART_RAD
+        best = 0.0
+        apart = APART_RAD
         tried = np.arange(-np.pi, np.pi, apart)
         while apart > LEAST_RAD / 20:
             best = float(tried[int(np.argmin(left(tried, seen.offset(i))))])
-            tried, apart = best + apart * np.linspace(-1, 1, 7), apart / 3
+            tried = best + apart * np.linspace(-1, 1, 7)
+            apart = apart / 3
         both = left(np.array([best, 0.0]), ANY)
         if abs(best) > LEAST_RAD and _improves(float(both[0]), float(both[1]), seen.bounds):
             much = f"{-best:+.2f} rad ({np.degrees(-best):+.0f} degrees)"
@@ -337,7 +345,8 @@ def _with_motion(order: NDArray[np.intp], size: Array) -> Changed:
     """Return the change that puts positions and velocities of joints into an order, with factors (nu,)."""
 
     def apply(w: Windows) -> Windows:
-        q, v = w.q.copy(), w.v.copy()
+        q = w.q.copy()
+        v = w.v.copy()
         q[..., -len(order) :], v[..., -len(order) :] = (size * x[..., -len(order) :][..., order] for x in (w.q, w.v))
         return replace(w, q=q, v=v)
 
@@ -380,5 +389,6 @@ def _far(sizes: Sequence[float], unit: float) -> float:
 
 def _span(sizes: Sequence[float]) -> str:
     """Return the smallest and the largest of some numbers in order."""
-    few, many = f"{sizes[0]:.3g}", f"{sizes[-1]:.3g}"
+    few = f"{sizes[0]:.3g}"
+    many = f"{sizes[-1]:.3g}"
     return few if few == many else f"{few} to {many}"

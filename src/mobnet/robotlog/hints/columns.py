@@ -118,7 +118,8 @@ def held_share(speed: NDArray[np.floating]) -> NDArray[np.float64]:
     """Return the share of samples that repeat the one before, where the joint moves (n,)."""
     held, moved = np.zeros((2, speed.shape[1]), dtype=np.intp)
     for rows in pieces(1, len(speed)):
-        now, before = speed[rows], speed[rows.start - 1 : rows.stop - 1]
+        now = speed[rows]
+        before = speed[rows.start - 1 : rows.stop - 1]
         moves = now != 0.0
         moved += np.count_nonzero(moves, axis=0)
         held += np.count_nonzero((now == before) & moves, axis=0)

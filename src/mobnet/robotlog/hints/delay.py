@@ -40,17 +40,21 @@ def torque_delay(
     joints: NDArray[np.bool_], kind: TorqueKind, bounds: RobotLog,
 ) -> Delay | None:  # fmt: skip
     """Return the delay of torques of a kind, if those of some joints (nu,) fit the motion better when moved in time."""
-    step, span = max(1, round(STEP_S * rate_hz)), round(STRETCH_S * rate_hz)
+    step = max(1, round(STEP_S * rate_hz))
+    span = round(STRETCH_S * rate_hz)
     count = round(bounds.delay_s * rate_hz) // step
     most = count * step
-    smooth, swing = max(1, round(SMOOTH_S * rate_hz)), max(1, round(SWING_S * rate_hz))
+    smooth = max(1, round(SMOOTH_S * rate_hz))
+    swing = max(1, round(SWING_S * rate_hz))
     kept = stretches(spans, span + 2 * most + smooth + swing)
     told = np.flatnonzero(joints & (held_share(sensed.tau_motor) <= bounds.held))  # a held torque is late by itself
     if most < 1 or not kept or not len(told):
         return None
     told = told[np.linspace(0, len(told) - 1, min(bounds.few, len(told))).round().astype(int)]
-    middle, lags = np.arange(0, span, max(1, round(ROWS_S * rate_hz))), np.arange(0, 2 * most + 1, step)
-    terms, given = [], []
+    middle = np.arange(0, span, max(1, round(ROWS_S * rate_hz)))
+    lags = np.arange(0, 2 * most + 1, step)
+    terms = []
+    given = []
     for rows in kept:
         asked, torque = _asked(rows, nominal, sensed, rate_hz, wrenches, kind)
         near, far = (_swings(values[:, told], smooth, swing) for values in (asked, torque))
@@ -73,13 +77,15 @@ def speed_delay_hints(
     q: Array, v: Array, spans: Sequence[slice], rate_hz: float, joints: Sequence[str], bounds: RobotLog
 ) -> Iterator[str]:
     """Yield a hint if velocities (T, n) [rad/s] fit the changes of positions (T, n) [rad] better when moved in time."""
-    most, smooth = round(bounds.delay_s * rate_hz), max(1, round(SMOOTH_S * rate_hz))
+    most = round(bounds.delay_s * rate_hz)
+    smooth = max(1, round(SMOOTH_S * rate_hz))
     kept = stretches(spans, round(STRETCH_S * rate_hz) + 2 * most + smooth)
     moves = ~np.any(held_share(v)[None] > bounds.held, axis=0)
     if most < 1 or not kept or not moves.any():
         return
     lags = np.arange(-most, most + 1)
-    left, size = np.zeros((len(lags), len(joints))), np.zeros(len(joints))
+    left = np.zeros((len(lags), len(joints)))
+    size = np.zeros(len(joints))
     for rows in kept:
         turned = (q[rows][smooth:] - q[rows][:-smooth]) * (rate_hz / smooth)
         mean = _means((v[rows][1:] + v[rows][:-1]) / 2, smooth)
@@ -127,7 +133,8 @@ def _asked(
     p, beta = momentum_and_beta(nominal, sensed.q[rows], sensed.v[rows])
     feet = feet_torque(nominal, sensed.q[rows], {side: wrench[rows] for side, wrench in wrenches.items()})
     needed = np.diff(p, axis=0) * rate_hz - _between(beta + feet)
-    speed, torque = sensed.v[rows, first:].astype(np.float64), sensed.tau_motor[rows].astype(np.float64)
+    speed = sensed.v[rows, first:].astype(np.float64)
+    torque = sensed.tau_motor[rows].astype(np.float64)
     friction = dissipation(_between(speed), np.diff(speed, axis=0) * rate_hz)
     made = np.concatenate([needed[:, first:, None], friction], axis=-1)
     return made, _between(torque) if kind == "sample" else torque[1:]
@@ -140,7 +147,8 @@ def _unexplained(terms: Array, given: Array) -> Array:
     """
     shares = []
     for own, torque in zip(np.moveaxis(terms, 1, 0), np.moveaxis(given, 2, 0), strict=True):
-        size, cross = np.square(torque).sum(axis=0), own.T @ torque
+        size = np.square(torque).sum(axis=0)
+        cross = own.T @ torque
         explained = [(sign * cross * positive_fit(own, sign * torque)).sum(axis=0) for sign in (1.0, -1.0)]
         shares.append(np.maximum(1.0 - quotient(np.maximum(*explained), size), EXACT))
     return np.array(shares)

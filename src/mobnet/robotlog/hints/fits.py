@@ -31,7 +31,9 @@ def dissipation(speed: Array, change: Array) -> Array:
     `speed` [rad/s] and `change`, its derivative [rad/s^2], are (...).
     """
     terms = np.empty((*speed.shape, 3))
-    terms[..., 0], terms[..., 1], terms[..., 2] = dry(speed), speed, change
+    terms[..., 0] = dry(speed)
+    terms[..., 1] = speed
+    terms[..., 2] = change
     return terms
 
 
@@ -48,7 +50,8 @@ def positive_fit(terms: Array, targets: Array) -> Array:
     """
     count = terms.shape[-1]
     across = np.swapaxes(terms, -1, -2)
-    gram, cross = across @ terms, across @ targets
+    gram = across @ terms
+    cross = across @ targets
     gram += (SMALL * gram.max(axis=(-1, -2), keepdims=True) + TINY) * np.eye(count)
     chosen, both, others = _choices(count)
     own = gram[..., None, :, :] * both + others
@@ -71,7 +74,8 @@ def friction_fit(terms: Array, rest: Array, offset: Array) -> tuple[Array, Array
 
     What is left is (..., W, m) [N m], offsets are (..., 1, m) and at most so large (...,) [N m].
     """
-    middle, means = terms.mean(axis=-2, keepdims=True), rest.mean(axis=-2, keepdims=True)
+    middle = terms.mean(axis=-2, keepdims=True)
+    means = rest.mean(axis=-2, keepdims=True)
     numbers = positive_fit(terms - middle, rest - means)
     most = np.asarray(offset)[..., None, None]
     constant = np.clip(means - middle @ numbers, -most, most)
@@ -89,7 +93,8 @@ def unexplained(terms: Array, needed: Array, torque: Array, offset: Array) -> Ar
     if count < BLOCKS:  # too few to try on some what was fitted to others
         return np.ones((*rest.shape[:-2], rest.shape[-1]))
     is_late = (np.arange(count) * BLOCKS // count) % 2 == 1
-    early, late = np.flatnonzero(~is_late), np.flatnonzero(is_late)
+    early = np.flatnonzero(~is_late)
+    late = np.flatnonzero(is_late)
     if len(early) == len(late):  # both at once: most of the time is that of calls
         pairs = [(np.stack([early, late]), np.stack([late, early]))]
     else:

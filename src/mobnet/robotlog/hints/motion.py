@@ -60,9 +60,11 @@ def motion_hints(
 def turns(q: Array, v: Array, spans: Sequence[slice], rate_hz: float, window_s: float) -> tuple[Array, Array]:
     """Return the changes of q and the integrals of v over all windows of the spans, (W, nu) [rad] each."""
     steps = max(1, round(window_s * rate_hz))
-    change, integral = [np.zeros((0, q.shape[1]))], [np.zeros((0, q.shape[1]))]
+    change = [np.zeros((0, q.shape[1]))]
+    integral = [np.zeros((0, q.shape[1]))]
     for span in spans:
-        own, speed = q[span], v[span]
+        own = q[span]
+        speed = v[span]
         if len(own) > steps:
             change.append(np.diff(own[::steps], axis=0))
             integral.append(np.diff(_travelled(speed, steps, rate_hz), axis=0))
@@ -72,7 +74,8 @@ def turns(q: Array, v: Array, spans: Sequence[slice], rate_hz: float, window_s: 
 def _travelled(speed: Array, steps: int, rate_hz: float) -> Array:
     """Return the integral of speeds (T, nu) [rad/s] from the first row to every so manieth one, (W + 1, nu) [rad]."""
     last = (len(speed) - 1) // steps * steps
-    travelled, found = np.zeros(speed.shape[1]), [np.zeros((1, speed.shape[1]))]
+    travelled = np.zeros(speed.shape[1])
+    found = [np.zeros((1, speed.shape[1]))]
     for rows in pieces(0, last, steps * max(1, PIECE_ROWS // steps)):
         sums = speed[rows.start + 1 : rows.stop + 1] + speed[rows]
         sums /= 2 * rate_hz
@@ -90,14 +93,16 @@ def jump_hints(q: Array, spans: Sequence[slice], rate_hz: float, layout: JointLa
     usual = np.quantile(np.abs(q[looked + 1] - q[looked]), 0.99, axis=0)
     speeds = np.array([layout.limits[joint].speed for joint in layout.actuated])
     most = np.maximum(JUMP * usual, BEYOND_SPEED * speeds / rate_hz)
-    counts, sizes = np.zeros(len(most), dtype=np.intp), np.zeros(len(most))
+    counts = np.zeros(len(most), dtype=np.intp)
+    sizes = np.zeros(len(most))
     for span in spans:
         for rows in pieces(span.start + 1, span.stop):
             steps = np.abs(q[rows] - q[rows.start - 1 : rows.stop - 1])
             counts += np.count_nonzero(steps > most, axis=0)
             sizes = np.maximum(sizes, steps.max(axis=0))
     for k in np.flatnonzero(counts).tolist():
-        largest, count = float(sizes[k]), int(counts[k])
+        largest = float(sizes[k])
+        count = int(counts[k])
         turn = ": wrapped at a full turn" if abs(largest / (2 * np.pi) - 1) < WRAPPED else ": samples are lost or wrong"
         times = f"{count} time{'s' * (count > 1)}"
         yield f"q of {layout.actuated[k]}: jumps {times}, by up to {largest:.3g} rad from one sample to the next{turn}"

@@ -15,7 +15,8 @@ HALF = 0.5  # share of a residual that must be explained for a word
 
 def explanation(nominal: NominalModel, windows: Windows, bounds: RobotLog) -> Iterator[str]:
     """Yield what explains the residual of each joint that tells of itself, and what a mass would explain beside."""
-    asked, names = windows.asked(nominal), nominal.robot.layout.actuated
+    asked = windows.asked(nominal)
+    names = nominal.robot.layout.actuated
     known = np.flatnonzero(known_joints(nominal, windows, asked, bounds)).tolist()
     if not known:
         return

@@ -48,13 +48,15 @@ class Mistake(NamedTuple):
 
 def torque_hints(nominal: NominalModel, windows: Windows, bounds: RobotLog) -> Iterator[str]:
     """Yield what looks wrong with torques, or with joints as a whole, of those that tell of themselves."""
-    asked, told = windows.asked(nominal), dict[str, list[str]]()
+    asked = windows.asked(nominal)
+    told = dict[str, list[str]]()
     for _ in range(MOST):
         found = _best(_seen(nominal, windows, asked, bounds))
         if not found:
             break
         best, *others = found
-        windows, asked = best.windows, best.asked
+        windows = best.windows
+        asked = best.asked
         meant = "".join(f"; or {_named(other.change, nominal)}: {other.change.text}" for other in others)
         told.setdefault(best.change.text + meant, []).append(_named(best.change, nominal))
     for text, joints in told.items():
@@ -102,7 +104,9 @@ def _of_torque(seen: Seen) -> Iterator[Mistake]:
 
 def _of_motion(seen: Seen) -> Iterator[Mistake]:
     """Yield changes of motion and feet that clear a few of the windows: asking the model costs most of the time."""
-    nominal, bounds, thin = seen.nominal, seen.bounds, seen.windows.thinned(THIN)
+    nominal = seen.nominal
+    bounds = seen.bounds
+    thin = seen.windows.thinned(THIN)
     for move, changes in chain(feet_changes(seen), zero_changes(seen, thin), motion_changes(seen)):
         moved = move(thin)
         asked = moved.asked(nominal)
@@ -139,5 +143,6 @@ def _clears(left: Array, before: Array, bounds: RobotLog) -> bool:
     Of many joints the mean counts, as friction may be the larger part of the torque of some.
     """
     if len(left) > MANY:
-        left, before = left.mean(keepdims=True), before.mean(keepdims=True)
+        left = left.mean(keepdims=True)
+        before = before.mean(keepdims=True)
     return bool(len(left) and (left < np.minimum(bounds.good, (1 - bounds.explained) * before)).all())

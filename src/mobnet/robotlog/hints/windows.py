@@ -62,15 +62,20 @@ class Windows:
     def thinned(self, step: int) -> "Windows":
         """Return every so many of the windows."""
         loads = {side: load[::step] for side, load in self.loads.items()}
-        q, v, torque, beside = self.q[::step], self.v[::step], self.torque[::step], self.beside[::step]
+        q = self.q[::step]
+        v = self.v[::step]
+        torque = self.torque[::step]
+        beside = self.beside[::step]
         return Windows(q, v, torque, beside, loads, self.period_s)
 
 
 def repeated(windows: Windows, times: int) -> Windows:
     """Return windows so many times, one after another."""
     loads = {side: np.concatenate([load] * times) for side, load in windows.loads.items()}
-    q, v = np.concatenate([windows.q] * times), np.concatenate([windows.v] * times)
-    torque, beside = np.concatenate([windows.torque] * times), np.concatenate([windows.beside] * times)
+    q = np.concatenate([windows.q] * times)
+    v = np.concatenate([windows.v] * times)
+    torque = np.concatenate([windows.torque] * times)
+    beside = np.concatenate([windows.beside] * times)
     return Windows(q, v, torque, beside, loads, windows.period_s)
 
 
@@ -82,7 +87,8 @@ def windows_of(
 
     Torques of a kind are so many samples late.
     """
-    steps, apart = max(2, round(bounds.window_s * rate_hz)), math.ceil(abs(late))
+    steps = max(2, round(bounds.window_s * rate_hz))
+    apart = math.ceil(abs(late))
     firsts = [np.arange(s.start + apart, s.stop - steps - apart, steps) for s in spans]
     starts = np.concatenate(firsts or [np.zeros(0)]).astype(np.intp)
     if not len(starts):
@@ -90,7 +96,8 @@ def windows_of(
     count = min(bounds.windows, len(starts))
     starts = starts[np.linspace(0, len(starts) - 1, count).round().astype(np.intp)]
     nodes = starts[:, None] + np.linspace(0, steps, min(NODES, steps + 1)).round().astype(np.intp)
-    q, v = sensed.q[nodes].astype(np.float64), sensed.v[nodes].astype(np.float64)
+    q = sensed.q[nodes].astype(np.float64)
+    v = sensed.v[nodes].astype(np.float64)
     torque = _mean_torque(sensed, starts[:, None] + np.arange(steps + 1), kind, late)
     loads = {side: wrench[nodes] for side, wrench in wrenches.items()}
     return Windows(q, v, torque, np.zeros(torque.shape), loads, steps / rate_hz)
@@ -99,7 +106,8 @@ def windows_of(
 def _mean_torque(sensed: Sensed, rows: NDArray[np.intp], kind: TorqueKind, late: float) -> Array:
     """Return the mean torque of the motors between the first and the last of rows (W, n), so many samples late."""
     whole = math.floor(late)
-    part, torque = late - whole, sensed.tau_motor[rows + whole].astype(np.float64)
+    part = late - whole
+    torque = sensed.tau_motor[rows + whole].astype(np.float64)
     if part > 0:
         torque = (1 - part) * torque + part * sensed.tau_motor[rows + whole + 1]
     return _mean(torque) if kind == "sample" else torque[:, 1:].mean(axis=1)

@@ -91,7 +91,8 @@ def fit_joints(
     them, and so they do not count where the fit is tried.
     """
     problem, tried = solved(known, columns, terms, settings)
-    windows, density = together([known, held_out]), settings.payload_kg_m3
+    windows = together([known, held_out])
+    density = settings.payload_kg_m3
     loaded = known.payload.shape[-1] > 0
     carried = parameters(tried.links[-NUMBERS:], density) if loaded else np.zeros(0)
     windows = linearised(windows, tried.links[-NUMBERS:], density) if loaded else windows
@@ -99,7 +100,8 @@ def fit_joints(
     halves = half_widths(windows, problem, final, settings.confidence)
     half = halves[: final.joints.size].reshape(final.joints.shape)
     payload = payload_of(final.links[-NUMBERS:], halves[-NUMBERS:], density) if loaded else None
-    unseen, fits = held_out.joints[..., -1], list[JointFit]()
+    unseen = held_out.joints[..., -1]
+    fits = list[JointFit]()
     for j, sign in enumerate(problem.signs):
         rest = unseen[:, :, j] - problem.own(held_out, j) @ tried.joints[j]
         rest = rest - held_out.payload[:, :, j] @ carried
@@ -116,9 +118,11 @@ def solved(
     prior = np.tile([settings.mass_share, *(settings.com_m,) * (len(LINK) - 1)], nu)
     # All torques times a factor are those of links and friction times that factor: a scale takes the links as they are.
     prior *= LEAST if "scale" in terms else 1.0
-    loaded, near = windows.payload.shape[-1] > 0, START
+    loaded = windows.payload.shape[-1] > 0
+    near = START
     prior = np.append(prior, np.full(NUMBERS, OPEN)) if loaded else prior
-    by_links, given = np.zeros(windows.joints.shape[:3]), windows
+    by_links = np.zeros(windows.joints.shape[:3])
+    given = windows
     problem = Problem(columns, tuple(terms), (0,) * nu, np.ones(nu), prior)
     found = None
     for _ in range(ROUNDS):
@@ -130,7 +134,8 @@ def solved(
         problem = replace(problem, signs=tuple(signs))
         problem = replace(problem, weights=_weights(windows, problem, by_links))
         found = solution(windows, problem)
-        by_links, near = windows.links @ found.links, found.links[-NUMBERS:]
+        by_links = windows.links @ found.links
+        near = found.links[-NUMBERS:]
     assert found is not None
     return problem, found
 
@@ -139,7 +144,8 @@ def _weights(windows: Windows, problem: Problem, by_links: Array) -> Array:
     """Return one over the variance of what is left of each joint (nu,), in whole windows."""
     found = np.empty(len(problem.signs))
     for j in range(len(found)):
-        own, target = problem.own(windows, j), windows.joints[:, :, j, -1] - by_links[:, :, j]
+        own = problem.own(windows, j)
+        target = windows.joints[:, :, j, -1] - by_links[:, :, j]
         rest = target - own @ joint_numbers(_products(own, target).sum(axis=0), problem.terms)
         # Samples of a window are alike: the square of their sum is larger than the sum of their squares.
         alike = np.square(rest.sum(axis=1)).mean() / rest.shape[1]
@@ -155,7 +161,8 @@ def chosen_sign(joint: Array, target: Array, columns: Columns, terms: Sequence[s
     products = _products(joint, target)
     parts = np.array_split(products, settings.folds)
     sums = [part.sum(axis=0) for part in parts]
-    whole, scores = np.sum(sums, axis=0), list[float]()
+    whole = np.sum(sums, axis=0)
+    scores = list[float]()
     for sign, (kind, _) in enumerate(columns.signs):
         chosen = np.ix_(*[[*(columns.of(term, sign) for term in terms), -1]] * 2)
         left = 0.0
@@ -190,17 +197,19 @@ def _bounded(matrix: Array, right: Array, free: Array) -> Array:
 
 def solution(windows: Windows, problem: Problem) -> Solution:
     """Return the regularised least squares of all joints and links."""
-    nu, count, d = len(problem.signs), len(problem.terms), len(problem.prior)
-    matrix, right = np.zeros((nu * count + d,) * 2), np.zeros(nu * count + d)
+    nu = len(problem.signs)
+    count = len(problem.terms)
+    d = len(problem.prior)
+    matrix = np.zeros((nu * count + d,) * 2)
+    right = np.zeros(nu * count + d)
     behind = slice(nu * count, None)
     matrix[behind, behind] = np.diag(problem.prior**-2)
     for j in range(nu):
-        own, links = problem.own(windows, j).reshape(-1, count), windows.links[:, :, j].reshape(-1, d)
-        target, weight, place = (
-            windows.joints[:, :, j, -1].ravel(),
-            problem.weights[j],
-            slice(j * count, (j + 1) * count),
-        )
+        own = problem.own(windows, j).reshape(-1, count)
+        links = windows.links[:, :, j].reshape(-1, d)
+        target = windows.joints[:, :, j, -1].ravel()
+        weight = problem.weights[j]
+        place = slice(j * count, (j + 1) * count)
         matrix[place, place] = weight * own.T @ own
         matrix[place, behind] = weight * own.T @ links
         matrix[behind, place] = matrix[place, behind].T
@@ -216,10 +225,13 @@ def solution(windows: Windows, problem: Problem) -> Solution:
 
 def half_widths(windows: Windows, problem: Problem, found: Solution, confidence: float) -> Array:
     """Return half the widths of the intervals of the joints' numbers and of the links' errors, (nu * terms + d,)."""
-    (nu, count), d, groups = found.joints.shape, len(problem.prior), len(windows)
+    (nu, count) = found.joints.shape
+    d = len(problem.prior)
+    groups = len(windows)
     scores = np.zeros((groups, nu * count + d))
     for j in range(nu):
-        own, links = problem.own(windows, j), windows.links[:, :, j]
+        own = problem.own(windows, j)
+        links = windows.links[:, :, j]
         rest = windows.joints[:, :, j, -1] - own @ found.joints[j] - links @ found.links
         scores[:, j * count : (j + 1) * count] = problem.weights[j] * np.einsum("gr,grk->gk", rest, own)
         scores[:, nu * count :] += problem.weights[j] * np.einsum("gr,grk->gk", rest, links)

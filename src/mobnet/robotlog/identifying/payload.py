@@ -36,7 +36,8 @@ class Payload:
 
 def parameters(numbers: Array, density: float) -> Array:
     """Return the ten parameters of a payload in Pinocchio's order, of its mass and first moment (4,), and a density."""
-    mass, moment = max(float(numbers[0]), LEAST_KG), numbers[1:]
+    mass = max(float(numbers[0]), LEAST_KG)
+    moment = numbers[1:]
     about = np.eye(3) * own_inertia(mass, density) + (moment @ moment * np.eye(3) - np.outer(moment, moment)) / mass
     return np.array([mass, *moment, about[0, 0], about[0, 1], about[1, 1], about[0, 2], about[1, 2], about[2, 2]])
 

@@ -102,7 +102,8 @@ def windows_of(
     nominal = NominalModel(bare(robot), gravity_m_s2=gravity_m_s2)
     # A gain this large has no low-pass: r is s of (O1).
     observer = MomentumObserver(nominal, 1e3 * read.rate_hz, read.rate_hz, torque)
-    columns, every = columns_of(settings), max(1, int(read.rate_hz / (OVERSAMPLED * settings.low_pass_hz)))
+    columns = columns_of(settings)
+    every = max(1, int(read.rate_hz / (OVERSAMPLED * settings.low_pass_hz)))
     rows = round(settings.window_s * read.rate_hz / every)
     found = list[Windows]()
     for span in read.spans():
@@ -115,7 +116,8 @@ def windows_of(
         payload = regressor[..., 10 * carrier : 10 * carrier + 10] if carrier is not None else regressor[..., :0]
         found.append(Windows(_joints(observer, sensed, columns, *parts), links, payload))
     if not found:
-        nu, width = robot.layout.nu, 2 * len(columns.signs) + len(PLAIN) + 1
+        nu = robot.layout.nu
+        width = 2 * len(columns.signs) + len(PLAIN) + 1
         sizes = width, len(LINK) * nu, 0 if carrier is None else 10
         return Windows(*(np.zeros((0, rows, nu, size)) for size in sizes))
     return together(found)
@@ -125,7 +127,8 @@ class _Filter:
     """The low-pass without delay, after which fewer samples are kept."""
 
     def __init__(self, low_pass_hz: float, rate_hz: float, every: int) -> None:
-        self.every, self.rate_hz = every, rate_hz
+        self.every = every
+        self.rate_hz = rate_hz
         passes = 2 * low_pass_hz < rate_hz
         self._sos = butter(ORDER, low_pass_hz, fs=rate_hz, output="sos") if passes else None
         self._padding = round(rate_hz / low_pass_hz)
@@ -139,9 +142,11 @@ class _Filter:
 
 def _joints(observer: MomentumObserver, sensed: Sensed, columns: Columns, thin: _Filter, rows: int) -> Array:
     """Return the columns of all joints in windows, target last, (windows, rows, nu, m)."""
-    nu, rate_hz = observer.nominal.robot.layout.nu, observer.rate_hz
+    nu = observer.nominal.robot.layout.nu
+    rate_hz = observer.rate_hz
     residual = observer.residual(sensed)[:, -nu:]
-    v, tau = sensed.v[:, -nu:].astype(np.float64), sensed.tau_motor.astype(np.float64)
+    v = sensed.v[:, -nu:].astype(np.float64)
+    tau = sensed.tau_motor.astype(np.float64)
     found = list[Array]()
     for j in range(nu):  # one after another: all columns of a humanoid's hour do not fit into the memory
         signs = [_sign(kind, number, v[:, j], rate_hz) for kind, number in columns.signs]
@@ -156,7 +161,9 @@ def _joints(observer: MomentumObserver, sensed: Sensed, columns: Columns, thin: 
 
 def _links(nominal: NominalModel, sensed: Sensed, thin: _Filter, rows: int) -> Array:
     """Return what the parameters of all moving links contribute to the joints, (windows, rows, nu, 10 nu)."""
-    nu, model, data = nominal.robot.layout.nu, nominal.model, nominal.data
+    nu = nominal.robot.layout.nu
+    model = nominal.model
+    data = nominal.data
     velocity = thin(sensed.v.astype(np.float64))
     acceleration = np.gradient(velocity, axis=0) * thin.rate_hz
     keep = slice(1, None, thin.every)
@@ -171,7 +178,8 @@ def link_directions(model: pin.Model, nu: int) -> Array:
     """Return how the ten parameters of each moving link change by its errors, (10 nu, d); Pinocchio's order."""
     found = np.zeros((10 * nu, len(LINK) * nu))
     for k, inertia in enumerate(list(model.inertias)[-nu:]):
-        rows, first = slice(10 * k, 10 * k + 10), len(LINK) * k
+        rows = slice(10 * k, 10 * k + 10)
+        first = len(LINK) * k
         found[rows, first] = inertia.toDynamicParameters()
         for axis in range(3):
             found[rows, first + 1 + axis] = _by_lever(inertia, np.eye(3)[axis])
@@ -180,8 +188,10 @@ def link_directions(model: pin.Model, nu: int) -> Array:
 
 def _by_lever(inertia: pin.Inertia, along: Array) -> Array:
     """Return the derivative of a link's ten parameters by the place of its centre of mass along a unit vector."""
-    ahead, behind = inertia.copy(), inertia.copy()
-    ahead.lever, behind.lever = inertia.lever + along / 2, inertia.lever - along / 2
+    ahead = inertia.copy()
+    behind = inertia.copy()
+    ahead.lever = inertia.lever + along / 2
+    behind.lever = inertia.lever - along / 2
     return ahead.toDynamicParameters() - behind.toDynamicParameters()  # exact: they are quadratic in it
 
 

@@ -33,7 +33,8 @@ def robot_problems(table: RobotTable) -> Iterator[Problem]:
 
 def joints_above(table: RobotTable, body: str) -> list[str]:
     """Return the ids of the joints that move a body, from the base on."""
-    parents, moved = {row.name: row.parent for row in table.bodies}, {row.body: row.id for row in table.joints}
+    parents = {row.name: row.parent for row in table.bodies}
+    moved = {row.body: row.id for row in table.joints}
     found = list[str]()
     while body in parents:
         found += [moved[body]] if body in moved else []
@@ -110,7 +111,8 @@ def _limb_problems(table: RobotTable) -> Iterator[Problem]:
         for name, values in posture:
             yield from as_many(("posture", limb, name), len(values), len(joints), "one for each joint")
         for index, (joint, angle) in enumerate(zip(joints, posture.angle_rad, strict=False)):
-            place, ends = ("posture", limb, "angle_rad", index), ranges.get(joint, (-np.inf, np.inf))
+            place = ("posture", limb, "angle_rad", index)
+            ends = ranges.get(joint, (-np.inf, np.inf))
             yield from within(place, angle, ends, f"the range of {joint}")
     moving = [limb for limb, joints in table.groups.items() if not set(joints) & set(table.order.virtual)]
     for name, network in table.networks.items():
@@ -122,7 +124,8 @@ def _limb_problems(table: RobotTable) -> Iterator[Problem]:
 
 def _base_problems(table: RobotTable) -> Iterator[Problem]:
     """Yield virtual joints, a sensor or a hinge that do not fit the base."""
-    base, wanted = table.bodies[0].name, N_VIRTUAL if table.base == "floating" else 0
+    base = table.bodies[0].name
+    wanted = N_VIRTUAL if table.base == "floating" else 0
     if len(table.order.virtual) != wanted:
         text = f"{len(table.order.virtual)} joints are not accepted; accepted: {wanted} of a {table.base} base"
         yield ("order", "virtual"), text
@@ -161,7 +164,8 @@ def _foot_problems(table: RobotTable) -> Iterator[Problem]:
 
 def _leg_problems(table: RobotTable, joints: tuple[str, ...]) -> Iterator[Problem]:
     """Yield the geometry of a leg where it is not that of the bodies."""
-    bodies, moved = {row.name: row for row in table.bodies}, {row.id: row.body for row in table.joints}
+    bodies = {row.name: row for row in table.bodies}
+    moved = {row.id: row.body for row in table.joints}
     steps = [bodies[moved[joint]].pos for joint in joints if joint in moved]
     leg = table.leg
     if leg is None or not steps:
@@ -201,7 +205,8 @@ def _total_problems(table: RobotTable) -> Iterator[Problem]:
     """Yield totals that the rows do not add up to."""
     if table.totals is None:
         return
-    nv, nu = len(table.order.virtual), len(table.order.actuated)
+    nv = len(table.order.virtual)
+    nu = len(table.order.actuated)
     counts: Mapping[str, int] = {
         "bodies": len(table.bodies), "actuated_joints": nu, "virtual_joints": nv, "dof": nv + nu
     }  # fmt: skip

@@ -39,7 +39,8 @@ def draw_torque(axis: Axes, pair: Compared, methods: Sequence[str]) -> None:
     truth, *estimates = (replace(curve, std=None) for curve in pair.torque.curves)
     draw_panel(axis, replace(pair.torque, curves=[truth, *estimates]))
     values = np.concatenate([truth.values, *(curve.values for curve in near(pair.torque, methods))])
-    low, high = float(values.min()), float(values.max())
+    low = float(values.min())
+    high = float(values.max())
     margin = MARGIN * (high - low) or 1.0
     axis.set(ylim=(low - margin, high + margin), xlim=(pair.torque.time[0], pair.torque.time[-1]))
 
@@ -104,7 +105,8 @@ def draw_leg(pairs: Sequence[Compared]) -> Figure:
     figure = Figure(figsize=(PAGE_INCH, sum(heights) + REST_INCH), layout="constrained")
     grid = figure.subplots(2 * rows, SIDE_BY_SIDE, squeeze=False, height_ratios=heights)
     for k, pair in enumerate(pairs):
-        row, column = 2 * (k // SIDE_BY_SIDE), k % SIDE_BY_SIDE
+        row = 2 * (k // SIDE_BY_SIDE)
+        column = k % SIDE_BY_SIDE
         torque, error = grid[row : row + 2, column].tolist()
         draw_torque(torque, pair, ())
         entitle(torque, k, pair.torque.title)

@@ -27,7 +27,8 @@ def draw_panel(axis: Axes, panel: Panel) -> None:
         look = styles[curve.label]
         axis.plot(panel.time, curve.values, label=curve.label, **look.line)
         if curve.std is not None:
-            low, high = curve.values - curve.std, curve.values + curve.std
+            low = curve.values - curve.std
+            high = curve.values + curve.std
             axis.fill_between(
                 panel.time, low, high, color=look.colour, alpha=BAND_ALPHA, linewidth=0.0, zorder=1.5,
                 label=f"\N{PLUS-MINUS SIGN} 1 std of {curve.label}",

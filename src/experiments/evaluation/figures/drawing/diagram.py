@@ -50,7 +50,8 @@ def sheet(width_inch: float, height_inch: float) -> tuple[Figure, Axes]:
 
 def draw_box(axis: Axes, box: Box, line_inch: float = 0.125) -> None:
     """Draw a block."""
-    (x, y), (width, height) = box.centre, box.size
+    (x, y) = box.centre
+    (width, height) = box.size
     style = f"round,pad=0,rounding_size={CORNER}"
     axis.add_patch(FancyBboxPatch(
         (x - width / 2, y - height / 2), width, height, boxstyle=style, facecolor=box.colour, edgecolor=INK,

@@ -23,7 +23,8 @@ from mobnet.settings.data import Push
 from mobnet.settings.parts import Looks
 from mobnet.settings.robot import RobotTable
 
-METHOD_COLUMNS, ROBOT_COLUMNS = ("from", "to", "signal"), ("part", "kind", "x_m", "y_m", "z_m")
+METHOD_COLUMNS = ("from", "to", "signal")
+ROBOT_COLUMNS = ("part", "kind", "x_m", "y_m", "z_m")
 SIGMA = "\N{GREEK SMALL LETTER SIGMA}"
 METHOD_INCH, ROBOT_INCH = 2.35, 3.9  # heights
 SENSED, MODEL, LEARNED, USED = "#EEF1F5", "#DCEAF6", "#FBE6D8", "#E3F1EA"  # grounds of blocks
@@ -70,13 +71,16 @@ def _arrows(
     detector: Box, reaction: Box,
 ) -> list[tuple[str, str, str]]:  # fmt: skip
     """Draw the arrows between the blocks; return from, to and signal of each."""
-    bus_x, y = 1.36, observer.centre[1]
-    first, second = (3.72, y), (4.4, y)
+    bus_x = 1.36
+    y = observer.centre[1]
+    first = (3.72, y)
+    second = (4.4, y)
     draw_sum(axis, first, [("+", -0.14, -0.09), ("\N{MINUS SIGN}", 0.09, 0.14)])
     draw_sum(axis, second, [("+", -0.14, 0.09), ("\N{MINUS SIGN}", 0.09, -0.14)])
     for box in inputs.values():
         draw_path(axis, [box.side(1, 0), (bus_x, box.centre[1])], headed=False)
-    low, high = network.centre[1] + 0.15, formula.centre[1]
+    low = network.centre[1] + 0.15
+    high = formula.centre[1]
     draw_path(axis, [(bus_x, low), (bus_x, inputs["encoders"].centre[1])], headed=False)
     draw_path(axis, [(bus_x, inputs["encoders"].centre[1]), (bus_x, high), formula.side(-1, 0)], dashed=True)
     draw_path(axis, [(bus_x, y), observer.side(-1, 0)])
@@ -86,7 +90,8 @@ def _arrows(
     draw_path(axis, [formula.side(1, 0), (first[0], high), (first[0], y + SUM_RADIUS)], "friction", (3.41, high + 0.1),
               dashed=True)  # fmt: skip
     draw_path(axis, [(first[0] + SUM_RADIUS, y), (second[0] - SUM_RADIUS, y)])
-    mean_y, sigma_y = network.centre[1] + 0.17, network.centre[1] - 0.2
+    mean_y = network.centre[1] + 0.17
+    sigma_y = network.centre[1] - 0.2
     right = network.side(1, 0)[0]
     draw_path(axis, [(right, mean_y), (second[0], mean_y), (second[0], y - SUM_RADIUS)], "mean", (3.75, mean_y + 0.1))
     draw_path(axis, [(right, sigma_y), (torque.centre[0], sigma_y), torque.side(0, -1)], f"standard deviation {SIGMA}",
@@ -115,7 +120,8 @@ def draw_parts(
 ) -> tuple[Figure, list[tuple[str, str, Array]]]:
     """Draw the robot with names; return the figure, and name, kind and place (3,) [m] of what is named."""
     figure, axis = sheet(COLUMN_INCH, ROBOT_INCH)
-    view, placed = projection(*settings.view_deg), standing(robot, q)
+    view = projection(*settings.view_deg)
+    placed = standing(robot, q)
     centre = np.array([*placed[:2], 0.0])
     solids = solids_of(robot, placed)
     draw_ground(axis, centre, settings.floor_m, view)
@@ -132,6 +138,7 @@ def draw_parts(
         place = position[note.body] + rotation[note.body] @ np.asarray(note.pos)
         draw_note(axis, note.text, view[:2] @ place, note.at_m)
         parts.append((note.text, "note", place))
-    (left, lower), scale = settings.corner_m, settings.m_per_inch
+    (left, lower) = settings.corner_m
+    scale = settings.m_per_inch
     axis.set(xlim=(left, left + scale * COLUMN_INCH), ylim=(lower, lower + scale * ROBOT_INCH))
     return figure, parts

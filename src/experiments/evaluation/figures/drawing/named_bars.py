@@ -122,7 +122,8 @@ def _number(axis: Axes, bar: NamedBar, place: int, end: float | None) -> None:
     """Write a bar's number behind its end, or, with an arrow, into a bar that is cut at the end of the axis."""
     look: dict[str, Any] = {"textcoords": "offset points", "va": "center_baseline", "fontsize": NUMBER_POINTS}
     if end is None:
-        text, at = f"{bar.text} \N{RIGHTWARDS ARROW}", (axis.get_xlim()[1], place)
+        text = f"{bar.text} \N{RIGHTWARDS ARROW}"
+        at = (axis.get_xlim()[1], place)
         axis.annotate(text, at, (-2.0, 0.0), ha="right", **look)
         return
     axis.annotate(bar.text, (end, place), (3.0, 0.0), ha="left", **look)

@@ -64,8 +64,10 @@ def push_film(
         (method, story.joint, felt.share, felt.delay_ms, told.errors_nm[method]) for method, felt in told.felt.items()
     ]
     write_csv(out.with_suffix(".csv"), COLUMNS, rows)
-    stage, shots = _Stage(settings, told, dressed(describe(robot), looks), layout), shots_of(settings, story)
-    still, seen_s = stage.still(), [shot.seen_s for shot in shots]
+    stage = _Stage(settings, told, dressed(describe(robot), looks), layout)
+    shots = shots_of(settings, story)
+    still = stage.still()
+    seen_s = [shot.seen_s for shot in shots]
     save_still(still, out.with_suffix(".png"))
     save_drawing([stage.frame(shot) for shot in shots], seen_s, palette_of(still, settings.colours), out)
 
@@ -75,8 +77,12 @@ def shots_of(settings: PushFilm, story: Story) -> list[Shot]:
 
     The time axis shows what was and what is slowed; what is slowed alone; and that with what follows.
     """
-    (slow_s, usual_s), step_s, slowed_s = settings.slow_s, 1.0 / settings.frames_hz, 1.0 / settings.slowed_hz
-    first, near, last = (-story.before_s, usual_s), near_of(settings), (near_of(settings)[0], story.after_s)
+    (slow_s, usual_s) = settings.slow_s
+    step_s = 1.0 / settings.frames_hz
+    slowed_s = 1.0 / settings.slowed_hz
+    first = (-story.before_s, usual_s)
+    near = near_of(settings)
+    last = (near_of(settings)[0], story.after_s)
     before = np.arange(first[0], slow_s, step_s)
     slowed = np.arange(slow_s, usual_s, slowed_s / settings.slower)
     after = np.arange(usual_s + step_s, story.after_s, step_s)
@@ -121,7 +127,10 @@ class _Stage:
     """What all frames share."""
 
     def __init__(self, settings: PushFilm, told: Told, robot: RobotDescription, layout: JointLayout) -> None:
-        self.settings, self.told, self.robot, self.layout = settings, told, robot, layout
+        self.settings = settings
+        self.told = told
+        self.robot = robot
+        self.layout = layout
         heading = np.median(np.unwrap([yaw_of(q) for q in told.q]))
         azimuth, elevation = settings.view_deg
         self.view = projection(float(np.rad2deg(heading)) + azimuth, elevation)
@@ -141,8 +150,10 @@ class _Stage:
 
     def moment(self, time_s: float, ends_s: Ends, *, slowed: bool) -> Moment:
         """Return what a frame shows of the robot at a time [s]."""
-        told, k = self.told, min(int(np.searchsorted(self.told.time_s, time_s)), len(self.told.time_s) - 1)
-        found, side = told.detected, next(side for side, leg in self.layout.legs.items() if leg == told.collision.leg)
+        told = self.told
+        k = min(int(np.searchsorted(self.told.time_s, time_s)), len(self.told.time_s) - 1)
+        found = told.detected
+        side = next(side for side, leg in self.layout.legs.items() if leg == told.collision.leg)
         heard = found.delay_s is not None and time_s >= found.delay_s
         said = f"detected: {side} {found.link}, {MS * (found.delay_s or 0.0):.0f} ms after contact" if heard else ""
         return Moment(
@@ -164,7 +175,8 @@ class _Stage:
 
 def course_of(settings: PushFilm, told: Told) -> Course:
     """Return the curves of the story's joint while it is shown [N m]."""
-    curves, rows = told.curves, told.rows
+    curves = told.curves
+    rows = told.rows
     stds = {method: None if std is None else std[rows, 0] for method, std in curves.stds.items()}
     shown = {**{method: values[rows, 0] for method, values in curves.estimates.items()}, TRUTH: curves.truth[rows, 0]}
     low, high = (end(list(map(end, shown.values()))) for end in (np.min, np.max))

@@ -20,7 +20,8 @@ from mobnet.core.arrays import Array
 from mobnet.robot.description import RobotDescription
 from mobnet.simulation.render import Pixels
 
-SIZE_INCH, DPI = (9.6, 5.4), 100
+SIZE_INCH = (9.6, 5.4)
+DPI = 100
 STYLE: dict[Any, Any] = {"font.size": 11.5, "font.family": "DejaVu Sans", "axes.linewidth": 0.8}
 ROBOT, TORQUE = (0.0, 0.0, 0.4, 1.0), (0.475, 0.34, 0.505, 0.475)  # places of the panels, shares of the picture
 ROOM_M = (-0.76, 0.76, -0.22, 1.92)  # of the robot's panel: right of it, and above the ground
@@ -141,12 +142,14 @@ def _draw_torque(axis: Axes, moment: Moment, course: Course, drawn_s: float) -> 
     first, last = np.searchsorted(course.time_s, (moment.ends_s[0], drawn_s))
     rows = slice(max(int(first) - 1, 0), int(last) + 1)
     time_s = course.time_s[rows]
-    swing, across = course.swing.tolist(), axis.get_xaxis_transform()
+    swing = course.swing.tolist()
+    across = axis.get_xaxis_transform()
     axis.fill_between(course.time_s, 0, 1, where=swing, color=SWING, linewidth=0, transform=across, zorder=0)
     axis.axhline(0.0, color="0.75", linewidth=0.8, zorder=0.5)
     for curve in course.curves:
         if curve.std is not None:
-            low, high = curve.values[rows] - curve.std[rows], curve.values[rows] + curve.std[rows]
+            low = curve.values[rows] - curve.std[rows]
+            high = curve.values[rows] + curve.std[rows]
             axis.fill_between(time_s, low, high, color=LOOKS[curve.label].colour, alpha=BAND_ALPHA, linewidth=0)
         axis.plot(time_s, curve.values[rows], **_line(curve.label))
     axis.axvline(moment.now_s, color=PALE, linewidth=0.9, zorder=1)

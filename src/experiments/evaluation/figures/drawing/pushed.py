@@ -49,7 +49,8 @@ def draw_pushed(
 
 def draw_force(axis: Axes, place: Array, force: Array, view: Array) -> None:
     """Draw a force (3,) [N] at a place (3,) [m] as an arrow that ends there, with its size."""
-    (x, y), (from_x, from_y) = view[:2] @ place, view[:2] @ (place - ARROW_M_N * force)
+    (x, y) = view[:2] @ place
+    (from_x, from_y) = view[:2] @ (place - ARROW_M_N * force)
     arrow = FancyArrow(
         from_x, from_y, x - from_x, y - from_y, width=WIDTH_M, head_width=3.2 * WIDTH_M, head_length=3.6 * WIDTH_M,
         length_includes_head=True, facecolor=PUSH, edgecolor="white", linewidth=0.8, zorder=6,

@@ -37,7 +37,8 @@ def solids_of(robot: RobotDescription, q: NDArray[Any]) -> list[Solid]:
 def poses_of(robot: RobotDescription, q: NDArray[Any]) -> tuple[dict[str, Array], dict[str, Array]]:
     """Return the orientation (3, 3) and the origin (3,) [m] of each body at a position q (nq,) [m, -, rad]."""
     tree = tree_of(robot, 1.0)
-    pose, names = empty_pose(tree), [body.name for body in robot.bodies]
+    pose = empty_pose(tree)
+    names = [body.name for body in robot.bodies]
     update(tree, np.asarray(q, dtype=np.float64), np.zeros(N_VIRTUAL + len(tree.body_of_joint)), 0.0, pose)
     return dict(zip(names, pose.rotation, strict=True)), dict(zip(names, pose.position, strict=True))
 

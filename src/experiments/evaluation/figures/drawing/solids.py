@@ -101,7 +101,8 @@ def polygons_of(solid: Solid, view: Array) -> Iterator[Polygon]:
     if solid.shape.type == "box":
         yield from _faces(solid, view, colour)
         return
-    outer, (sizes, brightness) = EDGE * colour, zip(*STEPS, strict=True)
+    outer = EDGE * colour
+    (sizes, brightness) = zip(*STEPS, strict=True)
     for k, outline in enumerate(outlines_of(solid, view, sizes)):
         shade = lit(colour, brightness[k])
         yield Polygon(outline, shade, shade if k else outer, 0.0 if k else EDGE_POINTS)
@@ -122,10 +123,12 @@ def outline_of(solid: Solid, view: Array) -> Array:
 
 def outlines_of(solid: Solid, view: Array, sizes: Sequence[float]) -> list[Array]:
     """Return outlines of a round solid on a picture (n, 2) [m]; a smaller one is nearer to the light within it."""
-    axes, (start, end) = view @ solid.axes, solid.ends @ view[:2].T
+    axes = view @ solid.axes
+    (start, end) = solid.ends @ view[:2].T
     facing = axes.T @ LIGHT
     moved = TOWARDS_LIGHT * axes[:2] @ facing / max(float(np.linalg.norm(facing)), FLAT)
-    ring, along = ellipse_of(axes[:2]), end - start
+    ring = ellipse_of(axes[:2])
+    along = end - start
     outwards = (np.roll(ring, -1, axis=0) - np.roll(ring, 1, axis=0)) @ [[0.0, -1.0], [1.0, 0.0]] @ along > 0.0
     ends = np.where(outwards[:, None], end, start)
     return [size * ring + (1.0 - size) * moved + ends for size in sizes]
@@ -159,7 +162,8 @@ def _flat(normal: Array) -> float:
 
 def _faces(solid: Solid, view: Array, colour: Array) -> Iterator[Polygon]:
     """Yield the faces of a box that are seen."""
-    centre, axes = view @ solid.ends[0], view @ solid.axes
+    centre = view @ solid.ends[0]
+    axes = view @ solid.axes
     for k, sign in FACES:
         normal = sign * axes[:, k] / np.linalg.norm(axes[:, k])
         if normal[2] > 0.0:

@@ -20,7 +20,8 @@ from mobnet.settings.data import Commands
 BARS_INCH = 1.9  # height of the figure
 BAR_SHARE = 0.85  # of a bin
 MARGIN = 0.08  # beside the range of a command [share of it]
-GIVEN, RANGE = "commanded steps", "range of Table 2"
+GIVEN = "commanded steps"
+RANGE = "range of Table 2"
 COLOUR = "#0072B2"
 RANGE_LOOK: Mapping[str, Any] = {"color": "0.93", "linewidth": 0.0, "zorder": 0}
 LABELS = ("step x [m]", "step y [m]", "turn [deg]", "duration [s]", "foot height [m]")
@@ -48,7 +49,8 @@ def commands(
     The figure has the first set, the CSV file has all.
     """
     found = {name: read_steps(stems, layout).commanded for name, stems in sets.items()}
-    rows, panels = [], []
+    rows = []
+    panels = []
     for column, label in enumerate(LABELS):
         edges = bin_edges(commands, column, settings.bins)
         ends = list(zip(edges[:-1].tolist(), edges[1:].tolist(), strict=True))
@@ -78,7 +80,8 @@ def draw_bars(panels: Sequence[Bars]) -> Figure:
         first, last = panel.edges[[0, -1]]
         margin = MARGIN * (last - first)
         axis.axvspan(first, last, label=RANGE, **RANGE_LOOK)
-        middles, widths = (panel.edges[1:] + panel.edges[:-1]) / 2.0, BAR_SHARE * np.diff(panel.edges)
+        middles = (panel.edges[1:] + panel.edges[:-1]) / 2.0
+        widths = BAR_SHARE * np.diff(panel.edges)
         axis.bar(middles, panel.shares, widths, color=COLOUR, label=GIVEN)
         axis.set(xlabel=panel.label, xlim=(first - margin, last + margin))
         axis.set_xticks(panel.named, [f"{value:g}" for value in panel.named])

@@ -31,7 +31,10 @@ from mobnet.core.style import styled
 from mobnet.settings.detection import Detection
 
 COLUMNS = ("panel", "level", "detector", "x", "value", "low", "high", "count", "unit")
-FOUND, DELAY, FORCE, AREA = "found collisions", "delay", "found by force", "area"
+FOUND = "found collisions"
+DELAY = "delay"
+FORCE = "found by force"
+AREA = "area"
 LABELS = {
     FOUND: ("false alarms of a leg [1/h]", "found share [-]"),
     DELAY: ("false alarms of a leg [1/h]", "delay [ms]"),
@@ -68,13 +71,15 @@ def detection_curves(
     The area is the probability that a collision's largest signal lies above that of a swing which nothing pushes, with
     the interval of Hanley and McNeil (1982, Radiology 143).
     """
-    names, leg = owners(detections, settings.level, detection.levels), settings.leg
+    names = owners(detections, settings.level, detection.levels)
+    leg = settings.leg
     points = {robot: rows_of(detections, [robot], "curves", CurvePoint, leg=leg) for robot in names}
     promises = rows_of(detections, names, "promises", Promise, leg=leg)
     swings = rows_of(detections, names, "swings", FreeSwing, leg=leg, scenario=detection.random, part=HELD_OUT)
     hits = tries_of(detections, names, detection.collisions, leg, COLLISION)
     sweep = tries_of(detections, names, detection.sweep, leg, settings.kind)
-    courses, rows = list[DetectorLine](), []
+    courses = list[DetectorLine]()
+    rows = []
     for name in (name for name in settings.detectors if name in hits):
         quiet = [row for row in swings if row.detector == name]
         hours = len(quiet) * hours_per_swing([row for row in promises if row.detector == name])
@@ -103,10 +108,14 @@ def _over_rates(
     factors = [factor for factor in factors if alarms_in(quiet, factor) <= RATE_MOST * hours]
     quiet_at = next((k for k, factor in enumerate(factors) if not alarms_in(quiet, factor)), len(factors))
     factors = factors[: quiet_at + 1]  # higher thresholds only find less
-    rates, shares, delays, counts = list[float](), list[Number](), list[Number](), list[int]()
+    rates = list[float]()
+    shares = list[Number]()
+    delays = list[Number]()
+    counts = list[int]()
     for factor in factors:
         own = [(robot, row) for robot, rows in points.items() for row in rows if row.factor == factor]
-        found, count = sum(row.found for _, row in own), sum(row.collisions for _, row in own)
+        found = sum(row.found for _, row in own)
+        count = sum(row.collisions for _, row in own)
         flags = [hit for _, row in own for hit in [True] * row.found + [False] * (row.collisions - row.found)]
         places = [Place(robot, 0) for robot, row in own for _ in range(row.collisions)]
         rates.append(alarms_in(quiet, factor) / hours if hours else 0.0)
@@ -132,9 +141,11 @@ def area_of(hits: np.ndarray, quiet: np.ndarray, statistics: Statistics) -> Numb
         return Number(None)
     from scipy.stats import norm, rankdata  # here, as it takes a second to import
 
-    n, m = len(hits), len(quiet)
+    n = len(hits)
+    m = len(quiet)
     area = float((rankdata(np.concatenate([hits, quiet]))[:n].sum() - n * (n + 1) / 2) / (n * m))
-    one, two = area / (2 - area), 2 * area**2 / (1 + area)
+    one = area / (2 - area)
+    two = 2 * area**2 / (1 + area)
     variance = (area * (1 - area) + (n - 1) * (one - area**2) + (m - 1) * (two - area**2)) / (n * m)
     reach = float(norm.ppf((1.0 + statistics.confidence) / 2.0)) * max(variance, 0.0) ** 0.5
     return Number(area, max(area - reach, 0.0), min(area + reach, 1.0))
@@ -162,7 +173,8 @@ def draw_courses(courses: Sequence[DetectorLine]) -> Figure:
 
 def looks_of(detectors: Iterable[str]) -> dict[str, Look]:
     """Return the looks of detectors: the first one of a method has the method's, others its colour and another dash."""
-    found, seen = dict[str, Look](), Counter[str]()
+    found = dict[str, Look]()
+    seen = Counter[str]()
     for name in dict.fromkeys(detectors):
         method = max((known for known in LOOKS if name.startswith(known)), key=len)
         others = dict(zip(("dash", "marker"), OTHERS[seen[method] - 1], strict=True)) if seen[method] else {}

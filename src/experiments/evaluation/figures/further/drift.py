@@ -14,7 +14,8 @@ from experiments.settings.measures import Drift
 from experiments.settings.runs import Runs, Statistics
 from mobnet.core.columns import DRIFT
 
-X_LABEL, Y_LABEL = "number of the step since the push began", "share of the push [-]"
+X_LABEL = "number of the step since the push began"
+Y_LABEL = "share of the push [-]"
 ENDS = (0.0, 1.3)  # of the axis
 COLUMNS, PANEL_INCH, APART = 4, 2.0, 0.07  # panels in a row, their height, distance of marks at a step
 Held = Mapping[int, Number]  # number of the step -> share of the push [-]

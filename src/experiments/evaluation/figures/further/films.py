@@ -25,7 +25,8 @@ from mobnet.settings.robot import RobotTable
 from mobnet.simulation.clip import save_clip
 from mobnet.simulation.render import Pixels
 
-SIZE_INCH, DPI = (4.8, 6.4), 100
+SIZE_INCH = (4.8, 6.4)
+DPI = 100
 HEIGHTS = (3.2, 1.0, 1.0, 0.35)  # of the panels: robot, force, torque, what the robot says
 ROOM_M = (-1.0, 1.0, -0.1, 1.85)  # right of the base, and above the ground
 
@@ -67,7 +68,9 @@ def films(
 def read_curves(stem: Path, course: StoredCourse, joint: str) -> Curves:
     """Read what is shown of a joint in a course."""
     array, note = read_array(stem, [f"{signal}.{joint}" for signal in (ESTIMATED, STD, EXTERNAL)])
-    first, rate_hz, reacted = course.at("contact_s") or 0, note["rate_hz"], course.at("reacted_s")
+    first = course.at("contact_s") or 0
+    rate_hz = note["rate_hz"]
+    reacted = course.at("reacted_s")
     times = (np.arange(len(array)) - first) / rate_hz
     since = None if reacted is None else (reacted - first) / rate_hz
     estimated, std, true = array.T.astype(np.float64)
@@ -84,7 +87,8 @@ def frames(
     canvas = FigureCanvasAgg(figure)
     axes: list[Axes] = figure.subplots(len(HEIGHTS), 1, height_ratios=HEIGHTS).tolist()
     figure.subplots_adjust(left=0.17, right=0.97, top=0.99, bottom=0.07, hspace=0.25)
-    view, step = projection(*settings.views_deg[case]), 1.0 / (settings.frames_hz * settings.slower)
+    view = projection(*settings.views_deg[case])
+    step = 1.0 / (settings.frames_hz * settings.slower)
     for time_s in np.arange(*settings.shown_s, step):
         k = int(np.searchsorted(curves.time_s, time_s))
         if k >= len(course.q):
@@ -103,10 +107,13 @@ def draw_curves(axes: Sequence[Axes], curves: Curves, settings: Films, case: str
     """Draw the force, the torque of the joint, and contact and reaction, until sample k."""
     now = curves.time_s[k]
     shown = slice(max(0, int(np.searchsorted(curves.time_s, now - settings.history_s))), k + 1)
-    times, force, torque = curves.time_s[shown], axes[0], axes[1]
+    times = curves.time_s[shown]
+    force = axes[0]
+    torque = axes[1]
     force.plot(times, curves.force[shown], color=FORCE)
     force.set(ylabel="force [N]", ylim=(0.0, 1.05 * max(curves.force.max(), 1.0)))
-    estimated, std = curves.estimated[shown], curves.std[shown]
+    estimated = curves.estimated[shown]
+    std = curves.std[shown]
     torque.fill_between(times, estimated - std, estimated + std, color="#0072B2", alpha=0.25, linewidth=0)
     torque.plot(times, estimated, color="#0072B2", label="estimate, one sigma")
     torque.plot(times, curves.true[shown], color="black", linewidth=0.7, label="truth")

@@ -12,9 +12,12 @@ from experiments.settings.runs import Statistics
 from mobnet.core.columns import TUNED
 from mobnet.settings.methods import swept_name
 
-BEFORE, KNOWN = "not fine-tuned", "on its own robot"
-X_LABEL, Y_LABEL = "data of the changed robot [s]", "RMSE [N m]"
-COLUMNS, PANEL_INCH = 4, 2.0
+BEFORE = "not fine-tuned"
+KNOWN = "on its own robot"
+X_LABEL = "data of the changed robot [s]"
+Y_LABEL = "RMSE [N m]"
+COLUMNS = 4
+PANEL_INCH = 2.0
 APART = 0.02  # between two marks at one place [decades]
 
 
@@ -25,9 +28,12 @@ def fine_tuning(
 
     Two bands stand beside them: the networks before, and on the robot that they learned from.
     """
-    read, panels, rows = read_scores(*scores), [], []
+    read = read_scores(*scores)
+    panels = []
+    rows = []
     for title, test in settings.tests.items():
-        bands, lines = {}, []
+        bands = {}
+        lines = []
         for label, shown in shown_of(settings, seconds, test).items():
             errors = [number_of(read, [wanted], statistics) for wanted in shown]
             if label in (BEFORE, KNOWN):

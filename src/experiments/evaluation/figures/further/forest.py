@@ -109,7 +109,8 @@ def _head(axis: Axes, top: float, own: Sequence[Statement], name: str) -> None:
 def _row(axis: Axes, row: float, statement: Statement) -> None:
     """Draw a statement in its row [inch]: sign, text, interval and numbers."""
     place = statement.worst
-    judged, claim = place.judged, place.judged.row.claim
+    judged = place.judged
+    claim = place.judged.row.claim
     colour, _, sign = LOOKS[judged.verdict]
     _text(axis, 0.0, row, sign, color=colour, weight="bold")
     _text(axis, TEXT_INCH, row, text_of(statement))
@@ -134,7 +135,8 @@ def _place(axis: Axes, row: float, place: Place) -> None:
     """Draw the range where a claim is reproduced, our number and its interval, arrows where they leave the axis."""
     first, last = ENDS[place.axis]
     low, high = (edge if end is None else end for end, edge in zip(place.band, (first, last), strict=True))
-    low, high = max(low, first), min(high, last)
+    low = max(low, first)
+    high = min(high, last)
     axis.barh(row, high - low, left=low, height=0.8 * ROW_INCH, color="0.88", linewidth=0)
     value, low, high = place.values
     colour, marker, _ = LOOKS[place.judged.verdict]

@@ -20,7 +20,9 @@ from experiments.settings.runs import LimbRuns
 from mobnet.core.columns import SIGMA
 from mobnet.core.style import PAGE_INCH, styled
 
-COVERAGE, ERROR, CORRELATION = "coverage", "error over sigma", "autocorrelation"
+COVERAGE = "coverage"
+ERROR = "error over sigma"
+CORRELATION = "autocorrelation"
 LABELS = {
     ERROR: ("mean predicted sigma [N m]", "RMSE [N m]"),
     COVERAGE: ("part of the samples by size of sigma", "covered share [-]"),

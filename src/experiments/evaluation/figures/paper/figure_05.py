@@ -28,8 +28,11 @@ def figure_05(
 
     Its bars are errors over all walks.
     """
-    joint, lookup = settings.joint, read_lookup(scores, statistics)
-    pairs, bars, rows = [], list[NamedBar](), list[tuple[Field, ...]]()
+    joint = settings.joint
+    lookup = read_lookup(scores, statistics)
+    pairs = []
+    bars = list[NamedBar]()
+    rows = list[tuple[Field, ...]]()
     for level, own in groupby(runs, lambda run: run.level):
         pair = compared(read_panel(layout, without_zero(own), joint, start_s))
         test = Runs(scenario=settings.scenario, level=level, methods=settings.panels[level])

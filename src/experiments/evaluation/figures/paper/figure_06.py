@@ -26,7 +26,8 @@ def figure_06(
 
     The runs are one of each method, all of one recording.
     """
-    joint, (name,) = settings.joint, scenarios[settings.scenario].pushes
+    joint = settings.joint
+    (name,) = scenarios[settings.scenario].pushes
     errors = joint_errors(read_lookup(scores, statistics), layout, settings, [joint], PUSHED, published, settings.level)
     sizes = pushes[name].torque_nm
     title = f"{f'{sizes[0]:g} N m' if sizes else 'push'} on {joint} in the swing"

@@ -28,7 +28,8 @@ def figure_08(
     (method,) = settings.methods
     curves, rows = read_cycle(layout, runs, layout.limb(settings.limb), start_s)
     pairs = {joint: compared(curves.uncertainty_panel(joint, joint, rows, zero=rows.start)) for joint in curves.joints}
-    lookup, drawn = read_lookup(scores, statistics), {joint: pair.rmse for joint, pair in pairs.items()}
+    lookup = read_lookup(scores, statistics)
+    drawn = {joint: pair.rmse for joint, pair in pairs.items()}
     errors = joint_errors(lookup, layout, settings, curves.joints, settings.metric, published, settings.place)
     titled = [entitled(pair, method, errors[joint][method]) for joint, pair in pairs.items()]
     written = error_rows(settings, settings.metric, errors, drawn)

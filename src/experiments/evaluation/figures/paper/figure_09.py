@@ -27,7 +27,8 @@ def figure_09(
     """
     curves, rows = read_cycle(layout, without_zero(runs), layout.limb(settings.limb), start_s)
     pairs = {joint: compared(curves.panel(joint, joint, rows, zero=rows.start)) for joint in curves.joints}
-    lookup, drawn = read_lookup(scores, statistics), {joint: pair.rmse for joint, pair in pairs.items()}
+    lookup = read_lookup(scores, statistics)
+    drawn = {joint: pair.rmse for joint, pair in pairs.items()}
     errors = joint_errors(lookup, layout, settings, curves.joints, settings.metric, published, settings.place)
     figure = draw_columns(
         [pairs[joint] for joint in settings.drawn],

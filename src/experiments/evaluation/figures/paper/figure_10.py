@@ -39,7 +39,9 @@ def figure_10(
 
     The title of a test leads to its runs, one of each method and all of one recording.
     """
-    lookup, groups, rows = read_lookup(scores, statistics), list[PushGroup](), list[tuple[Field, ...]]()
+    lookup = read_lookup(scores, statistics)
+    groups = list[PushGroup]()
+    rows = list[tuple[Field, ...]]()
     for title, test in settings.tests.items():
         errors = collision_errors(layout, settings, test, published, lookup)
         responses = responses_of(layout, lookup, test, settings.joint)

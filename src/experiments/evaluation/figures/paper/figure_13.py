@@ -37,7 +37,8 @@ def figure_13(
     recordings: Sequence[Path], figure_dir: Path,
 ) -> None:  # fmt: skip
     """Write Figure 13 as PDF, SVG, PNG and CSV: the first collision of each cell, when its force is largest."""
-    description, rows = dressed(describe(robot), looks), []
+    description = dressed(describe(robot), looks)
+    rows = []
     found = rows_of(detections, [settings.level], "collisions", Collision)
     figure, axes = beside(len(settings.cells), HEIGHT_INCH)
     for k, (axis, cell) in enumerate(zip(axes, settings.cells, strict=True)):
@@ -64,7 +65,8 @@ def _draw(axis: Axes, robot: RobotDescription, hit: Collision, recordings: Seque
     rate = float(meta["rate_hz"])
     rows = slice(round(hit.start_s * rate), round(hit.end_s * rate))
     row = rows.start + int(np.argmax(np.linalg.norm(forces[rows], axis=1)))
-    q, force = read_sensed(stem, robot.layout).sensed.q[row].astype(np.float64), forces[row].astype(np.float64)
+    q = read_sensed(stem, robot.layout).sensed.q[row].astype(np.float64)
+    force = forces[row].astype(np.float64)
     q[:3] = 0.0
     q[2] = -lowest(robot, q)  # the sensed height drifts, and the supporting foot stands on the ground
     side = next(side for side, limb in robot.layout.legs.items() if limb == hit.leg)

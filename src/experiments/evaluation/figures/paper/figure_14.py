@@ -23,7 +23,8 @@ GREY = Look("0.35")
 
 def figure_14(settings: Figure14, detection: Detection, detections: Detections, figure_dir: Path) -> None:
     """Write Figure 14 as PDF, SVG, PNG and CSV: histograms of the collisions, those of a level's robots together."""
-    found, own_leg = {}, {"scenario": detection.collisions, "leg": settings.leg}
+    found = {}
+    own_leg = {"scenario": detection.collisions, "leg": settings.leg}
     for level in settings.levels:
         names = owners(detections, level, settings.levels)
         found[level.replace("_", " ")] = quantities(rows_of(detections, names, "collisions", Collision, **own_leg))
@@ -32,7 +33,8 @@ def figure_14(settings: Figure14, detection: Detection, detections: Detections, 
     rows: list[Sequence[Field]] = []
     for level, own in found.items():
         for name, unit in LABELS.items():
-            counts, values = np.histogram(own[name], edges[name])[0], own[name]
+            counts = np.histogram(own[name], edges[name])[0]
+            values = own[name]
             ends = float(values.mean()), float(values.min()), float(values.max())
             rows += [(level, name, float(low), float(high), int(count), *ends, unit, PUBLISHED[name])
                      for low, high, count in zip(edges[name], edges[name][1:], counts, strict=False)]  # fmt: skip

@@ -68,7 +68,8 @@ def _course(
     place = next(k for k, path in enumerate(recordings) if path.name == f"s{hit.seed}")
     names = [*named(PUSH, ("force_x", "force_y", "force_z")), f"{SWING}.{foot_of(layout, settings.joint)}"]
     array, meta = read_array(recordings[place], names)
-    rate, start = float(meta["rate_hz"]), round(hit.start_s * meta["rate_hz"])
+    rate = float(meta["rate_hz"])
+    start = round(hit.start_s * meta["rate_hz"])
     rows = slice(max(start - round(settings.before_s * rate), 0), start + round(settings.after_s * rate))
     stds = {
         method: read_array(estimates[method][place], [f"{STD}.{settings.joint}"])[0][rows, 0]

@@ -47,7 +47,8 @@ def figure_16(
     It has the force over time in one walk of each case, means over all walks, and the share of walks with a fall by how
     long the reaction waits.
     """
-    trials, rows = read_trials(reactions, settings.cases), list[Sequence[Field]]()
+    trials = read_trials(reactions, settings.cases)
+    rows = list[Sequence[Field]]()
     forces, numbers = dict[str, tuple[Array, Array, Mapping[str, float | None]]](), dict[str, dict[str, Number]]()
     for case in settings.cases:
         outcome = outcome_of(trials_of(trials, case, reaction.ours), settings, statistics)
@@ -85,7 +86,8 @@ def force_of(stem: Path, settings: Figure16) -> tuple[Array, Array, Mapping[str,
     Where nothing was touched, the time is that from the beginning.
     """
     force, note = read_array(stem, [f"obstacle.force_{axis}" for axis in "xyz"])
-    size, rate_hz = np.linalg.norm(force, axis=1), note["rate_hz"]
+    size = np.linalg.norm(force, axis=1)
+    rate_hz = note["rate_hz"]
     first = round((note["contact_s"] or 0.0) * rate_hz)
     start, end = (max(0, first + round(edge * rate_hz)) for edge in settings.shown_s)
     times = (np.arange(len(size)) - first)[start : end : settings.every] / rate_hz

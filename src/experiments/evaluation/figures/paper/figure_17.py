@@ -51,7 +51,8 @@ def draw_losses(losses: Sequence[Loss], kinds: Mapping[str, str]) -> Figure:
     axes = figure.subplots(1, len(TITLES), sharey=True)
     for k, (axis, measure) in enumerate(zip(axes, dict.fromkeys(ENDS.values()), strict=True)):
         for loss in (loss for loss in losses if loss.measure == measure):
-            kind, is_best = kinds[loss.method], loss.method == kinds[loss.method]
+            kind = kinds[loss.method]
+            is_best = loss.method == kinds[loss.method]
             _draw(axis, rows.index(kind) + (APART if is_best else -APART), loss, styles[kind], hollow=is_best)
         axis.set_xlabel(LABELS[measure])
         axis.tick_params(axis="y", length=0.0)

@@ -47,7 +47,9 @@ def figure_18(
 
     Of a test with a window around pushes, it is that of the windows.
     """
-    read, rows, panels = read_scores(*scores), [], []
+    read = read_scores(*scores)
+    rows = []
+    panels = []
     for scenario, title in settings.panels.items():
         errors = {}
         metric = PUSHED if scenario in windows else "rmse"
@@ -101,7 +103,8 @@ def draw_limbs(panels: Sequence[LimbPanel], y_label: str) -> Figure:
 def _draw(axis: Axes, panel: LimbPanel) -> None:
     """Draw the bars [N m] of a panel."""
     places = np.arange(len(panel.groups)) + (np.arange(len(panel.groups)) > 0) * (APART - 1.0)
-    width, styles = BAR_SHARE / max(1, len(panel.bars)), looks(panel.bars)
+    width = BAR_SHARE / max(1, len(panel.bars))
+    styles = looks(panel.bars)
     for k, (method, numbers) in enumerate(panel.bars.items()):
         x = places + (k - (len(panel.bars) - 1) / 2) * width
         value, low, high = np.array([number.range for number in numbers], dtype=np.float64).reshape(-1, 3).T

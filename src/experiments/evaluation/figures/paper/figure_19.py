@@ -38,7 +38,8 @@ def figure_19(
     The training sets are those with and without random torque exploration; the tests are taken together, with equally
     many samples of each.
     """
-    joints, share = settings.joints, settings.test_dots // len(tests)
+    joints = settings.joints
+    share = settings.test_dots // len(tests)
     foot = foot_of(layout, layout.limb(coverage.limb)[0])
     sets = {name: read_samples(stems, joints, settings.dots, foot) for name, stems in training.items()}
     tested = [
@@ -98,7 +99,8 @@ def _ranges(axis: Axes, plane: Plane) -> None:
     """Draw the ranges of the torque [N m] over the phase of the gait [-]: one filled, the others as outlines."""
     colours = dict(zip(plane.ranges, (FIRST, SECOND, TEST), strict=True))
     for k, (name, found) in enumerate(plane.ranges.items()):
-        edges, colour = found.cells.edges[0], colours[name]
+        edges = found.cells.edges[0]
+        colour = colours[name]
         if k == 0:
             axis.stairs(found.high, edges, baseline=found.low, fill=True, color=colour, alpha=SHADE, lw=0)
         for end in (found.low, found.high):

@@ -42,7 +42,8 @@ def figure_21(
     """Write Figure 21 as PDF, SVG, PNG and CSV: where the feet stood in the first walk of a case, before and after."""
     description = describe(robot)
     course = read_course(courses[settings.case], description.layout)
-    reacted, rate_hz = course.at("reacted_s"), course.note["rate_hz"]
+    reacted = course.at("reacted_s")
+    rate_hz = course.note["rate_hz"]
     steps = list(steps_of(description, course))
     rows = [
         (side, number, int(reacted is not None and k > reacted), k / rate_hz, *place.tolist())
@@ -54,7 +55,8 @@ def figure_21(
 def steps_of(robot: RobotDescription, course: StoredCourse) -> Iterator[Step]:
     """Yield where the feet stand at the beginning, and each foot again after it has landed."""
     tree = tree_of(robot, 1.0)
-    pose, names = empty_pose(tree), [body.name for body in robot.bodies]
+    pose = empty_pose(tree)
+    names = [body.name for body in robot.bodies]
     still = np.zeros(N_VIRTUAL + len(tree.body_of_joint))
     in_air = course.swing >= IN_THE_AIR
     landed = [(0, k) for k in range(len(SIDES))]
@@ -62,14 +64,16 @@ def steps_of(robot: RobotDescription, course: StoredCourse) -> Iterator[Step]:
     for at, k in sorted(landed):
         update(tree, course.q[at], still, 0.0, pose)
         body = names.index(robot.feet[SIDES[k]].body)
-        rotation, place = pose.rotation[body], pose.position[body]
+        rotation = pose.rotation[body]
+        place = pose.position[body]
         yield SIDES[k], at, np.array([place[0], place[1], np.arctan2(rotation[1, 0], rotation[0, 0])])
 
 
 def sole_corners(robot: RobotDescription) -> Array:
     """Return the corners of a sole (4, 2) [m], from above, in the foot's axes."""
     assert robot.sole is not None  # it walks
-    (x, y, _), (length, width, _) = robot.sole.box_centre, robot.sole.box_half
+    (x, y, _) = robot.sole.box_centre
+    (length, width, _) = robot.sole.box_half
     signs = np.array([(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)])
     return np.array([x, y]) + signs * (length, width)
 
@@ -81,10 +85,13 @@ def _draw(
     """Draw soles, obstacles, the way of the base, and the force until the reaction."""
     figure = Figure(figsize=(COLUMN_INCH, HEIGHT_INCH), layout="constrained")
     axis: Axes = figure.subplots()
-    reacted, first = course.at("reacted_s"), course.at("contact_s")
-    corners, count = sole_corners(robot), 0
+    reacted = course.at("reacted_s")
+    first = course.at("contact_s")
+    corners = sole_corners(robot)
+    count = 0
     for side, k, place in steps:
-        c, n = np.cos(place[2]), np.sin(place[2])
+        c = np.cos(place[2])
+        n = np.sin(place[2])
         outline = corners @ np.array([[c, n], [-n, c]]) + place[:2]
         is_reacting = reacted is not None and k > reacted
         count += is_reacting
@@ -93,7 +100,8 @@ def _draw(
             alpha=0.45 if is_reacting else 1.0, linewidth=0.8, label=f"{side} sole",
         ))  # fmt: skip
         if is_reacting:
-            heel, toe = outline[[1, 2]].mean(axis=0), outline[[0, 3]].mean(axis=0)
+            heel = outline[[1, 2]].mean(axis=0)
+            toe = outline[[0, 3]].mean(axis=0)
             # Soles that lie on one another have their numbers beside each other.
             along = (count % PLACES + 0.5) / PLACES
             axis.annotate(str(count), heel + along * (toe - heel), ha="center", va="center", fontsize=7)
@@ -106,7 +114,8 @@ def _draw(
     axis.plot(*course.q[end:, :2].T, color="0.5", linewidth=0.8, linestyle="--", label="pelvis after it")
     if first is not None and reacted is not None and reacted > first:
         push = course.force[first : reacted + 1, :2].sum(axis=0)
-        start, way = course.q[reacted, :2], ARROW_M * push / np.linalg.norm(push)
+        start = course.q[reacted, :2]
+        way = ARROW_M * push / np.linalg.norm(push)
         draw_arrow(axis, tuple(start.tolist()), tuple((start + way).tolist()))
     axis.set_aspect("equal")
     axis.autoscale_view()

@@ -36,12 +36,14 @@ def figure_22(
     figure_dir: Path,
 ) -> None:
     """Write Figure 22 as PDF, SVG, PNG and CSV: the first walk of each case before, at and after the contact."""
-    description, rows = dressed(describe(robot), looks), list[list[Field]]()
+    description = dressed(describe(robot), looks)
+    rows = list[list[Field]]()
     walks = {case: read_course(courses[case], description.layout) for case in settings.cases}
     figure = Figure(figsize=(PAGE_INCH, ROW_INCH * len(walks)), layout="constrained")
     grid = figure.subplots(len(walks), len(settings.moments_s) + 1, squeeze=False)
     for row, (case, course) in enumerate(walks.items()):
-        first, view = course.at("contact_s") or 0, projection(*settings.views_deg[case])
+        first = course.at("contact_s") or 0
+        view = projection(*settings.views_deg[case])
         start = view @ course.q[first][:3]
         for column, (axis, (moment, k)) in enumerate(zip(grid[row], moments_of(course, settings).items(), strict=True)):
             draw_scene(axis, description, obstacles, course, k, view)
@@ -54,7 +56,8 @@ def figure_22(
 
 def moments_of(course: StoredCourse, settings: Figure22) -> dict[str, int]:
     """Return what is shown of a walk -> its sample: moments from the first contact on, and the end."""
-    first, last = course.at("contact_s") or 0, len(course.q) - 1
+    first = course.at("contact_s") or 0
+    last = len(course.q) - 1
     rate_hz = course.note["rate_hz"]
     shown = {f"{time_s:g} s": min(max(0, first + round(time_s * rate_hz)), last) for time_s in settings.moments_s}
     return {**shown, "end": last}

@@ -28,7 +28,8 @@ def hand_figure(
     """
     curves = read_curves(layout, without_zero(runs), settings.joints, {settings.called: PUSHED})
     start, end = (round(time_s * curves.rate_hz) for time_s in (settings.start_s, settings.end_s))
-    rows, units = slice(start, end, settings.every), [layout.unit(joint) for joint in settings.joints]
+    rows = slice(start, end, settings.every)
+    units = [layout.unit(joint) for joint in settings.joints]
     pairs = [
         compared(curves.panel(f"{joint} [{unit}]", joint, rows, band=True), settings.called)
         for joint, unit in zip(settings.joints, units, strict=True)

@@ -56,7 +56,10 @@ class Evidence:
             return self._fields(cell)
         if metrics[0] in (*MEASURES, DIVERGED):
             return self._measured(str(cell.method), metrics[0])
-        scenario, level, method, names = cell.scenario, cell.level, cell.method, cell.joint
+        scenario = cell.scenario
+        level = cell.level
+        method = cell.method
+        names = cell.joint
         if scenario is None or level is None or method is None or names is None:
             raise ConfigError(f"cell {cell}: scenario, level, method and joint are expected")
         held = self.metrics.get((scenario, level, method))
@@ -85,7 +88,8 @@ class Evidence:
         Raises:
             DataError: the table or a column is missing.
         """
-        (row,), column = self._rows(cell), str(cell.column)
+        (row,) = self._rows(cell)
+        column = str(cell.column)
         ends = ENDS.get(column, ("low", "high")) if column in WITH_ENDS else ("", "")
         value, low, high = (float(text) if (text := row.get(name)) else None for name in (column, *ends))
         return Number(value, low, high)
@@ -106,7 +110,8 @@ class Evidence:
 
         Where it asks for no joint, those of single joints are meant.
         """
-        rows, asked = self.tables[str(cell.table)], {str(cell.column), *cell.where}
+        rows = self.tables[str(cell.table)]
+        asked = {str(cell.column), *cell.where}
         held = rows[0].keys() if rows else asked
         for name in sorted(asked - held):
             raise DataError(not_accepted(f"column of {cell.table}", name, held))

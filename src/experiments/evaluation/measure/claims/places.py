@@ -58,14 +58,16 @@ def place_of(judged: Judged) -> Place:
 
 def over_paper(judged: Judged) -> Place:
     """Return where our number is over the paper's [-]; of a cut, where what remains of an error is."""
-    published, is_cut = judged.row.claim.published or 1.0, judged.row.claim.quantity == "cut"
+    published = judged.row.claim.published or 1.0
+    is_cut = judged.row.claim.quantity == "cut"
 
     def over(number: float | None) -> float | None:
         if number is None:
             return None
         return (1.0 - number) / (1.0 - published) if is_cut else number / published
 
-    (value, low, high), (first, last) = map(over, judged.ours.with_ends), map(over, judged.ranges.shown)
+    (value, low, high) = map(over, judged.ours.with_ends)
+    (first, last) = map(over, judged.ranges.shown)
     return Place(judged, OVER_PAPER, (value, *in_order(low, high, is_cut)), in_order(first, last, is_cut))
 
 

@@ -36,7 +36,8 @@ class Cells:
 
     def of(self, conditions: NDArray[Any]) -> NDArray[np.intp]:
         """Return the number of the cell (n,) of each sample's conditions (n, k), -1 where it is in none."""
-        found, inside = np.zeros(len(conditions), dtype=np.intp), np.ones(len(conditions), dtype=bool)
+        found = np.zeros(len(conditions), dtype=np.intp)
+        inside = np.ones(len(conditions), dtype=bool)
         for edge, values in zip(self.edges, conditions.T, strict=True):
             place = np.searchsorted(edge, values, side="right") - 1
             place[values == edge[-1]] = len(edge) - 2

@@ -32,7 +32,8 @@ log = logging.getLogger(__name__)
 
 WITHOUT = "without RTE"  # name of the training set without exploration
 OUTSIDE = {VELOCITY: "outside velocity", DESIRED: "outside torque"}
-AREA, AIR_AREA = "visited cells", "visited cells, swing"
+AREA = "visited cells"
+AIR_AREA = "visited cells, swing"
 NEAREST = {"nearest, median": 0.5, "nearest, 95 %": 0.95}
 ALL = "all"  # joints together
 PHASE = "phase"
@@ -72,8 +73,10 @@ def covered(
 
     `ports` are what the network of the leg sees.
     """
-    inputs, joints = limb_inputs(layout, ports), layout.limb(settings.limb)
-    foot, sets = FEET.index(foot_of(layout, joints[0])), [explored, plain]
+    inputs = limb_inputs(layout, ports)
+    joints = layout.limb(settings.limb)
+    foot = FEET.index(foot_of(layout, joints[0]))
+    sets = [explored, plain]
     samples = equal_sets([read_blocks(stems, layout, inputs, settings) for stems in sets], settings.samples)
     airborne = equal_sets([read_blocks(stems, layout, inputs, settings, foot) for stems in sets], settings.samples)
     names = (*inputs.names, PHASE)

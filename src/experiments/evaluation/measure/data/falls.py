@@ -30,8 +30,10 @@ def falls_with(settings: WalkSettings, seed: int, amplitude_nm: float, walked_s:
     A robot that cannot walk so ends with FALLS_MAX + 1.
     """
     torque = settings.random_torque.model_copy(update={"legs_waist_nm": amplitude_nm})
-    changed, rate_hz = settings.model_copy(update={"random_torque": torque}), settings.rates.data_hz
-    simulator, samples = Simulator(changed, seed), round(walked_s * rate_hz)
+    changed = settings.model_copy(update={"random_torque": torque})
+    rate_hz = settings.rates.data_hz
+    simulator = Simulator(changed, seed)
+    samples = round(walked_s * rate_hz)
     try:
         return record(simulator, samples, settings.recording, rate_hz, lambda _: None).falls
     except SimulationError:

@@ -34,9 +34,12 @@ def ankle_places(nominal: NominalModel, q: NDArray[Any]) -> tuple[Array, Array]:
 
     The generalized positions are (T, nq) [m], [-], [rad]; the model's masses do not matter here.
     """
-    robot, model, data = nominal.robot, nominal.model, nominal.data
+    robot = nominal.robot
+    model = nominal.model
+    data = nominal.data
     joints = [model.getJointId(robot.layout.limb(robot.feet[side].limb)[-1]) for side in SIDES]
-    position, yaw = np.zeros((len(q), len(SIDES), 3)), np.zeros((len(q), len(SIDES)))
+    position = np.zeros((len(q), len(SIDES), 3))
+    yaw = np.zeros((len(q), len(SIDES)))
     for row, posture in enumerate(to_pinocchio(q)):
         pin.forwardKinematics(model, data, posture)
         for side, joint in enumerate(joints):
@@ -115,7 +118,8 @@ def step_bounds(swing: NDArray[np.bool_], command: NDArray[Any], segments: Spans
     for start, end in segments:
         downs = np.argwhere(swing[start : end - 1] & ~swing[start + 1 : end])
         for (before, other), (row, foot) in pairwise(downs):
-            first, last = int(start + before + 1), int(start + row + 1)
+            first = int(start + before + 1)
+            last = int(start + row + 1)
             if other != foot and np.all(command[first:last, DURATION] > 0.0):
                 yield first, last, int(foot)
 
@@ -127,7 +131,8 @@ def measure(nominal: NominalModel, q: NDArray[Any], foot: NDArray[np.intp], spac
     [m].
     """
     position, yaw = ankle_places(nominal, q)
-    rows, stance = np.arange(len(foot)), 1 - foot
+    rows = np.arange(len(foot))
+    stance = 1 - foot
     apart = position[rows, foot] - position[rows, stance]
     facing = yaw[rows, stance]
     forward = np.cos(facing) * apart[:, 0] + np.sin(facing) * apart[:, 1]

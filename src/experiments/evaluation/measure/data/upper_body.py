@@ -24,13 +24,17 @@ def hand_speeds(nominal: NominalModel, q: NDArray[Any], v: NDArray[Any]) -> Arra
 
     Generalized positions are (T, nq) [m], [-], [rad], velocities (T, nv) [m/s], [rad/s].
     """
-    robot, model, data = nominal.robot, nominal.model, nominal.data
+    robot = nominal.robot
+    model = nominal.model
+    data = nominal.data
     points = {point.name: point for point in robot.points}
     hands = [points[f"{side}_hand"] for side in SIDES]
     carrier = {joint.body: joint.id for joint in robot.joints}
     joints = [model.getJointId(carrier[hand.body]) for hand in hands]
-    posture, velocity = to_pinocchio(q), np.array(v, dtype=np.float64)
-    posture[:, POSITION], posture[:, QUATERNION] = 0.0, (0.0, 0.0, 0.0, 1.0)
+    posture = to_pinocchio(q)
+    velocity = np.array(v, dtype=np.float64)
+    posture[:, POSITION] = 0.0
+    posture[:, QUATERNION] = (0.0, 0.0, 0.0, 1.0)
     velocity[:, :N_VIRTUAL] = 0.0
     twist = np.zeros((len(q), len(hands), 6))
     for row in range(len(q)):
@@ -49,7 +53,9 @@ def upper_body(every: int, stems: Sequence[Path], nominal: NominalModel) -> Iter
     layout = nominal.robot.layout
     columns = recording_columns(layout)
     names = [name for field in ("q", "v") for name, _, _ in columns[field]]
-    speeds, lows, highs = [], [], []
+    speeds = []
+    lows = []
+    highs = []
     for stem in stems:
         q, v = np.split(read_array(stem, names)[0][::every], [layout.nq], axis=1)
         speeds.append(hand_speeds(nominal, q, v))

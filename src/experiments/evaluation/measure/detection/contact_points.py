@@ -95,7 +95,8 @@ def contacts_of(
     }
     for recording in dict.fromkeys(run.recording for run in runs):
         walked = _walked(robot, joints, gain_hz, [run for run in runs if run.recording == recording])
-        alarms, count = _alarms(settings, detections, recording), dict.fromkeys(settings.legs, 0)
+        alarms = _alarms(settings, detections, recording)
+        count = dict.fromkeys(settings.legs, 0)
         for hit in hits_of(recording, pushes, robot.layout):
             count[hit.leg] = count.get(hit.leg, 0) + 1
             alarm = alarms.get((hit.leg, count[hit.leg]))
@@ -105,7 +106,8 @@ def contacts_of(
 
 def _alarms(settings: ContactPoints, detections: Detections, recording: Path) -> Alarms:
     """Return what the detector says of the collisions of some legs in a recording that it finds."""
-    level, seed = recording.parent.name, int(recording.name.removeprefix("s"))
+    level = recording.parent.name
+    seed = int(recording.name.removeprefix("s"))
     held = {"scenario": settings.scenario, "detector": settings.detector, "kind": settings.kind}
     rows = rows_of(detections, [level], "detected", Detected, **held)
     found = [row for row in rows if row.seed == seed and row.leg in settings.legs and row.delay_s is not None]
@@ -130,9 +132,12 @@ def _found(
     settings: ContactPoints, finders: Finders, walked: Walked, hit: Hit, point: str, alarm: Detected
 ) -> Iterator[Found]:  # fmt: skip
     """Yield what each line says of a collision at a point of the robot, and then the guesses."""
-    cell, finder = f"{hit.link} {hit.direction}", finders[hit.leg, False]
-    points, feet = {row.name: row for row in finder.robot.points}, finder.robot.feet.values()
-    true, standing = points[point], [foot.body for foot in feet if foot.limb != hit.leg]
+    cell = f"{hit.link} {hit.direction}"
+    finder = finders[hit.leg, False]
+    points = {row.name: row for row in finder.robot.points}
+    feet = finder.robot.feet.values()
+    true = points[point]
+    standing = [foot.body for foot in feet if foot.limb != hit.leg]
 
     def row_after(wait_s: float) -> int:
         later = round(((alarm.delay_s or 0.0) + wait_s) * walked.rate_hz)
@@ -143,7 +148,8 @@ def _found(
         return axes.T @ (place - origin) - true.pos
 
     for title, line in settings.lines.items():
-        row, own = row_after(settings.after_s if line.after_s is None else line.after_s), finders[hit.leg, line.alone]
+        row = row_after(settings.after_s if line.after_s is None else line.after_s)
+        own = finders[hit.leg, line.alone]
         contact = own.locate(walked.q[row], *_torques(walked, line, own, finder, row), () if line.alone else standing)
         if contact is not None:
             said = contact.spread_m, *_compared(contact.force, walked.force[row])
@@ -161,7 +167,8 @@ def _torques(
 
     Estimates hold the joints of the whole finder.
     """
-    estimate, columns = walked.estimates[line.method], [whole.joints.index(joint) for joint in own.joints]
+    estimate = walked.estimates[line.method]
+    columns = [whole.joints.index(joint) for joint in own.joints]
     if line.std is not None:
         std = np.array([line.std[own.robot.layout.unit(joint) == "N"] for joint in own.joints])
     elif estimate.std is not None:
@@ -173,14 +180,17 @@ def _torques(
 
 def _compared(force: Array, true: Array) -> tuple[float, float]:
     """Return the size of a force (3,) over that of the true one, less 1 [-], and the angle between them [deg]."""
-    size, true_size = float(np.linalg.norm(force)), float(np.linalg.norm(true))
+    size = float(np.linalg.norm(force))
+    true_size = float(np.linalg.norm(true))
     cosine = np.clip(force @ true / max(size * true_size, 1e-9), -1.0, 1.0)
     return size / max(true_size, 1e-9) - 1.0, float(np.rad2deg(np.arccos(cosine)))
 
 
 def _middle(finder: ContactFinder, q: Array, bodies: Collection[str]) -> Array:
     """Return the middle of the surface of some bodies in the world (3,) [m], at a position q (nq,)."""
-    surface, whole, total = finder.surface, np.zeros(3), 0.0
+    surface = finder.surface
+    whole = np.zeros(3)
+    total = 0.0
     for k, shape in enumerate(surface.shapes):
         if shape.body in bodies:
             axes, origin = finder.place(q, shape.body)

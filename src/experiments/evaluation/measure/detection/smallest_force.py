@@ -23,7 +23,8 @@ def smallest_force(force: Array, found: Array, settings: SmallestForce, statisti
     all that were tried there is no number, but that end as `low` or as `high`; else the interval is cut there.
     """
     # (D23). A grid and no sampler: two unknowns, and the same bytes at every run.
-    halves, steepness = np.geomspace(*settings.halves_n, HALVES), np.geomspace(*settings.steepness, STEPS)
+    halves = np.geomspace(*settings.halves_n, HALVES)
+    steepness = np.geomspace(*settings.steepness, STEPS)
     half, steep = (grid.ravel() for grid in np.meshgrid(halves, steepness, indexing="ij"))
     slope = steep * (np.log(force)[:, None] - np.log(half))
     # The logarithm of a share near 0 or 1 would be lost in rounding if the share came first.
@@ -32,7 +33,8 @@ def smallest_force(force: Array, found: Array, settings: SmallestForce, statisti
     tail = (1.0 - statistics.confidence) / 2.0
     low, value, high = quantiles(wanted, np.exp(likely - likely.max()), (tail, 0.5, 1.0 - tail))
     # Beyond the forces that were tried the number would be that of the assumed laws and not of the collisions.
-    least, most = float(force.min()), float(force.max())
+    least = float(force.min())
+    most = float(force.max())
     if not least <= value <= most:
         return Number(None, *((least, None) if value < least else (None, most)), unit="N")
     return Number(value, max(low, least), min(high, most), unit="N")

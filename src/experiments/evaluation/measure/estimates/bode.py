@@ -32,7 +32,8 @@ def measure(pair: Pair, scene: Scene, settings: Bode) -> Measures:
         found = np.full(len(pair.joints), np.nan, dtype=complex)
         for joint, frequencies in scene.asked.lines.items():
             if spans and joint in pair.joints:
-                place, (start, end) = pair.joints.index(joint), max(spans, key=lambda span: span[1] - span[0])
+                place = pair.joints.index(joint)
+                (start, end) = max(spans, key=lambda span: span[1] - span[0])
                 signals = shown.push[start:end, place], shown.estimate[start:end, place]
                 found[place] = transfer(*signals, frequencies[k], pair.rate_hz)
         yield Measured(GAIN.format(band_hz), np.abs(found))
@@ -42,7 +43,8 @@ def measure(pair: Pair, scene: Scene, settings: Bode) -> Measures:
 def transfer(injected: NDArray[np.float64], shown: NDArray[np.float64], frequency_hz: float, rate_hz: float) -> complex:
     """Return S_xy / S_xx [-] of injected x and shown y (T,) [N m] at a frequency, Hann window; nan if x is zero."""
     wave = np.hanning(len(injected)) * np.exp(-2j * np.pi * frequency_hz / rate_hz * np.arange(len(injected)))
-    x, y = wave @ injected, wave @ shown
+    x = wave @ injected
+    y = wave @ shown
     return complex(np.conj(x) * y / np.abs(x) ** 2) if np.abs(x) > 0.0 else complex(np.nan, np.nan)
 
 

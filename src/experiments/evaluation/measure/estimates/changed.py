@@ -13,8 +13,11 @@ from mobnet.estimation.consistency import shares_inside
 from mobnet.learning.gaussian import half_width
 from mobnet.learning.swings import hanging
 
-KNOWN, FREE, FLAGGED = "known_share", "free_share", "flagged_share"
-FLAGS, WATCHED = "flags", "watched"
+KNOWN = "known_share"
+FREE = "free_share"
+FLAGGED = "flagged_share"
+FLAGS = "flags"
+WATCHED = "watched"
 METRICS = (Metric("(known|free|flagged)_share", "-", high=1.0), Metric("flags", "-"), Metric("watched", "h"))
 HOUR_S = 3600.0
 
@@ -34,7 +37,8 @@ def knowledge(pair: Pair, std: NDArray[np.float32] | None, scene: Scene, share: 
     """
     if std is None:
         return
-    error, count = pair.estimate.astype(np.float64) - pair.truth, len(pair.joints)
+    error = pair.estimate.astype(np.float64) - pair.truth
+    count = len(pair.joints)
     covered = np.abs(error) <= half_width(share) * std
     yield Measured(KNOWN, np.concatenate(parts(covered, pair.spans)).mean(axis=0))
     swing = scene.planned(pair.joints[0])

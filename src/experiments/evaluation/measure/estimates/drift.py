@@ -29,7 +29,8 @@ def measure(pair: Pair, scene: Scene, settings: Drift) -> Measures:
     The samples of a step are those of one swing, or of one stance, in every push: bins of time would hold other parts
     of a step each, and the error of the observer's model is another one in each part.
     """
-    shown, rate_hz = shown_pushes(pair, scene), pair.rate_hz
+    shown = shown_pushes(pair, scene)
+    rate_hz = pair.rate_hz
     error = shown.estimate - shown.behind
     calm = calm_rows(scene.pushed, pair.spans, round(settings.calm_s * rate_hz))
     swing = scene.phases[SWINGING][:, scene.layout.columns(pair.joints)[0]]

@@ -31,7 +31,8 @@ def felt_of(push: Array, behind: Array, shown: Array, rate_hz: float) -> Felt:
     All begin one row before the push.
     """
     largest = int(np.abs(behind).argmax())
-    peak, true = float((np.sign(behind[largest]) * (shown - shown[0])).max()), float(abs(behind[largest]))
+    peak = float((np.sign(behind[largest]) * (shown - shown[0])).max())
+    true = float(abs(behind[largest]))
     if not true:
         return Felt(peak, 0.0, None)
     late = delays(push[:, None], shown[:, None], np.ones(1, dtype=bool))

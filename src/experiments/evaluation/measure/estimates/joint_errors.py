@@ -26,7 +26,8 @@ def joint_errors(
 
     def error(method: str, joint: str) -> Number:
         wanted = Wanted(test.scenario, limbs[joint], test.level, method, joint, metric)
-        number, unit = lookup.number([wanted]), layout.unit(joint)
+        number = lookup.number([wanted])
+        unit = layout.unit(joint)
         return replace(number, unit=unit, published=published_value(published, place, method, joint))
 
     return {joint: {method: error(method, joint) for method in test.methods} for joint in joints}

@@ -15,7 +15,8 @@ from experiments.settings.measures import Peaks
 from experiments.settings.metrics import Metric
 from mobnet.core.arrays import Array
 
-SHARE, DELAY = "push_share", "rise_delay"
+SHARE = "push_share"
+DELAY = "rise_delay"
 OBSERVER = "_observer"  # the delay of the push behind the observer's low-pass: what a perfect residual would show
 HALF = 0.5  # of the true peak, where the rise is timed
 MS = 1000.0
@@ -30,7 +31,8 @@ def measure(pair: Pair, scene: Scene, settings: Peaks) -> Measures:
     bound, where the estimate never gets there. A joint counts in a push that turns it with a share of the largest
     torque of all joints.
     """
-    shown, motors = shown_pushes(pair, scene), np.isin(pair.joints, scene.layout.actuated)
+    shown = shown_pushes(pair, scene)
+    motors = np.isin(pair.joints, scene.layout.actuated)
     windows = list(push_rows(scene.pushed, pair.spans, settings, pair.rate_hz))
     turned = [turned_joints(shown.push[rise], settings.turned_share, motors) for _, rise in windows]
     yield Measured(SHARE, slopes(shown, [around for around, _ in windows], turned))
@@ -92,8 +94,10 @@ def first_above(signal: NDArray[np.float64], level: float) -> Array:
     """Return when each signal (T, n) first reaches a level, (n,) [rows], between two rows; T - 1 if it never does."""
     above = signal >= level
     row = np.where(above.any(axis=0), above.argmax(axis=0), len(signal) - 1)
-    columns, before = np.arange(signal.shape[1]), np.maximum(row - 1, 0)
-    low, high = signal[before, columns], signal[row, columns]
+    columns = np.arange(signal.shape[1])
+    before = np.maximum(row - 1, 0)
+    low = signal[before, columns]
+    high = signal[row, columns]
     crossed = above[row, columns] & (row > 0)
     part = np.divide(level - low, high - low, out=np.zeros(len(row)), where=crossed & (high > low))
     return np.where(crossed, before + part, row)

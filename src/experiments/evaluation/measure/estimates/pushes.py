@@ -39,7 +39,8 @@ def collision_errors(
     layout: JointLayout, settings: Figure10, test: PushedRuns, published: PublishedTable, lookup: Lookup
 ) -> PushErrors:
     """Return the errors of a test [N m], method by method: of each push, their average, and its increase."""
-    joint, metrics = settings.joint, push_metrics(lookup, test.scenario)
+    joint = settings.joint
+    metrics = push_metrics(lookup, test.scenario)
     errors: PushErrors = {}
     for method in test.methods if metrics else ():
         own = [wanted_of(layout, test, method, joint, metric) for metric in metrics]

@@ -48,7 +48,8 @@ def score_run(run: Run, scene: Scene) -> list[Score]:
     A metric has no row of a joint for which it is not defined, and none of a push that the run is too short for. A limb
     whose network has run under an earlier seed has no row: it counts once.
     """
-    layout, pair = scene.layout, read_pair(run, scene.layout)
+    layout = scene.layout
+    pair = read_pair(run, scene.layout)
     names = run.scenario, run.level, run.method, run.network_seed, run.test_seed
     rows: list[Score] = []
     for part, measures in measured(pair, scene):
@@ -72,7 +73,8 @@ def measured(pair: Pair, scene: Scene) -> Iterator[tuple[Pair, Measures]]:
 
 def shown(pair: Pair, layout: JointLayout, section: Section) -> Pair | None:
     """Return the joints of a run that a section shows, those of its limbs or of its test's; None if it shows none."""
-    run, tests = pair.run, getattr(section, "tests", (section,))
+    run = pair.run
+    tests = getattr(section, "tests", (section,))
     for test in tests.values() if isinstance(tests, dict) else tests:
         if (test.scenario, test.level) == (run.scenario, run.level) and run.method in test.methods:
             return pair.only(layout.limbs(getattr(test, "limbs", None) or [section.limb]))

@@ -17,7 +17,8 @@ from mobnet.core.arrays import Array
 from mobnet.learning.gaussian import half_width
 
 STD, COVER = "std", "cover"  # mean standard deviation [N m], V1..V3 [N], and share of errors in their interval [-]
-EXCURSION, MEMORY = "excursion", "acf_{:g}ms"
+EXCURSION = "excursion"
+MEMORY = "acf_{:g}ms"
 FALLEN = np.exp(-1.0)  # correlation below which an excursion has ended
 MS = 1000.0
 METRICS = (
@@ -46,7 +47,8 @@ def spreads(pair: Pair, std: NDArray[np.float32] | None, masks: Masks, share: fl
     if std is None:
         return
     error = pair.estimate.astype(np.float64) - pair.truth
-    ratio, inside = error / std, np.repeat(rows_in(pair.spans, len(error))[:, None], error.shape[1], axis=1)
+    ratio = error / std
+    inside = np.repeat(rows_in(pair.spans, len(error))[:, None], error.shape[1], axis=1)
     covered = (np.abs(ratio) <= half_width(share)).astype(np.float64)
     sigma = std.astype(np.float64)
     for name, mask in {"": inside, **{f"_{name}": held for name, held in masks.items()}}.items():
@@ -77,9 +79,11 @@ def autocorrelation(signal: NDArray[np.float64], spans: Spans, longest: int) -> 
     The mean is not taken away: a constant error is an excursion that never ends. Products lie within a span
     (start, end); lags that no span has are nan.
     """
-    total, count = np.zeros((longest + 1, signal.shape[1])), np.zeros(longest + 1)
+    total = np.zeros((longest + 1, signal.shape[1]))
+    count = np.zeros(longest + 1)
     for part in parts(signal, spans):
-        size, lags = 2 * len(part), min(longest, len(part) - 1) + 1
+        size = 2 * len(part)
+        lags = min(longest, len(part) - 1) + 1
         spectrum = np.fft.rfft(part, size, axis=0)
         total[:lags] += np.fft.irfft(np.abs(spectrum) ** 2, size, axis=0)[:lags]
         count[:lags] += len(part) - np.arange(lags)

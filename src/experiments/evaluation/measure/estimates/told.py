@@ -102,7 +102,8 @@ def _felt(run: Run, joint: str, peaks: Peaks, layout: JointLayout, start: int) -
     """Return what a run shows of the push that begins at a row, or one beside it: its flag is that of a mean."""
     pair = read_pair(run, layout).only([joint])
     scene = Scene(run.recording, layout, Scoring())
-    shown, windows = shown_pushes(pair, scene), push_rows(scene.pushed, pair.spans, peaks, pair.rate_hz)
+    shown = shown_pushes(pair, scene)
+    windows = push_rows(scene.pushed, pair.spans, peaks, pair.rate_hz)
     _, rise = min(windows, key=lambda window: abs(window[1].start + 1 - start))
     push, behind, seen = (part[rise, 0].astype(np.float64) for part in (shown.push, shown.behind, shown.estimate))
     return felt_of(push, behind, seen, pair.rate_hz)

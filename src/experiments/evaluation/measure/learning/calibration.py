@@ -83,7 +83,8 @@ def held_out(layout: JointLayout, folders: Mapping[str, Sequence[Path]], shares:
     """
     found: dict[tuple[str, Key], list[Array]] = {}
     for level, folder in ((level, folder) for level, own in folders.items() for folder in own):
-        path, note = folder / RUN, read_training_note(folder)
+        path = folder / RUN
+        note = read_training_note(folder)
         if note.diverged:
             log.info("%s: diverged, left out", path)
             continue
@@ -112,7 +113,8 @@ def in_tests(
     """
     grids: list[CoverageGrid] = []
     for test, own in zip(tests, runs, strict=True):
-        pushed, cells = pushed_of(test, coverage), defaultdict[Key, dict[tuple[int, int], Array]](dict)
+        pushed = pushed_of(test, coverage)
+        cells = defaultdict[Key, dict[tuple[int, int], Array]](dict)
         for run in own:
             spans = pushed.spans(run.recording) if pushed else None
             for (limb, unit), cell in run_cells(layout, run, spans, shares):

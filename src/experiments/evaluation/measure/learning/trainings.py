@@ -151,7 +151,8 @@ def read_training(folder: Path) -> TrainedNetwork:
     Raises:
         DataError: a file is missing or damaged, or they do not agree, one line for each fault.
     """
-    note, (epochs, errors) = read_training_note(folder), read_epochs(folder / METRICS)
+    note = read_training_note(folder)
+    (epochs, errors) = read_epochs(folder / METRICS)
     refuse(folder, [*_disagreements(note, epochs), *_errors_apart(note, epochs, errors)])
     return TrainedNetwork(
         note.method, note.seed, note.parameters, note.samples, note.diverged, note.on_windows.loss, note.chosen_by,
@@ -186,7 +187,8 @@ def _disagreements(note: TrainingNote, epochs: Sequence[Epoch]) -> Iterator[str]
     if noted != (kept.epoch if kept else None):
         yield _apart(f"epoch of the smallest {note.chosen_by}", kept and kept.epoch, noted)
     for name in ("validation_loss", "validation_rmse") if note.best and kept and noted == kept.epoch else ():
-        said, found = getattr(note.best, name), getattr(kept, name)
+        said = getattr(note.best, name)
+        found = getattr(kept, name)
         if said is not None and not isclose(said, found, rel_tol=DIGITS):
             yield _apart(f"{name} of epoch {noted}", found, said)
 
@@ -211,7 +213,8 @@ def _apart(what: str, found: object, said: object) -> str:
 
 def _calibration_faults(noted: NotedCalibration) -> Iterator[str]:
     """Yield lists that are not as long as there are joints or shares, and wide intervals that contain less."""
-    joints, shares = len(noted.joints), len(noted.shares)
+    joints = len(noted.joints)
+    shares = len(noted.shares)
     fits = {"before": noted.before, "after": noted.after}
     lists: dict[str, Sequence[object]] = {"scale": noted.scale, "likelihood_scale": noted.likelihood_scale}
     lists |= {f"{when}.{name}": getattr(fit, name) for when, fit in fits.items() for name in ("nll", "crps")}

@@ -17,15 +17,24 @@ from mobnet.core.reactions import NONE, Trial
 from mobnet.core.rows import read_rows, refuse_rows
 from mobnet.settings.reaction import Watch
 
-FALLS, PEAK, FIRST, IMPULSE, MEDIAN, HEAVY, ALARM, WITHIN, BASE_WITHIN, EARLY = (
-    "falls", "first_peak", "first_impulse", "impulse", "median_impulse", "heavy", "alarm", "within", "base_within",
-    "early",
-)  # fmt: skip
+FALLS = "falls"
+PEAK = "first_peak"
+FIRST = "first_impulse"
+IMPULSE = "impulse"
+MEDIAN = "median_impulse"
+HEAVY = "heavy"
+ALARM = "alarm"
+WITHIN = "within"
+BASE_WITHIN = "base_within"
+EARLY = "early"
 # case, detector, rule, time that a reaction waits [s], wrench of the feet, share of feed-forward
 Group = tuple[str, str, str, float, str, float]
 MILLI = 1e3  # mm in a metre, mrad in a radian
-FALLEN, REACTED = "falls", "false reactions"
-VELOCITY, TRACKING, POWER = "error of the base's velocity", "error of the swing leg", "power"
+FALLEN = "falls"
+REACTED = "false reactions"
+VELOCITY = "error of the base's velocity"
+TRACKING = "error of the swing leg"
+POWER = "power"
 
 
 @dataclass(frozen=True)
@@ -144,7 +153,8 @@ def walked_of(trials: Sequence[Trial], statistics: Statistics) -> Walked:
         FALLEN: [row.fell_s is not None for row in trials],
         REACTED: [row.reacted_s is not None for row in trials],
     }
-    hours, places = [row.walked_s / HOUR_S for row in trials], [place_of(row) for row in trials]
+    hours = [row.walked_s / HOUR_S for row in trials]
+    places = [place_of(row) for row in trials]
     rates = {name: rate_in([int(flag) for flag in own], hours, places, statistics) for name, own in flags.items()}
     means = {
         VELOCITY: _mean(trials, lambda row: MILLI * row.velocity_rmse_m_s, statistics, "mm/s"),

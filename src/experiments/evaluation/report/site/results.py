@@ -69,8 +69,10 @@ def result_pages(results: Path, captions: Sequence[Path], claims: Mapping[str, C
 
 def _item(results: Path, caption: Path) -> Item:
     """Return the item of a caption, whose folder tells its kind; a table keeps a name that a figure has too."""
-    name, (title, _, text) = caption.stem, read_text(caption).partition("\n")
-    table, picture = results / f"{name}.md", results / f"{name}.png"
+    name = caption.stem
+    (title, _, text) = read_text(caption).partition("\n")
+    table = results / f"{name}.md"
+    picture = results / f"{name}.png"
     if caption.parent.name != FIGURES:
         csvs = (f"{name}.csv",) if table.with_suffix(".csv").is_file() else ()
         return Item(name, name, table, title, text.strip(), csvs)

@@ -12,7 +12,9 @@ from experiments.settings.runs import Statistics
 from mobnet.core.columns import CALIBRATION
 from mobnet.settings.networks import Learning
 
-COVERAGE, NLL, CRPS = "coverage", "nll", "crps"
+COVERAGE = "coverage"
+NLL = "nll"
+CRPS = "crps"
 
 Trust = Mapping[tuple[str, float | None], tuple[Number, Number]]  # measure, nominal share -> uncalibrated, scaled
 

@@ -20,7 +20,8 @@ def changed(
     table_dir: Path,
 ) -> None:  # fmt: skip
     """Write changed.csv, with every joint and intervals, and changed.tex and .md: means over the joints of a limb."""
-    lookup, interval = read_lookup(scores, statistics), f"{learning.calibration_share:.0%}"
+    lookup = read_lookup(scores, statistics)
+    interval = f"{learning.calibration_share:.0%}"
 
     def lines_of(test: LimbRuns, limb: str) -> list[list[str]]:
         return [

@@ -116,9 +116,11 @@ def is_held(row: Row) -> bool:
 
 def is_near(row: Row) -> bool:
     """Return whether our number lies within a factor `NEAR_FACTOR` of the paper's; of a cut, what remains does."""
-    published, value = float(row["published"]), float(row["value"])
+    published = float(row["published"])
+    value = float(row["value"])
     if row["quantity"] in ("cut", "square cut"):
-        published, value = 1.0 - published, 1.0 - value
+        published = 1.0 - published
+        value = 1.0 - value
     if published == 0.0:
         return value == 0.0
     return 1.0 / NEAR_FACTOR <= value / published <= NEAR_FACTOR

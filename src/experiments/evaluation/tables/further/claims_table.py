@@ -29,7 +29,9 @@ def claim_table(judged: Sequence[Judged], confidence: float, table_dir: Path) ->
 
 def record_of(each: Judged) -> tuple[Field, ...]:
     """Return the row of a claim in claims.csv."""
-    row, claim, ours = each.row, each.row.claim, each.ours
+    row = each.row
+    claim = each.row.claim
+    ours = each.ours
     signed = each.found.signed.with_ends if each.ranges.sign else (None, None, None)
     without = each.found.without.with_ends if each.found.without else (None, None, None)
     return (
@@ -47,7 +49,8 @@ def says(each: Judged) -> str:
 
 def line_of(each: Judged) -> list[str]:
     """Return the texts of a row of the table."""
-    claim, unit = each.row.claim, "" if each.ours.unit == "-" else f" {each.ours.unit}"
+    claim = each.row.claim
+    unit = "" if each.ours.unit == "-" else f" {each.ours.unit}"
     ours = [number_text(claim.published), *each.ours.texts()]
     return [says(each), claim.printed, *ours, range_text(each.ranges.shown) + unit, each.size, each.sign, each.verdict]
 

@@ -20,8 +20,14 @@ from mobnet.settings.detection import ContactPoint
 from mobnet.settings.methods import Observer
 from mobnet.settings.robot import RobotTable
 
-CM, PERCENT, DIGITS = 100.0, 100.0, 6
-ERROR, SPREAD, FORCE, SIZE, ANGLE = "error", "spread", "force", "force_size", "angle"
+CM = 100.0
+PERCENT = 100.0
+DIGITS = 6
+ERROR = "error"
+SPREAD = "spread"
+FORCE = "force"
+SIZE = "force_size"
+ANGLE = "angle"
 
 
 def contact_points(

@@ -105,14 +105,16 @@ def commanded(commands: Commands, spacing_m: float, stems: Sequence[Path], nomin
     measured = steps.measured(nominal, spacing_m)
     yield "steps", "", len(steps), ""
     for k, (name, _) in enumerate(COMMAND):
-        values, ends = steps.commanded[:, k], np.array(getattr(commands, KEYS[k]), dtype=float)[[0, -1]]
+        values = steps.commanded[:, k]
+        ends = np.array(getattr(commands, KEYS[k]), dtype=float)[[0, -1]]
         yield "smallest command", name, float(values.min()), UNITS[k]
         yield "largest command", name, float(values.max()), UNITS[k]
         near = np.abs(values[:, None] - ends).min(axis=1) <= EDGE * (ends[1] - ends[0])
         yield "steps on an edge", name, float(near.mean()), "-"
         follows = steps.follows(k)
         if k < CHOICES and follows.any():
-            size, got = np.abs(values[follows]), measured[follows, k] * np.sign(values[follows])
+            size = np.abs(values[follows])
+            got = measured[follows, k] * np.sign(values[follows])
             yield "measured over commanded", name, float(got.sum() / size.sum()), "-"
 
 

@@ -18,8 +18,10 @@ from experiments.settings.tables import BudgetRow, ErrorBudget
 from mobnet.core.columns import ERRORS, Score
 from mobnet.core.joints import JointLayout
 
-METRIC, GONE = "rmse", "gone"
-DIGITS, SIGN = {METRIC: 2, GONE: 0}, {METRIC: "", GONE: " %"}
+METRIC = "rmse"
+GONE = "gone"
+DIGITS = {METRIC: 2, GONE: 0}
+SIGN = {METRIC: "", GONE: " %"}
 
 Cells = Mapping[tuple[str, str, str, str], Number]  # scenario, level, method, METRIC or GONE
 

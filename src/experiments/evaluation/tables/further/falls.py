@@ -12,7 +12,9 @@ from experiments.settings.runs import Statistics
 from mobnet.core.columns import FALLEN, Falls
 from mobnet.core.rows import read_rows
 
-ALL, CHOSEN, HOUR_S = "all", "largest without a fall", 3600.0
+ALL = "all"
+CHOSEN = "largest without a fall"
+HOUR_S = 3600.0
 
 
 def falls(counted: Sequence[Path], statistics: Statistics, out: Path) -> None:

@@ -22,7 +22,9 @@ from mobnet.core.detections import CALIBRATION, COLLISION, HELD_OUT, LARGEST, UN
 from mobnet.detection.thresholds import Calibrated, expected_counts
 from mobnet.settings.detection import Detection
 
-PROMISED, MEASURED, WITHIN = "promised", "measured", "within"
+PROMISED = "promised"
+MEASURED = "measured"
+WITHIN = "within"
 RANDOM, BETWEEN, COUNTED = "random", "between pushes", "held out"  # cells; the last one is the first two together
 Cells = Mapping[str, Sequence[FreeSwing]]
 
@@ -39,7 +41,8 @@ def false_alarms(
     rows: list[Sequence[Field]] = []
     lines: list[Line] = []
     for level in settings.levels:
-        names, leg = owners(detections, level, settings.levels), settings.leg
+        names = owners(detections, level, settings.levels)
+        leg = settings.leg
         swings = rows_of(detections, names, "swings", FreeSwing, leg=leg)
         promises = rows_of(detections, names, "promises", Promise, leg=leg)
         lines += [RULE] if lines else []
@@ -83,13 +86,15 @@ def _rows(
 ) -> Iterator[Sequence[Field]]:  # fmt: skip
     """Yield the rows of CSV of a detector: rates by rule and where they were counted."""
     by_kind = {kind: [row for row in promises if row.kind == kind] for kind in dict.fromkeys(p.kind for p in promises)}
-    of_collision, swing_h = by_kind[COLLISION], hours_per_swing(promises)
+    of_collision = by_kind[COLLISION]
+    swing_h = hours_per_swing(promises)
     for kind, own in by_kind.items():
         promised = _promised(own)
         over = _mean([row.factor for row in own]) / _mean([row.factor for row in of_collision])
         yield (*place, kind, ALL, PROMISED, *promised.with_ends, sum(row.swings for row in own), "1/h", None)
         for cell, swings in cells.items():
-            hours, alarms = len(swings) * swing_h, alarms_in(swings, over)
+            hours = len(swings) * swing_h
+            alarms = alarms_in(swings, over)
             measured = rate_of(alarms, hours, statistics)
             yield (*place, kind, cell, MEASURED, *measured.with_ends, alarms, "1/h", None)
             if cell in (COUNTED, RANDOM, BETWEEN):
@@ -122,7 +127,8 @@ def _line(rows: Sequence[Sequence[Field]], level: str, name: str) -> list[str]:
         value, low, high = (None if isinstance(field, str) else field for field in found[kind, cell, quantity][6:9])
         return Number(value, low, high)
 
-    promised, counted = number(COLLISION, ALL, PROMISED), number(COLLISION, COUNTED)
+    promised = number(COLLISION, ALL, PROMISED)
+    counted = number(COLLISION, COUNTED)
     within = "yes" if number(COLLISION, COUNTED, WITHIN).value else "no"
     paper = [number(LARGEST, cell).text(0) for cell in ("in place", RANDOM, BETWEEN)]
     between = number(COLLISION, BETWEEN).text(1)

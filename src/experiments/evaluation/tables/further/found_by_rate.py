@@ -19,7 +19,8 @@ from experiments.settings.runs import Statistics
 from mobnet.core.columns import DETECTION
 from mobnet.settings.detection import Detection
 
-FOUND, DELAY = "found", "delay"
+FOUND = "found"
+DELAY = "delay"
 Shares = Mapping[str, Sequence[Number]]  # detector -> found shares at each rate [-]
 
 
@@ -37,7 +38,8 @@ def found_by_rate(
     blocks: list[tuple[list[str], list[list[str]]]] = []
     sentences: list[str] = []
     for level in settings.levels:
-        shares, lines = dict[str, list[Number]](), list[list[str]]()
+        shares = dict[str, list[Number]]()
+        lines = list[list[str]]()
         for name in tries[rates[0][0]][level]:
             lines.append([name])
             for kind, _ in rates:

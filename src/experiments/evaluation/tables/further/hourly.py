@@ -15,7 +15,9 @@ from mobnet.core.columns import HOURLY
 from mobnet.core.notes import read_array_note
 from mobnet.core.store import NOTE, file_of
 
-FALL, FLAG, ALL = "fall", "false flag", "all of these"
+FALL = "fall"
+FLAG = "false flag"
+ALL = "all of these"
 Counted = tuple[str, str, str, float, int]  # event, walks, method, time [h], number of events
 
 
@@ -26,7 +28,8 @@ def hourly(
     """Write hourly.csv, .tex and .md: how often a robot falls and the check is wrong, counted and in an hour [1/h]."""
     tests = {title: changed.tests[title] for title in settings.known}
     rows = [*falls(walks), *flags(read_lookup(scores, statistics), tests)]
-    records, lines = [], []
+    records = []
+    lines = []
     for event, walked, method, hours, count in rows:
         found = rate(count, hours, statistics)
         records.append((event, walked, method, hours, count, *found.with_ends, found.unit))

@@ -41,7 +41,9 @@ def kinds(
     The kinds of Figure 17, which are the paper's, stand in an order of their own by each of its recipes; below them
     stand our own variants.
     """
-    found, variants, kinds = read_trainings(folders), settings.variants, kind_of_each(figure_17)
+    found = read_trainings(folders)
+    variants = settings.variants
+    kinds = kind_of_each(figure_17)
     measured = {method: measures_of(found[method], statistics) for method in (*kinds, *variants)}
     parts = [by_loss(methods, measured) for methods in (figure_17.methods, figure_17.best)]
     ranks: dict[str, int] = {}

@@ -33,12 +33,16 @@ def label_error(
 
     `walks` has a recording of each robot, with labels by foot sensors, and its residual.
     """
-    nominal, joints = NominalModel(describe(robot)), layout.limb(settings.leg)
-    columns, foot = [layout.names.index(joint) for joint in joints], FEET.index(foot_of(layout, joints[0]))
+    nominal = NominalModel(describe(robot))
+    joints = layout.limb(settings.leg)
+    columns = [layout.names.index(joint) for joint in joints]
+    foot = FEET.index(foot_of(layout, joints[0]))
     found: dict[tuple[str, str, str], Array] = {}
     for owner, (recording, residual) in walks.items():
-        read, wrenches = read_sensed(recording, layout), read_wrenches(recording, nominal.robot)
-        truth, air = read_array(residual, named(EXTERNAL_LP, joints))[0], read.sensed.swing[:, foot] > 0
+        read = read_sensed(recording, layout)
+        wrenches = read_wrenches(recording, nominal.robot)
+        truth = read_array(residual, named(EXTERNAL_LP, joints))[0]
+        air = read.sensed.swing[:, foot] > 0
         for label, plates in LABELS.items():
             torque = foot_label(nominal, read, wrenches, observer.gain_hz, plates=plates)
             square = (torque[:, columns] - truth) ** 2

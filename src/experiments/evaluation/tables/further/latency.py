@@ -50,13 +50,15 @@ def random_sample(layout: JointLayout, seed: int) -> Sensed:
     q = rng.normal(0.0, 0.3, layout.nq)
     q[3:NQ_BASE] = np.eye(1, NQ_BASE - 3)
     torque = rng.normal(0.0, 30.0, layout.nu)
-    base, flags = rng.normal(size=3), np.zeros(len(FEET))
+    base = rng.normal(size=3)
+    flags = np.zeros(len(FEET))
     return Sensed(q, rng.normal(size=layout.nv), base, torque, torque, flags, np.zeros(len(COMMAND)), flags)
 
 
 def medians_ms(networks: LimbNetworks, sample: Sensed, settings: Latency) -> list[float]:
     """Return the median time of a tick in each stretch [ms], after one stretch that is not counted."""
-    state, medians = networks.init(), list[float]()
+    state = networks.init()
+    medians = list[float]()
     for _ in range(settings.stretches + 1):
         times = []
         for _ in range(settings.ticks):

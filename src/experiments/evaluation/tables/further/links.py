@@ -11,7 +11,9 @@ from experiments.settings.runs import Statistics
 from mobnet.core.columns import DETECTION
 from mobnet.settings.detection import Detection
 
-NAMED, RIGHT_LINK, RIGHT_CELL = "named", "right_link", "right_cell"
+NAMED = "named"
+RIGHT_LINK = "right_link"
+RIGHT_CELL = "right_cell"
 
 
 def links(

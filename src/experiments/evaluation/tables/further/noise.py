@@ -19,7 +19,9 @@ from experiments.settings.tables import NoiseTable
 from mobnet.core.columns import ERRORS
 from mobnet.core.joints import JointLayout
 
-METRIC, FACTOR, ALL = "rmse", "factor", "all"
+METRIC = "rmse"
+FACTOR = "factor"
+ALL = "all"
 Readings = Mapping[str, tuple[Sequence[Number], Mapping[str, Number]]]  # label -> errors by joint, factors by limb
 
 
@@ -32,7 +34,10 @@ def noise(
     Raises:
         DataError: a run that the table needs is missing.
     """
-    read, columns, readings, records = read_scores(*scores), columns_of(layout, settings.joints), {}, []
+    read = read_scores(*scores)
+    columns = columns_of(layout, settings.joints)
+    readings = {}
+    records = []
     for test in settings.tests:
         run = test.scenario, test.level, test.methods[0]
         paper = {name: value for table, place in settings.paper.items()

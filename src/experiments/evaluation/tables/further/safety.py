@@ -66,7 +66,8 @@ def safety(
 
 def _texts(numbers: Mapping[str, Number]) -> list[str]:
     """Return the cells of a line."""
-    with_interval, found = (FALLS, PEAK, IMPULSE), list[str]()
+    with_interval = (FALLS, PEAK, IMPULSE)
+    found = list[str]()
     for measure, number in numbers.items():
         found.append(number.text(DIGITS[measure]))
         if measure in with_interval:

@@ -24,7 +24,8 @@ def sensorless(settings: Sensorless, statistics: Statistics, reactions: Reaction
     rows: list[Sequence[Field]] = []
     lines: list[Line] = []
     for (case, detector, rule, _, wrench, fed), trials in groups_of(read_trials(reactions, settings.cases)).items():
-        walked, place = walked_of(trials, statistics), (case, wrench, detector, rule, fed)
+        walked = walked_of(trials, statistics)
+        place = (case, wrench, detector, rule, fed)
         line = [wrench, detector, rule, f"{fed:g}", f"{MINUTES * walked.hours:.1f}"]
         for event, count in walked.events.items():
             found = walked.rates[event]

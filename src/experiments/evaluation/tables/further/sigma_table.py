@@ -33,7 +33,8 @@ def sigma_table(settings: Sigma, layout: JointLayout, lookup: Lookup, share: flo
     metrics += [f"{name}_part_{k + 1}" for k in range(settings.parts) for name in (STD, ERROR, COVER)]
     heads = [f"{share:.0%} {part}" if not key else part for key, part in PARTS.items()]
     header = ["Test", "Limb", "Method", *heads, "excursion [ms]", "sigma, times", "error, times"]
-    tests, lines = list(settings.tests.items()), partial(lines_of, settings, lookup)
+    tests = list(settings.tests.items())
+    lines = partial(lines_of, settings, lookup)
     write_measured(table_dir / "sigma", lookup, layout, tests, metrics, header, lines)
 
 
@@ -56,7 +57,8 @@ def rises(settings: Sigma, lookup: Lookup, title: str, method: str, limb: str) -
     base = settings.against.get(title)
     if base is None:
         return "", ""
-    test, like = settings.tests[title], settings.tests[base]
+    test = settings.tests[title]
+    like = settings.tests[base]
     pushed = lookup.average(test, method, limb, f"{STD}_{PUSHED}").value is not None
     pairs = [(f"{STD}_{PUSHED}", STD), ("rmse_pushed", ERROR)] if pushed else [(STD, STD), (ERROR, ERROR)]
     found = [lookup.number([cell(test, method, limb, own), cell(like, method, limb, other)], RATIO)

@@ -54,7 +54,8 @@ def steps(
     sets: Mapping[str, Sequence[Path]], table_dir: Path,
 ) -> None:  # fmt: skip
     """Write the table of measured against commanded steps, by bins of the command, as CSV, TeX and Markdown."""
-    nominal, rows = NominalModel(describe(robot)), {}
+    nominal = NominalModel(describe(robot))
+    rows = {}
     for name, stems in sets.items():
         found = read_steps(stems, nominal.robot.layout)
         measured = found.measured(nominal, walking.foot_spacing_m)
@@ -85,10 +86,14 @@ def followed(found: WalkedSteps, measured: Array, column: int, edges: Array, tol
         tolerance: share of its command within which a step follows it.
     """
     follows = found.follows(column)
-    wanted, got = found.commanded[follows, column], measured[follows, column]
-    where, near = bin_of(wanted, edges), np.abs(got - wanted) <= tolerance * np.abs(wanted)
+    wanted = found.commanded[follows, column]
+    got = measured[follows, column]
+    where = bin_of(wanted, edges)
+    near = np.abs(got - wanted) <= tolerance * np.abs(wanted)
     for k in np.unique(where):
-        own, low, high = where == k, float(edges[k]), float(edges[k + 1])
+        own = where == k
+        low = float(edges[k])
+        high = float(edges[k + 1])
         means = float(wanted[own].mean()), float(got[own].mean())
         clear = low * high >= 0.0  # a bin around zero has no meaningful ratio
         ratios = (means[1] / means[0], float(near[own].mean())) if clear else (None, None)

@@ -17,7 +17,9 @@ from mobnet.core.columns import TRIALS, TrialError
 from mobnet.settings.methods import Observer
 from mobnet.settings.robot import RobotTable
 
-BEST, DIVERGED, MILLION = "best", "diverged", 1e6
+BEST = "best"
+DIVERGED = "diverged"
+MILLION = 1e6
 log = logging.getLogger(__name__)
 
 
@@ -31,9 +33,11 @@ def trials(
     `out` are paths without a suffix; gravity is in [m/s^2].
     """
     known = Known(robot, gravity_m_s2, observer)
-    rows, lines = list[TrialError](), list[Line]()
+    rows = list[TrialError]()
+    lines = list[Line]()
     for name, task in tasks.items():
-        walks, outcomes = read_walks(known, task, rate_hz), list[Outcome]()
+        walks = read_walks(known, task, rate_hz)
+        outcomes = list[Outcome]()
         for tried in task.tried:
             outcomes.append(outcome_of(tried, known, walks))
             log.info("%s, %s, network %d: %.3f N m", name, tried.name, tried.network_seed, outcomes[-1].average)
@@ -103,7 +107,8 @@ def _cells(networks: Sequence[Outcome], outcomes: Sequence[Outcome]) -> list[str
     """Return the cells of a variant after its method: means over its networks, and their spread [N m]."""
     facts = [facts_of(one) for one in networks]
     changes, steps, _, _ = facts[0]
-    losses, seconds = [loss for _, _, loss, _ in facts], [one.seconds for one in networks]
+    losses = [loss for _, _, loss, _ in facts]
+    seconds = [one.seconds for one in networks]
     errors = [one.average for one in networks]
     cells = [
         changes,
@@ -130,7 +135,8 @@ def facts_of(outcome: Outcome) -> tuple[str, int | None, float | None, str]:
     That is how many time steps the network has learned from, the validation loss (22) of the epoch kept, and in a word
     whether it diverged; there is none of a method without networks.
     """
-    changes, training = ", ".join(f"{key} {value}" for key, value in outcome.tried.changes.items()), outcome.training
+    changes = ", ".join(f"{key} {value}" for key, value in outcome.tried.changes.items())
+    training = outcome.training
     if training is None:
         return changes, None, None, ""
     loss = training.kept.validation_loss if training.epochs else None

@@ -29,13 +29,15 @@ def uncertainty(
     """
     records: list[Record] = []
     for limb in (name for name in networks if name in layout.groups):  # not those that hold several
-        name, joints = networks[limb].data, layout.limb(limb)
+        name = networks[limb].data
+        joints = layout.limb(limb)
         known = published.std.get(limb, [None] * len(joints))
         owners = {name: (sets[name], settings.ratio.get(limb))}
         owners |= {robot: (own[name], settings.robot_ratio) for robot, own in robots.items() if name in own}
         for owner, (stems, bounds) in owners.items():
             for joint, value, theirs in zip(joints, target_std(stems, joints).tolist(), known, strict=True):
-                ratio, unit = None if theirs is None else value / theirs, layout.unit(joint)
+                ratio = None if theirs is None else value / theirs
+                unit = layout.unit(joint)
                 records.append((limb, joint, owner, value, unit, theirs, ratio, verdict(ratio, bounds)))
     header, lines = text_of(records, list(robots))
     table = Table(UNCERTAINTY, records, header, lines, left=4, note=published.note)
@@ -68,11 +70,14 @@ def size_texts(record: Record) -> tuple[str, str]:
 
 def target_std(stems: Sequence[Path], joints: Sequence[str]) -> NDArray[np.float64]:
     """Return the standard deviation of r less the label over all samples of residual files (n,) [N m], V1..V3 [N]."""
-    count, mean, spread = 0, np.zeros(len(joints)), np.zeros(len(joints))
+    count = 0
+    mean = np.zeros(len(joints))
+    spread = np.zeros(len(joints))
     for stem in stems:
         array = read_array(stem, [*named(RESIDUAL, joints), *named(label_of(stem), joints)])[0].astype(np.float64)
         target = array[:, : len(joints)] - array[:, len(joints) :]
-        before, count = count, count + len(target)
+        before = count
+        count = count + len(target)
         step = target.mean(axis=0) - mean
         mean += step * len(target) / count  # the pairwise update of Chan et al.: one file in memory, no cancellation
         spread += target.var(axis=0) * len(target) + step**2 * before * len(target) / count

@@ -71,7 +71,8 @@ def error_table(
         ConfigError: a column is not well formed.
     """
     columns = columns_of(layout, settings.columns)
-    read, rows = read_scores(*scores), list[TableRow]()
+    read = read_scores(*scores)
+    rows = list[TableRow]()
     for test in settings.rows:
         for method in (*test.methods, *test.further):
             run = test.scenario, test.level, method
@@ -105,7 +106,8 @@ def write_error_table(stem: Path, rows: Sequence[TableRow], look: TableLook) -> 
         header = header_of(part[0], look)
         align = "l" * (len(header) - end + first) + "r" * (end - first)
         texts.append(text_table(align, header, table_lines(part, look, stacked=bool(look.settings.parts))))
-    header, lines = header_of(rows[0], look), table_lines(rows, look)
+    header = header_of(rows[0], look)
+    lines = table_lines(rows, look)
     write_table(stem, Table(ERRORS, records, header, lines, len(header) - len(names)), PART.join(texts))
 
 
@@ -148,7 +150,8 @@ def table_lines(rows: Sequence[TableRow], look: TableLook, stacked: bool = False
 
     `stacked`: whether the ends of an interval stand one below the other.
     """
-    blocks, over = [], None
+    blocks = []
+    over = None
     for row in rows:
         blocks.append((row.labels, row_lines(row, over, look, stacked)))
         if look.floor and row.run[1:] == (look.floor.level, look.floor.method):
@@ -158,7 +161,8 @@ def table_lines(rows: Sequence[TableRow], look: TableLook, stacked: bool = False
 
 def row_lines(row: TableRow, over: TableRow | None, look: TableLook, stacked: bool) -> list[list[str]]:
     """Return a method's lines [N m]: ours, its interval, ours against the raw truth, and the paper's, if it has any."""
-    ours, share = list(row.numbers.values()), f"{look.confidence:.0%}"
+    ours = list(row.numbers.values())
+    share = f"{look.confidence:.0%}"
     lines = [[OURS[look.robot], *with_increase(row, over, "value")]]
     if not row.short and any(number.low is not None for number in ours):
         lines += [
@@ -177,7 +181,8 @@ def with_increase(row: TableRow, over: TableRow | None, name: str) -> list[str]:
     """Return the numbers of a row [N m]; its average carries the increase over a floor, as the paper prints it."""
     texts = []
     for column, number in row.numbers.items():
-        value, base = getattr(number, name), over and getattr(over.numbers[column], name)
+        value = getattr(number, name)
+        base = over and getattr(over.numbers[column], name)
         texts.append(number_text(value))
         if column.name == AVERAGE and value is not None and base is not None:
             texts[-1] += f" ({value - base:+.2f})"

@@ -23,7 +23,10 @@ from experiments.settings.runs import Statistics
 from mobnet.core.columns import DETECTION
 from mobnet.settings.detection import Detection
 
-FOUND, DELAY, ONSET, PERFECT = "found", "delay", "delay_onset", "perfect_delay"
+FOUND = "found"
+DELAY = "delay"
+ONSET = "delay_onset"
+PERFECT = "perfect_delay"
 DETECTED, DELAY_MS = "detected", "delay_ms"  # places of the paper's numbers
 TRIED = 10  # collisions of each cell in the paper
 SHORT = {cell: " ".join(word[0].upper() for word in cell.split()) for cell in CELLS}
@@ -82,7 +85,8 @@ def _in_cells(tries: Sequence[Try]) -> dict[str, list[Try]]:
 
 def _onset_delay(one: Try) -> float | None:
     """Return the delay from when the force exceeds that of the second definition of a beginning [s]."""
-    late, onset = one.detected.delay_s, one.collision.onset_s
+    late = one.detected.delay_s
+    onset = one.collision.onset_s
     return None if late is None or onset is None else late - (onset - one.collision.start_s)
 
 
@@ -110,7 +114,8 @@ def _rows(
         share = None if of_paper is None else of_paper / count
         yield (*place, FOUND, *found.with_ends, len(own), "-", share)
         for quantity, delay in DELAYS.items():
-            values, number = _delays(own, quantity), mean_of([one for one in own if one.is_found], delay, statistics)
+            values = _delays(own, quantity)
+            number = mean_of([one for one in own if one.is_found], delay, statistics)
             paper = printed[DELAY_MS].get(cell) if quantity == DELAY and cell != ALL else None
             yield (*place, quantity, *number.with_ends, len(values), "ms", paper)
     cells = [mean for own in _in_cells(tries).values() if (mean := _mean(_delays(own)))]
@@ -124,7 +129,8 @@ def _lines(
 ) -> Iterator[Line]:  # fmt: skip
     """Yield what a detector finds in each cell and how late, and below it what the paper prints."""
     in_cells = _in_cells(tries)
-    counts, total = [str(len(_delays(own))) for own in in_cells.values()], found_share(tries, statistics)
+    counts = [str(len(_delays(own))) for own in in_cells.values()]
+    total = found_share(tries, statistics)
     all_found = f"{len(_delays(tries))}/{len(tries)}"
     means = [_mean(_delays(own)) for own in in_cells.values()]
     known = [mean for mean in means if mean is not None]
