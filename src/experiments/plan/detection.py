@@ -43,20 +43,21 @@ def walks_of(files: Files) -> dict[str, Walk]:
     settings = files.settings
     level = level_of_detectors(files)
     detection = settings.detection
+    # All detectors have one gate, whose method tells of an early contact even where no detector watches it.
     methods = dict.fromkeys([detection.gate.method, *(row.method for row in detection.detectors.values())])
-    return {
-        scenario: Walk(
+    walks: dict[str, Walk] = {}
+    for scenario in settings.detection_walks:
+        estimates: dict[str, tuple[Path, ...]] = {}
+        for method in methods:
+            if method in files.catalogue.tests[scenario][level]:
+                estimates[method] = tuple(run.estimate for run in files.runs(scenario, level, [method]))
+        walks[scenario] = Walk(
             files.tests(scenario, level),
             files.tests(scenario, level, "residuals"),
-            {
-                method: tuple(run.estimate for run in files.runs(scenario, level, [method]))
-                for method in methods
-                if method in files.catalogue.tests[scenario][level]
-            },
+            estimates,
             {name: settings.pushes[name] for name in settings.scenarios[scenario].pushes},
         )
-        for scenario in settings.detection_walks
-    }
+    return walks
 
 
 def detection_files(files: Files) -> dict[str, Path]:

@@ -23,11 +23,15 @@ def check_places(plan: Plan) -> None:
     Raises:
         DataError: one is.
     """
-    files = [Path(name) for name in (*plan.stored, *(name for product in plan.products for name in product.outputs))]
-    for path in files:
+    names = [*plan.stored]
+    for product in plan.products:
+        names += product.outputs
+    folders: set[Path] = set()
+    for path in map(Path, names):
+        folders.update(path.parents)
         if path.suffix and path.is_dir():
             raise DataError(f"{path}: a folder is not accepted; accepted: a file, or nothing")
-    for folder in {folder for path in files for folder in path.parents}:
+    for folder in folders:
         if folder.exists() and not folder.is_dir():
             raise DataError(f"{folder}: a file is not accepted; accepted: a folder, or nothing")
 
@@ -39,6 +43,7 @@ def check_space(plan: Plan, outputs: Iterable[str]) -> None:
         DataError: a folder cannot be written to, or a disk has less free space than its files will take.
     """
     needed: dict[Path, int] = {}
+    # The folder of a file may not be there yet: the nearest one above it that is there tells the disk.
     for path in map(Path, outputs):
         folder = next(folder for folder in path.absolute().parents if folder.is_dir())
         needed[folder] = needed.get(folder, 0) + expected_bytes(plan, path)

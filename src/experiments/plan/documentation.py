@@ -15,10 +15,13 @@ MODULES = ("src/mobnet/**/*.py", "src/experiments/**/*.py")
 
 def documentation(files: Files) -> Iterator[Product]:
     """Yield the pages of the documentation, the same at every scale."""
+    modules: list[Path] = []
+    for pattern in MODULES:
+        modules += _found(pattern)
     given = {
         "documents": [*map(Path, ROOT), *_found(DOCUMENTS)],
         "captions": [*_found(f"{CAPTIONS}/figures/*.rst"), *_found(f"{CAPTIONS}/tables/*.rst")],
-        "modules": [path for pattern in MODULES for path in _found(pattern)],
+        "modules": modules,
     }
     out = files.results / "docs"
     call = Call("experiments.evaluation.report.docs:docs", {**given, "claims": files.settings.claims, "out": out})

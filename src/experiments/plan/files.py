@@ -59,11 +59,15 @@ class Files(Seeds):
     def training(self, kind: str, name: str) -> tuple[Path, ...]:
         """Return the recordings or residuals of a training set, of all robots that learn from it where it is theirs."""
         row = self.settings.training_sets[name]
-        if row.level in self.settings.fleet.levels:
-            own = next(own for own, other in self.settings.fleet.sets.items() if other == name)
-            robots = [files for files in self.robots.values() if own in files.learned_sets]
-            return tuple(stem for files in robots for stem in files.training(kind, own))
-        return tuple(self.array(kind, row.scenario, row.level, seed) for seed in self.training_seeds(name))
+        if row.level not in self.settings.fleet.levels:
+            return tuple(self.array(kind, row.scenario, row.level, seed) for seed in self.training_seeds(name))
+        # A set of the whole fleet is recorded by each robot on its own, below the robot's folder and by its own name.
+        own = next(own for own, other in self.settings.fleet.sets.items() if other == name)
+        found: list[Path] = []
+        for files in self.robots.values():
+            if own in files.learned_sets:
+                found += files.training(kind, own)
+        return tuple(found)
 
     def tests(self, scenario: str, level: str, kind: str = "recordings") -> tuple[Path, ...]:
         """Return the recordings of a test, or their residuals or estimates."""
@@ -85,8 +89,8 @@ class Files(Seeds):
             row = self.settings.training_sets[name]
             yield from ((row.scenario, row.level, seed) for seed in self.training_seeds(name))
         for scenario, levels in self.catalogue.tests.items():
-            single = [level for level in levels if self.has(level)]
-            yield from ((scenario, level, seed) for level in single for seed in self.test_seeds)
+            for level in filter(self.has, levels):
+                yield from ((scenario, level, seed) for seed in self.test_seeds)
 
     def array_s(self, path: Path) -> float:
         """Return the duration of a recording, or of what is made from it [s], by its place."""
@@ -122,22 +126,22 @@ class Files(Seeds):
         seeds = self.network_seeds(method)
         earlier = seeds[: seeds.index(seed)]
         networks = self.settings.robot.networks
-        return tuple(
-            group
-            for limb in self.catalogue.method(source).limbs
-            if self.network(source, limb, seed) in [self.network(source, limb, other) for other in earlier]
-            for group in networks[limb].joints
-        )
+        found: list[str] = []
+        for limb in self.catalogue.method(source).limbs:
+            served = [self.network(source, limb, other) for other in earlier]
+            if self.network(source, limb, seed) in served:
+                found += networks[limb].joints
+        return tuple(found)
 
     def network_folders(self, methods: Iterable[str], limb: str, level: str) -> tuple[Path, ...]:
         """Return the folders of methods' networks of a limb trained at a level, on a fleet those of each robot."""
-        return tuple(
-            files.network(name, limb, seed)
-            for name in methods
-            for files in self.owners
-            if files.has(level)
-            for seed in files.network_seeds(name, limb)
-        )
+        found: list[Path] = []
+        for name in methods:
+            for files in self.owners:
+                # A level of the fleet is every robot's, any other one belongs to a single owner.
+                if files.has(level):
+                    found += [files.network(name, limb, seed) for seed in files.network_seeds(name, limb)]
+        return tuple(found)
 
     @cached_property
     def learned(self) -> frozenset[tuple[str, str]]:
@@ -145,14 +149,14 @@ class Files(Seeds):
         catalogue = self.catalogue
         settings = self.settings
         evaluation = self.settings.evaluation
-        pairs = [
-            (catalogue.network_source_of(method), limb)
-            for scenario, levels in catalogue.tests.items()
-            for level, methods in levels.items()
-            if self.has(level)
-            for method in methods
-            for limb in self.networks(method, self.network_seeds(method)[0], scenario, level)
-        ]
+        pairs: list[tuple[str, str]] = []
+        for scenario, levels in catalogue.tests.items():
+            for level in filter(self.has, levels):
+                for method in levels[level]:
+                    source = catalogue.network_source_of(method)
+                    # Seeds repeat a training and have the same limbs, so that the first one tells them.
+                    limbs = self.networks(method, self.network_seeds(method)[0], scenario, level)
+                    pairs += [(source, limb) for limb in limbs]
         kinds = evaluation.figure_17
         sizes = evaluation.figure_20
         timed = evaluation.latency.method
@@ -165,18 +169,22 @@ class Files(Seeds):
         if self.has(sizes.level):
             for key in (sizes.parameters, sizes.samples):
                 pairs += [(name, sizes.limb) for name in swept_names(key, settings.sweeps[key])]
+        # What a network takes of a tick is measured once, with networks of the plant.
         if not self.robot:
             pairs += [(timed, limb) for limb in catalogue.method(timed).limbs]
+        # A fine-tuned network begins with the weights of another one, which is trained even if nothing shows it.
         pairs += [(first, limb) for method, limb in pairs if (first := catalogue.method(method).start)]
         return frozenset(pairs)
 
     @cached_property
     def own_networks(self) -> tuple[NetworkName, ...]:
         """The networks that are trained of the plant of section 5.1, or of a robot."""
-        pairs = [(name, limb) for name, row in self.catalogue.all_methods.items() for limb in row.limbs]
-        return tuple(
-            NetworkName(*pair, seed) for pair in pairs if pair in self.learned for seed in self.network_seeds(*pair)
-        )
+        names: list[NetworkName] = []
+        for method, row in self.catalogue.all_methods.items():
+            for limb in row.limbs:
+                if (method, limb) in self.learned:
+                    names += [NetworkName(method, limb, seed) for seed in self.network_seeds(method, limb)]
+        return tuple(names)
 
     def all_networks(self) -> tuple[Path, ...]:
         """Return the folders of every network that is trained, those of robots last."""
@@ -185,16 +193,24 @@ class Files(Seeds):
     @cached_property
     def tried_networks(self) -> tuple[NetworkName, ...]:
         """The networks of these files' own tasks that the trials train."""
-        trials = [trial for trial in self.catalogue.trials if self.has(self.settings.development[trial.task].level)]
-        pairs = [(trial.name, limb) for trial in trials for limb in trial.method.limbs]
-        return tuple(NetworkName(*pair, seed) for pair in dict.fromkeys(pairs) for seed in self.network_seeds(*pair))
+        names: list[NetworkName] = []
+        for trial in self.catalogue.trials:
+            if self.has(self.settings.development[trial.task].level):
+                for limb in trial.method.limbs:
+                    names += [NetworkName(trial.name, limb, seed) for seed in self.network_seeds(trial.name, limb)]
+        # Tables of comparisons share variants, which are trained once.
+        return tuple(dict.fromkeys(names))
 
     @cached_property
     def own_fits(self) -> tuple[str, ...]:
         """The methods that are fitted of the plant of section 5.1, or of a robot: for a test, or for a network."""
-        tests = [pair for levels in self.catalogue.tests.values() for pair in levels.items()]
-        named = [method for level, methods in tests if self.has(level) for method in methods]
-        sources = dict.fromkeys(map(self.catalogue.source_of, [*named, *(name.method for name in self.own_networks)]))
+        named: list[str] = []
+        for levels in self.catalogue.tests.values():
+            for level in filter(self.has, levels):
+                named += levels[level]
+        # A network may learn what a fit leaves of the uncertainty, so that its training needs the fit too.
+        named += [name.method for name in self.own_networks]
+        sources = dict.fromkeys(map(self.catalogue.source_of, named))
         return tuple(name for name in sources if self.catalogue.method(name).fitted)
 
     @cached_property
@@ -202,10 +218,14 @@ class Files(Seeds):
         """Names of the training sets that networks and fits learn from, in the configuration's order."""
         settings = self.settings
         catalogue = self.catalogue
-        named = {method for levels in catalogue.tests.values() for methods in levels.values() for method in methods}
-        sources = {catalogue.source_of(method) for method in (*named, *(method for method, _ in self.learned))}
-        fitted = [(source, limb) for source in sources for limb in catalogue.method(source).fitted]
-        used = {catalogue.network(method, limb).data for method, limb in (*self.learned, *fitted)}
+        named = {method for method, _ in self.learned}
+        for levels in catalogue.tests.values():
+            for methods in levels.values():
+                named.update(methods)
+        used = {catalogue.network(method, limb).data for method, limb in self.learned}
+        # A fit learns from the sets from which networks of its limbs would learn.
+        for source in set(map(catalogue.source_of, named)):
+            used.update(catalogue.network(source, limb).data for limb in catalogue.method(source).fitted)
         return tuple(name for name in settings.training_sets if name in used)
 
     @property
@@ -227,19 +247,18 @@ class Files(Seeds):
     def runs(self, scenario: str, level: str, methods: Iterable[str]) -> tuple[Run, ...]:
         """Return the runs of methods on a test: every network on every recording; on a fleet, those of each robot."""
         fleet = self.settings.fleet
-        if not self.has(level):
-            return tuple(
-                replace(run, level=level, network_seed=seed)
-                for seed, (robot, files) in enumerate(self.robots.items(), start=FIRST_SEED)
-                if level in (*fleet.levels, robot)
-                for run in files.runs(scenario, fleet.level_of(robot, level), methods)
-            )
-        return tuple(
-            run
-            for method in methods
-            for network in self.run_seeds(method, scenario, level)
-            for run in self._runs_of(scenario, level, method, network)
-        )
+        found: list[Run] = []
+        if self.has(level):
+            for method in methods:
+                for network in self.run_seeds(method, scenario, level):
+                    found += self._runs_of(scenario, level, method, network)
+            return tuple(found)
+        for seed, (robot, files) in enumerate(self.robots.items(), start=FIRST_SEED):
+            if level in (*fleet.levels, robot):
+                own = files.runs(scenario, fleet.level_of(robot, level), methods)
+                # Every method has the robot's seed, also one without networks: methods are paired over robots.
+                found += [replace(run, level=level, network_seed=seed) for run in own]
+        return tuple(found)
 
     def _runs_of(self, scenario: str, level: str, method: str, network_seed: int) -> Iterator[Run]:
         """Yield the runs of a method with the networks of a seed on every recording of a test."""
@@ -262,8 +281,10 @@ class Files(Seeds):
     def scored(self) -> tuple[tuple[str, str], ...]:
         """The tests and levels whose errors are scored: those that a product shows, not those of detectors alone."""
         shown = {(scenario, level) for scenario, level, _ in self._shown}
-        pairs = ((scenario, level) for scenario, levels in self.catalogue.tests.items() for level in levels)
-        return tuple(pair for pair in pairs if pair in shown)
+        pairs: list[tuple[str, str]] = []
+        for scenario, levels in self.catalogue.tests.items():
+            pairs += [(scenario, level) for level in levels if (scenario, level) in shown]
+        return tuple(pairs)
 
     @cached_property
     def _shown(self) -> frozenset[tuple[str, str, str]]:

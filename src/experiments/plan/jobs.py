@@ -1,6 +1,6 @@
 """The jobs behind recordings, networks, estimates and scores: which function, what it gets, what it reads."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -70,7 +70,9 @@ class Jobs:
             "shards": shards,
         }
         inputs = _read([shard.motion for shard in shards])
-        own = {f"{stem}{NOTE}": shard for shard in shards for stem in (shard.recording, shard.residual)}
+        own: dict[str, Shard] = {}
+        for shard in shards:
+            own |= {f"{shard.recording}{NOTE}": shard, f"{shard.residual}{NOTE}": shard}
         call = Call("experiments.jobs.walks:collect_walks", arguments)
         return self._staged(name, Job(call, inputs, (), own, ("shards",)))
 
@@ -133,6 +135,7 @@ class Jobs:
         if fitted:
             arguments |= {"observer": self.settings.observer, "fitted": fitted[0]}
         elif learning.learning.labels == "swing":
+            # Without a sensor a leg knows its external torque only where it surely touches nothing (note 0029).
             swings = self.settings.evaluation.changed
             arguments |= {"margins": (swings.lift_off_s, swings.landing_s)}
         function = "experiments.jobs.train_gray:train_gray" if fitted else "experiments.jobs.trainings:train_all"
@@ -153,24 +156,23 @@ class Jobs:
     def estimate(self, name: str, scenario: str, level: str) -> Job:
         """Return the external torque of all methods of a test, whose recordings run side by side."""
         methods = self.catalogue.tests[scenario][level]
-        runs = tuple(
-            self._run(method, seed, scenario, level)
-            for method in methods
-            for seed in self.files.run_seeds(method, scenario, level)
-        )
+        runs: list[MethodRun] = []
+        for method in methods:
+            seeds = self.files.run_seeds(method, scenario, level)
+            runs += [self._run(method, seed, scenario, level) for seed in seeds]
         recordings, residuals = (self.files.tests(scenario, level, kind) for kind in ("recordings", "residuals"))
-        arguments = {**self._observer(level), "runs": runs, "recordings": recordings, "residuals": residuals}
-        weights = [folder / WEIGHTS for run in runs for folder in run.networks.values()]
-        inputs = _read([recordings, residuals, [run.fitted for run in runs], weights])
-        kinds = tuple(dict.fromkeys(kind for method in methods for kind in self._kinds(method)))
-        each = [(run, repr(replace(run, outs=())), code_hash(*self._kinds(run.method))) for run in runs]
-        own = {
-            f"{out}{NOTE}": (method, code, *pair)
-            for run, method, code in each
-            for out, *pair in zip(run.outs, recordings, residuals, strict=True)
-        }
+        arguments = {**self._observer(level), "runs": tuple(runs), "recordings": recordings, "residuals": residuals}
+        inputs = _read([recordings, residuals, [run.fitted for run in runs], _weights(runs)])
+        own: dict[str, object] = {}
+        for run in runs:
+            # The stamp of an estimate tells its method, but not which other recordings the same job runs it on.
+            method = repr(replace(run, outs=()))
+            code = code_hash(*self._kinds(run.method))
+            for out, recording, residual in zip(run.outs, recordings, residuals, strict=True):
+                own[f"{out}{NOTE}"] = (method, code, recording, residual)
         call = Call("experiments.jobs.estimates:estimate", arguments)
-        return self._staged(name, Job(call, inputs, kinds, own, ("runs", "recordings", "residuals")))
+        parts = ("runs", "recordings", "residuals")
+        return self._staged(name, Job(call, inputs, self._kinds(*methods), own, parts))
 
     def _run(self, method: str, network_seed: int, scenario: str, level: str) -> MethodRun:
         """Return the run of a method with its networks of a seed on all recordings of a test."""
@@ -224,7 +226,7 @@ class Jobs:
             "quiet": quiet,
             "out": (out := watch_file(files)),
         }
-        inputs = _read([*quiet, run.fitted, [folder / WEIGHTS for folder in run.networks.values()]])
+        inputs = _read([*quiet, run.fitted, _weights([run])])
         kinds = self._kinds(method)
         return Job(Call("experiments.jobs.calm:watch", arguments), inputs, kinds, {str(out): code_hash(*kinds)})
 
@@ -234,6 +236,7 @@ class Jobs:
         files = self.files
         level = level_of_detectors(self.files)
         methods = methods_of(files, cases)
+        # These walks are tests, too, and sealed as all tests are: methods never change by what they show.
         first = settings.sizes.test.first_seed
         walks = tuple(
             CaseWalks(
@@ -255,9 +258,9 @@ class Jobs:
             "thresholds": (thresholds := (detection_files(files)["thresholds"], watch_file(files))),
             "walks": walks,
         }
-        weights = [folder / WEIGHTS for run in runs.values() for folder in run.networks.values()]
-        inputs = (*_read([[run.fitted for run in runs.values()], weights]), *map(str, thresholds))
-        kinds = tuple(dict.fromkeys(kind for method in methods for kind in self._kinds(method)))
+        fits = [run.fitted for run in runs.values()]
+        inputs = (*_read([fits, _weights(runs.values())]), *map(str, thresholds))
+        kinds = self._kinds(*methods)
         stamps = {str(one.out): code_hash(*kinds) for one in walks}
         noted = {f"{one.course}{NOTE}": () for one in walks if one.course}
         return Job(Call("experiments.jobs.react:react", arguments), inputs, kinds, {**stamps, **noted})
@@ -280,9 +283,12 @@ class Jobs:
         stage = Stage(self.files.results / "state" / name, job.given, job.inputs)
         return replace(job, call=Call(job.call.function, {**job.call.arguments, STAGE: stage}))
 
-    def _kinds(self, method: str) -> tuple[str, ...]:
-        """Return the modules that a method imports by name: its kind and that of the method it runs on."""
-        return tuple(dict.fromkeys(f"{KINDS}.{self.catalogue.method(name).kind}" for name in self._with_source(method)))
+    def _kinds(self, *methods: str) -> tuple[str, ...]:
+        """Return the modules that methods import by name: their kinds and those of the methods they run on."""
+        found: list[str] = []
+        for method in methods:
+            found += [f"{KINDS}.{self.catalogue.method(name).kind}" for name in self._with_source(method)]
+        return tuple(dict.fromkeys(found))
 
     def _with_source(self, method: str) -> tuple[str, ...]:
         """Return a method and, if it runs on another one, that one too."""
@@ -347,8 +353,17 @@ def walk_settings(settings: Settings, scenario: str, level: str) -> WalkSettings
 
 def _with_gains(walking: Walking, ratio: float) -> Walking:
     """Return the numbers of the controller with all gains of the legs' joints times a ratio."""
-    names = "leg_stiffness_nm_rad", "leg_damping_nms_rad"
-    return walking.model_copy(update={name: tuple(ratio * gain for gain in getattr(walking, name)) for name in names})
+    stiffness = tuple(ratio * gain for gain in walking.leg_stiffness_nm_rad)
+    damping = tuple(ratio * gain for gain in walking.leg_damping_nms_rad)
+    return walking.model_copy(update={"leg_stiffness_nm_rad": stiffness, "leg_damping_nms_rad": damping})
+
+
+def _weights(runs: Iterable[MethodRun]) -> list[Path]:
+    """Return the weights of all networks of some runs."""
+    found: list[Path] = []
+    for run in runs:
+        found += [folder / WEIGHTS for folder in run.networks.values()]
+    return found
 
 
 def _read(needs: object) -> tuple[str, ...]:

@@ -3,6 +3,7 @@
 A parameter of a product's function says by its name what it gets (`USUAL`), where the product has no need of its own.
 """
 
+from collections import defaultdict
 from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import Any
@@ -10,6 +11,7 @@ from typing import Any
 from experiments.plan.detection import all_detections
 from experiments.plan.files import Files
 from experiments.plan.reactions import all_reactions, courses_of
+from experiments.plan.runs import Run
 from experiments.settings.asked import tests_in
 from experiments.settings.runs import Runs
 from mobnet.core.errors import ConfigError
@@ -38,7 +40,9 @@ def _scores(files: Files, section: Any) -> tuple[Path, ...]:
 
 def _sets(files: Files, _: Any) -> Mapping[str, tuple[Path, ...]]:
     """Return the recordings of every training set that is recorded, those of all robots together."""
-    walked = {name for own in files.robots.values() for name in own.learned_sets}
+    walked: set[str] = set()
+    for own in files.robots.values():
+        walked.update(own.learned_sets)
     fleet = [other for name, other in files.settings.fleet.sets.items() if name in walked]
     return {name: files.training("recordings", name) for name in (*files.recorded_sets, *fleet)}
 
@@ -52,23 +56,26 @@ def _estimates(files: Files, section: Any) -> Mapping[str, tuple[Path, ...]]:
     """Return the estimates of the same recordings, by the methods of a section's detectors."""
     own = files.robots.get(section.level, files)
     test = (files.settings.detection.collisions, section.level)
-    return {method: tuple(run.estimate for run in own.runs(*test, [method])) for method in section.detectors}
+    found: dict[str, tuple[Path, ...]] = {}
+    for method in section.detectors:
+        found[method] = tuple(run.estimate for run in own.runs(*test, [method]))
+    return found
 
 
 def _uncertainty(files: Files, _: Any) -> Needs:
     """Return the residuals of the training sets that networks learn from."""
     names = dict.fromkeys(row.data for row in files.settings.networks.values())
-    robots = {
-        robot: {name: own.training("residuals", name) for name in own.learned_sets if name in names}
-        for robot, own in files.robots.items()
-    }
+    robots: dict[str, dict[str, tuple[Path, ...]]] = {}
+    for robot, own in files.robots.items():
+        robots[robot] = {name: own.training("residuals", name) for name in own.learned_sets if name in names}
     return {"sets": {name: files.training("residuals", name) for name in names}, "robots": robots}
 
 
 def _label_error(files: Files, _: Any) -> Needs:
     """Return the first recording of each robot from which its legs learn, with its residual."""
-    kinds = ("recordings", "residuals")
-    walks = {robot: tuple(own.training(kind, "walk")[0] for kind in kinds) for robot, own in files.robots.items()}
+    walks: dict[str, tuple[Path, Path]] = {}
+    for robot, own in files.robots.items():
+        walks[robot] = own.training("recordings", "walk")[0], own.training("residuals", "walk")[0]
     return {"walks": walks}
 
 
@@ -102,23 +109,25 @@ def _folders_of_kinds(files: Files) -> tuple[Path, ...]:
 
 def _claims(files: Files, _: Any) -> Needs:
     """Return the scores that claims name, and the trainings of the kinds and sizes of the left leg's networks."""
-    sizes = [folder for size in files.swept_sizes() for folder in size.folders]
-    folders = tuple(dict.fromkeys([*_folders_of_kinds(files), *sizes]))
-    return {"scores": _scores(files, files.settings.claims), "folders": folders}
+    folders = [*_folders_of_kinds(files)]
+    for size in files.swept_sizes():
+        folders += size.folders
+    return {"scores": _scores(files, files.settings.claims), "folders": tuple(dict.fromkeys(folders))}
 
 
 def _hourly(files: Files, section: Any) -> Needs:
     """Return all recordings by what is walked, and the scores of the tests in which the check should flag nothing."""
-    walks = dict[str, list[Path]]()
+    # Falls are counted by what disturbs a walk (note 0042).
+    walks = defaultdict[str, list[Path]](list)
     for own in files.owners:
         for scenario, level, seed in own.recorded():
             row = files.settings.scenarios[scenario]
             kind = "with random torque" if row.random_torque else "pushed" if row.pushes else "undisturbed"
             title = f"{'surrogate robots' if own.robot else 'plant of section 5.1'}, {kind}"
-            walks.setdefault(title, []).append(own.array("recordings", scenario, level, seed))
+            walks[title].append(own.array("recordings", scenario, level, seed))
     changed = files.settings.evaluation.changed
     known = tuple(changed.tests[title] for title in section.known)
-    return {"walks": walks, "changed": changed, "scores": _scores(files, known)}
+    return {"walks": dict(walks), "changed": changed, "scores": _scores(files, known)}
 
 
 def _latency(files: Files, section: Any) -> Needs:
@@ -137,11 +146,13 @@ def _table_01(files: Files, section: Any) -> Needs:
 
 def _calibration(files: Files, section: Any) -> Needs:
     """Return every network by the level that it learned at, and the runs of each test of the standard deviations."""
-    robots = tuple(folder for own in files.robots.values() for folder in own.all_networks())
+    robots: list[Path] = []
+    for own in files.robots.values():
+        robots += own.all_networks()
     plant = tuple(folder for folder in files.all_networks() if folder not in robots)
     first = next(iter(files.settings.training_sets.values()))
     return {
-        "folders": {first.level: plant, files.settings.fleet.name: robots},
+        "folders": {first.level: plant, files.settings.fleet.name: tuple(robots)},
         "runs": tuple(files.runs(test.scenario, test.level, test.methods) for test in section.tests),
     }
 
@@ -155,9 +166,10 @@ def _contact_points(files: Files, section: Any) -> Needs:
 
 def _figure_05(files: Files, section: Any) -> Needs:
     """Return the first runs at each level of Figure 5."""
-    levels = section.panels.items()
-    panels = [Runs(scenario=section.scenario, level=level, methods=names) for level, names in levels]
-    return {"runs": tuple(run for panel in panels for run in files.first_runs(panel))}
+    runs: list[Run] = []
+    for level, methods in section.panels.items():
+        runs += files.first_runs(Runs(scenario=section.scenario, level=level, methods=methods))
+    return {"runs": tuple(runs)}
 
 
 USUAL: Mapping[str, Callable[[Files, Any], object]] = {  # parameter -> what it gets

@@ -1,7 +1,7 @@
 """Every table, figure and text: what makes it, what it needs and what it writes."""
 
 import functools
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from fnmatch import fnmatch
 from pathlib import Path
@@ -19,7 +19,7 @@ from experiments.settings.settings import Settings
 from mobnet.core.code import start_of
 
 EVALUATION = "experiments.evaluation"
-PLACES = (*(f"{kind}.{part}" for kind in ("tables", "figures") for part in ("paper", "further")), "report")
+PLACES = ("tables.paper", "tables.further", "figures.paper", "figures.further", "report")
 ERRORS = f"{EVALUATION}.tables.paper.error_table:error_table"  # makes every entry of `tables`
 HANDS = ("figure_07", "figure_12")  # figures that `hand_figure` makes
 TEMPLATES = Path("src/experiments/evaluation/report/templates")  # inputs of rules: the code hash reads Python only
@@ -116,6 +116,14 @@ class Products:
         made = [*_made_with("figure_dir"), *self.settings.evaluation.figures]
         return [name for name in made if name not in kept or kept[name].is_file()]
 
+    @property
+    def _drawn(self) -> list[str]:
+        """Names of the files of all figures, then of the drawings."""
+        names: list[str] = []
+        for name in self.figure_names:
+            names += pictures(name)
+        return [*names, *DRAWN]
+
     def all(self) -> list[Product]:
         """Return every product, each after those that it needs."""
         made = [*self._tables_and_figures(), self._pictures(), *self._texts()]
@@ -127,12 +135,12 @@ class Products:
         tables = [name for name in self.table_names if name not in MAIN_TABLES]
         for name in dict.fromkeys([*tables, *figures]):
             drawn = pictures(name) if name in figures else ()
-            outputs = [self.folders.figures / f"{picture}.{ending}" for picture in drawn for ending in FIGURE]
+            outputs = _files(self.folders.figures, drawn, FIGURE)
             outputs += [self.folders.figures / f"{name}_bars.csv"] if name in BARS else []
             outputs += [self.folders.tables / f"{name}.{ending}" for ending in TABLE if name in tables]
             function = ERRORS if name in self.settings.evaluation.tables else functions()[name]
-            asked = [parameter for some in parameters(function) for parameter in some]
-            needs = needs_of(self.files, name, self._own(name).get("settings"), asked)
+            required, optional = parameters(function)
+            needs = needs_of(self.files, name, self._own(name).get("settings"), (*required, *optional))
             yield self._product(name, function, {**needs, **self._tables_of(name)}, outputs)
 
     def _pictures(self) -> Product:
@@ -149,7 +157,7 @@ class Products:
             "runs": self.files.first_runs(test) if is_told else (),
             "detections": {story.level: detections[story.level]} if is_told else {},
         }
-        outputs = [figures / f"{name}.{ending}" for name in DRAWN for ending in FIGURE]
+        outputs = _files(figures, DRAWN, FIGURE)
         outputs += [figures / f"push.{ending}" for ending in FILM] if is_told else []
         return self._product("pictures", functions()["pictures"], needs, outputs)
 
@@ -158,16 +166,20 @@ class Products:
         folder = self.folders.tables
         if name == "claims_summary":
             return {"claims_csv": folder / "claims.csv"}
-        made = [number for claim in self.settings.claims.values() for number in numbers_of(claim)]
-        used = dict.fromkeys(cell.table for number in made for cell in number.cells if cell.table)
-        return {"tables": {table: folder / f"{table}.csv" for table in used}} if name == "claims" else {}
+        if name != "claims":
+            return {}
+        tables: dict[str, Path] = {}
+        for claim in self.settings.claims.values():
+            for number in numbers_of(claim):
+                tables |= {cell.table: folder / f"{cell.table}.csv" for cell in number.cells if cell.table}
+        return {"tables": tables}
 
     def _texts(self) -> Iterator[Product]:
         """Yield numbers and tables that the paper takes, pages of trainings and pushes, and the stored push."""
         tables = self.folders.tables
         results = self.folders.results
         csvs = [tables / f"{name}.csv" for name in self.settings.evaluation.tables]
-        made = [tables / f"{name}.{ending}" for name in MAIN_TABLES for ending in TABLE]
+        made = _files(tables, MAIN_TABLES, TABLE)
         numbers = {
             "train": self.files.training_size("walk"),
             "table_csvs": csvs,
@@ -183,10 +195,10 @@ class Products:
         networks = {"folders": self.files.all_networks()}
         names = ("runs.html", "page.html", "page.css", "runs.css", "page.js", "runs.js", "overlay.js")
         parts = [TEMPLATES / name for name in names]
-        scores = self.files.scores(
-            pair for test in TESTS for pair in self.files.scored if fnmatch("/".join(pair), test)
-        )
-        needs = {**networks, "templates": parts, "scores": scores}
+        tests: list[tuple[str, str]] = []
+        for pattern in TESTS:
+            tests += [pair for pair in self.files.scored if fnmatch("/".join(pair), pattern)]
+        needs = {**networks, "templates": parts, "scores": self.files.scores(tests)}
         yield self._report_product("runs_page", needs, [results / "runs.html"])
         yield self._report_product("wandb_runs", networks, [results / "wandb"])
         push = demo_needs(self.files)
@@ -199,15 +211,18 @@ class Products:
         tables = self.folders.tables
         results = self.folders.results
         paper = self.folders.paper
-        outputs = [Path(name) for product in made for name in product.outputs if product.name != "wandb_runs"]
+        outputs: list[Path] = []
+        for product in made:
+            # The folder of wandb's runs holds nothing but what the files of trainings say.
+            if product.name != "wandb_runs":
+                outputs += map(Path, product.outputs)
         accounts = {"accounts": results / "logs", "after": [*map(Path, self.stored), *outputs]}
         compute = [results / f"compute.{ending}" for ending in TABLE]
         yield self._report_product("compute", accounts, compute)
         names = (*self.table_names, "numbers", "captions", "deviations")
         texts = [*(tables / f"{name}.tex" for name in names), compute[1]]
         sources = {"main": Path("paper/main.tex"), "references": Path("paper/refs.bib"), "tables": texts}
-        drawn = [*(picture for name in self.figure_names for picture in pictures(name)), *DRAWN]
-        figures = [self.folders.figures / f"{picture}.pdf" for picture in drawn]
+        figures = [self.folders.figures / f"{picture}.pdf" for picture in self._drawn]
         built = [paper / "build.json", *([paper / "main.pdf"] if self.with_pdf else [])]
         yield self._report_product("paper", {**sources, "figures": figures}, built)
         listed = [*(tables / f"{name}.md" for name in self.table_names), results / "compute.md"]
@@ -216,6 +231,7 @@ class Products:
         pages.append(results / "pages" / "index.html")
         yield self._report_product("pages", {"tables": listed, "captions": captions, **self._first_page()}, pages)
         results_of_all = [*map(Path, self.stored), *outputs, *compute, *built, *pages]
+        # What equal runs differ in has a list of its own, so that their manifests are equal.
         timed = [*compute, *(path for path in results_of_all if path.name in TIMED)]
         equal = [path for path in results_of_all if path not in timed]
         listed = [self.folders.manifest, self.folders.manifest.with_name(TIMES)]
@@ -236,9 +252,8 @@ class Products:
 
     def _captions(self) -> list[Path]:
         """Return the captions of all tables and figures that have one, for the paper."""
-        drawn = [*(picture for name in self.figure_names for picture in pictures(name)), *DRAWN]
-        names = {"tables": [*self.table_names, "compute"], "figures": drawn}
-        files = [CAPTIONS / kind / f"{name}.rst" for kind, made in names.items() for name in made]
+        files = _files(CAPTIONS / "tables", [*self.table_names, "compute"], ["rst"])
+        files += _files(CAPTIONS / "figures", self._drawn, ["rst"])
         return [path for path in files if path.is_file()]
 
     def _report_product(self, name: str, needs: Mapping[str, object], outputs: list[Path]) -> Product:
@@ -287,6 +302,14 @@ def pictures(name: str) -> tuple[str, ...]:
     return name, *FURTHER.get(name, ())
 
 
+def _files(folder: Path, names: Iterable[str], endings: Iterable[str]) -> list[Path]:
+    """Return the files of some names in a folder, one for each ending."""
+    found: list[Path] = []
+    for name in names:
+        found += [folder / f"{name}.{ending}" for ending in endings]
+    return found
+
+
 def shown(file: str) -> Shown | None:
     """Return how the report shows a file; None if it does not."""
     path = Path(file)
@@ -301,14 +324,20 @@ def shown(file: str) -> Shown | None:
 
 def _made_with(folder: str) -> list[str]:
     """Return the sections of the configuration whose function of their name writes into `table_dir` or `figure_dir`."""
-    found = [name for name in (*Evaluation.model_fields, *CLAIMED) if name in functions()]
-    return [name for name in found if any(folder in some for some in parameters(functions()[name]))]
+    found: list[str] = []
+    for name in (*Evaluation.model_fields, *CLAIMED):
+        if name in functions():
+            required, optional = parameters(functions()[name])
+            found += [name] if folder in (*required, *optional) else []
+    return found
 
 
 @functools.cache
 def functions() -> dict[str, str]:
     """Return the function `module:name` of each module of tables, of figures and of what is both."""
-    folders = [f"{EVALUATION}.{place}" for place in PLACES]
-    found = {path.stem: folder for folder in folders for path in start_of(folder).parent.glob("[a-z]*.py")}
+    found: dict[str, str] = {}
+    for place in PLACES:
+        folder = f"{EVALUATION}.{place}"
+        found |= {path.stem: folder for path in start_of(folder).parent.glob("[a-z]*.py")}
     made = {name: f"{folder}.{name}:{name}" for name, folder in found.items()}
     return made | dict.fromkeys(HANDS, made["hand_figure"])

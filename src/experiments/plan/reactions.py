@@ -16,8 +16,11 @@ def cases_of_jobs(files: Files) -> dict[str, tuple[str, ...]]:
     """Return job -> its cases: those that compare several detectors with ours have one each, the others share one."""
     reaction = files.settings.reaction
     cases = files.settings.reaction.cases
-    detectors = {case: {watch.detector for watch in watches_of(reaction, case)} for case in cases}
-    own = {case: (case,) for case in cases if len(detectors[case] - {reaction.ours.detector}) > 1}
+    own: dict[str, tuple[str, ...]] = {}
+    for case in cases:
+        detectors = {watch.detector for watch in watches_of(reaction, case)}
+        if len(detectors - {reaction.ours.detector}) > 1:
+            own[case] = (case,)
     others = tuple(case for case in cases if case not in own)
     return {**own, **({OTHERS: others} if others else {})}
 
@@ -26,8 +29,12 @@ def methods_of(files: Files, cases: Iterable[str]) -> tuple[str, ...]:
     """Return the methods that run in some cases: that in the loop, and those of detectors."""
     reaction = files.settings.reaction
     detectors = files.settings.detection.detectors
-    names = [watch.detector for case in cases for watch in watches_of(reaction, case)]
-    return tuple(dict.fromkeys([reaction.estimator, *(detectors[name].method for name in names if name in detectors)]))
+    found = [reaction.estimator]
+    for case in cases:
+        names = [watch.detector for watch in watches_of(reaction, case)]
+        # Force sensors, and a robot that does not react, run no method.
+        found += [detectors[name].method for name in names if name in detectors]
+    return tuple(dict.fromkeys(found))
 
 
 def sizes_of(files: Files, case: str) -> ReactionSizes:
@@ -74,5 +81,8 @@ def courses_of(files: Files, cases: Iterable[str]) -> Mapping[str, Path]:
 def all_reactions(files: Files) -> Reactions:
     """Return the files of the trials of every robot."""
     cases = files.settings.reaction.cases
-    levels = {level: own for own in files.owners if (level := level_of_detectors(own))}
-    return {level: {case: reaction_file(own, case) for case in cases} for level, own in levels.items()}
+    found: dict[str, dict[str, Path]] = {}
+    for own in files.owners:
+        if level := level_of_detectors(own):
+            found[level] = {case: reaction_file(own, case) for case in cases}
+    return found

@@ -22,7 +22,10 @@ class Stamped:
     @cached_property
     def steps(self) -> Mapping[str, Step]:
         """File -> the step that makes it."""
-        return {name: step for step in (*self.plan.trial_steps, *self.plan.steps) for name in step.outputs}
+        found: dict[str, Step] = {}
+        for step in (*self.plan.trial_steps, *self.plan.steps):
+            found |= dict.fromkeys(step.outputs, step)
+        return found
 
     @cached_property
     def folders(self) -> frozenset[str]:

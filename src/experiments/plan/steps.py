@@ -5,6 +5,7 @@ and what several read is read once. It is short enough that steps keep all cores
 """
 
 import re
+from collections import defaultdict
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property, partial
@@ -60,12 +61,14 @@ def all_steps(files: Files) -> Iterator[Step]:
 
 def trial_steps(files: Files) -> Iterator[Step]:
     """Yield the steps that the trials need besides: their walks, and what learns in them."""
-    walks = files.settings.development.values()
-    walked = [(walk.scenario, walk.level, seed) for walk in walks for seed in files.development_seeds]
+    walked: list[Place] = []
+    for walk in files.settings.development.values():
+        walked += [(walk.scenario, walk.level, seed) for seed in files.development_seeds]
     yield from _motions(files, walked)
     for own in files.owners:
         yield from _walks(own, (place for place in walked if own.has(place[1])))
         fits = dict.fromkeys(own.catalogue.source_of(name) for name, *_ in own.tried_networks)
+        # A run makes some of these fits already; a file must have one rule.
         yield from (_fit(own, name) for name in fits if own.fit(name) and name not in own.own_fits)
         yield from _trainings(own, own.tried_networks)
     first = files.settings.trials.random_torque.first_seed
@@ -74,10 +77,13 @@ def trial_steps(files: Files) -> Iterator[Step]:
 
 def _motions(files: Files, recorded: Iterable[Place]) -> Iterator[Step]:
     """Yield the motions of the upper body, which all robots share."""
-    taken = {(files.settings.scenarios[name].motion, seed) for name, _, seed in recorded}
-    for motion, is_test in sorted({(name, seed < FIRST_TRAINING_SEED) for name, seed in taken if name}):
-        seeds = sorted(seed for name, seed in taken if (name, seed < FIRST_TRAINING_SEED) == (motion, is_test))
-        for part in _parts(seeds, lambda seed, name=motion: files.motion_s(name, seed), PART_S):
+    # Other tests, such as seeds that nobody has seen, must not make the motions of trainings again: no step has both.
+    seeds = defaultdict[tuple[str, bool], set[int]](set)
+    for scenario, _, seed in recorded:
+        if motion := files.settings.scenarios[scenario].motion:
+            seeds[motion, seed < FIRST_TRAINING_SEED].add(seed)
+    for (motion, _), own in sorted(seeds.items()):
+        for part in _parts(sorted(own), lambda seed, name=motion: files.motion_s(name, seed), PART_S):
             account = f"motion/{motion}-s{part[0]}"
             amounts = {SECONDS: sum(files.motion_s(motion, seed) for seed in part), "motion": len(part)}
             job = partial(Jobs(files).motions, account, motion, part)
@@ -87,14 +93,18 @@ def _motions(files: Files, recorded: Iterable[Place]) -> Iterator[Step]:
 
 def _walks(files: Files, recorded: Iterable[Place]) -> Iterator[Step]:
     """Yield recordings and their residuals: of each scenario at a level, those for training and for tests apart."""
-    sets: dict[tuple[str, str, bool], list[int]] = {}
+    # A step has one duration, and walks of tests may last otherwise than those of trainings of the same scenario.
+    sets = defaultdict[tuple[str, str, bool], list[int]](list)
+    # Training sets of one scenario at one level count from the same seed, and so have recordings in common.
     for scenario, level, seed in dict.fromkeys(recorded):
-        sets.setdefault((scenario, level, seed < FIRST_TRAINING_SEED), []).append(seed)
+        sets[scenario, level, seed < FIRST_TRAINING_SEED].append(seed)
     for (scenario, level, _), seeds in sets.items():
         for part in _parts(seeds, lambda seed, name=scenario: files.duration_s([name], seed), PART_S):
             account = _account("collect", files, f"{scenario}-{level}-s{part[0]}")
             job = partial(Jobs(files).collect, account, scenario, level, part)
-            arrays = [files.array(kind, scenario, level, seed) for seed in part for kind in ("recordings", "residuals")]
+            arrays: list[Path] = []
+            for seed in part:
+                arrays += [files.array(kind, scenario, level, seed) for kind in ("recordings", "residuals")]
             yield Step(Work(account, "collect", *walked(files, scenario, part)), _both(arrays), job)
 
 
@@ -123,6 +133,8 @@ def _trainings(files: Files, networks: Iterable[NetworkName]) -> Iterator[Step]:
         together = training.network.data, learning.labels, row.of or "", row.start or ""
         return *together, name.limb, training.target, str(learning.data_s)
 
+    # A fine-tuning stands apart from the network that it begins with, whose weights its job reads. Within a step,
+    # networks of the same limb and target follow each other, so that their data are read once.
     for _, alike in groupby(sorted(networks, key=learns), key=lambda name: learns(name)[:4]):
         for part in _parts(list(alike), lambda name: steps_of(files, name), PART_STEPS):
             folders = [files.network(*name) for name in part]

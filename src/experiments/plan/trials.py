@@ -1,5 +1,6 @@
 """The trials: products that are no part of `all`. They take hours, so docs/trials holds a copy of their tables."""
 
+from collections import defaultdict
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
@@ -21,7 +22,11 @@ def trial_products(files: Files) -> Iterator[Product]:
     for name in settings.trials.compared:
         trials = list(compared(*given, settings.development, name))
         tasks = dict.fromkeys(trial.task for trial in trials)
-        tables[name] = [*(one for task in tasks for one in references(*given, task)), *trials]
+        # What is tried is judged beside methods of the same task that nothing changes.
+        tables[name] = []
+        for task in tasks:
+            tables[name] += references(*given, task)
+        tables[name] += trials
     for name, trials in tables.items():
         yield _product(files, files.results / "trials" / name, trials)
     counted = tuple(own.falls for own in files.robots.values())
@@ -34,10 +39,10 @@ def trial_products(files: Files) -> Iterator[Product]:
 def _product(files: Files, out: Path, trials: Sequence[Trial]) -> Product:
     """Return the table of some trials, which runs all their networks on the walks of their tasks."""
     settings = files.settings
-    tasks = {
-        name: _task(files, name, [trial for trial in trials if trial.task == name])
-        for name in dict.fromkeys(trial.task for trial in trials)
-    }
+    by_task = defaultdict[str, list[Trial]](list)
+    for trial in trials:
+        by_task[trial.task].append(trial)
+    tasks = {name: _task(files, name, own) for name, own in by_task.items()}
     arguments = {
         "robot": settings.robot,
         "gravity_m_s2": settings.plant.gravity_m_s2,
@@ -46,12 +51,15 @@ def _product(files: Files, out: Path, trials: Sequence[Trial]) -> Product:
         "rate_hz": settings.rates.data_hz,
         "out": out,
     }
-    tried = [one for task in tasks.values() for one in task.tried]
-    weights = [folder / WEIGHTS for one in tried for folder in one.networks.values()]
+    weights: list[Path] = []
+    kinds: list[str] = []
+    for task in tasks.values():
+        for one in task.tried:
+            weights += [folder / WEIGHTS for folder in one.networks.values()]
+            kinds += [f"{KINDS}.{row.kind}" for row in one.methods.values()]
     inputs = dict.fromkeys(map(str, files_in([list(tasks.values()), weights])))
-    kinds = dict.fromkeys(f"{KINDS}.{row.kind}" for one in tried for row in one.methods.values())
     call = Call("experiments.evaluation.tables.further.trials:trials", arguments)
-    return _table(out, Job(call, tuple(inputs), tuple(kinds)))
+    return _table(out, Job(call, tuple(inputs), tuple(dict.fromkeys(kinds))))
 
 
 def _table(out: Path, job: Job) -> Product:
@@ -63,10 +71,12 @@ def _task(files: Files, name: str, trials: Iterable[Trial]) -> TriedTask:
     """Return what is tried at a task, with all networks and walks of its plant."""
     task = files.settings.development[name]
     own = next(owner for owner in files.owners if owner.has(task.level))
-    tried = tuple(one for trial in trials for one in _tried(own, trial))
+    tried: list[Tried] = []
+    for trial in trials:
+        tried += _tried(own, trial)
     walks = own.development("recordings", name), own.development("residuals", name)
     joints = tuple(own.settings.layout.limbs(own.settings.robot.networks[task.limb].joints))
-    return TriedTask(own.settings.levels[task.level], joints, tried, *walks)
+    return TriedTask(own.settings.levels[task.level], joints, tuple(tried), *walks)
 
 
 def _tried(files: Files, trial: Trial) -> Iterator[Tried]:
