@@ -174,13 +174,22 @@ def kind_of(noted: Path, names: Sequence[str], layout: JointLayout) -> tuple[str
     groups = recording_columns(layout)
     signals = {name.partition(".")[0] for name in held}
     if {"q", "v"} & signals:
-        told = [field for field in Truth.__dataclass_fields__ if held & {name for name, *_ in groups[field]}]
-        return "recording", [name for field in (*Sensed.__dataclass_fields__, *told) for name, *_ in groups[field]]
+        needed: list[str] = []
+        for field in Sensed.__dataclass_fields__:
+            needed += [name for name, *_ in groups[field]]
+        for field in Truth.__dataclass_fields__:
+            told = [name for name, *_ in groups[field]]
+            # A recording may have some quantities of the truth, or none, but each of them whole.
+            needed += told if held.intersection(told) else []
+        return "recording", needed
     if RESIDUAL in signals:
         return "residual", [name for name, *_ in residual_columns(layout, LABEL_LP in signals)]
     if EXTERNAL in signals:
         joints = [joint for joint in layout.names if held & set(named(EXTERNAL, [joint]) + named(STD, [joint]))]
-        return "estimate", [name for signal in (EXTERNAL, STD) if signal in signals for name in named(signal, joints)]
+        needed = named(EXTERNAL, joints)
+        # Methods without networks give no standard deviation.
+        needed += named(STD, joints) if STD in signals else []
+        return "estimate", needed
     if signals <= WRENCH_SIGNALS:
         return "wrench", wrench_columns({name.partition(".")[2] for name in held})
     if signals == {"q_ref"}:
@@ -296,7 +305,9 @@ def main(words: list[str]) -> int:
     logging.basicConfig(level=logging.INFO, format="%(message)s", stream=sys.stdout)
     against = Against(options.robot, options.rate)
     try:
-        found = {file: file in options.files for word in options.files for file in files_of(word)}
+        found: dict[Path, bool] = {}
+        for word in options.files:
+            found |= {file: file in options.files for file in files_of(word)}
     except OSError as error:
         parser.error(f"FILE: {error.filename}: {error.strerror}; accepted: files that you may read")
     wrong = sum(not accepted(file, against, asked) for file, asked in found.items())

@@ -119,8 +119,11 @@ def curve_rows(
     """Yield how many collisions a detector finds, and how late, at multiples of its thresholds."""
     curve = setup.detection.curve
     chain = calibrated.chains[COLLISION]
-    pairs = [(one.leg.run(chain, calibrated.watched.of(own, one.leg.command)).ratio, hit)
-             for one, own in zip(walk, estimates, strict=True) for hit in one.hits]  # fmt: skip
+    pairs: list[tuple[Array, Hit]] = []
+    for one, own in zip(walk, estimates, strict=True):
+        if one.hits:
+            ratio = one.leg.run(chain, calibrated.watched.of(own, one.leg.command)).ratio
+            pairs += [(ratio, hit) for hit in one.hits]
     for factor in np.geomspace(*curve.factors, curve.count).tolist():
         # All thresholds times a factor divide the ratio by it, so that one run of the chain gives the whole curve.
         rows = [(hit, first_alarm(setup, ratio / factor, hit)) for ratio, hit in pairs]

@@ -44,14 +44,23 @@ def estimate(
     stage.begin()
     layout = describe(robot).layout
     for some in batches(recordings):
-        waiting = [run for run in runs if not all(stage.has(files_of(out)) for out in run.outs[some])]
+        waiting = [run for run in runs if not _has_all(stage, run.outs[some])]
         pairs = zip(recordings[some], residuals[some], strict=True)
         read = [read_observed(layout, recording, residual, rate_hz) for recording, residual in pairs] if waiting else []
         for run in waiting:
             known = robot, level.nominal_mass_ratio, gravity_m_s2, observer
             recipe = Recipe(run.method, run.methods, *known, rate_of(read), run.networks, run.fitted)
             _estimate(recipe, read, [stage.place(out) for out in run.outs[some]], run.joints)
-    stage.publish(file for run in runs for out in run.outs for file in files_of(out))
+    files: list[Path] = []
+    for run in runs:
+        for out in run.outs:
+            files += files_of(out)
+    stage.publish(files)
+
+
+def _has_all(stage: Stage, outs: Sequence[Path]) -> bool:
+    """Return whether a job that was killed has written all of some estimates."""
+    return all(stage.has(files_of(out)) for out in outs)
 
 
 def _estimate(recipe: Recipe, read: Sequence[Observed], outs: Sequence[Path], joints: Sequence[str] | None) -> None:

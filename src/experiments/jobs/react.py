@@ -50,7 +50,9 @@ def react(
     Raises:
         DataError: a file is missing or damaged.
     """
-    rows = [row for path in thresholds for row in read_rows(path, Threshold)]
+    rows: list[Threshold] = []
+    for path in thresholds:
+        rows += read_rows(path, Threshold)
     robot_walks = Walks(Robot(walks[0].settings, reaction, detection, observer, runs), rows)
     for one in walks:
         _walk(robot_walks, one)
@@ -141,9 +143,11 @@ class Walks:
             return FootWatcher(setup.gate, setup.chain(np.array([[own[1, FORCE]]]), norm=True), columns, wrenches)
         row = self.robot.detection.detectors[watch.detector]
         watched = Watched(row)
-        phases = range(1, row.phases + 1)
         names = watched.names(setup.joints)
-        chain = setup.chain(np.array([[own[phase, name] for name in names] for phase in phases]))
+        limits: list[list[float]] = []
+        for phase in range(1, row.phases + 1):
+            limits.append([own[phase, name] for name in names])
+        chain = setup.chain(np.array(limits))
         detector = LegDetector(watched, setup.gate, chain)
         if row.method == self.robot.reaction.estimator:
             return LegWatcher(detector, columns)

@@ -1,6 +1,5 @@
 """The whole plan of a scale: its files, its jobs and its products."""
 
-from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -39,7 +38,7 @@ class Plan:
     @property
     def stored(self) -> tuple[str, ...]:
         """Every file that products are made from, also those that could be made again."""
-        return _made_by(self.steps)
+        return tuple(name for step in self.steps for name in step.outputs)
 
     @property
     def rules(self) -> dict[str, tuple[Work, tuple[str, ...]]]:
@@ -72,10 +71,5 @@ def make_plan(settings: Settings, *, with_pdf: bool) -> Plan:
     trials = tuple(trial_products(files))
     films = tuple(film_products(files))
     docs = tuple(documentation(files))
-    products = Products(settings, files, folders, with_pdf, _made_by(steps))
+    products = Products(settings, files, folders, with_pdf, tuple(name for step in steps for name in step.outputs))
     return Plan(settings, folders, files, steps, tuple(products.all()), tuple(trial_steps(files)), trials, films, docs)
-
-
-def _made_by(steps: Iterable[Step]) -> tuple[str, ...]:
-    """Return the files that some steps make."""
-    return tuple(name for step in steps for name in step.outputs)

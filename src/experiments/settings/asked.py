@@ -104,7 +104,11 @@ def _of_detection(settings: Settings) -> Iterator[Asked]:
     for scenario in settings.detection_walks:
         pushes = settings.scenarios[scenario].pushes if scenario in settings.scenarios else ()
         points = [settings.pushes[name].point or "" for name in pushes if name in settings.pushes]
-        hit = {foot.limb for side, foot in feet.items() if any(point.startswith(f"{side}_") for point in points)}
+        hit: set[str] = set()
+        for side, foot in feet.items():
+            # Of the points of a robot, those on the left or the right have names such as `left_knee_front`.
+            if any(point.startswith(f"{side}_") for point in points):
+                hit.add(foot.limb)
         shown = tuple(leg for leg in detection.legs if leg in hit or not pushes)
         for level in detection.levels:
             for place, method in methods.items():
@@ -115,4 +119,7 @@ def _shown_by(section: BaseModel) -> tuple[str, ...]:
     """Return the limbs or joints that a section shows; none where it names none."""
     value = next((value for key in SHOWN if (value := getattr(section, key, None))), ())
     items = cast("tuple[str | Mean, ...]", (value,) if isinstance(value, str) else tuple(value))
-    return tuple(name for item in items for name in ((item,) if isinstance(item, str) else item.joints))
+    names: list[str] = []
+    for item in items:
+        names += (item,) if isinstance(item, str) else item.joints
+    return tuple(names)

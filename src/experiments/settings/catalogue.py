@@ -1,8 +1,10 @@
 """What follows from the configuration: its tests, all methods with those of sweeps and trials, what each one learns."""
 
+from collections import defaultdict
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import product
 
 from experiments.settings.asked import Asked, asked_by
 from experiments.settings.scales import Experiment
@@ -52,23 +54,19 @@ class Catalogue:
         """The tests in the order of scenarios and levels, and the limbs of each."""
         if self.given:
             return self.given
-        methods: dict[tuple[str, str], set[str]] = {}
-        shown: dict[tuple[str, str], set[str]] = {}
+        methods = defaultdict[tuple[str, str], set[str]](set)
+        shown = defaultdict[tuple[str, str], set[str]](set)
         for one in self.asked:
-            methods.setdefault((one.scenario, one.level), set()).add(one.method)
-            shown.setdefault((one.scenario, one.level), set()).update(one.shown)
-        levels = [*self.settings.levels, *self.settings.fleet.levels]
-        pairs = {
-            scenario: [level for level in levels if (scenario, level) in methods]
-            for scenario in self.settings.scenarios
-        }
-        tests = {
-            name: {level: self._in_order(methods[name, level]) for level in own} for name, own in pairs.items() if own
-        }
-        limbs = {
-            name: {level: self._limbs_of(shown[name, level], ran) for level, ran in rows.items()}
-            for name, rows in tests.items()
-        }
+            methods[one.scenario, one.level].add(one.method)
+            shown[one.scenario, one.level].update(one.shown)
+        tests: dict[str, dict[str, Names]] = {}
+        limbs: dict[str, dict[str, Names]] = {}
+        # In the configuration's order, so that no file depends on where a table or a claim stands in its own.
+        for scenario, level in product(self.settings.scenarios, [*self.settings.levels, *self.settings.fleet.levels]):
+            if (scenario, level) in methods:
+                ran = self._in_order(methods[scenario, level])
+                tests.setdefault(scenario, {})[level] = ran
+                limbs.setdefault(scenario, {})[level] = self._limbs_of(shown[scenario, level], ran)
         return tests, limbs
 
     def at_scale(self, scale: str) -> "Catalogue":
@@ -92,13 +90,13 @@ class Catalogue:
     def all_methods(self) -> dict[str, Method]:
         """The methods and those that sweeps stand for, such as `MOB-Net-hidden-44` (section 6.3)."""
         methods = self.settings.methods
-        swept = {
-            swept_name(base, key, value): _swept(methods[base], sweep, key, value)
-            for key, sweep in self.settings.sweeps.items()
-            for base in sweep.of
-            if base in methods
-            for value in sweep.values
-        }
+        swept: dict[str, Method] = {}
+        for key, sweep in self.settings.sweeps.items():
+            for base in sweep.of:
+                # The checks that tell of an unknown base ask for these methods, too.
+                if base in methods:
+                    for value in sweep.values:
+                        swept[swept_name(base, key, value)] = _swept(methods[base], sweep, key, value)
         return {**methods, **swept}
 
     @cached_property
@@ -138,8 +136,10 @@ class Catalogue:
         """
         layout = self.layout
         networks = self.settings.robot.networks
-        limbs = self.method(self.network_source_of(method)).limbs
-        known = layout.limbs(group for limb in limbs for group in networks[limb].joints) or layout.names
+        groups: list[str] = []
+        for limb in self.method(self.network_source_of(method)).limbs:
+            groups += networks[limb].joints
+        known = layout.limbs(groups) or layout.names
         held = layout.limbs(self.limbs.get(scenario, {}).get(level, layout.groups))
         return tuple(joint for joint in held if joint in known)
 

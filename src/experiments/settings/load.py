@@ -96,7 +96,9 @@ def load_settings(
     odd: list[Problem] = []
     own = cast("dict[str, Any]", read_override(overrides or {}, (), odd))
     values = _laid_over({key: files[key].values[key] for key in files}, own)
-    homes = {section: document for document in documents for section in PARTS[document.path.stem]}
+    homes: dict[str, Document] = {}
+    for document in documents:
+        homes |= dict.fromkeys(PARTS[document.path.stem], document)
     sources = Sources(documents[0], {**homes, **files}, own)
     for section in NAMED_FILES:
         path = folder.parent / values[section] if isinstance(values.get(section), str) else None
@@ -106,7 +108,7 @@ def load_settings(
             files[section] = Document(path, nulls=section in WITH_NULLS)
             documents.append(files[section])
             values[section] = files[section].values
-    faults += [fault for document in documents for fault in document.faults]
+    faults += _faults_of(documents)
     faults += [sources.told(place, text) for place, text in odd]
     refuse_faults(faults)
     # the sections of those files now stand in them, and an override of their paths is none of their values
@@ -128,8 +130,16 @@ def _read(folder: Path) -> tuple[list[Document], dict[str, Document], list[str]]
                 faults.append(document.told((section,), text))
             files[section] = document
     if not all(document.is_readable for document in documents):  # only then are all sections there
-        refuse_faults(fault for document in documents for fault in document.faults)
+        refuse_faults(_faults_of(documents))
     return documents, files, faults
+
+
+def _faults_of(documents: Iterable[Document]) -> list[str]:
+    """Return what is not accepted of some files by themselves."""
+    found: list[str] = []
+    for document in documents:
+        found += document.faults
+    return found
 
 
 def _checked(values: Mapping[str, Any], sources: Sources, further: Check | None) -> Settings:

@@ -108,8 +108,7 @@ def compared(
     trials: Trials, methods: Mapping[str, Method], tasks: Mapping[str, Development], table: str | None = None
 ) -> Iterator[Trial]:
     """Yield every method by every recipe at every length, of one table or of all."""
-    rows = [row for name, rows in trials.compared.items() if table in (name, None) for row in rows]
-    for row in rows:
+    for row in _rows(trials, table):
         known = [name for name in row.methods if name in methods]
         for name, experiment, recipe in product(known, row.experiments, row.recipes):
             changes: dict[str, Value] = {EXPERIMENT: experiment, RECIPE: recipe}
@@ -119,8 +118,19 @@ def compared(
 
 def experiments_of(trials: Trials) -> set[str]:
     """Return the names of the lengths that are tried."""
-    rows = [row for rows in trials.compared.values() for row in rows]
-    return {trials.tuning.experiment, *(name for row in rows for name in row.experiments)}
+    found = {trials.tuning.experiment}
+    for row in _rows(trials, None):
+        found.update(row.experiments)
+    return found
+
+
+def _rows(trials: Trials, table: str | None) -> list[Comparison]:
+    """Return the rows of one table of comparisons, or of all."""
+    found: list[Comparison] = []
+    for name, rows in trials.compared.items():
+        if table in (name, None):
+            found += rows
+    return found
 
 
 def _changed(
