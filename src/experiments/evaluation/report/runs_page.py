@@ -126,11 +126,14 @@ def read_training_run(folder: Path, tested: Mapping[Key, TestError] | None = Non
     """
     training = read_training(folder)
     note = read_json(folder / RUN)
+    settings: dict[str, str] = {}
+    for key in SETTINGS:
+        settings |= dict(flattened(key, note[key]))
     return TrainingRun(
         **vars(training),
         **{key: note[key] for key in SHOWN},
         cell=note["settings"]["network"]["cell"],
-        settings=dict(pair for key in SETTINGS for pair in flattened(key, note[key])),
+        settings=settings,
         tested=(tested or {}).get((note["method"], note["limb"], note["seed"])),
         metrics=folder / METRICS,
         seconds=training_seconds(folder),
@@ -213,7 +216,11 @@ def shared_settings(runs: Sequence[TrainingRun]) -> dict[str, str]:
     if len(runs) < 2:
         return {}
     first, *others = (run.settings for run in runs)
-    return {name: text for name, text in first.items() if all(other.get(name) == text for other in others)}
+    shared: dict[str, str] = {}
+    for name, text in first.items():
+        if all(other.get(name) == text for other in others):
+            shared[name] = text
+    return shared
 
 
 def charts(run: TrainingRun) -> list[Chart]:
@@ -222,7 +229,8 @@ def charts(run: TrainingRun) -> list[Chart]:
         return []
     x = [row.epoch for row in run.epochs]
     best = run.best.epoch
-    training, validation = ([getattr(row, name) for row in run.epochs] for name in ("train_loss", "validation_loss"))
+    training = [row.train_loss for row in run.epochs]
+    validation = [row.validation_loss for row in run.epochs]
     return [
         line_chart("loss", "loss [-]", x, {"training": training, "validation": validation}, best),
         line_chart("rmse", "RMSE [N m]", x, {"validation": [row.validation_rmse for row in run.epochs]}, best),

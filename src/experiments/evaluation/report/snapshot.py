@@ -82,7 +82,9 @@ def check_run(results: Path, manifest: Path) -> None:
 def made_by(results: Path) -> dict[Path, str]:
     """Return the accounts of jobs and the notes of files in results -> the commit that they name."""
     accounts = {path: read_account(path).commit for path in sorted((results / LOGS).rglob("*.json"))}
-    notes = [note for folder in NOTED for note in sorted(results.glob(f"**/{folder}/**/*.json"))]
+    notes: list[Path] = []
+    for folder in NOTED:
+        notes += sorted(results.glob(f"**/{folder}/**/*.json"))
     return accounts | {note: read_json(note).get("provenance", {}).get("commit", UNKNOWN) for note in notes}
 
 
@@ -116,7 +118,10 @@ def write_snapshot(settings: Settings, tables: Path, figures: Path, further: Seq
         DataError: there is no table to copy, or a file is missing.
     """
     numbers = sorted(tables.glob("*.csv"))
-    pictures = sorted(path for ending in PICTURES for path in figures.glob(f"*{ending}"))
+    drawings: list[Path] = []
+    for ending in PICTURES:
+        drawings += figures.glob(f"*{ending}")
+    pictures = sorted(drawings)
     found = [*numbers, *(path.with_suffix(".md") for path in numbers), *pictures, *further]
     if not numbers:
         raise DataError(f"{tables}: holds no CSV; ./reproduce all makes them")
@@ -173,9 +178,12 @@ def compare_snapshot(snapshot: Path, tables: Path, figures: Path) -> list[str]:
     stored = sorted(snapshot.glob("*.csv"))
     if not stored:
         raise DataError(f"{snapshot}: holds no CSV; ./reproduce snapshot stores them")
-    told = [line for path in stored for line in table_differences(path, tables / path.name)]
-    drawn = sorted((snapshot / DRAWN).glob("*.csv.gz"))
-    return told + [line for path in drawn for line in figure_differences(path, figures / path.stem)]
+    told: list[str] = []
+    for path in stored:
+        told += table_differences(path, tables / path.name)
+    for path in sorted((snapshot / DRAWN).glob("*.csv.gz")):
+        told += figure_differences(path, figures / path.stem)
+    return told
 
 
 def figure_differences(old: Path, new: Path) -> Iterator[str]:
@@ -219,7 +227,10 @@ def cell_differences(old: Mapping[str, str], new: Mapping[str, str]) -> Iterator
 def read_keyed(path: Path) -> Rows:
     """Read a tidy CSV as (values of the naming columns) -> row."""
     keys = (*KEYS, *KEYS_OF.get(path.stem, ()))
-    return {tuple(row[key] for key in keys if key in row): row for row in read_texts(path)}
+    rows: Rows = {}
+    for row in read_texts(path):
+        rows[tuple(row[key] for key in keys if key in row)] = row
+    return rows
 
 
 def store(manifest: Path) -> None:

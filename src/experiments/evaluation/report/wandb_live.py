@@ -84,9 +84,10 @@ class Follower:
     def _checkpoints(self) -> set[tuple[Path, int]]:
         """Return the checkpoints that there are, and their times [ns]."""
         found = set[tuple[Path, int]]()
-        for path in (path for pattern in TRAININGS for path in self._results.glob(pattern)):
-            with contextlib.suppress(FileNotFoundError):  # that training has just ended
-                found.add((path, path.stat().st_mtime_ns))
+        for pattern in TRAININGS:
+            for path in self._results.glob(pattern):
+                with contextlib.suppress(FileNotFoundError):  # that training has just ended
+                    found.add((path, path.stat().st_mtime_ns))
         return found
 
     def _begin(self, name: str) -> Live:

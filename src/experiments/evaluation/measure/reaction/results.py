@@ -72,7 +72,11 @@ class Walked:
 
 def read_trials(reactions: Reactions, cases: Sequence[str]) -> list[Trial]:
     """Return the trials of all robots in some cases."""
-    return [row for case in cases for files in reactions.values() for row in read_file(files[case])]
+    found: list[Trial] = []
+    for case in cases:
+        for files in reactions.values():
+            found += read_file(files[case])
+    return found
 
 
 def read_file(path: Path) -> list[Trial]:
@@ -155,7 +159,10 @@ def walked_of(trials: Sequence[Trial], statistics: Statistics) -> Walked:
     }
     hours = [row.walked_s / HOUR_S for row in trials]
     places = [place_of(row) for row in trials]
-    rates = {name: rate_in([int(flag) for flag in own], hours, places, statistics) for name, own in flags.items()}
+    rates: dict[str, Number] = {}
+    for name, own in flags.items():
+        counts = [int(flag) for flag in own]
+        rates[name] = rate_in(counts, hours, places, statistics)
     means = {
         VELOCITY: _mean(trials, lambda row: MILLI * row.velocity_rmse_m_s, statistics, "mm/s"),
         TRACKING: _mean(trials, lambda row: MILLI * row.tracking_rmse_rad, statistics, "mrad"),
