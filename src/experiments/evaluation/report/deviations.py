@@ -18,7 +18,6 @@ def deviations(markdown: Path, out: Path) -> None:
     lines: list[Line] = []
     for row in rows:
         lines += [GAP, [tex_text(cell) for cell in row]]
-    # No gap stands before the first row.
     write_text(out, long_tex_table(columns, CAPTION, [tex_text(cell) for cell in header], lines[1:]))
 
 

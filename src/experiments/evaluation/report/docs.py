@@ -68,6 +68,7 @@ def write_sources(
     claims: Mapping[str, Claim],
 ) -> None:
     """Write what Sphinx reads into a folder: documents, and pages that are made; arguments are those of `docs`."""
+    # Documents keep their places, so that the links between them work on the pages, too.
     for path in documents:
         (folder / path).parent.mkdir(parents=True, exist_ok=True)
         shutil.copyfile(path, folder / path)

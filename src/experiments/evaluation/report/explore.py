@@ -111,7 +111,6 @@ def robot_parts(robot: RobotDescription) -> dict[str, Any]:
         limbs |= dict.fromkeys(joints, limb)
     tones: dict[str, list[int]] = {}
     for name, colour in robot.tones.items():
-        # A browser counts red, green and blue from 0 to 255.
         tones[name] = [round(255 * part) for part in colour[:3]]
     sole = robot.sole
     return {
@@ -186,6 +185,7 @@ def as_stored(shown: Shown, step_nm: float) -> Shown:
     def rebuilt(method: str, torque: NDArray[Any]) -> NDArray[np.float64]:
         if is_whole(shown, method):
             return stored(torque)
+        # The page gets what the method subtracts from the residual, which is smoother.
         residual = shown.estimates[OBSERVER]
         return stored(residual) - stored(residual - torque)
 

@@ -47,7 +47,7 @@ def judged_again(settings: Settings, published: Path) -> list[Judged]:
     rows = list(rows_of(settings.claims))
     names: set[str] = set()
     for row in rows:
-        for cell in cells_of(row.claim):
+        for cell in _cells_of(row.claim):
             if cell.table:
                 names.add(cell.table)
     tables = {name: read_texts(published / f"{name}.csv") for name in sorted(names)}
@@ -62,6 +62,7 @@ def _found(row: Row, before: Text, evidence: Evidence, settings: Settings) -> Fo
     claim = row.claim
     if is_of_tables(claim):
         return found_of(claim, evidence, settings.evaluation.statistics)
+    # A number that is made otherwise than when it was published is not measured until the next run.
     same = before if before.get("quantity") == claim.quantity else {}
     ours = _number(same, ("value", "low", "high"), claim)
     ours = replace(ours, networks=_counts(same, SPREAD[0]), walks=_counts(same, SPREAD[1]))
@@ -74,10 +75,10 @@ def _found(row: Row, before: Text, evidence: Evidence, settings: Settings) -> Fo
 
 def is_of_tables(claim: Claim) -> bool:
     """Return whether all numbers of a claim are made of fields of tables."""
-    return all(cell.table for cell in cells_of(claim))
+    return all(cell.table for cell in _cells_of(claim))
 
 
-def cells_of(claim: Claim) -> list[Cell]:
+def _cells_of(claim: Claim) -> list[Cell]:
     """Return the cells of all numbers that a claim needs."""
     found: list[Cell] = []
     for number in numbers_of(claim):

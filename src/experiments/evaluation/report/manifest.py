@@ -38,6 +38,8 @@ def differences(listed: Path) -> list[str]:
     Raises:
         DataError: one of the two lists is missing or damaged.
     """
+    # What jobs took differs from run to run: files with times have a list of their own, so that equal runs have equal
+    # manifests.
     hashes: dict[str, str] = {}
     for path in (listed, listed.with_name(TIMES)):
         hashes |= {name: found for found, name in read_lines(path)}

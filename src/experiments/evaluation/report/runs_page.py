@@ -114,6 +114,7 @@ def read_test_errors(scores: Sequence[Path]) -> dict[Key, TestError]:
             if (row.metric, row.joint) == ("rmse", "avg"):
                 values.setdefault((row.method, row.limb, row.network_seed), []).append(row.value)
         test = f"{path.parent.name}, {path.stem}"
+        # The first file that has a network counts, so that later ones only add others.
         found = {key: TestError(test, fmean(own)) for key, own in values.items()} | found
     return found
 

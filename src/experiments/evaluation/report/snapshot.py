@@ -136,6 +136,7 @@ def write_snapshot(settings: Settings, tables: Path, figures: Path, further: Seq
         store_drawn(source, out)
     kept = {out / source.name for source in numbers} | {out / DRAWN / f"{source.name}.gz" for source in drawn}
     for path in {*out.glob("*.csv"), *(out / DRAWN).glob("*.csv.gz")} - kept:
+        # A table that is made no longer takes its Markdown along, the numbers of a figure take its pictures.
         shown = [".md"] if path.parent == out else PICTURES
         for gone in (path, *(out / f"{path.name.partition('.')[0]}{ending}" for ending in shown)):
             gone.unlink(missing_ok=True)

@@ -94,6 +94,7 @@ def walked(files: Files, commit: str) -> Walked:
     for owner in files.owners:
         for scenario, levels in owner.catalogue.tests.items():
             if any(owner.has(level) for level in levels):
+                # A robot may walk fewer recordings of a test than another, or than the plant: the most count.
                 others = tests[scenario].count if scenario in tests else 0
                 count = max(len(owner.test_seeds), others)
                 tests[scenario] = Span(first=owner.test_seeds[0], count=count)
@@ -121,6 +122,7 @@ def check_seeds(run: Walked, published: Iterable[Walked]) -> None:
         DataError: it would; one line, with the seeds of the last such run and the remedy.
     """
     published = list(published)
+    # Nobody knows the methods of runs from before these were noted: they count as others.
     others = [other for other in published if other.methods is None or other.methods != run.methods]
     seen = [other for other in others if other.seeds & run.seeds]
     if seen:

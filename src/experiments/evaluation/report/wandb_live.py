@@ -66,6 +66,7 @@ class Follower:
             try:
                 epochs, _ = read_epochs(state / METRICS)
                 live = self._live.get(state)
+                # A training that was killed and goes on is logged from its first epoch again, in a new run.
                 if live is None or epochs[: len(live.epochs)] != live.epochs:
                     self._end(state, 1)
                     live = self._live[state] = self._begin(state.name)

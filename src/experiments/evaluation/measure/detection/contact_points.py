@@ -151,6 +151,7 @@ def _found(
     for title, line in settings.lines.items():
         row = row_after(settings.after_s if line.after_s is None else line.after_s)
         own = finders[hit.leg, line.alone]
+        # The base feels the unknown wrench of the ground on the standing foot, too (note 0044), a leg alone does not.
         contact = own.locate(walked.q[row], *_torques(walked, line, own, finder, row), () if line.alone else standing)
         if contact is not None:
             said = contact.spread_m, *_compared(contact.force, walked.force[row])

@@ -132,6 +132,7 @@ def outcome_of(trials: Sequence[Trial], settings: Safety, statistics: Statistics
     their mean has the median and the share of large ones beside it. The median has no interval: a few walks of three
     robots do not bound it.
     """
+    # A robot that reacts before it touches anything says nothing about a collision.
     struck = [row for row in trials if row.contact_s is not None and not is_early(row)]
     asked = [row for row in trials if row.detector != NONE]
     impulses = [row.impulse_ns for row in struck if row.impulse_ns is not None]
