@@ -133,6 +133,7 @@ def gait_cycle(air: NDArray[np.bool_], segments: Spans, start: int) -> slice | N
         begin = max(int(first), start)
         if begin >= end:
             continue
+        # A swing that is under way in the first row is none that begins: its cycle would lack its beginning.
         lifts = begin + 1 + np.flatnonzero(air[begin + 1 : end] & ~air[begin : end - 1])
         if len(lifts) > 1:
             return slice(int(lifts[0]), int(lifts[1]))

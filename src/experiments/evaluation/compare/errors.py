@@ -30,6 +30,7 @@ def compared(panel: Panel, during: str = "") -> Compared:
     """
     truth, *estimates = panel.curves
     errors = [TorqueCurve(curve.label, curve.values - truth.values, curve.std) for curve in estimates]
+    # An estimate of zero has the torque as its error, up to its sign, of which the RMSE knows nothing.
     shown = {ZERO: truth.values, **{error.label: error.values for error in errors}}
     counted = panel.flags[during].astype(bool) if during else np.ones(len(panel.time), dtype=bool)
     rmse = {

@@ -73,6 +73,7 @@ class Scene:
         note = read_array_note(file_of(self.stem, NOTE))
         push = self.pushes[:, self.layout.columns(joints)]
         found = np.zeros(push.shape)
+        # Each segment on its own: rows of two of them do not follow each other in time.
         for start, end in note["segments"]:
             found[start:end] = low_pass(push[start:end], gain_hz, note["rate_hz"])
         return found

@@ -51,11 +51,13 @@ def push_windows(stem: Path, rows: int, before_s: float, after_s: float) -> Span
     if len(pushed) != rows:
         raise DataError(f"{stem}.json: rows is {len(pushed)}, but its estimates have {rows}")
     before, after = (round(time_s * meta["rate_hz"]) for time_s in (before_s, after_s))
-    return tuple(
-        (max(start - before, first), min(end + after, last))
-        for first, last in meta["segments"]
-        for start, end in flagged_spans(pushed[:, 0] > FLAG, ((first, last),), 0)
-    )
+    flags = pushed[:, 0] > FLAG
+    windows: list[tuple[int, int]] = []
+    # Segment by segment, as rows of two segments do not follow each other in time: no window reaches into the next one.
+    for first, last in meta["segments"]:
+        for start, end in flagged_spans(flags, ((first, last),), 0):
+            windows.append((max(start - before, first), min(end + after, last)))
+    return tuple(windows)
 
 
 def pushed_of(test: CoverageTest, settings: Coverage) -> Pushed | None:

@@ -6,6 +6,7 @@ Its files are those of `experiments.plan.demo`; docs/demo has those of the publi
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import product
 from pathlib import Path
 from typing import Any
 
@@ -147,6 +148,7 @@ class StoredPush:
         sensed = self.recording.sensed
         held = [estimator.joints.index(joint) for joint in self.joints]
         state = estimator.init()
+        # Step by step as on a robot, which has no later samples.
         steps = list[Estimate]()
         for k in range(len(sensed)):
             state, estimate = estimator.step(state, sensed[k])
@@ -199,10 +201,13 @@ class StoredPush:
         names = Watched(row).names(self.joints)
         stored: list[Threshold] = read_detections(path, "thresholds")
         values = {(one.phase, one.signal): one.value for one in stored}
-        wanted = [[(phase, name) for name in names] for phase in range(1, row.phases + 1)]
-        refuse(path, (f"threshold of {name}, phase {phase}, is missing; accepted: one of each signal of {row.method}"
-                      for some in wanted for phase, name in some if (phase, name) not in values))  # fmt: skip
-        return np.array([[values[place] for place in some] for some in wanted])
+        wanted = list(product(range(1, row.phases + 1), names))
+        missing = [place for place in wanted if place not in values]
+        accepted = f"one of each signal of {row.method}"
+        refuse(
+            path, (f"threshold of {name}, phase {phase}, is missing; accepted: {accepted}" for phase, name in missing)
+        )
+        return np.array([values[place] for place in wanted]).reshape(row.phases, len(names))
 
     def _read(self, names: list[str]) -> NDArray[np.float32]:
         return read_array(self.folder / RECORDING, names, self.robot.layout)[0]

@@ -31,7 +31,9 @@ def columns_of(layout: JointLayout, items: Sequence[str | Mean]) -> list[Column]
         if isinstance(item, str):
             columns += [column_of(layout, joint, [joint], ()) for joint in members(layout, item)]
         else:
-            joints = [joint for name in item.joints for joint in members(layout, name)]
+            joints: list[str] = []
+            for name in item.joints:
+                joints += members(layout, name)
             columns.append(column_of(layout, item.name, joints, item.metrics))
     return columns
 
@@ -46,7 +48,9 @@ def column_of(layout: JointLayout, name: str, joints: Sequence[str], metrics: Se
     units = sorted({layout.unit(joint) for joint in joints})
     if len(units) > 1:
         raise ConfigError(f"column {name!r}: a mean over {', '.join(joints)} mixes {' and '.join(units)}")
-    limbs = {joint: limb for limb, own in layout.groups.items() for joint in own}
+    limbs: dict[str, str] = {}
+    for limb, own in layout.groups.items():
+        limbs |= dict.fromkeys(own, limb)
     return Column(name, units[0], tuple((limbs[joint], joint) for joint in joints), tuple(metrics))
 
 

@@ -43,6 +43,7 @@ def mean_in(values: Sequence[float], places: Sequence[Place], statistics: Statis
     if not effects:
         return Number(mean, unit=unit)
     reach = sum(_squared(count, statistics) * variance for count, variance in effects) ** 0.5
+    # Impulses and times are positive: on a log scale no end of theirs is below zero.
     if (found > 0.0).all():
         factor = float(np.exp(reach / mean))
         return Number(mean, mean / factor, mean * factor, unit=unit)
@@ -57,6 +58,7 @@ def share_in(flags: Sequence[bool], places: Sequence[Place], statistics: Statist
     found = np.array(flags, dtype=np.float64)
     value = float(found.mean())
     n = len(found)
+    # Flags of one robot, or of walks of one seed, go together: only sums over each of them are independent.
     effects = _effects((found - value) / n, places)
     if not effects:
         return Number(value)
@@ -73,9 +75,11 @@ def rate_in(counts: Sequence[int], hours: Sequence[float], places: Sequence[Plac
     whole = float(time.sum())
     if whole <= 0.0:
         return Number(None, unit="1/h")
+    # A long walk has more events than a short one of the same rate: only what its time does not explain is its effect.
     effects = _effects(events - time * total / whole, places)
     if not effects:
         return Number(total / whole, unit="1/h")
+    # Of a Poisson count the variance is the count itself.
     part = _independent(effects, total, 1, statistics)
     tail = (1.0 - statistics.confidence) / 2.0
     low = float(scipy.special.gammaincinv(total * part, tail)) if total else 0.0
@@ -105,8 +109,10 @@ def _independent(effects: Sequence[tuple[int, float]], unit: float, n: int, stat
         statistics: of the interval.
     """
     (first, variance), *others = effects
+    # Values that are all alike have no variance, and still come of few robots: a share of 0 or 1 needs its end, too.
     if not unit:
         return n * _normal(statistics) / _squared(first, statistics)
+    # Robots that happen to differ less than independent values would are no evidence for a shorter interval.
     reach = _squared(first, statistics) * max(variance, unit / n)
     reach += sum(_squared(count, statistics) * own for count, own in others)
     return _normal(statistics) * unit / reach

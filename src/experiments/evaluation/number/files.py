@@ -25,6 +25,7 @@ def read_numbers(path: Path) -> list[tuple[dict[str, str], Number]]:
     names = ("value", "low", "high", "published")
     faults = list[str]()
     found: list[tuple[dict[str, str], Number]] = []
+    # The names of the columns are line 1 of the file.
     for line, row in enumerate(read_texts(path, [*names, "unit"]), start=2):
         numbers = {name: parse_field(row[name], float | None, f"{path}:{line}: {name}", faults) for name in names}
         found.append((row, Number(**numbers, unit=row["unit"])))

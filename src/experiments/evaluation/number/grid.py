@@ -30,7 +30,11 @@ class Wanted:
         Raises:
             DataError: no run.
         """
-        rows = [row for row in scores if all(getattr(row, name) == value for name, value in vars(self).items())]
+        asked = vars(self)
+        rows: list[Score] = []
+        for row in scores:
+            if all(getattr(row, name) == value for name, value in asked.items()):
+                rows.append(row)
         if not rows:
             raise DataError(f"scores: no row for {self}")
         return rows
@@ -47,15 +51,19 @@ def run_grid(scores: Sequence[Score], wanted: Wanted) -> RunGrid:
         DataError: no run, two rows of the same run, or a network that misses a test.
     """
     rows = wanted.rows(scores)
+    # In ascending order column k of every grid is the walk of the same seed, over which numbers are paired (note 0022).
     networks = sorted({row.network_seed for row in rows})
     tests = sorted({row.test_seed for row in rows})
     values = {(row.network_seed, row.test_seed): row.value for row in rows}
+    # Variances of rows and of columns need every network on every walk, and each run once.
     if len(values) != len(rows) or len(values) != len(networks) * len(tests):
         raise DataError(
             f"scores: {len(rows)} rows for {wanted}; expected one for each of networks {networks} on tests {tests}"
         )
-    rows = rows_of(wanted.method, networks)
-    return RunGrid(np.array([[values[network, test] for test in tests] for network in networks]), rows)
+    runs: list[list[float]] = []
+    for network in networks:
+        runs.append([values[network, test] for test in tests])
+    return RunGrid(np.array(runs), rows_of(wanted.method, networks))
 
 
 def rows_of(method: str, seeds: Sequence[int]) -> str:

@@ -78,6 +78,7 @@ def summarise(grids: Sequence[RunGrid], statistics: Statistics, formula: Formula
     number where the formula gives none, such as a ratio to zero.
     """
     means = np.array([grid.mean for grid in grids])
+    # A ratio to zero is no fault of the caller: its number is left out below.
     with np.errstate(divide="ignore", invalid="ignore"):
         parts = formula.parts(means)
         slopes = slopes_of(formula.parts, means)
@@ -88,8 +89,10 @@ def summarise(grids: Sequence[RunGrid], statistics: Statistics, formula: Formula
     shown = formula.shown(parts)
     least = int(shown.argmin())
     drawn = [each for each in (*networks, *walks) if each.count > 1]
+    # Errors and their ratios have their interval on a log scale, which a run of zero or below does not have.
     on_logs = formula.positive and all((grid.values > 0).all() for grid in grids)
     low, high = ends_of(formula, parts, drawn, statistics.confidence, on_logs) if drawn else (None, None)
+    # Variances are those of a part; what is shown of it, such as the size of a gap, may change at another rate.
     steepness = abs(float(slopes_of(formula.shown, parts)[least, least]))
     stds = [std_of(each, least) for each in (networks, walks)]
     std_networks, std_walks = (None if std is None else steepness * std for std in stds)
@@ -111,6 +114,8 @@ def effects_of(grids: Sequence[RunGrid], slopes: Array, axis: int) -> list[Effec
     groups: dict[tuple[str, int], Array] = {}
     for grid, slope in zip(grids, slopes.T, strict=True):
         means = grid.values.mean(axis=1 - axis)
+        # All methods share the walks, and grids with the same rows share these. What they share is drawn once, so its
+        # effects are added before they are squared; other rows are drawn apart.
         key = ("" if axis else grid.rows, len(means))
         groups[key] = groups.get(key, 0.0) + slope[:, None] * (means - grid.mean)
     return [Effects(count, (own**2).sum(axis=1) / max(1, count - 1)) for (_, count), own in groups.items()]
@@ -161,5 +166,6 @@ def shown_range(formula: Formula, parts: Array, reach: Array, on_logs: bool) -> 
     else:
         low = parts - reach
         high = parts + reach
+    # A number that folds at zero, such as the size of a gap, is least there and not at an end.
     shown = np.stack([formula.shown(each) for each in (low, high, np.clip(0.0, low, high))])
     return np.stack([shown.min(axis=0), shown.max(axis=0)])

@@ -42,6 +42,6 @@ class Lookup:
 def read_lookup(paths: Iterable[Path], statistics: Statistics) -> Lookup:
     """Read files of scores."""
     found: dict[Wanted, list[Score]] = defaultdict(list)
-    for row in (row for path in paths for row in read_scores(path)):
+    for row in read_scores(*paths):
         found[Wanted(row.scenario, row.limb, row.level, row.method, row.joint, row.metric)].append(row)
     return Lookup(statistics, found)

@@ -3,6 +3,7 @@
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
+from itertools import chain
 
 import numpy as np
 
@@ -40,7 +41,7 @@ def summarised(
     def parts(means: Array) -> Array:
         return formula.parts(np.stack([(own**power).mean(axis=0) for own in np.split(means, ends)]))
 
-    return summarise([grid for cell in cells for grid in cell], statistics, replace(formula, parts=parts), unit)
+    return summarise(list(chain.from_iterable(cells)), statistics, replace(formula, parts=parts), unit)
 
 
 def alone(measure: Callable[[Sequence[RunGrid], Statistics, str], Number]) -> Quantity:
@@ -60,6 +61,7 @@ def difference_of(first: Number, second: Number, unit: str) -> Number:
     value = first.value - second.value
     if first.low is None or first.high is None or second.low is None or second.high is None:
         return Number(value, unit=unit)
+    # The difference falls where the first number falls or the second one rises, and the two do so independently.
     below = np.hypot(first.value - first.low, second.high - second.value)
     above = np.hypot(first.high - first.value, second.value - second.low)
     return Number(value, float(value - below), float(value + above), unit=unit)

@@ -72,6 +72,7 @@ def _score_faults(rows: Sequence[Score]) -> Iterator[Fault]:
             metric = metric_of(row.metric)
         except ConfigError:
             yield k, "metric", row.metric, "a name that a module of measures declares, such as rmse"
+            # Unit and range of a metric that nobody declares are not known.
             continue
         if row.unit not in metric.units:
             yield k, "unit", row.unit, ", ".join(metric.units)

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from itertools import chain
 
 from matplotlib.ticker import MaxNLocator
 
@@ -39,7 +40,7 @@ def line_chart(key: str, title: str, x: Sequence[float], lines: Mapping[str, Seq
                marked: float) -> Chart:  # fmt: skip
     """Scale curves, values (n,) at whole numbers x (n,), all on one axis, to the drawing; `marked` is a place of x."""
     across = span(x)
-    up = span([value for values in lines.values() for value in values])
+    up = span(list(chain.from_iterable(lines.values())))
     return Chart(
         key, title,
         {name: points(x, values, across, up) for name, values in lines.items()},

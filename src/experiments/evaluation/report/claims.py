@@ -8,7 +8,7 @@ from experiments.evaluation.figures.further.forest import forest
 from experiments.evaluation.measure.claims.cells import read_results
 from experiments.evaluation.measure.claims.verdicts import judge, rows_of
 from experiments.evaluation.tables.further.claims_table import claim_table
-from experiments.settings.claims import Claim, numbers_of
+from experiments.settings.claims import Cell, Claim, numbers_of
 from experiments.settings.runs import Statistics
 from mobnet.core.joints import JointLayout
 from mobnet.settings.methods import Method
@@ -27,7 +27,10 @@ def claims(
         DataError: a run that a claim needs is missing.
     """
     rows = list(rows_of(claims))
-    cells = [cell for row in rows for made in numbers_of(row.claim) for cell in made.cells]
+    cells: list[Cell] = []
+    for row in rows:
+        for made in numbers_of(row.claim):
+            cells += made.cells
     results = read_results(layout, scores, folders, cells, tables)
     judged = [judge(row, results, statistics, methods) for row in rows]
     claim_table(judged, statistics.confidence, table_dir)

@@ -125,7 +125,10 @@ class Statement:
     @property
     def places(self) -> list[str]:
         """Where the paper prints its claims."""
-        return list(dict.fromkeys(place for claim in self.claims for place in places_of(claim.printed)))
+        found: dict[str, None] = {}
+        for claim in self.claims:
+            found |= dict.fromkeys(places_of(claim.printed))
+        return list(found)
 
     @property
     def summary(self) -> str:
@@ -146,8 +149,11 @@ def claims_page(claims_csv: Path, confidence: float, title: str, text: str, temp
         DataError: the file is missing or damaged.
     """
     statements = read_statements(claims_csv)
+    # Claims that the paper does not make say nothing about whether it is reproduced: they are counted apart.
     papers = [one for one in statements if one.kind != OURS]
-    places = {place for statement in statements for place in statement.places}
+    places: set[str] = set()
+    for statement in statements:
+        places.update(statement.places)
     return rendered(
         template, title=title, text=text, confidence=confidence, statements=statements, kinds=SCORED, linked=True,
         counts=verdict_counts(papers), firsts=first_counts(papers),
@@ -176,12 +182,13 @@ def read_statements(claims_csv: Path) -> list[Statement]:
     """
     rows = read_texts(claims_csv, CLAIMS)
     first = {row["statement"]: k for k, row in reversed([*enumerate(rows)])}
+    # A claim may stand far below the one that begins its statement, and `groupby` takes neighbours alone.
     rows.sort(key=lambda row: first[row["statement"]])
-    return [
-        Statement([_claim(row) for row in own], name, own[0]["score"])
-        for name, group in groupby(rows, key=itemgetter("statement"))
-        for own in [list(group)]
-    ]
+    statements: list[Statement] = []
+    for name, group in groupby(rows, key=itemgetter("statement")):
+        own = list(group)
+        statements.append(Statement([_claim(row) for row in own], name, own[0]["score"]))
+    return statements
 
 
 def _claim(row: Mapping[str, str]) -> ClaimRow:

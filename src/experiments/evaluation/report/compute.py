@@ -44,7 +44,9 @@ def compute(settings: Compute, accounts: Path, out: Path) -> None:
     jobs = [job for job in map(read_account, sorted(accounts.rglob("*.json"))) if job.succeeded]
     if not jobs:
         raise DataError(f"{accounts}: holds no account of a job; ./reproduce all makes them")
-    uses = {of: use for stage, own in by_stage(jobs) for of, use in uses_of(stage, own).items()}
+    uses: Uses = {}
+    for stage, own in by_stage(jobs):
+        uses |= uses_of(stage, own)
     uses |= whole_run(jobs, settings.pause_s)
     records = [(*of, use.value, use.unit) for of, use in uses.items()]
     write_table(out.with_suffix(""), Table(COMPUTE, records, HEADER, compute_lines(uses)))
@@ -117,7 +119,9 @@ def compute_lines(uses: Uses) -> list[Line]:
     """Return the rows of text: a stage each, all jobs, and the run from its first job to its last."""
     stages = list(dict.fromkeys(stage for stage, _ in uses if stage != ELAPSED))
     digits = {"jobs": 0, "CPU time": 2, "wall time": 2, "load": 0, "peak memory": 0}
-    lines: list[Line] = [[stage, *(uses[stage, name].text(k) for name, k in digits.items())] for stage in stages]
+    lines: list[Line] = []
+    for stage in stages:
+        lines.append([stage, *(uses[stage, name].text(k) for name, k in digits.items())])
     cores, taken, wall, load = (uses[ELAPSED, name] for name in ("cores", "taken", "wall time", "load"))
     name = f"{ELAPSED} (cores: {cores.text(0)}, taken: {taken.text(0)} %)"
     return [*lines[:-1], RULE, lines[-1], [name, "", "", wall.text(), load.text(0), ""]]

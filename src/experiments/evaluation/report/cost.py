@@ -52,7 +52,9 @@ def report(plan: Plan, rates: RatesNote, rules: Collection[str]) -> str:
     """Return the price of some rules of a plan as text: a row for each stage, the disk, and what has no rate."""
     chosen = [made for rule, made in plan.rules.items() if rule in rules]
     works = [work for work, _ in chosen]
-    files = [name for _, outputs in chosen for name in outputs]
+    files: list[str] = []
+    for _, outputs in chosen:
+        files += outputs
     found = costs(works, rates.kinds)
     rows = [[stage, str(n), f"{cpu_s / HOUR_S:.2f}", f"{mib:.0f}"] for stage, (n, cpu_s, mib) in found.items()]
     unknown = sorted({work.kind for work in works} - {*rates.kinds})

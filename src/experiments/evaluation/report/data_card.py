@@ -111,15 +111,19 @@ def columns(layout: JointLayout, gain_hz: float) -> Iterator[str]:
     groups = recording_columns(layout)
     for kind, title in ((Sensed, "sensed by the robot"), (Truth, "truth, which no estimator may see")):
         texts = field_texts(kind)
-        rows = [row for field in groups if field in texts for row in column_rows(field, groups[field], texts[field])]
+        rows: list[list[str]] = []
+        for field, group in groups.items():
+            if field in texts:
+                rows += column_rows(field, group, texts[field])
         yield f"\nA recording, {title}:\n\n" + markdown_table(header, rows, left=len(header))
     texts = {
         "r": f"the observer's residual, eq. (9), gain {gain_hz:g} 1/s",
         "tau_ext_lp": "external torque behind the observer's low-pass filter, eq. (15); r minus this is the target",
         "label_lp": "the same by the foot sensors, J^T F of eq. (2), which surrogate robots learn in its place",
     }
-    grouped = groupby(residual_columns(layout, labelled=True), key=lambda column: column[0].split(".")[0])
-    rows = [row for field, found in grouped for row in column_rows(field, list(found), texts[field])]
+    rows = []
+    for field, found in groupby(residual_columns(layout, labelled=True), key=lambda column: column[0].split(".")[0]):
+        rows += column_rows(field, list(found), texts[field])
     yield "\nA residual:\n\n" + markdown_table(header, rows, left=len(header))
 
 
@@ -142,15 +146,14 @@ def column_rows(field: str, found: Sequence[Column], text: str) -> Iterator[list
 
 def sizes(settings: Settings) -> str:
     """Return the table of the sets of every scale, lengths in [min]."""
-    sets = [
-        ([scale, *names], part)
-        for scale, entry in settings.scales.items()
-        for names, part in (
-            *(((n, row.scenario, row.level), row.sizes[scale]) for n, row in settings.training_sets.items()),
-            *tests(settings, entry),
-        )
-    ]
-    rows = [[*names, str(part.shards), f"{part.shards * part.shard_s / MINUTE_S:g}"] for names, part in sets]
+    rows: list[list[str]] = []
+    for scale, entry in settings.scales.items():
+        sets: list[tuple[tuple[str, str, str], Recordings]] = []
+        for name, row in settings.training_sets.items():
+            sets.append(((name, row.scenario, row.level), row.sizes[scale]))
+        sets += tests(settings, entry)
+        for names, part in sets:
+            rows.append([scale, *names, str(part.shards), f"{part.shards * part.shard_s / MINUTE_S:g}"])
     header = ["scale", "set", "scenario", "level", "recordings", "minutes"]
     return "\n## Sets\n\n" + markdown_table(header, rows, left=4)
 

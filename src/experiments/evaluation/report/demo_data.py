@@ -54,7 +54,10 @@ def demo_data(
     seed = int(recording.name.removeprefix("s"))
     collision = _collision(settings, limb, seed, detections["collisions"])
     rows = _window(settings, pushes, recording)
-    columns = [column for field, group in recording_columns(layout).items() if field in KEPT for column in group]
+    columns: list[tuple[str, str, str]] = []
+    for field, group in recording_columns(layout).items():
+        if field in KEPT:
+            columns += group
     _cut(recording, columns, rows, out.with_name(RECORDING))
     for method, stem in estimates.items():
         held = {column["name"] for column in read_array_note(file_of(stem, NOTE))["columns"]}
@@ -139,7 +142,11 @@ def _rows_of(settings: Story, collision: Collision, name: str, path: Path) -> li
     asked = {"leg": collision.leg, "detector": settings.detector, "kind": COLLISION}
     if name == "detected":
         asked |= {"scenario": collision.scenario, "seed": collision.seed, "number": collision.number}
-    return [row for row in read_detections(path, name) if all(getattr(row, key) == asked[key] for key in asked)]
+    found: list[Any] = []
+    for row in read_detections(path, name):
+        if all(getattr(row, key) == value for key, value in asked.items()):
+            found.append(row)
+    return found
 
 
 def _source(path: Path) -> dict[str, str]:

@@ -3,7 +3,7 @@
 import re
 from pathlib import Path
 
-from experiments.evaluation.tables.layout import GAP, long_tex_table, tex_escape
+from experiments.evaluation.tables.layout import GAP, Line, long_tex_table, tex_escape
 from mobnet.core.errors import DataError
 from mobnet.core.files import read_text, write_text
 
@@ -15,8 +15,10 @@ def deviations(markdown: Path, out: Path) -> None:
     """Write the table of a Markdown file, which must be as wide as the paper's, as a TeX longtable."""
     header, *rows = markdown_rows(read_text(markdown), str(markdown))
     columns = "".join(rf">{{\raggedright\arraybackslash}}p{{{width}\textwidth}}" for width in WIDTHS)
-    lines = [line for row in rows for line in (GAP, list(map(tex_text, row)))]
-    write_text(out, long_tex_table(columns, CAPTION, list(map(tex_text, header)), lines[1:]))
+    lines: list[Line] = []
+    for row in rows:
+        lines += [GAP, [tex_text(cell) for cell in row]]
+    write_text(out, long_tex_table(columns, CAPTION, [tex_text(cell) for cell in header], lines[1:]))
 
 
 def markdown_rows(text: str, name: str) -> list[list[str]]:
@@ -25,9 +27,14 @@ def markdown_rows(text: str, name: str) -> list[list[str]]:
     Raises:
         DataError: there is no table, or a row has another number of cells.
     """
-    lines = [line for line in text.splitlines() if line.startswith("|")]
-    rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in lines]
-    rows = [row for row in rows if not all(set(cell) <= set("-: ") for cell in row)]
+    rows: list[list[str]] = []
+    for line in text.splitlines():
+        if not line.startswith("|"):
+            continue
+        cells = [cell.strip() for cell in line.strip("|").split("|")]
+        # The line below the header says on which side the text of each column stands: it is no row.
+        if not all(set(cell) <= set("-: ") for cell in cells):
+            rows.append(cells)
     wrong = [row for row in rows if len(row) != len(WIDTHS)]
     if wrong or not rows:
         found = f"{len(wrong[0])} cells in the row of {wrong[0][0]!r}" if wrong else "no table"

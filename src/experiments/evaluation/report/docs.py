@@ -68,16 +68,21 @@ def write_sources(
     claims: Mapping[str, Claim],
 ) -> None:
     """Write what Sphinx reads into a folder: documents, and pages that are made; arguments are those of `docs`."""
+    # Documents keep their places, so that the links between them work on the pages, too.
     for path in documents:
         (folder / path).parent.mkdir(parents=True, exist_ok=True)
         shutil.copyfile(path, folder / path)
     shutil.move(folder / "docs" / "conf.py", folder / "conf.py")
     index = read_text(INDEX)
-    grouped = ((group.path, group.page) for section in sections(index).values() for group in section.groups)
+    grouped: list[tuple[str, str]] = []
+    listed: set[Path] = set()
+    for section in sections(index).values():
+        grouped += [(group.path, group.page) for group in section.groups]
+        listed.update(map(Path, section.documents))
     pages = [*grouped, *result_pages(RESULTS, captions, claims), *trial_pages(), *reference_pages(modules_of(modules))]
     for path, text in pages:
         write_text(folder / path, text)
-    listed = {Path(path) for section in sections(index).values() for path in section.documents}
+    # The index also links folders, for which Sphinx needs a page.
     for path in sorted(path for path in listed if not (folder / path).exists()):
         write_text(folder / path, listing(path.parent))
     first = read_text(Path(README)) + "\n" + "\n".join(menus(index, MADE))
@@ -111,7 +116,10 @@ def title_of(table: Path) -> str:
 def modules_of(modules: Sequence[Path]) -> dict[str, list[str]]:
     """Return public package -> the dotted names of its modules, but those that are run or say what a package is."""
     names = [".".join(path.with_suffix("").parts[1:]) for path in modules if not path.stem.startswith("__")]
-    return {package: [name for name in names if name.startswith(f"mobnet.{package}.")] for package in PUBLIC}
+    found: dict[str, list[str]] = {}
+    for package in PUBLIC:
+        found[package] = [name for name in names if name.startswith(f"mobnet.{package}.")]
+    return found
 
 
 def relinked(text: str, page: Path, folder: Path) -> str:

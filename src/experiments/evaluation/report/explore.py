@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from experiments.evaluation.report.explore_numbers import push_numbers, stretches
+from experiments.evaluation.report.explore_numbers import PushNumbers, push_numbers, stretches
 from experiments.evaluation.report.explore_pack import Part, packed
 from experiments.evaluation.report.explore_scenes import Shown, read_scene
 from experiments.evaluation.report.html import rendered
@@ -69,12 +69,15 @@ def page_of(
     peaks: Peaks, robot: RobotDescription, template: Path,
 ) -> str:  # fmt: skip
     """Return the page of some scenes; `alarm` is that of the story's detector; scripts stand beside the template."""
-    numbers = {
-        name: push_numbers(
-            as_stored(scene, settings.step_nm), scene.scene.joint, scene.scene.threshold_nm, detection, peaks
-        )
-        for name, scene in shown.items()
-    }
+    numbers: dict[str, list[PushNumbers]] = {}
+    steps: dict[str, dict[str, PushNumbers]] = {}
+    parts: list[Part] = []
+    for name, scene in shown.items():
+        # The page computes with the rounded torques that it gets: the table has numbers of the same.
+        stored = as_stored(scene, settings.step_nm)
+        numbers[name] = push_numbers(stored, scene.scene.joint, scene.scene.threshold_nm, detection, peaks)
+        steps[name] = {row.method: row for row in numbers[name]}
+        parts += parts_of(scene, settings)
     told = {
         "settings": page_numbers(settings, detection, peaks),
         "robot": robot_parts(robot),
@@ -84,9 +87,9 @@ def page_of(
     }
     return rendered(
         template, told=json.dumps(told, separators=(",", ":")), numbers=numbers, shown=shown, roles=ROLES,
-        data=packed(part for scene in shown.values() for part in parts_of(scene, settings)), detection=detection,
+        data=packed(parts), detection=detection,
         peaks=peaks, joint_names=joint_names(robot), alarm_of=story.detector,
-        steps={name: {row.method: row for row in rows} for name, rows in numbers.items()},
+        steps=steps,
         trained_hz=next(iter(shown.values())).gain_hz,
     )  # fmt: skip
 
@@ -103,7 +106,12 @@ def page_numbers(settings: Explore, detection: Detection, peaks: Peaks) -> dict[
 def robot_parts(robot: RobotDescription) -> dict[str, Any]:
     """Return bodies, joints, solids with their colours, and soles of a robot, bodies by their number."""
     index = {body.name: k for k, body in enumerate(robot.bodies)}
-    limbs = {joint: limb for limb, joints in robot.layout.groups.items() for joint in joints}
+    limbs: dict[str, str] = {}
+    for limb, joints in robot.layout.groups.items():
+        limbs |= dict.fromkeys(joints, limb)
+    tones: dict[str, list[int]] = {}
+    for name, colour in robot.tones.items():
+        tones[name] = [round(255 * part) for part in colour[:3]]
     sole = robot.sole
     return {
         "bodies": [[index.get(body.parent, -1), body.pos, body.quat] for body in robot.bodies],
@@ -112,7 +120,7 @@ def robot_parts(robot: RobotDescription) -> dict[str, Any]:
             [index[shape.body], shape.type, shape.size, shape.segment or shape.pos, shape.tone]
             for shape in robot.shapes
         ],
-        "tones": {name: [round(255 * part) for part in colour[:3]] for name, colour in robot.tones.items()},
+        "tones": tones,
         "feet": [index[foot.body] for foot in robot.feet.values()],
         "sole": [sole.box_centre, sole.box_half] if sole else None,
     }
@@ -177,6 +185,7 @@ def as_stored(shown: Shown, step_nm: float) -> Shown:
     def rebuilt(method: str, torque: NDArray[Any]) -> NDArray[np.float64]:
         if is_whole(shown, method):
             return stored(torque)
+        # The page gets what the method subtracts from the residual, which is smoother.
         residual = shown.estimates[OBSERVER]
         return stored(residual) - stored(residual - torque)
 

@@ -87,6 +87,7 @@ def alarms(
     watched = shown.flags["watched"]
     over = ratio > ALARM_RATIO
     calm = calm_rows(shown)
+    # An alarm counts where it begins, however long it lasts.
     rises = over & calm & ~np.concatenate([[False], over[:-1] & calm[:-1]])
     largest = float(ratio[calm].max(initial=0.0)) * threshold_nm
     return _delay(shown, over, detection), int(rises.sum()), largest if watched[shown.lead :].any() else None

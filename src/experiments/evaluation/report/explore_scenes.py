@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from itertools import product
 from pathlib import Path
 from typing import Any
 
@@ -26,7 +27,7 @@ from mobnet.robot.description import RobotDescription
 from mobnet.settings.detection import Detection
 
 ARROWS = named(PUSH, ("row", "force_x", "force_y", "force_z"))
-FORCES = [f"wrench_{foot}.force_{axis}" for foot in FEET for axis in "xyz"]
+FORCES = [f"wrench_{foot}.force_{axis}" for foot, axis in product(FEET, "xyz")]
 
 JUMP_M = 0.2  # between two poses, more than a robot walks
 
@@ -137,7 +138,11 @@ def shared_joints(scene: PageScene, layout: JointLayout, pairs: Mapping[str, Pai
     Raises:
         DataError: there is none, or the one that is shown first is not among them.
     """
-    joints = tuple(j for j in layout.limbs(scene.limbs) if all(j in pair.joints for pair in pairs.values()))
+    found: list[str] = []
+    for joint in layout.limbs(scene.limbs):
+        if all(joint in pair.joints for pair in pairs.values()):
+            found.append(joint)
+    joints = tuple(found)
     if scene.joint not in joints:
         raise DataError(f"{scene.runs[0].recording}: {not_accepted('joint of the scene', scene.joint, joints)}")
     return joints

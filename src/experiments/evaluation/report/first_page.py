@@ -38,6 +38,7 @@ def first_page(
     Raises:
         DataError: a file is missing or damaged.
     """
+    # Claims that the paper does not make say nothing about whether it is reproduced.
     papers = [one for one in read_statements(claims_csv) if one.kind != OURS]
     shown = MarkdownIt("js-default").render(headline(table_dir)).strip()
     return rendered(

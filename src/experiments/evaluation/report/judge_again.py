@@ -19,7 +19,7 @@ from experiments.evaluation.number.number import Number
 from experiments.evaluation.report.snapshot import PICTURES, SNAPSHOT, store_drawn, tell_readme
 from experiments.evaluation.tables.further.claims_summary import claims_summary
 from experiments.evaluation.tables.further.claims_table import claim_table
-from experiments.settings.claims import Claim, numbers_of
+from experiments.settings.claims import Cell, Claim, numbers_of
 from experiments.settings.load import load_settings
 from experiments.settings.settings import Settings
 from mobnet.core.columns import SPREAD
@@ -45,8 +45,11 @@ def judged_again(settings: Settings, published: Path) -> list[Judged]:
     """
     before = {row["claim"]: row for row in read_texts(published / "claims.csv")}
     rows = list(rows_of(settings.claims))
-    made = [number for row in rows for number in numbers_of(row.claim)]
-    names = {cell.table for number in made for cell in number.cells if cell.table}
+    names: set[str] = set()
+    for row in rows:
+        for cell in _cells_of(row.claim):
+            if cell.table:
+                names.add(cell.table)
     tables = {name: read_texts(published / f"{name}.csv") for name in sorted(names)}
     evidence = Evidence(settings.layout, {}, {}, {}, tables)
     found = [_found(row, before.get(row.name, {}), evidence, settings) for row in rows]
@@ -59,6 +62,7 @@ def _found(row: Row, before: Text, evidence: Evidence, settings: Settings) -> Fo
     claim = row.claim
     if is_of_tables(claim):
         return found_of(claim, evidence, settings.evaluation.statistics)
+    # A number that is made otherwise than when it was published is not measured until the next run.
     same = before if before.get("quantity") == claim.quantity else {}
     ours = _number(same, ("value", "low", "high"), claim)
     ours = replace(ours, networks=_counts(same, SPREAD[0]), walks=_counts(same, SPREAD[1]))
@@ -71,7 +75,15 @@ def _found(row: Row, before: Text, evidence: Evidence, settings: Settings) -> Fo
 
 def is_of_tables(claim: Claim) -> bool:
     """Return whether all numbers of a claim are made of fields of tables."""
-    return all(cell.table for number in numbers_of(claim) for cell in number.cells)
+    return all(cell.table for cell in _cells_of(claim))
+
+
+def _cells_of(claim: Claim) -> list[Cell]:
+    """Return the cells of all numbers that a claim needs."""
+    found: list[Cell] = []
+    for number in numbers_of(claim):
+        found += number.cells
+    return found
 
 
 def _number(row: Text, names: Sequence[str], claim: Claim) -> Number:

@@ -41,7 +41,9 @@ def main_tables(settings: MainTables, sources: Sequence[Path], out: Path) -> Non
     Raises:
         DataError: a table is missing or damaged.
     """
-    cells = {name: number for path in sources for name, number in cells_of(path).items()}
+    cells: dict[str, Number] = {}
+    for path in sources:
+        cells |= cells_of(path)
     write_table(out.with_name("legs"), legs_table(settings.legs, cells))
     write_table(out.with_name("limbs"), limbs_table(settings.by_limb, cells))
     write_table(out.with_name("detectors"), detectors_table(settings.detectors, cells))

@@ -38,8 +38,12 @@ def differences(listed: Path) -> list[str]:
     Raises:
         DataError: one of the two lists is missing or damaged.
     """
-    hashes = {name: found for path in (listed, listed.with_name(TIMES)) for found, name in read_lines(path)}
-    faults = [fault for fault in (_fault(*pair) for pair in hashes.items()) if fault]
+    # What jobs took differs from run to run: files with times have a list of their own, so that equal runs have equal
+    # manifests.
+    hashes: dict[str, str] = {}
+    for path in (listed, listed.with_name(TIMES)):
+        hashes |= {name: found for found, name in read_lines(path)}
+    faults = [fault for pair in hashes.items() if (fault := _fault(*pair))]
     return faults + [f"{path}: is in no list; accepted: the files of {listed}" for path in too_many(hashes)]
 
 
@@ -59,10 +63,14 @@ def too_many(names: Iterable[str]) -> list[Path]:
     known = {Path(name) for name in names}
     scales = {Path(*path.parts[:2]) for path in known if path.parts[0] == RESULTS}
     beside = {path.parent for path in known if path.parts[0] != RESULTS}
-    found = [path for scale in scales for path in scale.rglob("*") if is_listed(path.relative_to(scale))]
-    found += [path for folder in beside for path in folder.glob("*") if folder.name != "paper"]
+    found: set[Path] = set()
+    for scale in scales:
+        found.update(path for path in scale.rglob("*") if is_listed(path.relative_to(scale)))
+    for folder in beside:
+        if folder.name != "paper":
+            found.update(folder.glob("*"))
     kept = {*KEPT, TIMES, "MANIFEST.sha256"}
-    return sorted(path for path in set(found) - known if path.is_file() and path.name not in kept)
+    return sorted(path for path in found - known if path.is_file() and path.name not in kept)
 
 
 def is_listed(path: Path) -> bool:

@@ -93,6 +93,7 @@ def copy_sources(sources: Mapping[str, Sequence[Path]], folder: Path) -> None:
 
 def set_paper(source: Path, out: Path, settings: PaperText | None) -> None:
     """Set a copied paper and write its PDF if all is in its place; without settings its guards need not hold."""
+    # The words were chosen for the results of one scale: at another one a guard that turned is no fault.
     turned = turned_guards(read_text(source), defined_texts(read_text(source.parent / TABLES / NUMBERS)))
     if settings is not None and turned:
         raise PaperError(f"{out}: the text does not fit its results: {'; '.join(turned)}")

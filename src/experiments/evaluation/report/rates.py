@@ -76,7 +76,10 @@ def fitted(works: Iterable[Work], accounts: Mapping[str, Account]) -> dict[str, 
         if work.job not in accounts:
             raise DataError(f"{work.job}: there is no account of this job; ./reproduce all writes it")
         kinds.setdefault(work.kind, []).append(work)
-    return {kind: _kind(own, [accounts[work.job] for work in own]) for kind, own in kinds.items()}
+    rates: dict[str, Kind] = {}
+    for kind, own in kinds.items():
+        rates[kind] = _kind(own, [accounts[work.job] for work in own])
+    return rates
 
 
 def _kind(works: Sequence[Work], accounts: Sequence[Account]) -> Kind:
@@ -87,9 +90,15 @@ def _kind(works: Sequence[Work], accounts: Sequence[Account]) -> Kind:
 
 def _rates(amounts: Sequence[Mapping[str, float]], taken: Sequence[float]) -> dict[str, float]:
     """Return what a unit of each amount takes; a single job of its kind has no start of its own."""
-    names = list(dict.fromkeys(name for own in amounts for name, amount in own.items() if amount))
+    names: list[str] = []
+    for own in amounts:
+        names += [name for name, amount in own.items() if amount and name not in names]
     names = names if len(amounts) == 1 and names else [JOB, *names]
-    columns = np.array([[{JOB: 1.0, **own}.get(name, 0.0) for name in names] for own in amounts])
+    rows: list[list[float]] = []
+    for own in amounts:
+        known = {JOB: 1.0, **own}
+        rows.append([known.get(name, 0.0) for name in names])
+    columns = np.array(rows)
     largest = columns.max(axis=0)  # amounts of 1 and of 1e12 beside each other would be lost in rounding
     found: NDArray[np.float64] = nnls(columns / largest, np.array(taken))[0] / largest
     return {name: float(rate) for name, rate in zip(names, found, strict=True) if rate > 0}

@@ -157,6 +157,7 @@ def findings(results: Path) -> str:
         DataError: a claim or a case is missing.
     """
     claims = {row["claim"]: _numbers(row, "value", "published") for row in read_texts(results / "claims.csv")}
+    # Rows with a waiting time are of reactions that are held back on purpose (Figure 16).
     falls = {
         f"{row['case']} {row['detector']}": SimpleNamespace(
             fell=round(float(row["value"]) * int(row["walks"])), walks=row["walks"]

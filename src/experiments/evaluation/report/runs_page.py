@@ -114,6 +114,7 @@ def read_test_errors(scores: Sequence[Path]) -> dict[Key, TestError]:
             if (row.metric, row.joint) == ("rmse", "avg"):
                 values.setdefault((row.method, row.limb, row.network_seed), []).append(row.value)
         test = f"{path.parent.name}, {path.stem}"
+        # The first file that has a network counts, so that later ones only add others.
         found = {key: TestError(test, fmean(own)) for key, own in values.items()} | found
     return found
 
@@ -126,11 +127,14 @@ def read_training_run(folder: Path, tested: Mapping[Key, TestError] | None = Non
     """
     training = read_training(folder)
     note = read_json(folder / RUN)
+    settings: dict[str, str] = {}
+    for key in SETTINGS:
+        settings |= dict(flattened(key, note[key]))
     return TrainingRun(
         **vars(training),
         **{key: note[key] for key in SHOWN},
         cell=note["settings"]["network"]["cell"],
-        settings=dict(pair for key in SETTINGS for pair in flattened(key, note[key])),
+        settings=settings,
         tested=(tested or {}).get((note["method"], note["limb"], note["seed"])),
         metrics=folder / METRICS,
         seconds=training_seconds(folder),
@@ -213,7 +217,11 @@ def shared_settings(runs: Sequence[TrainingRun]) -> dict[str, str]:
     if len(runs) < 2:
         return {}
     first, *others = (run.settings for run in runs)
-    return {name: text for name, text in first.items() if all(other.get(name) == text for other in others)}
+    shared: dict[str, str] = {}
+    for name, text in first.items():
+        if all(other.get(name) == text for other in others):
+            shared[name] = text
+    return shared
 
 
 def charts(run: TrainingRun) -> list[Chart]:
@@ -222,7 +230,8 @@ def charts(run: TrainingRun) -> list[Chart]:
         return []
     x = [row.epoch for row in run.epochs]
     best = run.best.epoch
-    training, validation = ([getattr(row, name) for row in run.epochs] for name in ("train_loss", "validation_loss"))
+    training = [row.train_loss for row in run.epochs]
+    validation = [row.validation_loss for row in run.epochs]
     return [
         line_chart("loss", "loss [-]", x, {"training": training, "validation": validation}, best),
         line_chart("rmse", "RMSE [N m]", x, {"validation": [row.validation_rmse for row in run.epochs]}, best),

@@ -82,7 +82,9 @@ def check_run(results: Path, manifest: Path) -> None:
 def made_by(results: Path) -> dict[Path, str]:
     """Return the accounts of jobs and the notes of files in results -> the commit that they name."""
     accounts = {path: read_account(path).commit for path in sorted((results / LOGS).rglob("*.json"))}
-    notes = [note for folder in NOTED for note in sorted(results.glob(f"**/{folder}/**/*.json"))]
+    notes: list[Path] = []
+    for folder in NOTED:
+        notes += sorted(results.glob(f"**/{folder}/**/*.json"))
     return accounts | {note: read_json(note).get("provenance", {}).get("commit", UNKNOWN) for note in notes}
 
 
@@ -116,7 +118,10 @@ def write_snapshot(settings: Settings, tables: Path, figures: Path, further: Seq
         DataError: there is no table to copy, or a file is missing.
     """
     numbers = sorted(tables.glob("*.csv"))
-    pictures = sorted(path for ending in PICTURES for path in figures.glob(f"*{ending}"))
+    drawings: list[Path] = []
+    for ending in PICTURES:
+        drawings += figures.glob(f"*{ending}")
+    pictures = sorted(drawings)
     found = [*numbers, *(path.with_suffix(".md") for path in numbers), *pictures, *further]
     if not numbers:
         raise DataError(f"{tables}: holds no CSV; ./reproduce all makes them")
@@ -131,6 +136,7 @@ def write_snapshot(settings: Settings, tables: Path, figures: Path, further: Seq
         store_drawn(source, out)
     kept = {out / source.name for source in numbers} | {out / DRAWN / f"{source.name}.gz" for source in drawn}
     for path in {*out.glob("*.csv"), *(out / DRAWN).glob("*.csv.gz")} - kept:
+        # A table that is made no longer takes its Markdown along, the numbers of a figure take its pictures.
         shown = [".md"] if path.parent == out else PICTURES
         for gone in (path, *(out / f"{path.name.partition('.')[0]}{ending}" for ending in shown)):
             gone.unlink(missing_ok=True)
@@ -173,9 +179,12 @@ def compare_snapshot(snapshot: Path, tables: Path, figures: Path) -> list[str]:
     stored = sorted(snapshot.glob("*.csv"))
     if not stored:
         raise DataError(f"{snapshot}: holds no CSV; ./reproduce snapshot stores them")
-    told = [line for path in stored for line in table_differences(path, tables / path.name)]
-    drawn = sorted((snapshot / DRAWN).glob("*.csv.gz"))
-    return told + [line for path in drawn for line in figure_differences(path, figures / path.stem)]
+    told: list[str] = []
+    for path in stored:
+        told += table_differences(path, tables / path.name)
+    for path in sorted((snapshot / DRAWN).glob("*.csv.gz")):
+        told += figure_differences(path, figures / path.stem)
+    return told
 
 
 def figure_differences(old: Path, new: Path) -> Iterator[str]:
@@ -219,7 +228,10 @@ def cell_differences(old: Mapping[str, str], new: Mapping[str, str]) -> Iterator
 def read_keyed(path: Path) -> Rows:
     """Read a tidy CSV as (values of the naming columns) -> row."""
     keys = (*KEYS, *KEYS_OF.get(path.stem, ()))
-    return {tuple(row[key] for key in keys if key in row): row for row in read_texts(path)}
+    rows: Rows = {}
+    for row in read_texts(path):
+        rows[tuple(row[key] for key in keys if key in row)] = row
+    return rows
 
 
 def store(manifest: Path) -> None:

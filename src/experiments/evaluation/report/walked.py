@@ -7,6 +7,7 @@ differ from those of a published one therefore walks its tests with seeds that n
 import hashlib
 import json
 from collections.abc import Iterable, Sequence
+from itertools import chain
 from pathlib import Path
 
 from experiments.plan.detection import level_of_detectors
@@ -63,7 +64,7 @@ class Walked(Note):
     def seeds(self) -> frozenset[int]:
         """The seeds of all tests."""
         spans = [*self.tests.values(), *self.reactions.values()]
-        return frozenset(seed for span in spans for seed in span.seeds)
+        return frozenset(chain.from_iterable(span.seeds for span in spans))
 
 
 class History(Note):
@@ -93,6 +94,7 @@ def walked(files: Files, commit: str) -> Walked:
     for owner in files.owners:
         for scenario, levels in owner.catalogue.tests.items():
             if any(owner.has(level) for level in levels):
+                # A robot may walk fewer recordings of a test than another, or than the plant: the most count.
                 others = tests[scenario].count if scenario in tests else 0
                 count = max(len(owner.test_seeds), others)
                 tests[scenario] = Span(first=owner.test_seeds[0], count=count)
@@ -120,10 +122,13 @@ def check_seeds(run: Walked, published: Iterable[Walked]) -> None:
         DataError: it would; one line, with the seeds of the last such run and the remedy.
     """
     published = list(published)
+    # Nobody knows the methods of runs from before these were noted: they count as others.
     others = [other for other in published if other.methods is None or other.methods != run.methods]
     seen = [other for other in others if other.seeds & run.seeds]
     if seen:
-        used = {seed for other in published for seed in other.seeds}
+        used: set[int] = set()
+        for other in published:
+            used |= other.seeds
         both = sorted(seen[-1].seeds & run.seeds)
         shown = f"{both[0]} to {both[-1]} were published by {seen[-1].commit[:8]}, whose methods were others"
         accepted = f"a first_seed in configs/scales.yaml from {max(used) + 1} on, or another one that was never walked"

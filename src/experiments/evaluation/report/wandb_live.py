@@ -66,6 +66,7 @@ class Follower:
             try:
                 epochs, _ = read_epochs(state / METRICS)
                 live = self._live.get(state)
+                # A training that was killed and goes on is logged from its first epoch again, in a new run.
                 if live is None or epochs[: len(live.epochs)] != live.epochs:
                     self._end(state, 1)
                     live = self._live[state] = self._begin(state.name)
@@ -84,9 +85,10 @@ class Follower:
     def _checkpoints(self) -> set[tuple[Path, int]]:
         """Return the checkpoints that there are, and their times [ns]."""
         found = set[tuple[Path, int]]()
-        for path in (path for pattern in TRAININGS for path in self._results.glob(pattern)):
-            with contextlib.suppress(FileNotFoundError):  # that training has just ended
-                found.add((path, path.stat().st_mtime_ns))
+        for pattern in TRAININGS:
+            for path in self._results.glob(pattern):
+                with contextlib.suppress(FileNotFoundError):  # that training has just ended
+                    found.add((path, path.stat().st_mtime_ns))
         return found
 
     def _begin(self, name: str) -> Live:

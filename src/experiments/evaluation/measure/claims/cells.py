@@ -65,12 +65,20 @@ class Evidence:
         held = self.metrics.get((scenario, level, method))
         if held is None:
             raise DataError(f"scores: no run of {method} in {scenario}, {level}")
+        # The runs are there, but a test may be too short to hold what is asked, such as a push.
         if not held.issuperset(metrics):
             return None
-        joints = [joint for name in listed(names) for joint in members(self.layout, name)]
+        joints: list[str] = []
+        for name in listed(names):
+            joints += members(self.layout, name)
+        # A mean over torques and forces has no unit: `column_of` refuses it.
         places = column_of(self.layout, ", ".join(joints), joints, metrics).joints
-        wanted = [Wanted(scenario, limb, level, method, joint, name) for limb, joint in places for name in metrics]
-        return [run_grid(self.scores.get(each, ()), each) for each in wanted]
+        grids: list[RunGrid] = []
+        for limb, joint in places:
+            for metric in metrics:
+                wanted = Wanted(scenario, limb, level, method, joint, metric)
+                grids.append(run_grid(self.scores.get(wanted, ()), wanted))
+        return grids
 
     def _measured(self, method: str, metric: str) -> list[RunGrid] | None:
         """Return a measure of the trainings of a method that did not diverge, (networks, 1); None where all did."""
@@ -115,12 +123,14 @@ class Evidence:
         held = rows[0].keys() if rows else asked
         for name in sorted(asked - held):
             raise DataError(not_accepted(f"column of {cell.table}", name, held))
+        # Beside its joints a table has a row for all of them together, which would count each joint twice.
         unasked = () if "joint" in cell.where else (ALL,)
-        return [
-            row
-            for row in rows
-            if all(row[key] == text for key, text in cell.where.items()) and row.get("joint") not in unasked
-        ]
+        found: list[Mapping[str, str]] = []
+        for row in rows:
+            is_asked = all(row[key] == text for key, text in cell.where.items())
+            if is_asked and row.get("joint") not in unasked:
+                found.append(row)
+        return found
 
 
 def read_results(
@@ -128,13 +138,18 @@ def read_results(
     tables: Mapping[str, Path] | None = None,
 ) -> Evidence:  # fmt: skip
     """Read the results that cells name: of scores, of folders of one limb's trained networks, and of tables."""
-    asked = {(cell.scenario, cell.level, cell.method, name) for cell in cells for name in listed(cell.metric or METRIC)}
+    asked: set[tuple[str | None, str | None, str | None, str]] = set()
+    for cell in cells:
+        for metric in listed(cell.metric or METRIC):
+            asked.add((cell.scenario, cell.level, cell.method, metric))
     found: dict[Wanted, list[Score]] = defaultdict(list)
     metrics: dict[tuple[str, ...], set[str]] = defaultdict(set)
-    for row in (row for path in scores for row in read_scores(path)):
-        metrics[row.scenario, row.level, row.method].add(row.metric)
-        if (row.scenario, row.level, row.method, row.metric) in asked:
-            found[Wanted(row.scenario, row.limb, row.level, row.method, row.joint, row.metric)].append(row)
+    for path in scores:
+        for row in read_scores(path):
+            # Metrics of all runs are noted, so that a run without a metric is told from one that is missing.
+            metrics[row.scenario, row.level, row.method].add(row.metric)
+            if (row.scenario, row.level, row.method, row.metric) in asked:
+                found[Wanted(row.scenario, row.limb, row.level, row.method, row.joint, row.metric)].append(row)
     rows = {name: read_texts(path) for name, path in (tables or {}).items()}
     return Evidence(layout, found, metrics, read_trainings(folders), rows)
 

@@ -77,10 +77,12 @@ def covered(
     joints = layout.limb(settings.limb)
     foot = FEET.index(foot_of(layout, joints[0]))
     sets = [explored, plain]
+    # The larger of two sets would visit more cells and lie nearer to any sample: both have equally many.
     samples = equal_sets([read_blocks(stems, layout, inputs, settings) for stems in sets], settings.samples)
     airborne = equal_sets([read_blocks(stems, layout, inputs, settings, foot) for stems in sets], settings.samples)
     names = (*inputs.names, PHASE)
     bare = [array[:, :-1] for array in samples]
+    # One scale for both sets, so that distances to the two compare.
     mean, std = scale_of(np.concatenate(bare))
     references = [refer(array, settings.range, mean, std) for array in bare]
     ranges = conditional(samples, names, joints, settings)
@@ -112,7 +114,9 @@ def visited(
     where = {name: column for column, name in enumerate(names)}
     shares = []
     for joint in joints:
-        planes = [array[:, [where[f"{quantity}.{joint}"] for quantity in OUTSIDE]] for array in samples]
+        columns = [where[f"{quantity}.{joint}"] for quantity in OUTSIDE]
+        planes = [array[:, columns] for array in samples]
+        # One rectangle for both sets, without the rarest samples, of which a single one would stretch all cells.
         both = np.concatenate(planes)
         bounds = list(zip(*np.quantile(both, settings.cell_range, axis=0), strict=True))
         shares.append([float(np.mean(np.histogramdd(plane, settings.cells, bounds)[0] > 0)) for plane in planes])
@@ -135,6 +139,7 @@ def outside(
         columns = {joint: [where[f"{quantity}.{joint}"]] for joint in joints}
         for joint, picked in (columns | {ALL: [column for (column,) in columns.values()]}).items():
             have, lack = (float(share[picked].mean()) for share in shares)
+            # Shares may be zero, so that their ratio has no interval.
             yield Covered(test.scenario, test.level, measure, joint, len(blocks), have, lack, Number(None))
 
 
@@ -163,7 +168,10 @@ def conditional(
 def widths(ranges: Ranges) -> Iterator[Covered]:
     """Yield the mean width [N m] of the conditional ranges for each joint, and the mean over joints."""
     for condition, measure in WIDTH.items():
-        known = {joint: [one.width for one in both] for (given, joint), both in ranges.items() if given == condition}
+        known: dict[str, list[float]] = {}
+        for (given, joint), both in ranges.items():
+            if given == condition:
+                known[joint] = [one.width for one in both]
         for joint, (have, lack) in _with_all(known):
             yield Covered("training", "", measure, joint, 0, have, lack, Number(have / lack))
 
@@ -176,8 +184,11 @@ def beyond(test: CoverageTest, blocks: Blocks, ranges: Ranges, names: Sequence[s
     samples = np.concatenate(blocks)
     for condition, measure in BEYOND.items():
         known: dict[str, list[float]] = {}
-        for joint, both in ((joint, both) for (given, joint), both in ranges.items() if given == condition):
+        for (given, joint), both in ranges.items():
+            if given != condition:
+                continue
             columns, torque = _columns_of(condition, joint, names)
+            # A swing or stance that is cut by the end of its segment has no phase.
             own = samples[np.isfinite(samples[:, columns]).all(axis=1)]
             if len(own):
                 known[joint] = [float(one.outside(own[:, columns], own[:, torque]).mean()) for one in both]
@@ -206,9 +217,16 @@ def nearest(
 
     The blocks (n, n_in) are z-scored; the references are with and without random torque exploration.
     """
-    distances = [[ref.tree.query(block)[0] for block in blocks] for ref in references]
+    distances: list[list[NDArray[Any]]] = []
+    for ref in references:
+        distances.append([ref.tree.query(block)[0] for block in blocks])
     for measure, share in NEAREST.items():
-        have, lack = (np.array([[np.quantile(block, share) for block in found]]) for found in distances)
-        ratio = summarise([RunGrid(have), RunGrid(lack)], statistics, RATIO)
-        means = float(have.mean()), float(lack.mean())
-        yield Covered(test.scenario, test.level, measure, ALL, len(blocks), *means, ratio)
+        # Neighbouring samples are alike: blocks of time, and not samples, take the place of walks in the interval.
+        have, lack = (_quantiles(found, share) for found in distances)
+        ratio = summarise([have, lack], statistics, RATIO)
+        yield Covered(test.scenario, test.level, measure, ALL, len(blocks), have.mean, lack.mean, ratio)
+
+
+def _quantiles(distances: Sequence[NDArray[Any]], share: float) -> RunGrid:
+    """Return a quantile of the distances in each of n blocks, (1, n) [-]."""
+    return RunGrid(np.array([[np.quantile(block, share) for block in distances]]))

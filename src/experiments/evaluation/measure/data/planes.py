@@ -108,7 +108,9 @@ def read_samples(
     The phase is that of a foot's gait. At most `count` samples of all recordings together are taken, where the phase is
     known, and around pushes only where those are given.
     """
-    names = [f"{SWING}.{foot}", *(f"{quantity}.{joint}" for joint in joints for quantity in (VELOCITY, DESIRED))]
+    names = [f"{SWING}.{foot}"]
+    for joint in joints:
+        names += [f"{quantity}.{joint}" for quantity in (VELOCITY, DESIRED)]
     arrays = [np.zeros((0, len(joints), 3), dtype=np.float32)]
     for stem in stems:
         array, meta = read_array(stem, names)

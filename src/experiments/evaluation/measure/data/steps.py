@@ -1,7 +1,7 @@
 """The steps of a recorded walk: commanded (Table 2) and measured, and bins of the commands."""
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -91,7 +91,12 @@ def read_steps(stems: Sequence[Path], layout: JointLayout) -> WalkedSteps:
         DataError: a file or a column is missing, or no step is made.
     """
     found = [_steps_of(stem, layout) for stem in stems]
-    steps = WalkedSteps(*(np.concatenate([vars(one)[field.name] for one in found]) for field in fields(WalkedSteps)))
+    steps = WalkedSteps(
+        foot=np.concatenate([one.foot for one in found]),
+        commanded=np.concatenate([one.commanded for one in found]),
+        duration_s=np.concatenate([one.duration_s for one in found]),
+        landed=np.concatenate([one.landed for one in found]),
+    )
     if not len(steps):
         raise DataError(f"{', '.join(map(str, stems))}: no step is made in these recordings")
     return steps
@@ -100,7 +105,9 @@ def read_steps(stems: Sequence[Path], layout: JointLayout) -> WalkedSteps:
 def _steps_of(stem: Path, layout: JointLayout) -> WalkedSteps:
     """Return the steps of one recording."""
     columns = recording_columns(layout)
-    names = [name for field in ("q", "swing", "command") for name, _, _ in columns[field]]
+    names: list[str] = []
+    for field in ("q", "swing", "command"):
+        names += [name for name, _, _ in columns[field]]
     array, meta = read_array(stem, names)
     q, swing, command = np.split(array, [layout.nq, layout.nq + len(FEET)], axis=1)
     bounds = np.array(list(step_bounds(swing > FLAG, command, meta["segments"])), dtype=np.intp).reshape(-1, 3)
@@ -137,6 +144,7 @@ def measure(nominal: NominalModel, q: NDArray[Any], foot: NDArray[np.intp], spac
     facing = yaw[rows, stance]
     forward = np.cos(facing) * apart[:, 0] + np.sin(facing) * apart[:, 1]
     left = np.cos(facing) * apart[:, 1] - np.sin(facing) * apart[:, 0]
+    # The shorter way round: yaw angles jump by a whole turn.
     turn = np.remainder(yaw[rows, foot] - facing + np.pi, 2 * np.pi) - np.pi
     return np.stack([forward, left - SIGN[foot] * spacing_m, turn], axis=1)
 

@@ -33,6 +33,7 @@ def hand_speeds(nominal: NominalModel, q: NDArray[Any], v: NDArray[Any]) -> Arra
     joints = [model.getJointId(carrier[hand.body]) for hand in hands]
     posture = to_pinocchio(q)
     velocity = np.array(v, dtype=np.float64)
+    # A pelvis at rest in the origin: what remains is the motion against it.
     posture[:, POSITION] = 0.0
     posture[:, QUATERNION] = (0.0, 0.0, 0.0, 1.0)
     velocity[:, :N_VIRTUAL] = 0.0
@@ -52,7 +53,9 @@ def upper_body(every: int, stems: Sequence[Path], nominal: NominalModel) -> Iter
     """
     layout = nominal.robot.layout
     columns = recording_columns(layout)
-    names = [name for field in ("q", "v") for name, _, _ in columns[field]]
+    names: list[str] = []
+    for field in ("q", "v"):
+        names += [name for name, _, _ in columns[field]]
     speeds = []
     lows = []
     highs = []

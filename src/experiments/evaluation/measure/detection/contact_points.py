@@ -88,17 +88,18 @@ def contacts_of(
         DataError: a file is missing or damaged, or a method does not give what a line takes.
     """
     joints = robot.layout.limbs(settings.limbs)
-    finders = {
-        (leg, alone): ContactFinder.of(numbers, robot, leg, robot.layout.limb(leg) if alone else joints)
-        for leg in settings.legs
-        for alone in (False, True)
-    }
+    finders: dict[tuple[str, bool], ContactFinder] = {}
+    for leg in settings.legs:
+        finders[leg, False] = ContactFinder.of(numbers, robot, leg, joints)
+        # The hit leg alone, too: its torques are fewer than the unknowns of a hit above the foot (note 0044).
+        finders[leg, True] = ContactFinder.of(numbers, robot, leg, robot.layout.limb(leg))
     for recording in dict.fromkeys(run.recording for run in runs):
         walked = _walked(robot, joints, gain_hz, [run for run in runs if run.recording == recording])
         alarms = _alarms(settings, detections, recording)
         count = dict.fromkeys(settings.legs, 0)
         for hit in hits_of(recording, pushes, robot.layout):
             count[hit.leg] = count.get(hit.leg, 0) + 1
+            # Files of detectors number the collisions of each leg by themselves.
             alarm = alarms.get((hit.leg, count[hit.leg]))
             if alarm is not None and hit.force.max() >= settings.least_n:
                 yield from _found(settings, finders, walked, hit, pushes[hit.name].point or "", alarm)
@@ -150,6 +151,7 @@ def _found(
     for title, line in settings.lines.items():
         row = row_after(settings.after_s if line.after_s is None else line.after_s)
         own = finders[hit.leg, line.alone]
+        # The base feels the unknown wrench of the ground on the standing foot, too (note 0044), a leg alone does not.
         contact = own.locate(walked.q[row], *_torques(walked, line, own, finder, row), () if line.alone else standing)
         if contact is not None:
             said = contact.spread_m, *_compared(contact.force, walked.force[row])

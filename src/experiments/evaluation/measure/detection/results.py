@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from itertools import product
 from typing import TypeVar
 
 import numpy as np
@@ -18,7 +19,7 @@ from mobnet.core.rows import read_rows
 Row = TypeVar("Row")
 MS = 1000.0
 LINKS, DIRECTIONS = ("foot", "ankle", "knee"), ("front", "side")  # in the paper's order
-CELLS = tuple(f"{link} {direction}" for link in LINKS for direction in DIRECTIONS)
+CELLS = tuple(f"{link} {direction}" for link, direction in product(LINKS, DIRECTIONS))
 ALL = "all"  # cells together
 
 
@@ -65,8 +66,12 @@ def owners(detections: Detections, level: str, levels: Sequence[str]) -> list[st
 
 def rows_of(detections: Detections, names: Sequence[str], file: str, kind: type[Row], /, **held: str) -> list[Row]:
     """Return the rows of a file of some robots whose fields hold what is given."""
-    rows = [row for name in names for row in read_rows(detections[name][file], kind)]
-    return [row for row in rows if all(getattr(row, field) == value for field, value in held.items())]
+    found: list[Row] = []
+    for name in names:
+        for row in read_rows(detections[name][file], kind):
+            if all(getattr(row, field) == value for field, value in held.items()):
+                found.append(row)
+    return found
 
 
 def tries_of(detections: Detections, names: Sequence[str], scenario: str, leg: str, kind: str) -> dict[str, list[Try]]:

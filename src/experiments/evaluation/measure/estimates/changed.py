@@ -41,6 +41,7 @@ def knowledge(pair: Pair, std: NDArray[np.float32] | None, scene: Scene, share: 
     count = len(pair.joints)
     covered = np.abs(error) <= half_width(share) * std
     yield Measured(KNOWN, np.concatenate(parts(covered, pair.spans)).mean(axis=0))
+    # Nothing touches a leg in the middle of its swing: there the estimate is the error, and a robot can see it.
     swing = scene.planned(pair.joints[0])
     free = hanging(swing, pair.spans, pair.rate_hz, (settings.lift_off_s, settings.landing_s))
     rows = round(settings.window_s * pair.rate_hz)

@@ -22,7 +22,9 @@ def joint_errors(
 
     The paper's numbers are those at a place of one of its tables. An error that was not scored has no value.
     """
-    limbs = {joint: limb for limb, own in layout.groups.items() for joint in own}
+    limbs: dict[str, str] = {}
+    for limb, own in layout.groups.items():
+        limbs |= dict.fromkeys(own, limb)
 
     def error(method: str, joint: str) -> Number:
         wanted = Wanted(test.scenario, limbs[joint], test.level, method, joint, metric)
@@ -30,16 +32,20 @@ def joint_errors(
         unit = layout.unit(joint)
         return replace(number, unit=unit, published=published_value(published, place, method, joint))
 
-    return {joint: {method: error(method, joint) for method in test.methods} for joint in joints}
+    found: dict[str, dict[str, Number]] = {}
+    for joint in joints:
+        found[joint] = {method: error(method, joint) for method in test.methods}
+    return found
 
 
 def error_rows(
     test: Runs, metric: str, errors: JointErrors, drawn: Mapping[str, Mapping[str, float]]
 ) -> list[tuple[Field, ...]]:
     """Return rows of `JOINT_ERRORS`; `drawn` leads from joint and method to the RMSE of what is drawn [N m]."""
-    return [
-        (test.scenario, test.level, method, joint, metric, *error.with_ends, *error.spread, error.unit,
-         error.published, drawn[joint].get(method))
-        for joint, own in errors.items()
-        for method, error in own.items()
-    ]  # fmt: skip
+    rows: list[tuple[Field, ...]] = []
+    for joint, own in errors.items():
+        for method, error in own.items():
+            of = test.scenario, test.level, method, joint, metric
+            measured = *error.with_ends, *error.spread, error.unit, error.published
+            rows.append((*of, *measured, drawn[joint].get(method)))
+    return rows

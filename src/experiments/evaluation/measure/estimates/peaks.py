@@ -34,6 +34,7 @@ def measure(pair: Pair, scene: Scene, settings: Peaks) -> Measures:
     shown = shown_pushes(pair, scene)
     motors = np.isin(pair.joints, scene.layout.actuated)
     windows = list(push_rows(scene.pushed, pair.spans, settings, pair.rate_hz))
+    # At a joint that a push does not load, the observer's error changes by more than its share of the push (note 0024).
     turned = [turned_joints(shown.push[rise], settings.turned_share, motors) for _, rise in windows]
     yield Measured(SHARE, slopes(shown, [around for around, _ in windows], turned))
     for suffix, signal in (("", shown.estimate), (OBSERVER, shown.behind)):
@@ -53,6 +54,7 @@ def push_rows(
     )
     for first, last in spans:
         for start, end in flagged_spans(pushed, ((first, last),), 0):
+            # What is shown in the row before a push is its zero: a push that acts from the first row on has none.
             if start > first:
                 stop = min(end + after, start + longest, last)
                 yield slice(max(start - before, first), stop), slice(start - 1, stop)

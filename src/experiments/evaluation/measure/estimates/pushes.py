@@ -62,13 +62,13 @@ def push_metrics(lookup: Lookup, scenario: str) -> list[str]:
 
 def responses_of(layout: JointLayout, lookup: Lookup, test: PushedRuns, joint: str) -> Responses:
     """Return the share of the pushes that each method shows [-] and the delay of its rise [ms], as `peaks` measures."""
-    return {
-        method: {
-            metric: lookup.number([wanted_of(layout, test, method, joint, metric)])
-            for metric in (SHARE, DELAY, DELAY + OBSERVER)
-        }
-        for method in test.methods
-    }
+    found: dict[str, dict[str, Number]] = {}
+    for method in test.methods:
+        numbers: dict[str, Number] = {}
+        for metric in (SHARE, DELAY, DELAY + OBSERVER):
+            numbers[metric] = lookup.number([wanted_of(layout, test, method, joint, metric)])
+        found[method] = numbers
+    return found
 
 
 def read_pushes(

@@ -35,9 +35,11 @@ def score(layout: JointLayout, runs: Sequence[Run], asked: Scoring, out: Path) -
     recording. `asked` says what else is measured, and on which runs. Rows come recording by recording.
     """
     rows: list[Score] = []
+    # Recording by recording, so that the columns of each are read once and not by every method again.
     for recording, own in groupby(sorted(runs, key=lambda run: str(run.recording)), lambda run: run.recording):
         scene = Scene(recording, layout, asked)
-        rows += [row for run in own for row in score_run(run, scene)]
+        for run in own:
+            rows += score_run(run, scene)
     write_csv(out, SCORES, [astuple(row) for row in rows])
     log.info("%s: %d runs, %d rows", out, len(runs), len(rows))
 
@@ -55,11 +57,13 @@ def score_run(run: Run, scene: Scene) -> list[Score]:
     for part, measures in measured(pair, scene):
         for metric, numbers, average_only in measures:
             values = dict(zip(part.joints, numbers.tolist(), strict=True))
-            rows += [
-                Score(*names, limb, joint, metric, value, unit_of_metric(metric, unit))
-                for limb, joint, value, unit in limb_values(layout, {k: v for k, v in values.items() if not isnan(v)})
-                if limb not in run.repeated and (joint == AVERAGE or not average_only)
-            ]
+            defined = {joint: value for joint, value in values.items() if not isnan(value)}
+            for limb, joint, value, unit in limb_values(layout, defined):
+                # A network that stands in for several seeds is one network: with a row for each seed it would have no
+                # variance over networks and yet count as several (note 0022).
+                if limb in run.repeated or (average_only and joint != AVERAGE):
+                    continue
+                rows.append(Score(*names, limb, joint, metric, value, unit_of_metric(metric, unit)))
     return rows
 
 

@@ -82,6 +82,7 @@ def autocorrelation(signal: NDArray[np.float64], spans: Spans, longest: int) -> 
     total = np.zeros((longest + 1, signal.shape[1]))
     count = np.zeros(longest + 1)
     for part in parts(signal, spans):
+        # Zeros behind the signal keep its end from being multiplied with its beginning.
         size = 2 * len(part)
         lags = min(longest, len(part) - 1) + 1
         spectrum = np.fft.rfft(part, size, axis=0)

@@ -7,7 +7,7 @@ and tested on the second half. In tests the factors are those that were fitted t
 import logging
 from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -15,7 +15,7 @@ import numpy as np
 from experiments.evaluation.compare.pair import read_pair, read_std
 from experiments.evaluation.compare.rmse import Spans, parts
 from experiments.evaluation.compare.windows import pushed_of
-from experiments.evaluation.measure.learning.trainings import read_training_note
+from experiments.evaluation.measure.learning.trainings import NotedCalibration, read_training_note
 from experiments.plan.runs import Run
 from experiments.settings.measures import CalibrationTest, Coverage
 from mobnet.core.arrays import Array
@@ -82,25 +82,37 @@ def held_out(layout: JointLayout, folders: Mapping[str, Sequence[Path]], shares:
         DataError: a note is missing, or has the coverage of other nominal shares than these (k,).
     """
     found: dict[tuple[str, Key], list[Array]] = {}
-    for level, folder in ((level, folder) for level, own in folders.items() for folder in own):
-        path = folder / RUN
-        note = read_training_note(folder)
-        if note.diverged:
-            log.info("%s: diverged, left out", path)
-            continue
-        measured = note.calibration
-        if measured.shares != list(shares):
-            raise DataError(f"{path}: coverage of shares {measured.shares}, but {list(shares)} are asked for")
-        fits = [
-            Fit(*(np.array(getattr(noted, field.name), dtype=np.float64) for field in fields(Fit)))
-            for noted in (getattr(measured, stage) for stage in STAGES)
-        ]
-        for (limb, unit), columns in limb_columns(layout, measured.joints).items():
-            cell = np.array([numbers_of(fit, columns) for fit in fits])
-            found.setdefault((level, (note.method, limb, unit)), []).append(cell)
-    return [
-        CoverageGrid(VALIDATION, level, "", *key, np.array(cells)[:, None]) for (level, key), cells in found.items()
-    ]
+    for level, own in folders.items():
+        for folder in own:
+            note = read_training_note(folder)
+            if note.diverged:
+                log.info("%s: diverged, left out", folder / RUN)
+                continue
+            fits = noted_fits(folder / RUN, note.calibration, shares)
+            for (limb, unit), columns in limb_columns(layout, note.calibration.joints).items():
+                cell = np.array([numbers_of(fit, columns) for fit in fits])
+                found.setdefault((level, (note.method, limb, unit)), []).append(cell)
+    grids: list[CoverageGrid] = []
+    for (level, key), cells in found.items():
+        # Held-out data take the place of a single test.
+        grids.append(CoverageGrid(VALIDATION, level, "", *key, np.array(cells)[:, None]))
+    return grids
+
+
+def noted_fits(path: Path, noted: NotedCalibration, shares: Sequence[float]) -> list[Fit]:
+    """Return what the note of a training says of its standard deviations, uncalibrated and calibrated.
+
+    Raises:
+        DataError: the coverage is that of other nominal shares than these (k,).
+    """
+    if noted.shares != list(shares):
+        raise DataError(f"{path}: coverage of shares {noted.shares}, but {list(shares)} are asked for")
+    fits: list[Fit] = []
+    for stage in STAGES:
+        own = getattr(noted, stage)
+        coverage, nll, crps = (np.array(values, dtype=np.float64) for values in (own.coverage, own.nll, own.crps))
+        fits.append(Fit(coverage, nll, crps))
+    return fits
 
 
 def in_tests(
@@ -148,6 +160,7 @@ def run_cells(
     factors = np.array([noted.get(joint, 1.0) for joint in pair.joints])
     arrays = pair.estimate.astype(np.float64) - pair.truth, std.astype(np.float64)
     error, scaled = (np.concatenate(parts(array, spans or pair.spans)) for array in arrays)
+    # What is stored is calibrated; without the factors, which validation data gave (note 0017), it is as learned.
     fits = [fit_of(error, one, shares) for one in (scaled / factors, scaled)]
     own = {key: columns for key, columns in limb_columns(layout, pair.joints).items() if key[0] not in run.repeated}
     for key, columns in own.items():
@@ -160,7 +173,11 @@ def grid_of(runs: Mapping[tuple[int, int], Array]) -> Array:
     Raises:
         DataError: a network misses a test.
     """
-    networks, tests = (sorted({key[axis] for key in runs}) for axis in (0, 1))
+    networks = sorted({network for network, _ in runs})
+    tests = sorted({test for _, test in runs})
     if len(runs) != len(networks) * len(tests):
         raise DataError(f"runs {sorted(runs)}; expected one for each of networks {networks} on tests {tests}")
-    return np.array([[runs[network, test] for test in tests] for network in networks])
+    rows: list[list[Array]] = []
+    for network in networks:
+        rows.append([runs[network, test] for test in tests])
+    return np.array(rows)

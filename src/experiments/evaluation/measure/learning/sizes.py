@@ -45,7 +45,11 @@ class Size:
 
 def sizes_of(sweeps: Sequence[SweptSize], statistics: Statistics) -> list[Size]:
     """Return the sizes of all panels and bases, each panel's from small to large; none where all trainings diverged."""
-    kept = [(swept, found) for swept in sweeps for found in map(sound, read_trainings(swept.folders).values()) if found]
+    kept: list[tuple[SweptSize, list[TrainedNetwork]]] = []
+    for swept in sweeps:
+        for trainings in read_trainings(swept.folders).values():
+            if found := sound(trainings):
+                kept.append((swept, found))
     largest = {swept.base: found for swept, found in sorted(kept, key=_samples) if swept.panel == SAMPLES}
     sizes = [_size_of(swept, found, largest.get(swept.base, ()), statistics) for swept, found in kept]
     return sorted(sizes, key=lambda size: size.place)
@@ -62,10 +66,12 @@ def _size_of(
     """Return one size from its runs and those of the printed size, if there are any."""
     kept = np.array([(one.kept.validation_loss, one.kept.validation_rmse) for one in trainings])
     loss, rmse = extremes(kept)
-    grids = [
-        RunGrid(np.array([[one.kept.validation_rmse] for one in runs]), runs[0].method)
-        for runs in (trainings, printed)
-        if runs
-    ]
-    ratio = summarise(grids, statistics, RATIO) if printed else Number(None)
+    ratio = Number(None)
+    if printed:
+        ratio = summarise([_errors(trainings), _errors(printed)], statistics, RATIO)
     return Size(swept.panel, swept.base, trainings[0], loss, rmse, ratio)
+
+
+def _errors(trainings: Sequence[TrainedNetwork]) -> RunGrid:
+    """Return the errors of trainings on held-out data, (n, 1) [N m]: networks of one method on one walk."""
+    return RunGrid(np.array([[one.kept.validation_rmse] for one in trainings]), trainings[0].method)

@@ -217,8 +217,10 @@ def _calibration_faults(noted: NotedCalibration) -> Iterator[str]:
     shares = len(noted.shares)
     fits = {"before": noted.before, "after": noted.after}
     lists: dict[str, Sequence[object]] = {"scale": noted.scale, "likelihood_scale": noted.likelihood_scale}
-    lists |= {f"{when}.{name}": getattr(fit, name) for when, fit in fits.items() for name in ("nll", "crps")}
-    lists |= {f"{when}.coverage.{k}": row for when, fit in fits.items() for k, row in enumerate(fit.coverage)}
+    for when, fit in fits.items():
+        lists |= {f"{when}.nll": fit.nll, f"{when}.crps": fit.crps}
+    for when, fit in fits.items():
+        lists |= {f"{when}.coverage.{k}": row for k, row in enumerate(fit.coverage)}
     for name, values in lists.items():
         if len(values) != joints:
             yield not_accepted(f"calibration.{name}", values, [f"{joints} numbers, one for each joint"])

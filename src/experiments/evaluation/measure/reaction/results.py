@@ -72,7 +72,11 @@ class Walked:
 
 def read_trials(reactions: Reactions, cases: Sequence[str]) -> list[Trial]:
     """Return the trials of all robots in some cases."""
-    return [row for case in cases for files in reactions.values() for row in read_file(files[case])]
+    found: list[Trial] = []
+    for case in cases:
+        for files in reactions.values():
+            found += read_file(files[case])
+    return found
 
 
 def read_file(path: Path) -> list[Trial]:
@@ -128,6 +132,7 @@ def outcome_of(trials: Sequence[Trial], settings: Safety, statistics: Statistics
     their mean has the median and the share of large ones beside it. The median has no interval: a few walks of three
     robots do not bound it.
     """
+    # A robot that reacts before it touches anything says nothing about a collision.
     struck = [row for row in trials if row.contact_s is not None and not is_early(row)]
     asked = [row for row in trials if row.detector != NONE]
     impulses = [row.impulse_ns for row in struck if row.impulse_ns is not None]
@@ -155,7 +160,10 @@ def walked_of(trials: Sequence[Trial], statistics: Statistics) -> Walked:
     }
     hours = [row.walked_s / HOUR_S for row in trials]
     places = [place_of(row) for row in trials]
-    rates = {name: rate_in([int(flag) for flag in own], hours, places, statistics) for name, own in flags.items()}
+    rates: dict[str, Number] = {}
+    for name, own in flags.items():
+        counts = [int(flag) for flag in own]
+        rates[name] = rate_in(counts, hours, places, statistics)
     means = {
         VELOCITY: _mean(trials, lambda row: MILLI * row.velocity_rmse_m_s, statistics, "mm/s"),
         TRACKING: _mean(trials, lambda row: MILLI * row.tracking_rmse_rad, statistics, "mrad"),
