@@ -29,7 +29,7 @@ def figure_14(settings: Figure14, detection: Detection, detections: Detections, 
         names = owners(detections, level, settings.levels)
         found[level.replace("_", " ")] = quantities(rows_of(detections, names, "collisions", Collision, **own_leg))
     edges: dict[str, np.ndarray] = {}
-    for name in LABELS:
+    for name in LABELS:  # one set of bins for all levels, whose histograms lie over one another
         pooled = np.concatenate([own[name] for own in found.values()])
         edges[name] = np.histogram_bin_edges(pooled, settings.bins)
     rows: list[Sequence[Field]] = []

@@ -70,7 +70,7 @@ def wanted_of(
     by_limb: dict[tuple[str, str], list[Wanted]] = {}
     for limb in settings.limbs:
         own = [Wanted(scenario, limb, settings.level, method, joint, metric) for joint in layout.limb(limb)]
-        whole += own
+        whole += own  # of all limbs it is the mean over their joints, not that of the limbs' means
         by_limb[limb, AVERAGE] = own
         for wanted in own:
             by_limb[limb, wanted.joint] = [wanted]

@@ -58,6 +58,7 @@ def write_contacts(stem: Path, settings: ContactPoints, statistics: Statistics, 
                      for name, number in numbers[cell].items()]  # fmt: skip
         lines += [RULE] if title == NAMED else []
         lines.append([title, *_texts(numbers)])
+    # the guesses are of every collision; a line has none of those in which it finds no contact
     hit = [one.cell for one in found if one.line == NOTHING]
     counts = [str(hit.count(cell)) for cell in CELLS]
     lines = [["collisions", str(len(hit)), "", *counts, "", "", ""], RULE, *lines]

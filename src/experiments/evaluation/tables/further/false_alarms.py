@@ -93,6 +93,7 @@ def _rows(
     swing_h = hours_per_swing(promises)
     for kind, own in by_kind.items():
         promised = _promised(own)
+        # ratios are over the threshold for one false alarm an hour, of which that of another kind is a multiple
         over = _mean([row.factor for row in own]) / _mean([row.factor for row in of_collision])
         yield (*place, kind, ALL, PROMISED, *promised.with_ends, sum(row.swings for row in own), "1/h", None)
         for cell, swings in cells.items():

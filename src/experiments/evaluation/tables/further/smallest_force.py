@@ -28,6 +28,7 @@ def smallest_force(
     """
     rows: list[Sequence[Field]] = []
     blocks: list[tuple[list[str], list[list[str]]]] = []
+    # read kind by kind, shown level by level
     shown: dict[tuple[str, str], dict[str, list[Try]]] = {}
     for kind in settings.kinds:
         for level, tries in shown_tries(settings, detections, detection.sweep, kind):
