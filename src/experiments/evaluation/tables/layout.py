@@ -107,9 +107,12 @@ def write_measured(
 
     The leading columns are those of the title, the limb and the method.
     """
-    records = [row for _, test in tests for row in _measured_rows(lookup, layout, test, metrics)]
-    lines = in_blocks(([title, limb], lines_of(test, limb)) for title, test in tests for limb in test.limbs)
-    write_table(stem, Table(METHODS, records, header, lines, left=3))
+    records: list[Sequence[Field]] = []
+    blocks: list[tuple[list[str], Sequence[Sequence[str]]]] = []
+    for title, test in tests:
+        records += _measured_rows(lookup, layout, test, metrics)
+        blocks += [([title, limb], lines_of(test, limb)) for limb in test.limbs]
+    write_table(stem, Table(METHODS, records, header, in_blocks(blocks), left=3))
 
 
 def _measured_rows(
@@ -169,7 +172,11 @@ def markdown_table(header: Sequence[str], lines: Sequence[Line], left: int = 1) 
     """Return a Markdown table without rules and gaps; columns after the first `left` ones hold numbers, flush right."""
     marks = ["---"] * left + ["---:"] * (len(header) - left)
     rows = [header, marks, *(line for line in lines if not isinstance(line, str))]
-    return "".join("| " + " | ".join(cell.replace("|", r"\|") for cell in row) + " |\n" for row in rows)
+    text = ""
+    for row in rows:
+        cells = [cell.replace("|", r"\|") for cell in row]  # a bare bar would end the cell
+        text += f"| {' | '.join(cells)} |\n"
+    return text
 
 
 def note_tex(note: str) -> str:

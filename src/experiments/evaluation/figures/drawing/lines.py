@@ -71,7 +71,10 @@ def draw_lines(panels: Sequence[LinePanel], columns: int = 1, panel_inch: float 
 
     A label that all panels share stands once, below all or at the left of each row.
     """
-    styles = looks(label for panel in panels for label in (*panel.bands, *(line.label for line in panel.lines)))
+    labels: list[str] = []
+    for panel in panels:
+        labels += [*panel.bands, *(line.label for line in panel.lines)]
+    styles = looks(labels)
     figure, axes = stacked([panel.scale for panel in panels], panel_inch, LEGEND_INCH, columns)
     one_x = len({panel.x_label for panel in panels}) == 1
     for k, (axis, panel) in enumerate(zip(axes, panels, strict=True)):

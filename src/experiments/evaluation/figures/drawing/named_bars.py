@@ -59,7 +59,9 @@ def draw_named_bars(
     axis.barh(places, value, BAR_SHARE, color=[styles[bar.method].colour for bar in bars], linewidth=0.0)
     spread = [np.nan_to_num(value - low), np.nan_to_num(high - value)]
     axis.errorbar(value, places, xerr=spread, linestyle="", color="black", linewidth=0.7, capsize=1.5)
-    dots = [(mark, place) for place, bar in zip(places, bars, strict=True) for mark in bar.marks]
+    dots: list[tuple[float, int]] = []
+    for place, bar in zip(places, bars, strict=True):
+        dots += [(mark, place) for mark in bar.marks]
     if dots:
         axis.plot(*np.array(dots).T, linestyle="", label=marked, zorder=4, **DRAWN)
     if np.isfinite(published).any():

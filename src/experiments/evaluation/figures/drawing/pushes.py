@@ -94,12 +94,18 @@ NUMBERS = ("errors", "shares", "delays")  # panels of a group below its curves
 
 def _places(groups: Sequence[PushGroup]) -> list[Any]:
     """Return the places of all panels: of each group a row of curves, and one of numbers."""
+    # so many columns that the panels of every row, however many, get equally many of them each
     width = lcm(len(NUMBERS), *(max(len(group.panels), 1) for group in groups))
     places: list[Any] = []
     for k, group in enumerate(groups):
         count = max(len(group.panels), 1)
-        places.append([f"{k}.{i}" for i in range(count) for _ in range(width // count)])
-        places.append([f"{k}.{name}" for name in NUMBERS for _ in range(width // len(NUMBERS))])
+        curves: list[str] = []
+        for i in range(count):
+            curves += [f"{k}.{i}"] * (width // count)
+        numbers: list[str] = []
+        for name in NUMBERS:
+            numbers += [f"{k}.{name}"] * (width // len(NUMBERS))
+        places += [curves, numbers]
     return places
 
 

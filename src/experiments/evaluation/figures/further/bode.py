@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import product
 from pathlib import Path
 from typing import Any
 
@@ -54,10 +55,9 @@ def bode(
     lookup = read_lookup(scores, statistics)
     lines = {push.joint: push.sines.frequency_hz for push in pushes.values() if push.joint and push.sines}
     joints = [joint for joint in layout.limb(settings.limb) if joint in lines]
-    answers = [
-        answer(lookup, settings, method, joint, quantity, lines[joint])
-        for method in settings.methods for joint in joints for quantity in QUANTITIES
-    ]  # fmt: skip
+    answers: list[Answer] = []
+    for method, joint, quantity in product(settings.methods, joints, QUANTITIES):
+        answers.append(answer(lookup, settings, method, joint, quantity, lines[joint]))
     ends = min(min(own) for own in lines.values()), max(max(own) for own in lines.values())
     frequencies = np.geomspace(*ends, POINTS)
     response = observer_response(frequencies, observer.gain_hz, rates.data_hz)

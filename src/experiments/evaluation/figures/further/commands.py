@@ -57,12 +57,12 @@ def commands(
         counts = {
             name: np.bincount(bin_of(values[:, column], edges), minlength=len(ends)) for name, values in found.items()
         }
-        own = next(iter(counts.values()))
-        panels.append(Bars(label, edges, 100.0 * own / own.sum(), named_values(commands, column)))
-        rows += [
-            (name, COMMAND[column][0], *bounds, count, count / len(found[name]), UNITS[column])
-            for name, own in counts.items() for bounds, count in zip(ends, own.tolist(), strict=True)
-        ]  # fmt: skip
+        first = next(iter(counts.values()))
+        panels.append(Bars(label, edges, 100.0 * first / first.sum(), named_values(commands, column)))
+        for name, own in counts.items():
+            for bounds, count in zip(ends, own.tolist(), strict=True):
+                share = count / len(found[name])
+                rows.append((name, COMMAND[column][0], *bounds, count, share, UNITS[column]))
     save_figure(draw_bars(panels), figure_dir / "commands", COMMANDS, rows)
 
 

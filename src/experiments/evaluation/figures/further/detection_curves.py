@@ -83,7 +83,9 @@ def detection_curves(
     for name in (name for name in settings.detectors if name in hits):
         quiet = [row for row in swings if row.detector == name]
         hours = len(quiet) * hours_per_swing([row for row in promises if row.detector == name])
-        own = {robot: [row for row in rows if row.detector == name] for robot, rows in points.items()}
+        own: dict[str, list[CurvePoint]] = {}
+        for robot, found in points.items():
+            own[robot] = [row for row in found if row.detector == name]
         courses += [*_over_rates(name, own, quiet, hours, statistics),
                     _over_force(name, sweep[name], settings.force_bins, statistics)]  # fmt: skip
         hit = np.array([one.detected.ratio for one in hits[name]])
@@ -104,7 +106,8 @@ def _over_rates(
 
     The points are those of each robot.
     """
-    factors = sorted({row.factor for rows in points.values() for row in rows})
+    pooled = [(robot, row) for robot, rows in points.items() for row in rows]
+    factors = sorted({row.factor for _, row in pooled})
     factors = [factor for factor in factors if alarms_in(quiet, factor) <= RATE_MOST * hours]
     quiet_at = next((k for k, factor in enumerate(factors) if not alarms_in(quiet, factor)), len(factors))
     factors = factors[: quiet_at + 1]  # higher thresholds only find less
@@ -113,11 +116,14 @@ def _over_rates(
     delays = list[Number]()
     counts = list[int]()
     for factor in factors:
-        own = [(robot, row) for robot, rows in points.items() for row in rows if row.factor == factor]
+        own = [(robot, row) for robot, row in pooled if row.factor == factor]
         found = sum(row.found for _, row in own)
         count = sum(row.collisions for _, row in own)
-        flags = [hit for _, row in own for hit in [True] * row.found + [False] * (row.collisions - row.found)]
-        places = [Place(robot, 0) for robot, row in own for _ in range(row.collisions)]
+        flags: list[bool] = []
+        places: list[Place] = []
+        for robot, row in own:
+            flags += [True] * row.found + [False] * (row.collisions - row.found)
+            places += [Place(robot, 0)] * row.collisions  # a point is of all walks of a robot together: one cluster
         rates.append(alarms_in(quiet, factor) / hours if hours else 0.0)
         shares.append(share_in(flags, places, statistics))
         late = MS * sum(row.delay_sum_s for _, row in own) / found if found else None
@@ -130,7 +136,9 @@ def _over_force(name: str, tries: Sequence[Try], bins: int, statistics: Statisti
     """Return the found share in bins of the largest force with as many collisions each, over their mean force [N]."""
     ordered = sorted(tries, key=lambda one: one.collision.force_n)
     parts = [list(part) for part in np.array_split(np.array(ordered, dtype=object), bins) if len(part)]
-    x = [float(np.mean([one.collision.force_n for one in part])) for part in parts]
+    x: list[float] = []
+    for part in parts:
+        x.append(float(np.mean([one.collision.force_n for one in part])))
     shares = [found_share(part, statistics) for part in parts]
     return DetectorLine(FORCE, name, x, shares, [len(part) for part in parts])
 

@@ -34,10 +34,9 @@ def drift(settings: Drift, statistics: Statistics, scores: Sequence[Path], figur
                 LinePanel(f"{title}, {phase}", X_LABEL, Y_LABEL, lines, guide=1.0, ends=ENDS, note=beyond(held),
                           note_below=True, logarithmic=False, dodge=APART)
             )  # fmt: skip
-            rows += [
-                (title, test.scenario, test.level, method, phase, step, *number.with_ends, *number.spread)
-                for method, own in held.items() for step, number in own.items()
-            ]  # fmt: skip
+            for method, own in held.items():
+                place = title, test.scenario, test.level, method, phase
+                rows += [(*place, step, *number.with_ends, *number.spread) for step, number in own.items()]
     figure = draw_lines(panels, min(COLUMNS, len(panels)), PANEL_INCH)
     save_figure(figure, figure_dir / "drift", DRIFT, rows)
 

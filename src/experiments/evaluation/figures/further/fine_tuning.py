@@ -57,11 +57,8 @@ def shown_of(settings: FineTuning, seconds: Sequence[int], test: TunedTest) -> d
     def wanted(level: str, method: str) -> Wanted:
         return Wanted(test.scenario, settings.limb, level, method, settings.joint)
 
-    return {
-        BEFORE: [wanted(test.level, before)] * len(seconds),
-        **{
-            label: [wanted(test.level, swept_name(base, settings.sweep, time)) for time in seconds]
-            for label, base in test.tuned.items()
-        },
-        KNOWN: [wanted(test.known, before)] * len(seconds),
-    }
+    shown = {BEFORE: [wanted(test.level, before)] * len(seconds)}
+    for label, base in test.tuned.items():
+        shown[label] = [wanted(test.level, swept_name(base, settings.sweep, time)) for time in seconds]
+    shown[KNOWN] = [wanted(test.known, before)] * len(seconds)
+    return shown

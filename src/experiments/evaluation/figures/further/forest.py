@@ -4,6 +4,7 @@ One figure has the statements with a number of the paper, ours over the paper's 
 without, how far ours lies on the claimed side of the bound.
 """
 
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from itertools import groupby
 from pathlib import Path
@@ -156,7 +157,7 @@ def _place(axis: Axes, row: float, place: Place) -> None:
 
 def _key(figure: Figure, statements: Sequence[Statement], band: str) -> None:
     """Put what colours, signs and markers mean on top of a figure, with how many statements have each verdict."""
-    counts = {name: sum(each.worst.judged.verdict == name for each in statements) for name in VERDICTS}
+    counts = Counter(each.worst.judged.verdict for each in statements)
     handles: list[Any] = [
         mpl.lines.Line2D([], [], color=colour, marker=marker, markersize=4, linewidth=1.2 if marker else 0.0,
                          label=f"{sign} {verdict} ({counts[verdict]})")

@@ -29,13 +29,16 @@ def learning_curve(settings: LearningCurve, kept: Path, figure_dir: Path) -> Non
     `kept` is the table that `./reproduce lengths` made. A training that diverged has no place.
     """
     rows = [row for row in read_rows(kept, TrialError) if row.joint == AVERAGE and not row.state]
-    tasks = {task: [row for row in rows if row.task == task] for task in dict.fromkeys(row.task for row in rows)}
-    panels = [
-        LinePanel(settings.titles[task], label, Y_LABEL, curves_of(settings, own, place), scale=task,
-                  note=beside(settings, own), note_below=True)
-        for label, place in AXES.items()
-        for task, own in tasks.items()
-    ]  # fmt: skip
+    tasks: dict[str, list[TrialError]] = {}
+    for row in rows:
+        tasks.setdefault(row.task, []).append(row)
+    panels: list[LinePanel] = []
+    for label, place in AXES.items():
+        for task, own in tasks.items():
+            curves = curves_of(settings, own, place)
+            note = beside(settings, own)
+            title = settings.titles[task]
+            panels.append(LinePanel(title, label, Y_LABEL, curves, scale=task, note=note, note_below=True))
     figure = draw_lines(panels, len(tasks), PANEL_INCH)
     save_figure(figure, figure_dir / "learning_curve", TRIALS, [astuple(row) for row in rows])
 
@@ -53,8 +56,11 @@ def curves_of(
 
 def _line(label: str, lengths: Sequence[Sequence[TrialError]], place: Callable[[TrialError], float | None]) -> Line:
     """Return a line: the mean over the networks of each length, and each of them."""
-    places = [float(np.mean([place(row) or 0.0 for row in rows])) for rows in lengths]
-    dots = [[row.rmse_nm for row in rows] for rows in lengths]
+    places: list[float] = []
+    dots: list[list[float]] = []
+    for rows in lengths:
+        places.append(float(np.mean([place(row) or 0.0 for row in rows])))
+        dots.append([row.rmse_nm for row in rows])
     return Line(label, places, [Number(float(np.mean(own))) for own in dots], dots)
 
 

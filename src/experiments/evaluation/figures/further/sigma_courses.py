@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from itertools import product
 from pathlib import Path
 from typing import Any
 
@@ -64,14 +65,12 @@ class SigmaLine:
 def sigma_figure(settings: Sigma, lookup: Lookup, share: float, figure_dir: Path) -> None:
     """Write coverage of a nominal share [-], error [N m] and autocorrelation [-] of tests like the training data."""
     known = {title: test for title, test in settings.tests.items() if title not in settings.against}
-    courses = [
-        course
-        for title, test in known.items() for method in test.methods for limb in test.limbs
-        for course in courses_of(settings, lookup, (title, test), method, limb)
-    ]  # fmt: skip
-    save_figure(
-        draw_sigma(courses, share), figure_dir / "sigma", SIGMA, [row for course in courses for row in course.rows()]
-    )
+    courses: list[SigmaLine] = []
+    for title, test in known.items():
+        for method, limb in product(test.methods, test.limbs):
+            courses += courses_of(settings, lookup, (title, test), method, limb)
+    rows = [row for course in courses for row in course.rows()]
+    save_figure(draw_sigma(courses, share), figure_dir / "sigma", SIGMA, rows)
 
 
 def courses_of(
@@ -110,9 +109,16 @@ def draw_sigma(courses: Sequence[SigmaLine], share: float) -> Figure:
         entitle(axis, k, panel)
     axes[COVERAGE].axhline(share, **GUIDE)
     axes[COVERAGE].set_ylim(0.0, 1.0)
-    for part in sorted({x for course in courses if course.panel == COVERAGE for x in course.x})[-1:]:
+    parts: list[float] = []
+    sizes: list[float] = []
+    for course in courses:
+        if course.panel == COVERAGE:
+            parts += course.x
+        elif course.panel == ERROR:
+            sizes += course.x
+    for part in sorted(parts)[-1:]:
         axes[COVERAGE].annotate(f"nominal share: {share:.0%}", (part, share), (0.0, -14.0), **NAME)
-    sizes = sorted(x for course in courses if course.panel == ERROR for x in course.x)
+    sizes.sort()
     axes[ERROR].plot(sizes, sizes, **GUIDE)
     for x in sizes[-1:]:
         axes[ERROR].annotate(DIAGONAL, (x, x), (-4.0, 0.0), **NAME)

@@ -58,7 +58,8 @@ def figure_10(
 def group_of(panels: Sequence[Panel], title: str, errors: PushErrors, responses: Responses) -> PushGroup:
     """Return what is drawn of a test: its curves, and of each method errors [N m], share [-] and delay [ms]."""
     bars = [NamedBar(name, name, own[AVERAGE], marks_of(own)) for name, own in errors.items()]
-    shares, delays = ([NamedBar(name, name, responses[name][key]) for name in errors] for key in (SHARE, DELAY))
+    shares = [NamedBar(name, name, responses[name][SHARE]) for name in errors]
+    delays = [NamedBar(name, name, responses[name][DELAY]) for name in errors]
     late = next((own[DELAY + OBSERVER].value for own in responses.values() if own[DELAY + OBSERVER].value), None)
     return PushGroup(panels, f"{title}: all hits, walks and robots", bars, shares, delays, late)
 

@@ -28,8 +28,10 @@ def figure_14(settings: Figure14, detection: Detection, detections: Detections, 
     for level in settings.levels:
         names = owners(detections, level, settings.levels)
         found[level.replace("_", " ")] = quantities(rows_of(detections, names, "collisions", Collision, **own_leg))
-    edges = {name: np.histogram_bin_edges(np.concatenate([own[name] for own in found.values()]), settings.bins)
-             for name in LABELS}  # fmt: skip
+    edges: dict[str, np.ndarray] = {}
+    for name in LABELS:  # one set of bins for all levels, whose histograms lie over one another
+        pooled = np.concatenate([own[name] for own in found.values()])
+        edges[name] = np.histogram_bin_edges(pooled, settings.bins)
     rows: list[Sequence[Field]] = []
     for level, own in found.items():
         for name, unit in LABELS.items():

@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 from experiments.evaluation.figures.drawing.curves import mark_flag
 from experiments.evaluation.figures.style import beside, entitle, legend, looks, save_figure
 from experiments.evaluation.measure.detection.results import Detections, rows_of
+from experiments.evaluation.number.files import Field
 from experiments.settings.detection_tables import Figure15
 from mobnet.core.columns import PUSH, STD, SWING, foot_of, named
 from mobnet.core.detections import Collision, Threshold
@@ -49,12 +50,12 @@ def figure_15(
     thresholds = {method: found[name] for method, name in settings.detectors.items()}
     courses = [_course(settings, detection, layout, collisions, cell, recordings, estimates, thresholds)
                for cell in settings.cells]  # fmt: skip
-    rows = [
-        (one.title, method, *(float(number) for number in numbers))
-        for one in courses
-        for method, std in one.stds.items()
-        for numbers in zip(one.time, std, [one.thresholds[method]] * len(std), one.force, one.swing, strict=True)
-    ]
+    rows: list[tuple[Field, ...]] = []
+    for one in courses:
+        for method, std in one.stds.items():
+            threshold = [one.thresholds[method]] * len(std)
+            for numbers in zip(one.time, std, threshold, one.force, one.swing, strict=True):
+                rows.append((one.title, method, *map(float, numbers)))
     save_figure(draw_courses(courses, settings.joint), figure_dir / "figure_15", COLUMNS, rows)
 
 

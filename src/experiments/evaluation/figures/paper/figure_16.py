@@ -60,11 +60,8 @@ def figure_16(
         for name, number in numbers[case].items():
             rows.append((case, name, None, *number.with_ends, number.unit, printed_of(published, case, name)))
     late = {case: late_falls(trials, case, reaction, settings, statistics) for case in settings.cases}
-    rows += [
-        (case, "falls", wait_s, *number.with_ends, number.unit, None)
-        for case, own in late.items()
-        for wait_s, number in own.items()
-    ]
+    for case, own in late.items():
+        rows += [(case, "falls", wait_s, *number.with_ends, number.unit, None) for wait_s, number in own.items()]
     save_figure(draw(forces, numbers, late, published), figure_dir / "figure_16", COLUMNS, rows)
 
 
@@ -143,9 +140,7 @@ def draw_late(axis: Axes, late: Mapping[str, Mapping[float, Number]]) -> None:
 def draw_means(axis: Axes, numbers: Mapping[str, Number], published: PublishedContacts, name: str) -> None:
     """Draw the mean of each case with its interval, and the paper's as a dot."""
     places = np.arange(len(numbers))
-    value, low, high = np.array(
-        [[np.nan if end is None else end for end in number.range] for number in numbers.values()]
-    ).T
+    value, low, high = np.array([number.range for number in numbers.values()], dtype=np.float64).T
     axis.bar(places, value, 0.6, color=OURS, edgecolor="black", linewidth=0.4, label="ours",
              yerr=[value - low, high - value], error_kw={"linewidth": 0.8, "capsize": 2.0})  # fmt: skip
     printed = [printed_of(published, case, name) for case in numbers]

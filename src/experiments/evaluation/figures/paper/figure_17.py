@@ -32,7 +32,10 @@ def figure_17(settings: Figure17, folders: Sequence[Path], statistics: Statistic
     Trainings that diverged are left out. The figure has those at the end, the CSV file those of every epoch too.
     """
     trained = {method: sound(trainings) for method, trainings in read_trainings(folders).items()}
-    losses = [loss for method, runs in trained.items() if runs for loss in losses_of(method, runs, statistics)]
+    losses: list[Loss] = []
+    for method, runs in trained.items():
+        if runs:  # of a method whose trainings all diverged nothing is left
+            losses += losses_of(method, runs, statistics)
     figure = draw_losses([loss for loss in losses if loss.epoch is None], kind_of_each(settings))
     save_figure(figure, figure_dir / "figure_17", LOSSES, [loss.record() for loss in losses])
 

@@ -57,10 +57,8 @@ def figure_18(
             wanted = wanted_of(settings, layout, scenario, method, metric)
             errors[method] = {place: number_of(read, of, statistics) for place, of in wanted.items()}
         panels.append(panel_of(title, errors))
-        rows += [
-            (scenario, method, *place, *error.with_ends, *error.spread)
-            for method, found in errors.items() for place, error in found.items()
-        ]  # fmt: skip
+        for method, found in errors.items():
+            rows += [(scenario, method, *place, *error.with_ends, *error.spread) for place, error in found.items()]
     save_figure(draw_limbs(panels, "RMSE [N m]"), figure_dir / "figure_18", LIMB_ERRORS, rows)
 
 
@@ -68,24 +66,26 @@ def wanted_of(
     settings: Figure18, layout: JointLayout, scenario: str, method: str, metric: str = "rmse"
 ) -> dict[tuple[str, str], list[Wanted]]:
     """Return limb and joint -> the errors whose mean is shown: of all limbs, then of each limb and its joints."""
-    limbs = {
-        limb: [Wanted(scenario, limb, settings.level, method, joint, metric) for joint in layout.limb(limb)]
-        for limb in settings.limbs
-    }
-    found = {(UPPER_BODY, AVERAGE): [wanted for own in limbs.values() for wanted in own]}
-    for limb, own in limbs.items():
-        found |= {(limb, AVERAGE): own, **{(limb, wanted.joint): [wanted] for wanted in own}}
-    return found
+    whole: list[Wanted] = []
+    by_limb: dict[tuple[str, str], list[Wanted]] = {}
+    for limb in settings.limbs:
+        own = [Wanted(scenario, limb, settings.level, method, joint, metric) for joint in layout.limb(limb)]
+        whole += own  # of all limbs it is the mean over their joints, not that of the limbs' means
+        by_limb[limb, AVERAGE] = own
+        for wanted in own:
+            by_limb[limb, wanted.joint] = [wanted]
+    return {(UPPER_BODY, AVERAGE): whole, **by_limb}
 
 
 def panel_of(title: str, errors: Mapping[str, Errors]) -> LimbPanel:
     """Return a panel: a group for all limbs and for each limb, in each a bar for each method [N m]."""
-    bars = {
-        method: {limb: error for (limb, joint), error in own.items() if joint == AVERAGE}
-        for method, own in errors.items()
-    }
-    groups = dict.fromkeys(limb for own in bars.values() for limb in own)
-    return LimbPanel(title, list(groups), {method: list(own.values()) for method, own in bars.items()})
+    groups: dict[str, None] = {}
+    bars: dict[str, list[Number]] = {}
+    for method, own in errors.items():
+        averages = {limb: error for (limb, joint), error in own.items() if joint == AVERAGE}
+        groups |= dict.fromkeys(averages)
+        bars[method] = list(averages.values())
+    return LimbPanel(title, list(groups), bars)
 
 
 @styled

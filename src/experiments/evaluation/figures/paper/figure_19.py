@@ -47,10 +47,10 @@ def figure_19(
         for test, stems in zip(coverage.tests, tests, strict=True)
     ]
     sets[TESTS] = np.concatenate(tested)
-    planes = [
-        plane_of(joint, {name: samples[:, k] for name, samples in sets.items()}, settings.outlined, coverage)
-        for k, joint in enumerate(joints)
-    ]
+    planes = []
+    for k, joint in enumerate(joints):
+        own = {name: samples[:, k] for name, samples in sets.items()}
+        planes.append(plane_of(joint, own, settings.outlined, coverage))
     rows = [row for plane in planes for row in plane.rows()]
     save_figure(draw_planes(planes, settings.outlined), figure_dir / "figure_19", PLANES, rows)
 

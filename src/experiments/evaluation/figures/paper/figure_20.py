@@ -22,8 +22,11 @@ def figure_20(sizes_of_networks: Sequence[SweptSize], statistics: Statistics, fi
     panels = []
     for panel, title in TITLES.items():
         bases = dict.fromkeys(swept.base for swept in sizes_of_networks if swept.panel == panel)
-        own = {base: [size for size in sizes if (size.panel, size.base) == (panel, base)] for base in bases}
-        lines = [growth_line(found, base) for base, found in own.items() if found]
+        lines = []
+        for base in bases:
+            own = [size for size in sizes if (size.panel, size.base) == (panel, base)]
+            if own:
+                lines.append(growth_line(own, base))
         panels.append(
             LinePanel(title, X_LABELS[panel], Y_LABEL, lines, guide=1.0, ends=(None, None), scale=panel,
                       note="\n".join(printed_size(sizes, base) for base in bases))

@@ -60,7 +60,9 @@ def steps_of(robot: RobotDescription, course: StoredCourse) -> Iterator[Step]:
     still = np.zeros(N_VIRTUAL + len(tree.body_of_joint))
     in_air = course.swing >= IN_THE_AIR
     landed = [(0, k) for k in range(len(SIDES))]
-    landed += [(int(at) + 1, k) for k in range(len(SIDES)) for at in np.flatnonzero(in_air[:-1, k] & ~in_air[1:, k])]
+    for k in range(len(SIDES)):
+        last_in_air = np.flatnonzero(in_air[:-1, k] & ~in_air[1:, k])
+        landed += [(int(at) + 1, k) for at in last_in_air]
     for at, k in sorted(landed):
         update(tree, course.q[at], still, 0.0, pose)
         body = names.index(robot.feet[SIDES[k]].body)

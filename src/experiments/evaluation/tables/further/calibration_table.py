@@ -4,6 +4,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from experiments.evaluation.measure.learning.calibration import STAGES, CoverageGrid
+from experiments.evaluation.number.files import Field
 from experiments.evaluation.number.intervals import RunGrid, summarise
 from experiments.evaluation.number.number import Number, interval_text
 from experiments.evaluation.tables.layout import Table, in_blocks, write_table
@@ -25,13 +26,13 @@ def trust_table(
 ) -> None:  # fmt: skip
     """Write calibration.csv, .tex and .md of held-out data and tests; texts hold the methods of `settings` only."""
     trusts = [(grid, trust_of(grid, learning.calibration_levels, statistics)) for grid in grids]
-    records = [
-        (grid.test, grid.level, grid.pushed, grid.method, grid.limb, *measure,
-         *before.with_ends, *after.with_ends, *after.spread, grid.unit)
-        for grid, trust in trusts for measure, (before, after) in trust.items()
-    ]  # fmt: skip
+    records: list[tuple[Field, ...]] = []
     blocks: dict[str, list[list[str]]] = {}
     for grid, trust in trusts:
+        place = grid.test, grid.level, grid.pushed, grid.method, grid.limb
+        for measure, (before, after) in trust.items():
+            numbers = *before.with_ends, *after.with_ends, *after.spread
+            records.append((*place, *measure, *numbers, grid.unit))
         if grid.method in settings.methods:
             line = [grid.method, grid.limb, *limb_texts(grid, trust, settings, learning)]
             blocks.setdefault(grid.case, []).append(line)

@@ -24,11 +24,12 @@ def changed(
     interval = f"{learning.calibration_share:.0%}"
 
     def lines_of(test: LimbRuns, limb: str) -> list[list[str]]:
-        return [
-            [method, lookup.average(test, method, limb, ERROR).text(),
-             *(percent(lookup.average(test, method, limb, metric)) for metric in SHARES)]
-            for method in test.methods
-        ]  # fmt: skip
+        lines = []
+        for method in test.methods:
+            error = lookup.average(test, method, limb, ERROR)
+            shares = [lookup.average(test, method, limb, metric) for metric in SHARES]
+            lines.append([method, error.text(), *map(percent, shares)])
+        return lines
 
     header = [
         "Robot", "Limb", "Method", "RMSE [N m]", f"errors in {interval} [%]", f"free swings in {interval} [%]",

@@ -43,14 +43,20 @@ def claims_summary(claims_csv: Path, table_dir: Path) -> None:
     statements fail without a cause, and in how many claims the paper's number lies in our interval or near ours.
     """
     rows = read_texts(claims_csv, USED)
-    counts = {(score, name): found for score in (*SCORED, PAPER) for name, found in outcomes_of(rows, score).items()}
+    counts: dict[tuple[str, str], tuple[int, int, int]] = {}
+    for score in (*SCORED, PAPER):
+        for name, found in outcomes_of(rows, score).items():
+            counts[score, name] = found
     records = [(*place, *numbers) for place, numbers in counts.items()]
-    lines: list[Line] = [[name, *(_begun(counts[score, name]) for score in SHOWN)] for name in VERDICTS]
+    lines: list[Line] = []
+    for name in VERDICTS:
+        lines.append([name, *(_begun(counts[score, name]) for score in SHOWN)])
     lines += [
         RULE,
         [ALL, *(str(counts[score, ALL][0]) for score in SHOWN)],
         [f"fail {UNEXPLAINED}", *(str(counts[score, UNEXPLAINED][0]) for score in SHOWN)],
-        *([f"claims {name}", *(_share(counts, score, name) for score in SHOWN)] for name in (HELD, NEAR)),
+        [f"claims {HELD}", *(_share(counts, score, HELD) for score in SHOWN)],
+        [f"claims {NEAR}", *(_share(counts, score, NEAR) for score in SHOWN)],
     ]
     header = ["Statements (by first claim)", *SHOWN.values()]
     write_table(table_dir / "claims_summary", Table(CLAIMED, records, header, lines))
@@ -81,7 +87,9 @@ def outcomes_of(rows: Sequence[Row], score: str) -> dict[str, tuple[int, int, in
     for row in own:
         by_statement.setdefault(row["statement"], []).append(row)
     held = list(by_statement.values())
-    statements = Counter(worst([row["verdict"] for row in claims]) for claims in held)
+    statements = Counter[str]()
+    for of_statement in held:
+        statements[worst([row["verdict"] for row in of_statement])] += 1
     firsts = Counter(claims[0]["verdict"] for claims in held)
     claims = Counter(row["verdict"] for row in own)
     found = {verdict: (statements[verdict], firsts[verdict], claims[verdict]) for verdict in VERDICTS}

@@ -58,8 +58,10 @@ def write_contacts(stem: Path, settings: ContactPoints, statistics: Statistics, 
                      for name, number in numbers[cell].items()]  # fmt: skip
         lines += [RULE] if title == NAMED else []
         lines.append([title, *_texts(numbers)])
-    counts = [sum(one.line == NOTHING and cell in (one.cell, ALL) for one in found) for cell in (ALL, *CELLS)]
-    lines = [["collisions", str(counts[0]), "", *map(str, counts[1:]), "", "", ""], RULE, *lines]
+    # the guesses are of every collision; a line has none of those in which it finds no contact
+    hit = [one.cell for one in found if one.line == NOTHING]
+    counts = [str(hit.count(cell)) for cell in CELLS]
+    lines = [["collisions", str(len(hit)), "", *counts, "", "", ""], RULE, *lines]
     header = [
         "Point from", "error [cm]", f"{statistics.confidence:.0%}", *(f"{cell} [cm]" for cell in CELLS),
         "expected [cm]", "force [%]", "angle [deg]",

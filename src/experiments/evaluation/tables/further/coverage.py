@@ -22,12 +22,11 @@ def coverage(
     `training` has the recordings `without RTE` and those of each exploration with which they are compared, such as
     `with RTE`; `tests` those of each test.
     """
-    compared = [
-        (name, row)
-        for name in training
-        if name != WITHOUT
-        for row in covered(settings, layout, ports, statistics, training[name], training[WITHOUT], tests)
-    ]
+    compared: list[tuple[str, Covered]] = []
+    for name, explored in training.items():
+        if name != WITHOUT:
+            rows = covered(settings, layout, ports, statistics, explored, training[WITHOUT], tests)
+            compared += [(name, row) for row in rows]
     records = [
         (name, row.scenario, row.level, row.measure, row.joint, row.block_count, row.with_rte, row.without_rte,
          *row.ratio.with_ends)

@@ -70,9 +70,12 @@ def extent(stems: Sequence[Path], terrains: Sequence[str], clearance_hz: float) 
     solids overlap [-].
     """
     notes = [read_array_note(file_of(stem, NOTE)) for stem in stems]
-    needed = ("falls", "terrains")
-    refuse_lines(f"{stem}{NOTE}: {key}: key is missing; accepted: what the simulator writes"
-                 for stem, note in zip(stems, notes, strict=True) for key in needed if key not in note)  # fmt: skip
+    faults = []
+    for stem, note in zip(stems, notes, strict=True):
+        for key in ("falls", "terrains"):
+            if key not in note:
+                faults.append(f"{stem}{NOTE}: {key}: key is missing; accepted: what the simulator writes")
+    refuse_lines(faults)
     yield "recordings", "", len(notes), ""
     yield "duration", "", sum(note["rows"] / note["rate_hz"] for note in notes) / MINUTE_S, "min"
     yield "samples", "", sum(note["rows"] for note in notes), ""

@@ -8,6 +8,7 @@ import numpy as np
 
 from experiments.evaluation.compare.rmse import PERCENT
 from experiments.evaluation.number.averages import Column, columns_of
+from experiments.evaluation.number.files import Field
 from experiments.evaluation.number.grid import Wanted, run_grid
 from experiments.evaluation.number.intervals import Array, Formula, RunGrid, summarise
 from experiments.evaluation.number.number import Number
@@ -37,13 +38,14 @@ def error_budget(
     rows = read_scores(*scores)
     parts = columns_of(layout, settings.joints)
     budgets = {part: cells_of(part, settings.tests, rows, statistics) for part in parts}
-    records = [
-        (*run, part.name, metric, *ours.with_ends, *ours.spread, ours.unit, None)
-        for part, cells in budgets.items()
-        for (*run, metric), ours in cells.items()
-    ]
+    records: list[tuple[Field, ...]] = []
+    for part, cells in budgets.items():
+        for (*run, metric), ours in cells.items():
+            records.append((*run, part.name, metric, *ours.with_ends, *ours.spread, ours.unit, None))
     first, *others = (test.label for test in settings.tests)
-    header = ["Joint", "Unit", first, *(text for label in others for text in (label, "gone"))]
+    header = ["Joint", "Unit", first]
+    for label in others:
+        header += [label, GONE]
     lines = budget_lines(budgets, statistics.confidence)
     write_table(table_dir / "error_budget", Table(ERRORS, records, header, lines, left=2))
 

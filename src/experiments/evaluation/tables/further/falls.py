@@ -24,23 +24,23 @@ def falls(counted: Sequence[Path], statistics: Statistics, out: Path) -> None:
     falls is marked: the largest one up to which it did not. That of all is the median robot's, the lower one of two.
     """
     by_robot = [read_rows(path, Falls) for path in counted]
-    together = [
-        Falls(ALL, own[0].amplitude_nm, sum(row.walked_s for row in own), sum(row.falls for row in own))
-        for own in zip(*by_robot, strict=True)
-    ]
+    together: list[Falls] = []
+    for own in zip(*by_robot, strict=True):
+        walked_s = sum(row.walked_s for row in own)
+        together.append(Falls(ALL, own[0].amplitude_nm, walked_s, sum(row.falls for row in own)))
     own_nm = [chosen_nm(rows) for rows in by_robot]
     median = median_low(own_nm)
     robots = [rows[0].robot for rows in by_robot]
     header = ["Largest torque [N m]", *robots, ALL, "falls an hour", f"{statistics.confidence:.0%}"]
-    lines = [
-        [f"{row.amplitude_nm:g}", *(str(rows[k].falls) for rows in by_robot), str(row.falls), rate.text(1),
-         rate.interval(1)]
-        for k, row in enumerate(together)
-        for rate in [rate_of(row.falls, row.walked_s / HOUR_S, statistics)]
-    ]  # fmt: skip
+    lines: list[list[str]] = []
+    for k, row in enumerate(together):
+        rate = rate_of(row.falls, row.walked_s / HOUR_S, statistics)
+        counts = [str(rows[k].falls) for rows in by_robot]
+        lines.append([f"{row.amplitude_nm:g}", *counts, str(row.falls), rate.text(1), rate.interval(1)])
     lines.append([CHOSEN, *(f"{chosen:g}" for chosen in own_nm), f"{median:g}", "", ""])
-    chosen = zip((*by_robot, together), (*own_nm, median), strict=True)
-    records = [record for rows, torque in chosen for record in _records(rows, torque, statistics)]
+    records: list[Sequence[Field]] = []
+    for rows, chosen in zip((*by_robot, together), (*own_nm, median), strict=True):
+        records += _records(rows, chosen, statistics)
     write_table(out, Table(FALLEN, records, header, lines))
 
 

@@ -68,8 +68,9 @@ def cells_of(swings: Sequence[FreeSwing], detection: Detection) -> dict[str, lis
     """
     held = [row for row in swings if row.part == HELD_OUT]
     random = [row for row in held if row.scenario == detection.random]
-    grounds = {f"random on {name}": [row for row in random if row.terrain == name]
-               for name in dict.fromkeys(row.terrain for row in random)}  # fmt: skip
+    grounds: dict[str, list[FreeSwing]] = {}
+    for row in random:
+        grounds.setdefault(f"random on {row.terrain}", []).append(row)
     between = [row for row in swings if row.part == UNPUSHED]
     return {
         COUNTED: random + between,
@@ -85,11 +86,14 @@ def _rows(
     place: tuple[str, str, str], promises: Sequence[Promise], cells: Cells, statistics: Statistics
 ) -> Iterator[Sequence[Field]]:  # fmt: skip
     """Yield the rows of CSV of a detector: rates by rule and where they were counted."""
-    by_kind = {kind: [row for row in promises if row.kind == kind] for kind in dict.fromkeys(p.kind for p in promises)}
+    by_kind: dict[str, list[Promise]] = {}
+    for row in promises:
+        by_kind.setdefault(row.kind, []).append(row)
     of_collision = by_kind[COLLISION]
     swing_h = hours_per_swing(promises)
     for kind, own in by_kind.items():
         promised = _promised(own)
+        # ratios are over the threshold for one false alarm an hour, of which that of another kind is a multiple
         over = _mean([row.factor for row in own]) / _mean([row.factor for row in of_collision])
         yield (*place, kind, ALL, PROMISED, *promised.with_ends, sum(row.swings for row in own), "1/h", None)
         for cell, swings in cells.items():
@@ -108,7 +112,9 @@ def _rows(
 
 def _promised(promises: Sequence[Promise]) -> Number:
     """Return the mean of the rates that robots' detectors promise [1/h], with that of the intervals."""
-    rate, low, high = (_mean([getattr(row, name) for row in promises]) for name in ("rate_per_h", "low", "high"))
+    rate = _mean([row.rate_per_h for row in promises])
+    low = _mean([row.low for row in promises])
+    high = _mean([row.high for row in promises])
     return Number(rate, low, high)
 
 

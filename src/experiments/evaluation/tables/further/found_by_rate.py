@@ -56,7 +56,9 @@ def found_by_rate(
         if shares:
             sentences.append(f"{shown.capitalize()}: {gain_text([rate for _, rate in rates], shares, settings.beside)}")
     share = f"{statistics.confidence:.0%}"
-    heads = [head for _, rate in rates for head in (f"found at {rate:g}/h", share, "delay [ms]")]
+    heads: list[str] = []
+    for _, rate in rates:
+        heads += [f"found at {rate:g}/h", share, "delay [ms]"]
     table = Table(DETECTION, rows, ["Level", "Detector", *heads], in_blocks(blocks), left=2, note=" ".join(sentences))
     write_table(table_dir / "found_by_rate", table)
 

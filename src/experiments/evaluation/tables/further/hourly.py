@@ -48,7 +48,10 @@ def falls(walks: Mapping[str, Sequence[Path]]) -> Iterator[Counted]:
 
 def flags(lookup: Lookup, tests: Mapping[str, LegRuns]) -> Iterator[Counted]:
     """Yield the flagged windows of each method that has standard deviations, test by test and in all of them."""
-    for method in dict.fromkeys(method for test in tests.values() for method in test.methods):
+    methods: list[str] = []
+    for test in tests.values():
+        methods += test.methods
+    for method in dict.fromkeys(methods):
         found = {title: totals(lookup, test, method) for title, test in tests.items() if method in test.methods}
         kept = {title: own for title, own in found.items() if own[0] > 0.0}
         for title, (hours, count) in kept.items():
@@ -60,12 +63,11 @@ def flags(lookup: Lookup, tests: Mapping[str, LegRuns]) -> Iterator[Counted]:
 
 def totals(lookup: Lookup, test: LegRuns, method: str) -> tuple[float, int]:
     """Return for how long a method was watched in a test [h], and how many windows were flagged, over all runs."""
-    hours, count = (
-        sum(
-            row.value
-            for limb in test.limbs
-            for row in lookup.scores.get(Wanted(test.scenario, limb, test.level, method, AVERAGE, metric), ())
-        )
-        for metric in (WATCHED, FLAGS)
-    )
-    return hours, round(count)
+    hours: list[float] = []
+    counts: list[float] = []
+    for limb in test.limbs:
+        watched = Wanted(test.scenario, limb, test.level, method, AVERAGE, WATCHED)
+        flagged = Wanted(test.scenario, limb, test.level, method, AVERAGE, FLAGS)
+        hours += [row.value for row in lookup.scores.get(watched, ())]
+        counts += [row.value for row in lookup.scores.get(flagged, ())]
+    return sum(hours), round(sum(counts))

@@ -15,6 +15,7 @@ from experiments.evaluation.measure.learning.trainings import (
     read_trainings,
     sound,
 )
+from experiments.evaluation.number.files import Field
 from experiments.evaluation.number.intervals import RunGrid, summarise
 from experiments.evaluation.number.number import Number, number_text
 from experiments.evaluation.tables.layout import GAP, RULE, Line, Table, with_intervals, write_table
@@ -54,10 +55,10 @@ def kinds(
         method: {**counts(found[method], ranks.get(method), kinds.get(method, method), published), **measured[method]}
         for method in (*parts[0], *parts[1], *variants)
     }
-    records = [
-        (method, quantity, *number.with_ends, *number.spread, number.unit, number.published)
-        for method, own in traits.items() for quantity, number in own.items()
-    ]  # fmt: skip
+    records: list[tuple[Field, ...]] = []
+    for method, own in traits.items():
+        for quantity, number in own.items():
+            records.append((method, quantity, *number.with_ends, *number.spread, number.unit, number.published))
     firsts = [methods[0] for methods in (parts[1], variants) if methods]
     lines = kind_lines(traits, firsts, statistics.confidence)
     align = "rrl" + "r" * (len(HEADER) - LEFT)
@@ -73,10 +74,13 @@ def by_loss(methods: Sequence[str], measured: Mapping[str, Traits]) -> list[str]
 def measures_of(trainings: Sequence[TrainedNetwork], statistics: Statistics) -> Traits:
     """Return the measures of the trainings that did not diverge [-, N m], without a number if all did."""
     good = sound(trainings)
-    grids = {name: RunGrid(np.array([[measure(run)] for run in good])) for name, (measure, _) in MEASURES.items()}
     if not good:
         return {name: Number(None, unit=unit) for name, (_, unit) in MEASURES.items()}
-    return {name: summarise([grid], statistics, unit=MEASURES[name][1]) for name, grid in grids.items()}
+    found = {}
+    for name, (measure, unit) in MEASURES.items():
+        values = np.array([[measure(run)] for run in good])
+        found[name] = summarise([RunGrid(values)], statistics, unit=unit)
+    return found
 
 
 def counts(trainings: Sequence[TrainedNetwork], rank: int | None, kind: str, published: PublishedKinds) -> Traits:

@@ -48,10 +48,15 @@ def label_error(
             square = (torque[:, columns] - truth) ** 2
             for phase, rows in zip(PHASES, (np.ones_like(air), air, ~air), strict=True):
                 found[owner, label, phase] = np.sqrt(square[rows].mean(axis=0))
-    rows = [(*key, joint, value, "N m") for key, values in found.items() for joint, value in with_mean(joints, values)]
+    records: list[tuple[str, str, str, str, float, str]] = []
+    for key, values in found.items():
+        records += [(*key, joint, value, "N m") for joint, value in with_mean(joints, values)]
     header = ["Robot", "Label", *joints, AVERAGE, *(f"{AVERAGE}, {phase}" for phase in (SWING, GROUND))]
-    blocks = [([owner.replace("_", " ")], [line(found, owner, label) for label in LABELS]) for owner in walks]
-    write_table(table_dir / "label_error", Table(LABEL_ERROR, rows, header, in_blocks(blocks), left=2))
+    blocks: list[tuple[list[str], list[list[str]]]] = []
+    for owner in walks:
+        lines = [line(found, owner, label) for label in LABELS]
+        blocks.append(([owner.replace("_", " ")], lines))
+    write_table(table_dir / "label_error", Table(LABEL_ERROR, records, header, in_blocks(blocks), left=2))
 
 
 def with_mean(joints: Sequence[str], values: Array) -> list[tuple[str, float]]:

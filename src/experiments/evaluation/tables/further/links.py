@@ -30,17 +30,20 @@ def links(
             lines: list[list[str]] = []
             for cell in (*CELLS, ALL):
                 own = [one for one in whole if cell in (one.cell, ALL) and one.is_found]
-                counts = [sum(one.named == other for one in own) for other in CELLS]
+                named = [one.named for one in own]
+                place = level, name, settings.leg, settings.kind, cell
+                counts: list[str] = []
+                for other in CELLS:
+                    count = named.count(other)
+                    counts.append(str(count))
+                    rows.append((*place, f"{NAMED} {other}", count, None, None, len(own), "-", None))
                 right = {
                     RIGHT_LINK: share_of(own, lambda one: one.detected.link == one.collision.link, statistics),
                     RIGHT_CELL: share_of(own, lambda one: one.named == one.cell, statistics),
                 }
-                place = level, name, settings.leg, settings.kind, cell
-                rows += [(*place, f"{NAMED} {other}", count, None, None, len(own), "-", None)
-                         for other, count in zip(CELLS, counts, strict=True)]  # fmt: skip
                 rows += [(*place, key, *number.with_ends, len(own), "-", None) for key, number in right.items()]
                 shares = [number.text() for number in right.values()]
-                lines.append([cell, *map(str, counts), *shares, right[RIGHT_LINK].interval()])
+                lines.append([cell, *counts, *shares, right[RIGHT_LINK].interval()])
             blocks.append(([level.replace("_", " "), name], lines))
     header = ["Level", "Detector", "Hit", *CELLS, "link", "link and side", f"{statistics.confidence:.0%} (link)"]
     found: list[Line] = in_blocks(blocks)

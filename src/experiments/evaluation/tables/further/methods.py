@@ -5,6 +5,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from experiments.evaluation.compare.rmse import RAW
+from experiments.evaluation.number.files import Field
 from experiments.evaluation.number.grid import Wanted
 from experiments.evaluation.number.lookup import AVERAGE, Lookup, read_lookup
 from experiments.evaluation.number.number import Number
@@ -27,25 +28,35 @@ def methods(settings: Sequence[MethodsRow], statistics: Statistics, scores: Sequ
     the low-passed truth, whose root mean square is the RMSE of estimating nothing.
     """
     lookup = read_lookup(scores, statistics)
-    places = list(
-        dict.fromkeys((limb, joint) for test in settings for limb in test.columns for joint in test.columns[limb])
-    )
     rows: dict[Row, dict[Place, Number]] = {}
+    known: dict[Place, None] = {}
     for k, test in enumerate(settings):
+        asked = places_of(test)
+        known |= dict.fromkeys(asked)
         for method in test.methods:
             for metric in metrics_of(test, method):
-                rows[k, method, metric] = {
-                    (limb, joint): number_of(lookup, test, method, metric, (limb, joint))
-                    for limb, joints in test.columns.items() for joint in joints
-                }  # fmt: skip
-    records = [
-        (settings[k].scenario, settings[k].level, method, *place, metric, *ours.with_ends, *ours.spread, ours.unit)
-        for (k, method, metric), own in rows.items() for place, ours in own.items() if ours.value is not None
-    ]  # fmt: skip
+                numbers = {place: number_of(lookup, test, method, metric, place) for place in asked}
+                rows[k, method, metric] = numbers
+    places = list(known)
+    records: list[tuple[Field, ...]] = []
+    for (k, method, metric), own in rows.items():
+        test = settings[k]
+        for place, ours in own.items():
+            if ours.value is not None:
+                numbers = *ours.with_ends, *ours.spread
+                records.append((test.scenario, test.level, method, *place, metric, *numbers, ours.unit))
     header = ["Test", "Method", "", *(f"{limb} {joint}" if joint == AVERAGE else joint for limb, joint in places)]
     lines = method_lines(settings, rows, places, statistics.confidence)
     tex = long_table("lll" + "r" * len(places), CAPTION, header, lines)
     write_table(table_dir / "methods", Table(METHODS, records, header, lines, left=3), tex)
+
+
+def places_of(test: MethodsRow) -> list[Place]:
+    """Return the limbs and joints that a test asks for, limb by limb."""
+    places: list[Place] = []
+    for limb, joints in test.columns.items():
+        places += [(limb, joint) for joint in joints]
+    return places
 
 
 def metrics_of(test: MethodsRow, method: str) -> list[str]:

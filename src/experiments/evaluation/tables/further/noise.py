@@ -40,13 +40,17 @@ def noise(
     records = []
     for test in settings.tests:
         run = test.scenario, test.level, test.methods[0]
-        paper = {name: value for table, place in settings.paper.items()
-                 for name, value in published_row(printed[table], place, run[2]).items()}  # fmt: skip
-        wanted = [Wanted(run[0], limb, *run[1:], joint) for column in columns for limb, joint in column.joints]
+        paper: dict[str, float | None] = {}
+        for table, place in settings.paper.items():
+            paper |= published_row(printed[table], place, run[2])
+        wanted: list[Wanted] = []
+        for column in columns:
+            wanted += [Wanted(run[0], limb, *run[1:], joint) for limb, joint in column.joints]
         errors = [number_of(read, [one], statistics, published=paper.get(one.joint)) for one in wanted]
-        readings[test.label] = errors, factors(columns, errors)
-        named = [*((one.joint, METRIC) for one in wanted), *((limb, FACTOR) for limb in readings[test.label][1])]
-        numbers = [*errors, *readings[test.label][1].values()]
+        by_limb = factors(columns, errors)
+        readings[test.label] = errors, by_limb
+        named = [*((one.joint, METRIC) for one in wanted), *((limb, FACTOR) for limb in by_limb)]
+        numbers = [*errors, *by_limb.values()]
         records += [
             (*run, name, metric, *ours.with_ends, *ours.spread, ours.unit, ours.published)
             for (name, metric), ours in zip(named, numbers, strict=True)
@@ -74,5 +78,8 @@ def noise_lines(columns: Sequence[Column], readings: Readings) -> list[Line]:
         lines += [RULE] if limb != before else []
         lines.append([column.name, column.unit, number_text(own[0].published), *(ours.text() for ours in own)])
         before = limb
+    lines.append(RULE)
     found = [of for _, of in readings.values()]
-    return [*lines, RULE, *([f"factor, {limb}", "-", "", *(of[limb].text() for of in found)] for limb in found[0])]
+    for limb in found[0]:
+        lines.append([f"factor, {limb}", "-", "", *(of[limb].text() for of in found)])
+    return lines

@@ -24,7 +24,11 @@ def phases(
     metrics = [WHOLE, *(f"{WHOLE}_{part}" for part in PARTS)]
 
     def lines_of(test: LimbRuns, limb: str) -> list[list[str]]:
-        return [[name, *(lookup.average(test, name, limb, one).text() for one in metrics)] for name in test.methods]
+        lines = []
+        for name in test.methods:
+            errors = [lookup.average(test, name, limb, metric) for metric in metrics]
+            lines.append([name, *(error.text() for error in errors)])
+        return lines
 
     tests = [(test.scenario.replace("_", " "), test) for test in settings.tests]
     header = ["Test", "Limb", "Method", "all", *PARTS.values()]

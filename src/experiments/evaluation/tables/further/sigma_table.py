@@ -29,8 +29,12 @@ def sigma_table(settings: Sigma, layout: JointLayout, lookup: Lookup, share: flo
     excursion lasts [ms], and, for tests unlike the training data, by which factor the standard deviation and the error
     exceed those of the test that is like it.
     """
-    metrics = [*(name + part for part in PARTS for name in (COVER, STD)), ERROR, EXCURSION]
-    metrics += [f"{name}_part_{k + 1}" for k in range(settings.parts) for name in (STD, ERROR, COVER)]
+    metrics: list[str] = []
+    for part in PARTS:
+        metrics += [COVER + part, STD + part]
+    metrics += [ERROR, EXCURSION]
+    for k in range(1, settings.parts + 1):
+        metrics += [f"{name}_part_{k}" for name in (STD, ERROR, COVER)]
     heads = [f"{share:.0%} {part}" if not key else part for key, part in PARTS.items()]
     header = ["Test", "Limb", "Method", *heads, "excursion [ms]", "sigma, times", "error, times"]
     tests = list(settings.tests.items())

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from experiments.evaluation.measure.detection.results import CELLS, Detections, shown_tries
+from experiments.evaluation.measure.detection.results import CELLS, Detections, Try, shown_tries
 from experiments.evaluation.measure.detection.smallest_force import smallest_force as force_of
 from experiments.evaluation.number.files import Field
 from experiments.evaluation.number.number import Number
@@ -28,8 +28,11 @@ def smallest_force(
     """
     rows: list[Sequence[Field]] = []
     blocks: list[tuple[list[str], list[list[str]]]] = []
-    shown = {(level, kind): tries for kind in settings.kinds
-             for level, tries in shown_tries(settings, detections, detection.sweep, kind)}  # fmt: skip
+    # read kind by kind, shown level by level
+    shown: dict[tuple[str, str], dict[str, list[Try]]] = {}
+    for kind in settings.kinds:
+        for level, tries in shown_tries(settings, detections, detection.sweep, kind):
+            shown[level, kind] = tries
     for level, kind in product(settings.levels, settings.kinds):
         lines = list[list[str]]()
         for name, tries in shown[level, kind].items():

@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from experiments.evaluation.measure.data.steps import UNITS, Array, WalkedSteps, bin_edges, bin_of, read_steps
+from experiments.evaluation.number.files import Field
 from experiments.evaluation.number.number import number_text
 from experiments.evaluation.tables.layout import Table, in_blocks, write_table
 from experiments.settings.tables import Steps as StepsTable
@@ -55,24 +56,23 @@ def steps(
 ) -> None:  # fmt: skip
     """Write the table of measured against commanded steps, by bins of the command, as CSV, TeX and Markdown."""
     nominal = NominalModel(describe(robot))
-    rows = {}
+    rows: dict[tuple[str, int], list[Followed]] = {}
     for name, stems in sets.items():
         found = read_steps(stems, nominal.robot.layout)
         measured = found.measured(nominal, walking.foot_spacing_m)
         for column in range(measured.shape[1]):
             edges = bin_edges(commands, column, settings.bins)
             rows[name, column] = list(followed(found, measured, column, edges, settings.tolerance))
-    records = [
-        (name, COMMAND[column][0], *astuple(row), UNITS[column]) for (name, column), own in rows.items() for row in own
-    ]
-    lines = in_blocks(
-        (
-            [name, f"{COMMAND[column][0].replace('_', ' ')} [{UNITS[column]}]"],
-            [row.texts(1 if UNITS[column] == "deg" else 3) for row in own],
-        )
-        for (name, column), own in rows.items()
-    )
-    write_table(table_dir / "steps", Table(STEPS, records, HEADER, lines, left=2))
+    records: list[tuple[Field, ...]] = []
+    blocks: list[tuple[list[str], list[list[str]]]] = []
+    for (name, column), own in rows.items():
+        command = COMMAND[column][0]
+        unit = UNITS[column]
+        records += [(name, command, *astuple(row), unit) for row in own]
+        digits = 1 if unit == "deg" else 3
+        label = f"{command.replace('_', ' ')} [{unit}]"
+        blocks.append(([name, label], [row.texts(digits) for row in own]))
+    write_table(table_dir / "steps", Table(STEPS, records, HEADER, in_blocks(blocks), left=2))
 
 
 def followed(found: WalkedSteps, measured: Array, column: int, edges: Array, tolerance: float) -> Iterator[Followed]:

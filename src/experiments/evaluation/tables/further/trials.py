@@ -41,7 +41,9 @@ def trials(
         for tried in task.tried:
             outcomes.append(outcome_of(tried, known, walks))
             log.info("%s, %s, network %d: %.3f N m", name, tried.name, tried.network_seed, outcomes[-1].average)
-        rows += [row for outcome in outcomes for row in rows_of(name, task.joints, outcome, outcomes)]
+        # once all are known: a row says whether its variant is the best of them
+        for outcome in outcomes:
+            rows += rows_of(name, task.joints, outcome, outcomes)
         lines += trial_lines(name, outcomes)
     write_table(out, Table(TRIALS, [astuple(row) for row in rows], HEADER, lines, left=3))
 
@@ -95,12 +97,10 @@ def trial_lines(task: str, outcomes: Sequence[Outcome]) -> list[Line]:
     variants: dict[tuple[str, str], list[Outcome]] = {}
     for one in outcomes:
         variants.setdefault((one.tried.base, one.tried.name), []).append(one)
-    methods = dict.fromkeys(base for base, _ in variants)
-    blocks = [
-        ([task, method], [_cells(own, outcomes) for (base, _), own in variants.items() if base == method])
-        for method in methods
-    ]
-    return in_blocks(blocks)
+    blocks: dict[str, list[list[str]]] = {}
+    for (method, _), own in variants.items():
+        blocks.setdefault(method, []).append(_cells(own, outcomes))
+    return in_blocks(([task, method], cells) for method, cells in blocks.items())
 
 
 def _cells(networks: Sequence[Outcome], outcomes: Sequence[Outcome]) -> list[str]:

@@ -48,7 +48,8 @@ def text_of(records: Sequence[Record], robots: Sequence[str]) -> tuple[list[str]
     """Return head and lines of the text: a line is a joint, and each plant has its size [N m, N] and its ratio [-]."""
     owners = (PLANT, *robots)
     header = ["Limb", "Joint", "Set", "Unit", "Paper"]
-    header += [text for owner in owners for text in (owner.replace("_", " "), "ratio")]
+    for owner in owners:
+        header += [owner.replace("_", " "), "ratio"]
     rows: dict[str, dict[str, Record]] = {}
     for record in records:
         owner = record[2] if record[2] in robots else PLANT
@@ -56,7 +57,9 @@ def text_of(records: Sequence[Record], robots: Sequence[str]) -> tuple[list[str]
     blocks: dict[str, list[list[str]]] = {}
     for joint, own in rows.items():
         limb, _, name, _, unit, published, *_ = own[PLANT]
-        cells = [text for owner in owners for text in (size_texts(own[owner]) if owner in own else ("-", "-"))]
+        cells: list[str] = []
+        for owner in owners:
+            cells += size_texts(own[owner]) if owner in own else ("-", "-")
         line = [joint, name.replace("_", " "), unit, number_text(published, 1), *cells]
         blocks.setdefault(limb, []).append(line)
     return header, in_blocks(([limb], lines) for limb, lines in blocks.items())

@@ -1,13 +1,14 @@
 """Tables of errors beside the printed numbers: a row is a method in a test, a column a joint or a mean."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from itertools import islice, pairwise
+from itertools import islice, pairwise, product
 from pathlib import Path
 
 from experiments.evaluation.compare.rmse import RAW
 from experiments.evaluation.measure.estimates.scores import AVERAGE
 from experiments.evaluation.number.averages import Column, columns_of
+from experiments.evaluation.number.files import Field
 from experiments.evaluation.number.grid import Wanted, number_of
 from experiments.evaluation.number.number import Number, number_text, published_row
 from experiments.evaluation.number.rows import read_scores
@@ -78,13 +79,10 @@ def error_table(
             run = test.scenario, test.level, method
             printed = published_row(published, test.paper, method) if published and test.paper else {}
             own = [score for score in read if (score.scenario, score.level, score.method) == run]
-            numbers, raw = (
-                {
-                    column: cell_of(column, run, test.metric, own, statistics, paper.get(column.name), ending)
-                    for column in columns if not ending or is_error(column.metrics or (test.metric,))
-                }
-                for ending, paper in (("", printed), (RAW, {}))
-            )  # fmt: skip
+            numbers = numbers_of(columns, run, test.metric, own, statistics, printed)
+            # only errors have a second truth to be taken against, and the paper prints none against it
+            errors = [column for column in columns if is_error(column.metrics or (test.metric,))]
+            raw = numbers_of(errors, run, test.metric, own, statistics, {}, RAW)
             known = {column: number for column, number in raw.items() if number.value is not None}
             rows.append(TableRow(test.labels, run, test.metric, numbers, known, method in test.further))
     robot, floor = (published.robot, published.floor) if published else (False, None)
@@ -93,12 +91,10 @@ def error_table(
 
 def write_error_table(stem: Path, rows: Sequence[TableRow], look: TableLook) -> None:
     """Write a table of errors; in TeX one that is wider than a page becomes some, one below the other."""
-    records = [
-        (*row.run, column.name, "+".join(name + ending for name in column.metrics or (row.metric,)),
-         *ours.with_ends, *ours.spread, ours.unit, ours.published)
-        for row in rows for ending, numbers in (("", row.numbers), (RAW, row.raw))
-        for column, ours in numbers.items()
-    ]  # fmt: skip
+    records: list[Sequence[Field]] = []
+    for row in rows:
+        records += records_of(row, row.numbers)
+        records += records_of(row, row.raw, RAW)
     names = [column.name for column in rows[0].numbers]
     texts = []
     for first, end in pairwise([0, *map(names.index, look.settings.parts), len(names)]):
@@ -111,9 +107,27 @@ def write_error_table(stem: Path, rows: Sequence[TableRow], look: TableLook) -> 
     write_table(stem, Table(ERRORS, records, header, lines, len(header) - len(names)), PART.join(texts))
 
 
+def records_of(row: TableRow, numbers: Mapping[Column, Number], ending: str = "") -> Iterator[Sequence[Field]]:
+    """Yield the rows of CSV of a method in a test; the ending chooses the truth, as that of `cell_of`."""
+    for column, ours in numbers.items():
+        metrics = "+".join(name + ending for name in column.metrics or (row.metric,))
+        yield (*row.run, column.name, metrics, *ours.with_ends, *ours.spread, ours.unit, ours.published)
+
+
 def cut(numbers: Mapping[Column, Number], first: int, end: int) -> dict[Column, Number]:
     """Return the numbers of some columns, counted from 0 on [N m]."""
     return dict(islice(numbers.items(), first, end))
+
+
+def numbers_of(
+    columns: Sequence[Column], run: tuple[str, str, str], metric: str, scores: Sequence[Score], statistics: Statistics,
+    printed: Mapping[str, float | None], ending: str = "",
+) -> dict[Column, Number]:  # fmt: skip
+    """Return the number of each column [N m], as `cell_of` does; `printed` is a column's name -> the paper's number."""
+    numbers = {}
+    for column in columns:
+        numbers[column] = cell_of(column, run, metric, scores, statistics, printed.get(column.name), ending)
+    return numbers
 
 
 def cell_of(
@@ -128,7 +142,10 @@ def cell_of(
     held = {score.metric for score in scores}
     if held and not held.issuperset(metrics):
         return Number(None, unit=column.unit, published=published)
-    wanted = [Wanted(run[0], limb, *run[1:], joint, name) for limb, joint in column.joints for name in metrics]
+    scenario, level, method = run
+    wanted = []
+    for (limb, joint), name in product(column.joints, metrics):
+        wanted.append(Wanted(scenario, limb, level, method, joint, name))
     return number_of(scores, wanted, statistics, published=published)
 
 

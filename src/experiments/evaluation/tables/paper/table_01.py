@@ -32,7 +32,10 @@ def table_01(
         describe(limb, networks[limb], TARGETS[target].format(limb=limb), layout, learning.std_min, seed, printed)
         for limb, printed in published.rows.items()
     ]
-    lines = [[str(record[TABLE_01.index(name)]) for name in SHOWN] for record in records]
+    places = [TABLE_01.index(name) for name in SHOWN]
+    lines = []
+    for record in records:
+        lines.append([str(record[place]) for place in places])
     tex = tex_table(COLUMNS, HEADER, list(map(tex_cells, lines)))
     write_table(table_dir / "table_01", Table(TABLE_01, records, HEADER, lines, LEFT), tex)
 
@@ -49,7 +52,8 @@ def describe(
     count = len(limb_inputs(layout, network).names)
     built = build_network(network, count, len(layout.limbs(network.joints)), std_min, seed)
     head = built.head
-    inputs = ", ".join([*(f"{letter}^{group}" for letter in "QT" for group in getattr(network, letter)), "U^V"])
+    symbols = [f"Q^{group}" for group in network.Q] + [f"T^{group}" for group in network.T]
+    inputs = ", ".join([*symbols, "U^V"])
     layers = f"{network.cell}[{count}, {head.in_features}]-Linear[{head.in_features}, {head.out_features}]"
     sizes = parameter_count(built), network.horizon_steps
     paper = printed.architecture, printed.parameters, printed.horizon_steps

@@ -29,7 +29,6 @@ ONSET = "delay_onset"
 PERFECT = "perfect_delay"
 DETECTED, DELAY_MS = "detected", "delay_ms"  # places of the paper's numbers
 TRIED = 10  # collisions of each cell in the paper
-SHORT = {cell: " ".join(word[0].upper() for word in cell.split()) for cell in CELLS}
 
 
 def table_09(
@@ -51,7 +50,7 @@ def table_09(
             rows += _rows(level, name, settings, own, statistics, published)
             lines += _lines(level, name, own, statistics, published)
         taus.append(f"{order_text(shown, published)} ({level.replace('_', ' ')})")
-    cells = [SHORT[cell] for cell in CELLS]
+    cells = list(map(_initials, CELLS))
     leading = ["Level", "Detector", ""]
     found = [*cells, "all", f"{statistics.confidence:.0%}"]
     delays = [*(f"{cell} [ms]" for cell in cells), "cells", "found", "perfect", "from onset"]
@@ -59,15 +58,18 @@ def table_09(
         "F, A, K: foot, ankle, knee; F, S: front, side. "
         f"Kendall's tau of the order of the found totals against the paper's: {', '.join(taus)}."
     )
-    parts = [leading + head for head in (found, delays)]
-    ends = len(leading) + len(found)
-    cut = [[line if isinstance(line, str) else line[:ends] for line in lines],
-           [line if isinstance(line, str) else [*line[: len(leading)], *line[ends:]] for line in lines]]  # fmt: skip
-    tex = PART.join(
-        text_table("lll" + "r" * (len(head) - len(leading)), head, own) for head, own in zip(parts, cut, strict=True)
-    )
+    # in TeX all columns side by side are wider than a page: what is found stands above how late
+    end = len(leading) + len(found)
+    found_lines = [line if isinstance(line, str) else line[:end] for line in lines]
+    delay_lines = [line if isinstance(line, str) else [*line[: len(leading)], *line[end:]] for line in lines]
+    above = text_table("lll" + "r" * len(found), [*leading, *found], found_lines)
+    below = text_table("lll" + "r" * len(delays), [*leading, *delays], delay_lines)
     table = Table(DETECTION, rows, [*leading, *found, *delays], lines, left=len(leading), note=note)
-    write_table(table_dir / "table_09", table, tex)
+    write_table(table_dir / "table_09", table, above + PART + below)
+
+
+def _initials(cell: str) -> str:
+    return " ".join(word[0].upper() for word in cell.split())
 
 
 def order_text(shown: Mapping[str, Sequence[Try]], published: PublishedTable) -> str:
@@ -75,12 +77,18 @@ def order_text(shown: Mapping[str, Sequence[Try]], published: PublishedTable) ->
     from scipy.stats import kendalltau  # here, as it takes a second to import
 
     totals = {name: row[ALL] for name in shown if (row := published_row(published, DETECTED, name))}
-    ours = [sum(one.is_found for one in shown[name]) / len(shown[name]) for name in totals]
+    ours = []
+    for name in totals:
+        found = [one for one in shown[name] if one.is_found]
+        ours.append(len(found) / len(shown[name]))
     return number_text(float(kendalltau(ours, list(totals.values())).statistic) if len(ours) > 1 else None)
 
 
 def _in_cells(tries: Sequence[Try]) -> dict[str, list[Try]]:
-    return {cell: [one for one in tries if one.cell == cell] for cell in CELLS}
+    found = {}
+    for cell in CELLS:
+        found[cell] = [one for one in tries if one.cell == cell]
+    return found
 
 
 def _onset_delay(one: Try) -> float | None:

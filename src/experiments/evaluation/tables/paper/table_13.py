@@ -2,6 +2,7 @@
 
 from collections import defaultdict
 from collections.abc import Sequence
+from itertools import product
 from pathlib import Path
 
 from experiments.evaluation.measure.detection.results import Detections, owners, rows_of
@@ -36,18 +37,21 @@ def table_13(
         found: dict[tuple[str, ...], list[Threshold]] = defaultdict(list)
         for row in rows_of(detections, names, "thresholds", Threshold):
             found[row.detector, row.leg, row.kind, f"{row.signal} {row.phase}"].append(row)
-        means = {key: sum(row.value for row in own) / len(own) for key, own in found.items()}
+        means: dict[tuple[str, ...], float] = {}
         for key, own in found.items():
             values = [row.value for row in own]
+            means[key] = sum(values) / len(values)
             paper = published_row(published, THRESHOLD, key[0]).get(own[0].signal.partition(".")[2])
             is_shown = key[1:3] == (settings.leg, settings.kind)
             ends = min(values), max(values), len(values)
             rows.append((level, *key, QUANTITY, means[key], *ends, own[0].unit, paper if is_shown else None))
         lines: list[list[str]] = []
         for name in settings.detectors:
-            keys = [(name, settings.leg, settings.kind, f"{kind}.{joint} 1")
-                    for joint in joints for kind in (MEAN, STD, RATIO)]  # fmt: skip
-            own = [means[key] for key in keys if key in means]
+            own = []
+            for joint, kind in product(joints, (MEAN, STD, RATIO)):
+                key = name, settings.leg, settings.kind, f"{kind}.{joint} 1"
+                if key in means:
+                    own.append(means[key])
             lines.append([name, "ours", *(number_text(value) for value in own)])
             if printed := published_row(published, THRESHOLD, name):
                 lines.append(["", "paper", *(number_text(printed[joint]) for joint in joints)])
