@@ -14,7 +14,7 @@ from mobnet.robot.frames import QUATERNION, rotation
 from mobnet.settings.networks import Limb
 
 OMEGA = slice(3, N_VIRTUAL)  # of the generalized velocity, base axes
-ROTATION_NAMES = ("R.11", "R.21", "R.31", "R.12", "R.22", "R.32")
+ROTATION_NAMES: tuple[str, ...] = ("R.11", "R.21", "R.31", "R.12", "R.22", "R.32")
 # as columns of a recording, of which all but the rotation are read as they are
 BASE_NAMES = (*ROTATION_NAMES, *(f"v.omega_{axis}" for axis in "xyz"), *(f"acc.{axis}" for axis in "xyz"))
 QUATERNION_NAMES = tuple(f"q.quat_{axis}" for axis in "wxyz")
