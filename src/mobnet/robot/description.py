@@ -213,8 +213,8 @@ def _with_unit_quaternion(row: BodyRow) -> BodyRow:
 def _posture(table: RobotTable) -> Posture:
     rows = dict[str, tuple[float, float, float]]()
     for limb, row in table.posture.items():
-        numbers = zip(row.angle_rad, row.stiffness_nm_rad, row.damping_nms_rad, strict=True)
-        rows.update(zip(table.groups[limb], numbers, strict=True))
+        held = zip(row.angle_rad, row.stiffness_nm_rad, row.damping_nms_rad, strict=True)
+        rows.update(zip(table.groups[limb], held, strict=True))
     joints = tuple(joint for joint in table.order.actuated if joint in rows)
     numbers = np.array([rows[joint] for joint in joints], dtype=np.float64).reshape(-1, 3)
     return Posture(joints, *np.ascontiguousarray(numbers.T))
