@@ -97,7 +97,9 @@ def _limb_name(chain: Sequence[str], taken: Iterable[str]) -> str:
     parts = [re.findall(r"[A-Za-z0-9]+", joint) for joint in chain]
     common = set(parts[0]).intersection(*parts)
     shared = [word for word in parts[0] if word in common and word.lower() != "joint"]
-    words = {word.lower() for word in chain.from_iterable(parts)}
+    words = set[str]()
+    for own in parts:
+        words.update(word.lower() for word in own)
     shared += [part for part, marks in PARTS.items() if shared and marks & words and part not in shared]
     stem = "".join(shared)[: MOST_NAME - 2] if shared and shared[0][0].isalpha() else "limb"
     lowered = {name.casefold() for name in taken}
