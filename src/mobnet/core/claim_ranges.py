@@ -98,7 +98,8 @@ def _ratio_effect(x: float) -> tuple[float, float]:
 
 def common(one: Bounds, other: Bounds) -> Bounds:
     """Return the range that two closed ranges have in common [their unit]; None is no bound."""
-    lows, highs = ([end for end in ends if end is not None] for ends in zip(one, other, strict=True))
+    lows = [low for low in (one[0], other[0]) if low is not None]
+    highs = [high for high in (one[1], other[1]) if high is not None]
     return max(lows, default=None), min(highs, default=None)
 
 

@@ -21,6 +21,7 @@ import re
 import sys
 from collections.abc import Iterable
 from dataclasses import dataclass, field
+from itertools import chain
 from pathlib import Path
 from typing import NamedTuple
 
@@ -65,7 +66,7 @@ def code_hash(*starts: Path | str) -> str:
     """
     sources = reached(start_of(start) for start in starts)
     digests = sorted(source.digest for source in sources)
-    packages = with_required(name for source in sources for name in source.packages)
+    packages = with_required(chain.from_iterable(source.packages for source in sources))
     pinned = sorted(lock_lines()[name] for name in packages)
     return hashlib.sha256(b"".join(digests) + "\n".join(pinned).encode()).hexdigest()[:SHORT]
 
@@ -77,7 +78,8 @@ def source_hash(*starts: Path | str) -> str:
     Raises:
         ConfigError: there is no such file or module.
     """
-    digests = sorted(source.digest for source in reached(start_of(start) for start in starts))
+    sources = reached(start_of(start) for start in starts)
+    digests = sorted(source.digest for source in sources)
     return hashlib.sha256(b"".join(digests)).hexdigest()[:SHORT]
 
 
@@ -110,7 +112,7 @@ def read(path: Path) -> Source:
     """Read one file."""
     reader = Reader()
     reader.read(ast.parse(path.read_bytes(), str(path)))
-    files = {file for name in reader.imports for file in module_files(name)}
+    files = set(chain.from_iterable(map(module_files, reader.imports)))
     tops = {name.partition(".")[0] for name in reader.imports} - {*PACKAGES} - sys.stdlib_module_names
     packages = {DISTRIBUTIONS.get(top, lock_name(top)) for top in tops}
     return Source(hashlib.sha256(" ".join(reader.words).encode()).digest(), tuple(files), frozenset(packages))
@@ -181,7 +183,9 @@ def module_files(name: str) -> tuple[Path, ...]:
     if parts[0] not in PACKAGES or any(".".join(some) in NOT_FOLLOWED for some in names):
         return ()
     places = [SOURCE.joinpath(*some) for some in names]
-    files = (file for place in places for file in (place / "__init__.py", place.with_suffix(".py")))
+    files = list[Path]()
+    for place in places:
+        files += [place / "__init__.py", place.with_suffix(".py")]
     return tuple(file for file in files if file.is_file())
 
 

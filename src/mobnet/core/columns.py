@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable
 from dataclasses import dataclass, fields
+from itertools import chain
 
 from mobnet.core.errors import ConfigError, not_accepted
 from mobnet.core.joints import JointLayout
@@ -43,7 +44,11 @@ def recording_columns(layout: JointLayout) -> dict[str, list[Column]]:
     xyz = "xyz" if layout.virtual else ""
     wxyz = "wxyz" if layout.virtual else ""
     feet = [foot for foot in FEET if foot.removesuffix("_foot") in layout.legs]
-    wrench = [(f"{kind}_{axis}", unit) for kind, unit in (("force", "N"), ("moment", "N m")) for axis in "xyz"]
+    wrench = [(f"force_{axis}", "N") for axis in "xyz"] + [(f"moment_{axis}", "N m") for axis in "xyz"]
+    wrenches = dict[str, list[Column]]()
+    for foot in FEET:
+        own = wrench if foot in feet else []
+        wrenches[f"wrench_{foot}"] = [(f"wrench_{foot}.{name}", unit, foot) for name, unit in own]
     base_v = [(f"v.base_{a}", "m/s", "world") for a in xyz] + [(f"v.omega_{a}", "rad/s", "base") for a in xyz]
     base_q = [(f"q.base_{a}", "m", "world") for a in xyz] + [(f"q.quat_{a}", "-", "world") for a in wxyz]
     places = [(j, (layout.unit(j), "world" if i < len(xyz) else "joint")) for i, j in enumerate(layout.names)]
@@ -57,10 +62,7 @@ def recording_columns(layout: JointLayout) -> dict[str, list[Column]]:
         "command": [(f"command.{name}", unit, "stance foot") for name, unit in COMMAND if feet],
         "landing": [(f"{LANDING}.{foot}", "s", "plan") for foot in feet],
         EXTERNAL: [(f"{EXTERNAL}.{joint}", *place) for joint, place in places],
-        **{
-            f"wrench_{foot}": [(f"wrench_{foot}.{name}", unit, foot) for name, unit in wrench if foot in feet]
-            for foot in FEET
-        },
+        **wrenches,
         "contact": [(f"{CONTACT}.{foot}", "-", "ground") for foot in feet],
         "pushed": [(PUSHED, "-", "scenario")],
         "tau_random": [(f"{RANDOM}.{j}", "N m", "joint") for j in actuated],
@@ -84,14 +86,17 @@ def foot_of(layout: JointLayout, joint: str) -> str:
     for side, joints in legs.items():
         if joint in joints:
             return next(foot for foot in FEET if foot.startswith(side))
-    raise ConfigError(not_accepted("leg joint", joint, [name for joints in legs.values() for name in joints]))
+    raise ConfigError(not_accepted("leg joint", joint, chain.from_iterable(legs.values())))
 
 
 def torque_columns(layout: JointLayout, signals: Iterable[str], joints: Iterable[str]) -> list[Column]:
     """Return the columns of torques of some joints, signal by signal, each with the unit and frame of its joint."""
     known = dict(zip(layout.names, recording_columns(layout)[EXTERNAL], strict=True))
     wanted = list(joints)
-    return [(f"{signal}.{joint}", *known[joint][1:]) for signal in signals for joint in wanted]
+    columns = list[Column]()
+    for signal in signals:
+        columns += [(f"{signal}.{joint}", *known[joint][1:]) for joint in wanted]
+    return columns
 
 
 def residual_columns(layout: JointLayout, labelled: bool = False) -> list[Column]:
@@ -179,7 +184,10 @@ class Falls:
     falls: int
 
 
-SCORES, EPOCHS, TRIALS, FALLS = (tuple(one.name for one in fields(kind)) for kind in (Score, Epoch, TrialError, Falls))
+SCORES = tuple(one.name for one in fields(Score))
+EPOCHS = tuple(one.name for one in fields(Epoch))
+TRIALS = tuple(one.name for one in fields(TrialError))
+FALLS = tuple(one.name for one in fields(Falls))
 
 # Tables. `value`, `low`, `high`: a number and its interval; SPREAD: how many networks and walks it is made of, and its
 # standard deviations over them; `runs`: how many runs; `published`: the paper's number. An empty field: there is none.

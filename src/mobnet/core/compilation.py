@@ -104,7 +104,8 @@ def on_stack(*shape: int) -> Any:
         def codegen(context: Any, builder: Any, signature: Any, args: Any) -> Any:
             array = context.make_array(kind)(context, builder)
             strides = [ITEM * math.prod(shape[i + 1 :]) for i in range(len(shape))]
-            sizes, steps = ([context.get_constant(types.intp, n) for n in row] for row in (shape, strides))
+            sizes = [context.get_constant(types.intp, size) for size in shape]
+            steps = [context.get_constant(types.intp, stride) for stride in strides]
             data = cgutils.alloca_once(builder, ir.DoubleType(), size=math.prod(shape))
             item = context.get_constant(types.intp, ITEM)
             populate_array(array, data=data, shape=sizes, strides=steps, itemsize=item, meminfo=None)

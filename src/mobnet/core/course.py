@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -17,7 +18,7 @@ BASE = ("true_base", "m")
 
 def course_columns(layout: JointLayout, joints: Sequence[str]) -> list[Column]:
     """Return the columns of a course: the recording, estimates of joints, and what obstacles do to the robot."""
-    recorded = [column for columns in recording_columns(layout).values() for column in columns]
+    recorded = chain.from_iterable(recording_columns(layout).values())
     return [*recorded, *torque_columns(layout, (ESTIMATED, STD), joints), *_in_world(FORCE, POINT, BASE)]
 
 
@@ -58,7 +59,8 @@ def read_course(stem: Path, layout: JointLayout) -> StoredCourse:
     """
     recorded = recording_columns(layout)
     signals = [recorded["q"], _in_world(FORCE), _in_world(POINT), recorded["swing"], _in_world(BASE)]
-    array, note = read_array(stem, [name for columns in signals for name, *_ in columns])
+    names = [name for name, *_ in chain.from_iterable(signals)]
+    array, note = read_array(stem, names)
     parts = list[Array]()
     at = 0
     for columns in signals:

@@ -42,8 +42,10 @@ def _epoch_faults(rows: Sequence[Epoch]) -> Iterator[Fault]:
     for k, row in enumerate(rows):
         if row.epoch != k + 1:
             yield k, "epoch", row.epoch, str(k + 1)
-    names = ("validation_rmse", "rate", "gradient_norm")
-    yield from _below_zero({name: [getattr(row, name) for row in rows] for name in names})
+    columns = dict[str, list[float]]()
+    for name in ("validation_rmse", "rate", "gradient_norm"):
+        columns[name] = [getattr(row, name) for row in rows]
+    yield from _below_zero(columns)
 
 
 def _below_zero(columns: Mapping[str, Sequence[float]]) -> Iterator[Fault]:

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from itertools import chain
 from typing import NamedTuple
 
 import numpy as np
@@ -66,7 +67,7 @@ class JointLayout:
     @property
     def above_legs(self) -> tuple[str, ...]:
         """Names of the actuated joints that belong to no leg, in motor order."""
-        legs = {joint for limb in self.legs.values() for joint in self.groups[limb]}
+        legs = set(chain.from_iterable(self.groups[limb] for limb in self.legs.values()))
         return tuple(joint for joint in self.actuated if joint not in legs)
 
     def limb(self, name: str) -> tuple[str, ...]:
@@ -77,7 +78,7 @@ class JointLayout:
 
     def limbs(self, names: Iterable[str]) -> tuple[str, ...]:
         """Return the joint names of several limbs, limb by limb."""
-        return tuple(joint for name in names for joint in self.limb(name))
+        return tuple(chain.from_iterable(self.limb(name) for name in names))
 
     def columns(self, names: Sequence[str]) -> NDArray[np.intp]:
         """Return the columns of joints in a generalized velocity or torque, (len(names),).

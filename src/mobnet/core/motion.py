@@ -30,9 +30,11 @@ class MotionCheck:
         where = {name: k for k, name in enumerate(names)}
         self._joints = [name[2:] for name in names if name.startswith("q.") and f"v.{name[2:]}" in where
                         and not name.startswith("q.base_")]  # fmt: skip  # a simulator may shift the base's place
-        self._q, self._v = ([where[f"{signal}.{joint}"] for joint in self._joints] for signal in "qv")
+        self._q = [where[f"q.{joint}"] for joint in self._joints]
+        self._v = [where[f"v.{joint}"] for joint in self._joints]
         self._quat = _places(where, QUATERNION)
-        self._omega, self._acc = (_places(where, [f"{name}{axis}" for axis in "xyz"]) for name in ("v.omega_", "acc."))
+        self._omega = _places(where, [f"v.omega_{axis}" for axis in "xyz"])
+        self._acc = _places(where, [f"acc.{axis}" for axis in "xyz"])
         self._segments = segments
         self._rate_hz = rate_hz
         longest = max(end - start for start, end in segments)

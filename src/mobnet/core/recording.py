@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -125,7 +126,7 @@ def write_recording(stem: Path, recording: Recording, layout: JointLayout) -> No
     columns = recording_columns(layout)
     fields = {**vars(recording.sensed), **vars(recording.truth)}
     parts = [fields[name] for name in columns]
-    flat = [column for group in columns.values() for column in group]
+    flat = list(chain.from_iterable(columns.values()))
     meta = {"rate_hz": recording.rate_hz, **recording.meta}
     write_array(stem, np.concatenate(parts, axis=1), flat, meta, recording.segments)
 
@@ -145,7 +146,8 @@ def read_sensed(stem: Path, layout: JointLayout) -> SensedRecording:
 def read_recording(stem: Path, layout: JointLayout) -> Recording:
     """Read a recording, sensed and truth, float32, as `read_sensed` does."""
     values, meta = _read_fields(stem, layout, [*Sensed.__dataclass_fields__, *Truth.__dataclass_fields__])
-    sensed, truth = ({name: values[name] for name in part.__dataclass_fields__} for part in (Sensed, Truth))
+    sensed = {name: values[name] for name in Sensed.__dataclass_fields__}
+    truth = {name: values[name] for name in Truth.__dataclass_fields__}
     return Recording(Sensed(**sensed), *spans_and_rate(meta), meta, Truth(**truth))
 
 
@@ -154,6 +156,9 @@ def _read_fields(
 ) -> tuple[dict[str, NDArray[np.float32]], dict[str, Any]]:
     """Return fields of a recording, each (T, C) and a view of one array, and the file's description."""
     columns = recording_columns(layout)
-    array, meta = read_array(stem, [name for field in fields for name, _, _ in columns[field]], layout)
+    names = list[str]()
+    for field in fields:
+        names += [name for name, _, _ in columns[field]]
+    array, meta = read_array(stem, names, layout)
     ends = np.cumsum([len(columns[field]) for field in fields])
     return dict(zip(fields, np.split(array, ends[:-1], axis=1), strict=True)), meta

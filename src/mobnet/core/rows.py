@@ -22,7 +22,8 @@ def csv_text(columns: Sequence[str], rows: Iterable[Sequence[object]]) -> str:
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(columns)
-    writer.writerows([_field(value) for _, value in zip(columns, row, strict=True)] for row in rows)
+    for row in rows:
+        writer.writerow([_field(value) for _, value in zip(columns, row, strict=True)])
     return text.getvalue()
 
 
@@ -42,7 +43,10 @@ def read_rows(path: Path, kind: type[Row]) -> list[Row]:
     hints = get_type_hints(kind)
     faults = list[str]()
     rows = read_texts(path, list(hints))
-    columns = [_parsed(path, name, hint, [row[name] for row in rows], faults) for name, hint in hints.items()]
+    columns = list[Sequence[Any]]()
+    for name, hint in hints.items():
+        texts = [row[name] for row in rows]
+        columns.append(_parsed(path, name, hint, texts, faults))
     refuse_lines(faults)
     return [kind(*row) for row in zip(*columns, strict=True)]
 

@@ -100,12 +100,11 @@ def always_on(rows: int, segments: Spans, settle_s: float, rate_hz: float) -> Ga
 def windows_of(watched: NDArray[np.bool_], segments: Spans, length: int) -> Spans:
     """Return the rows (start, end) of whole windows of so many samples in the watched part (T,) of segments."""
     firsts = [start + int(np.argmax(watched[start:end])) for start, end in segments]
-    return tuple(
-        (k, k + length)
-        for first, (_, end) in zip(firsts, segments, strict=True)
-        if watched[first]
-        for k in range(first, end - length + 1, length)
-    )
+    windows = list[tuple[int, int]]()
+    for first, (_, end) in zip(firsts, segments, strict=True):
+        if watched[first]:
+            windows += [(k, k + length) for k in range(first, end - length + 1, length)]
+    return tuple(windows)
 
 
 def alike(parts: Sequence[Array]) -> bool:

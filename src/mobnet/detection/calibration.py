@@ -162,7 +162,9 @@ def quiet_rows(setup: LegSetup, calibrated: CalibratedDetector, walk: QuietWalk)
     """Yield the swings of a walk that nothing pushes: those that calibrated the detector, and those held out."""
     signals = walk.signals(calibrated.watched)
     ratios, others = (swing_ratios(walk.legs, calibrated.chains[kind], signals) for kind in (COLLISION, LARGEST))
-    places = [(one.seed, number, terrain) for one in walk.legs for number, terrain in enumerate(one.terrains, start=1)]
+    places = list[tuple[int, int, str]]()
+    for one in walk.legs:
+        places += [(one.seed, number, terrain) for number, terrain in enumerate(one.terrains, start=1)]
     for k, (seed, number, terrain) in enumerate(places):
         # Thresholds fit the swings that made them, so that a count of false alarms is honest on the others alone.
         part = CALIBRATION if k < walk.first else HELD_OUT
@@ -183,11 +185,15 @@ def check_signals(setup: LimbSetup, detector: Detector, walk: QuietWalk) -> None
 def _slopes(setup: LegSetup, watched: Watched, walk: QuietWalk) -> Array:
     """Return by which share signals grow with each part of the command in calibrating swings, (m, 3)."""
     heights = _heights(setup, watched, walk).max(axis=1)
-    commands = np.concatenate([one.command[[start for start, _ in one.swings]] for one in walk.legs])[: walk.first]
+    commands = list[Array]()
+    for one in walk.legs:
+        starts = [start for start, _ in one.swings]
+        commands.append(one.command[starts])
     seen = (heights > 0.0).all(axis=1)
     if not seen.any():
         raise NotWatchedError(NEVER)
-    return slopes_of(heights[seen], commands[seen], setup.detection.thresholds.command_quantile)
+    known = np.concatenate(commands)[: walk.first]
+    return slopes_of(heights[seen], known[seen], setup.detection.thresholds.command_quantile)
 
 
 def _whitening(setup: LegSetup, walk: QuietWalk, signals: Sequence[Array]) -> Array:
@@ -225,10 +231,9 @@ def _heights(setup: LimbSetup, watched: Watched, walk: QuietWalk) -> Array:
         held = np.stack([one.run(whole, np.ascontiguousarray(part)).ratio for part in parts], axis=1)
         phase = np.minimum((one.gate.phase * phases).astype(int), phases - 1)
         shown = [one.gate.watched & (phase == k) for k in range(phases)]
-        found += [
-            np.stack([held[start:end][own[start:end]].max(axis=0, initial=-np.inf) for own in shown])
-            for start, end in one.swings
-        ]
+        for start, end in one.swings:
+            largest = [held[start:end][own[start:end]].max(axis=0, initial=-np.inf) for own in shown]
+            found.append(np.stack(largest))
     if not found:
         raise NotWatchedError(NEVER)
     return np.array(found[: walk.first])

@@ -21,6 +21,8 @@ def shares_inside(
     Windows follow each other within a span (start, end); one in which the leg is never free is nan.
     """
     inside = (np.abs(estimate) <= half_width(share) * std).mean(axis=1)
-    starts = [row for start, end in spans for row in range(start, end - rows + 1, rows)]
+    starts = list[int]()
+    for start, end in spans:
+        starts += range(start, end - rows + 1, rows)
     held = [inside[row : row + rows][free[row : row + rows]] for row in starts]
     return np.array([part.mean() if len(part) else np.nan for part in held])

@@ -46,11 +46,13 @@ def run_segments(estimator: Estimator, read: Sequence[Observed]) -> list[Estimat
 
     All segments of all recordings run side by side where the estimator can do that.
     """
-    spans = [(k, span) for k, one in enumerate(read) for span in one.recording.spans()]
-    stretches = [
-        Stretch(one.recording.sensed[span], None if one.residual is None else one.residual[span])
-        for one, span in ((read[k], span) for k, span in spans)
-    ]
+    spans = list[tuple[int, slice]]()
+    stretches = list[Stretch]()
+    for k, one in enumerate(read):
+        for span in one.recording.spans():
+            residual = None if one.residual is None else one.residual[span]
+            spans.append((k, span))
+            stretches.append(Stretch(one.recording.sensed[span], residual))
     shapes = [(len(one.recording.sensed), len(estimator.joints)) for one in read]
     found = [(np.zeros(shape), np.zeros(shape)) for shape in shapes]
     has_std = False

@@ -48,5 +48,8 @@ def residual_and_truth(
 def read_wrenches(recording: Path, robot: RobotDescription) -> dict[str, NDArray[np.float32]]:
     """Read the wrenches of the feet in a recording, side -> (T, 6) [N] and [N m], as their sensors read them."""
     columns = recording_columns(robot.layout)
-    names = {side: [name for name, *_ in columns[f"wrench_{side}_foot"]] for side in robot.feet}
-    return {side: read_array(recording, own, robot.layout)[0] for side, own in names.items()}
+    wrenches = dict[str, NDArray[np.float32]]()
+    for side in robot.feet:
+        names = [name for name, *_ in columns[f"wrench_{side}_foot"]]
+        wrenches[side], _ = read_array(recording, names, robot.layout)
+    return wrenches

@@ -48,8 +48,11 @@ def regress(law: Law, joints: Mapping[str, Sequence[str]], pairs: Sequence[Pair]
     Return joint -> factors of (23), units in the keys, and the root mean squares of the target and of the error [N m].
     """
     sums = square_sums(partial(_columns, law), list(joints), law.gain_hz, pairs)
-    chosen = {joint: [term for term in TERMS if term in joints[joint]] for joint in joints}
-    return {joint: told(joint, _solve(sums[joint], chosen[joint], law.stribeck)) for joint in joints}
+    found = dict[str, dict[str, float]]()
+    for joint, wanted in joints.items():
+        chosen = [term for term in TERMS if term in wanted]
+        found[joint] = told(joint, _solve(sums[joint], chosen, law.stribeck))
+    return found
 
 
 def told(joint: str, found: dict[str, float]) -> dict[str, float]:
@@ -95,7 +98,7 @@ def _halves(
     stem: Path, signals: tuple[str, str], joints: Sequence[str]
 ) -> tuple[Array, Array, Sequence[tuple[int, int]], float]:
     """Return two signals of some joints (T, n) each from a file, its segments and its rate [Hz]."""
-    array, meta = read_array(stem, [name for signal in signals for name in named(signal, joints)])
+    array, meta = read_array(stem, [*named(signals[0], joints), *named(signals[1], joints)])
     first, second = np.split(array.astype(np.float64), 2, axis=1)
     return first, second, *spans_and_rate(meta)
 

@@ -9,6 +9,7 @@ import sys
 from argparse import Namespace
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from itertools import chain
 from pathlib import Path
 from typing import TypeVar
 
@@ -95,7 +96,7 @@ def check_thresholds(
 ) -> None:
     """Raise a DataError unless thresholds belong to the robot, its run time and, where they name it, the network."""
     fingerprints = {one.note.limb: one.run.fingerprint for one in networks}
-    predicted = {joint for one in networks for joint in one.note.joints}
+    predicted = set(chain.from_iterable(one.note.joints for one in networks))
     for one in thresholds:
         check_drives(Path(f"thresholds of {one.limb}"), one.drives, robot)
         if one.method == OBSERVER and one.signal != MEAN:

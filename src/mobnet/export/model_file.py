@@ -244,7 +244,9 @@ def _network(network: RuntimeNetwork, layout: JointLayout) -> bytes:
 
 def _source(name: str, layout: JointLayout) -> tuple[int, int]:
     """Return where an input of a network comes from, a number of `enum source` in internal.h, and its place there."""
-    sources = [[f"{signal}.{joint}" for joint in layout.actuated] for signal in JOINT_SOURCES]
+    sources = list[Sequence[str]]()
+    for signal in JOINT_SOURCES:
+        sources.append([f"{signal}.{joint}" for joint in layout.actuated])
     accepted = [f"{signal}.<joint>" for signal in JOINT_SOURCES]
     if layout.virtual:
         sources = [*sources, *BASE_SOURCES]

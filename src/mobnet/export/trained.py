@@ -107,10 +107,11 @@ def _network(one: Trained, layout: JointLayout) -> NetworkContract:
     scores = {name: tensors[name].tolist() for name in ("input.mean", "input.std", "target.mean", "target.std")}
     signals = {name: (unit, frame) for name, unit, frame in _signals(layout)}
     formulas = dict(zip(ROTATION_NAMES, FORMULAS, strict=True))
+    kinds = [signals[name] for name in note.inputs]
     inputs = [
         InputContract(name=name, unit=unit, frame=frame, formula=formulas.get(name), mean=mean, std=std)
         for name, (unit, frame), mean, std in zip(
-            note.inputs, (signals[name] for name in note.inputs), scores["input.mean"], scores["input.std"], strict=True
+            note.inputs, kinds, scores["input.mean"], scores["input.std"], strict=True
         )
     ]
     columns = torque_columns(layout, ["tau"], note.joints)

@@ -36,15 +36,15 @@ class StdFactors:
 
     def note(self, joints: Sequence[str], shares: Sequence[float]) -> dict[str, Any]:
         """Return it as JSON for `run.json`, with the names of the joints (n,) and the nominal shares (k,)."""
+        before = {name: values.tolist() for name, values in vars(self.before).items()}
+        after = {name: values.tolist() for name, values in vars(self.after).items()}
         return {
             "joints": list(joints),
             "shares": list(shares),
             "scale": self.scale.tolist(),
             "likelihood_scale": self.likelihood_scale.tolist(),
-            **{
-                when: {name: values.tolist() for name, values in vars(fit).items()}
-                for when, fit in (("before", self.before), ("after", self.after))
-            },
+            "before": before,
+            "after": after,
         }
 
 

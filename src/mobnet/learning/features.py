@@ -14,9 +14,9 @@ from mobnet.robot.frames import QUATERNION, rotation
 from mobnet.settings.networks import Limb
 
 OMEGA = slice(3, N_VIRTUAL)  # of the generalized velocity, base axes
-ROTATION_NAMES = tuple(f"R.{row}{column}" for column in (1, 2) for row in (1, 2, 3))
+ROTATION_NAMES: tuple[str, ...] = ("R.11", "R.21", "R.31", "R.12", "R.22", "R.32")
 # as columns of a recording, of which all but the rotation are read as they are
-BASE_NAMES = (*ROTATION_NAMES, *(f"{signal}{axis}" for signal in ("v.omega_", "acc.") for axis in "xyz"))
+BASE_NAMES = (*ROTATION_NAMES, *(f"v.omega_{axis}" for axis in "xyz"), *(f"acc.{axis}" for axis in "xyz"))
 QUATERNION_NAMES = tuple(f"q.quat_{axis}" for axis in "wxyz")
 
 
@@ -99,9 +99,12 @@ def limb_inputs(layout: JointLayout, limb: Limb) -> LimbInputs:
         ConfigError: a limb is unknown, or is the virtual one, which has no encoders or motors.
     """
     # (N1) in the order of Table 1, which is the order of a trained network's weights.
-    encoders = [_actuated(layout, name) for name in limb.Q]
-    names = [f"{signal}.{joint}" for joints in encoders for signal in ("q", "v") for joint in joints]
-    names += [f"tau_des.{joint}" for name in limb.T for joint in _actuated(layout, name)]
+    names = list[str]()
+    for joints in [_actuated(layout, name) for name in limb.Q]:
+        names += [f"q.{joint}" for joint in joints]
+        names += [f"v.{joint}" for joint in joints]
+    for name in limb.T:
+        names += [f"tau_des.{joint}" for joint in _actuated(layout, name)]
     names += BASE_NAMES if layout.virtual else ()
     where = {name: i for i, name in enumerate(signal_names(layout))}
     return LimbInputs(tuple(names), np.array([where[name] for name in names], dtype=np.intp))

@@ -131,6 +131,7 @@ def optimizer_of(network: LimbNetwork, learning: Learning) -> torch.optim.Optimi
         return torch.optim.Adam(network.parameters(), lr=0.0, betas=learning.optimizer_betas, fused=True)
     # Matrices of a recurrent cell, one gate below the other; those of windows are convolutions.
     gated = [weight for weight in network.cell.parameters() if weight.dim() == 2]
-    others = [weight for weight in network.parameters() if all(weight is not matrix for matrix in gated)]
+    known = set(map(id, gated))  # tensors compare by element
+    others = [weight for weight in network.parameters() if id(weight) not in known]
     gates = len(gated[0]) // network.cell.width if gated else 0
     return Soap(gated, others, gates, learning.optimizer_betas, learning.basis_beta, learning.basis_every)

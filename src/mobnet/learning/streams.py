@@ -101,7 +101,9 @@ def some_of(blocks: Sequence[Span], stream: int, parts: int, rng: np.random.Gene
     """Return one of so many parts of some blocks: streams drawn at random, as section 6.3 draws samples."""
     if parts == 1:
         return list(blocks)
-    streams = [(a, min(a + stream, end)) for start, end in blocks for a in range(start, end, stream)]
+    streams = list[Span]()
+    for start, end in blocks:
+        streams += [(first, min(first + stream, end)) for first in range(start, end, stream)]
     kept = rng.permutation(len(streams))[: max(1, round(len(streams) / parts))]
     return [streams[i] for i in np.sort(kept)]
 

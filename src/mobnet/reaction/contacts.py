@@ -39,7 +39,9 @@ class Ends(NamedTuple):
 def end_effectors(robot: RobotDescription) -> dict[str, str]:
     """Return limb -> body of its hand or foot, the left and right foot first."""
     joints = {joint.body: joint.id for joint in robot.joints}
-    limbs = {joint: limb for limb, names in robot.layout.groups.items() for joint in names}
+    limbs = dict[str, str]()  # joint -> limb
+    for limb, names in robot.layout.groups.items():
+        limbs |= dict.fromkeys(names, limb)
     hands = {limbs[joints[body]]: body for body in robot.hands.values()}
     return {robot.feet[side].limb: robot.feet[side].body for side in SIDES} | hands
 

@@ -41,10 +41,11 @@ class FeedForward:
         """
         layout = simulator.robot.layout
         law = simulator.torque
-        legs = [joint for limb in layout.legs.values() for joint in layout.limb(limb)]
+        legs = layout.limbs(layout.legs.values())
         law.left[:] = np.inf
         law.value[:] = 0.0
-        held, motors = ([names.index(joint) for joint in legs] for names in (joints, layout.actuated))
+        held = [joints.index(joint) for joint in legs]
+        motors = [layout.actuated.index(joint) for joint in legs]
         return cls(share, np.array(held), np.array(motors), law.value)
 
     def feed(self, uncertainty: NDArray[Any]) -> None:

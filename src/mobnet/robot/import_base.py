@@ -5,7 +5,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from mobnet.core.errors import DataError, not_accepted
-from mobnet.robot.import_tree import BALL, FREE, HINGE, PLANAR, SLIDE, WORLD, Joint, Tree
+from mobnet.robot.import_tree import BALL, FREE, HINGE, PLANAR, SLIDE, WORLD, Joint, Link, Tree
 
 WELDED = {SLIDE: "slides", BALL: "is a ball", PLANAR: "moves in a plane", FREE: "moves freely"}
 UNITS = {HINGE: "rad", SLIDE: "m"}
@@ -44,7 +44,7 @@ def robot_of(tree: Tree, floating: bool | None, locked: Sequence[str]) -> Robot:
         DataError: there are several robots that float, or none, or a locked joint is none of the file.
     """
     hinges = tree.hinges_below()
-    free = [k for k, link in enumerate(tree.links) if any(joint.kind == FREE for joint in link.joints)]
+    free = [k for k, link in enumerate(tree.links) if _is_free(link)]
     robots = [k for k in free if hinges[k]]
     others = sum(count for count, link in zip(hinges, tree.links, strict=True) if link.parent == WORLD)
     others -= sum(hinges[k] for k in robots)
@@ -78,9 +78,16 @@ def _base(tree: Tree, robots: Sequence[int], hinges: Sequence[int]) -> int:
     return found[0]
 
 
+def _is_free(link: Link) -> bool:
+    """Return whether a link has a joint that lets it move freely."""
+    return any(joint.kind == FREE for joint in link.joints)
+
+
 def _weld(tree: Tree, robot: Robot, locked: Sequence[str]) -> Iterator[str]:
     """Note which joints do not turn, and yield why."""
-    joints = [joint for link, kept in zip(tree.links, robot.kept, strict=True) if kept for joint in link.joints]
+    joints = list[Joint]()
+    for link, is_kept in zip(tree.links, robot.kept, strict=True):
+        joints += link.joints if is_kept else []
     places = {joint.index: joint for joint in joints}
     asked = _asked(joints, locked)
     robot.held |= asked
@@ -155,10 +162,10 @@ def _weld_idle(tree: Tree, robot: Robot) -> Iterator[str]:
         parent = tree.links[k].parent
         if parent != WORLD and heavy[k]:
             heavy[parent] = True
-    idle = [
-        joint for link, kept, has_mass in zip(tree.links, robot.kept, heavy, strict=True) if kept and not has_mass
-        for joint in link.joints if joint.kind == HINGE and joint.index not in robot.held
-    ]  # fmt: skip
+    idle = list[Joint]()
+    for link, is_kept, has_mass in zip(tree.links, robot.kept, heavy, strict=True):
+        if is_kept and not has_mass:
+            idle += [joint for joint in link.joints if joint.kind == HINGE and joint.index not in robot.held]
     robot.held |= {joint.index: joint.at for joint in idle}
     if idle:
         yield f"welded, as they move no mass: {', '.join(map(_shown, idle))}"

@@ -7,6 +7,7 @@ or foreign there, and a limit may be missing. What the import has changed, and t
 import copy
 import xml.etree.ElementTree as ET
 from collections.abc import Callable, Iterator
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -147,7 +148,7 @@ def _set(model: Any, q: Array, number: int, value: float) -> None:
 def _plain(root: ET.Element, found: Imported) -> str:
     """Return a URDF with the links l0, l1 and the joints j0, j1 of a robot, and with the numbers of its file."""
     names = {link.name: k for k, link in enumerate(found.tree.links)}
-    dropped = {link for mass in found.masses for link in mass.dropped}
+    dropped = set(chain.from_iterable(mass.dropped for mass in found.masses))
     plain = ET.Element("robot", name="robot")
     for row in root.findall("link"):
         number = names[row.get("name", "")]
@@ -163,7 +164,7 @@ def _plain(root: ET.Element, found: Imported) -> str:
             joint = ET.SubElement(plain, "joint", name=f"j{index}", type=kind)
             for end in ("parent", "child"):
                 ET.SubElement(joint, end, link=f"l{names[_end(row, end)]}")
-            joint.extend([copy.deepcopy(part) for tag in ("origin", "axis") for part in row.findall(tag)])
+            joint.extend(map(copy.deepcopy, [*row.findall("origin"), *row.findall("axis")]))
             if kind in ("revolute", "prismatic"):
                 ET.SubElement(joint, "limit", lower="-1", upper="1", effort="1", velocity="1")
     return ET.tostring(plain, encoding="unicode")

@@ -77,7 +77,10 @@ def limbs(bodies: Sequence[Mapping[str, Any]], joints: Sequence[Mapping[str, Any
                 carrier = parents[carrier]
             children.setdefault(carrier, []).append(body["name"])
     found: dict[str, list[str]] = {}
-    waiting = [child for root, own in children.items() if root not in moved for child in own][::-1]
+    roots = list[str]()
+    for carrier, own in children.items():
+        roots += own if carrier not in moved else []
+    waiting = roots[::-1]
     while waiting:
         body = waiting.pop()
         chain = [moved[body]]
@@ -92,8 +95,11 @@ def limbs(bodies: Sequence[Mapping[str, Any]], joints: Sequence[Mapping[str, Any
 def _limb_name(chain: Sequence[str], taken: Iterable[str]) -> str:
     """Return a name for a chain that no other limb and no joint has."""
     parts = [re.findall(r"[A-Za-z0-9]+", joint) for joint in chain]
-    shared = [word for word in parts[0] if all(word in other for other in parts) and word.lower() != "joint"]
-    words = {word.lower() for own in parts for word in own}
+    common = set(parts[0]).intersection(*parts)
+    shared = [word for word in parts[0] if word in common and word.lower() != "joint"]
+    words = set[str]()
+    for own in parts:
+        words.update(word.lower() for word in own)
     shared += [part for part, marks in PARTS.items() if shared and marks & words and part not in shared]
     stem = "".join(shared)[: MOST_NAME - 2] if shared and shared[0][0].isalpha() else "limb"
     lowered = {name.casefold() for name in taken}

@@ -42,11 +42,16 @@ def _shift(parts: Sequence[Body], robot: Robot, notes: list[str]) -> Array:
     return places[0]
 
 
+def _listed(values: Array) -> list[float]:
+    """Return numbers as a list, without -0.0."""
+    return [float(x) + 0.0 for x in values]
+
+
 def _row(name: str, parent: str, pos: Array, turn: Array, mass: Mass) -> dict[str, Any]:
     """Return the row of a body, in SI units."""
     quat = pin.Quaternion(turn).normalized().coeffs()[[3, 0, 1, 2]]
     lists = {"pos": pos, "quat": quat, "com": mass.com, "inertia": six(mass.inertia)}
-    listed = {key: [float(x) + 0.0 for x in value] for key, value in lists.items()}  # no -0.0
+    listed = {key: _listed(value) for key, value in lists.items()}
     return {"name": name, "parent": parent, **listed, "mass": float(mass.mass)}
 
 

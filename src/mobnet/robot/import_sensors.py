@@ -40,7 +40,9 @@ def sensors_of(
 
 def _places(tree: Tree, parts: Sequence[Body]) -> Iterator[tuple[str, int, Array, Array]]:
     """Yield name, body, position (3,) [m] and axes (3, 3) in it of what looks like an inertial sensor."""
-    places: dict[int, tuple[int, Part]] = {part.link: (k, part) for k, body in enumerate(parts) for part in body.parts}
+    places = dict[int, tuple[int, Part]]()
+    for k, body in enumerate(parts):
+        places |= {part.link: (k, part) for part in body.parts}
     for site in tree.sites:
         if site.link in places and (site.is_sensor or NAMED.search(site.name)):
             body, part = places[site.link]

@@ -5,6 +5,7 @@ Lengths in [m], angles in [rad], masses in [kg], inertias in [kg m^2]; a rotatio
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from itertools import chain
 
 import numpy as np
 import pinocchio as pin
@@ -98,7 +99,7 @@ class Tree:
 
     def joints(self) -> list[Joint]:
         """Return all joints, those of parents first."""
-        return [joint for link in self.links for joint in link.joints]
+        return list(chain.from_iterable(link.joints for link in self.links))
 
     def below(self, link: int) -> list[bool]:
         """Return for each link whether it is another one or hangs on it."""
@@ -109,7 +110,9 @@ class Tree:
 
     def hinges_below(self) -> list[int]:
         """Return the number of hinges that move each link or what hangs on it."""
-        count = [sum(joint.kind == HINGE for joint in link.joints) for link in self.links]
+        count = list[int]()
+        for link in self.links:
+            count.append(sum(joint.kind == HINGE for joint in link.joints))
         for k in reversed(range(len(self.links))):
             if self.links[k].parent != WORLD:
                 count[self.links[k].parent] += count[k]

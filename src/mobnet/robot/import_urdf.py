@@ -70,10 +70,13 @@ def _tied(joint: _Row, end: str, links: Iterable[str]) -> str:
 def _check_expanded(root: ET.Element, path: Path) -> Iterator[str]:
     """Check that a file is no xacro; yield macros that xacro itself has left in it, since it did not know them."""
     for parent in list(root.iter()):
-        for part in [part for kind in UNREAD for part in parent.findall(kind)]:
-            parent.remove(part)
+        for kind in UNREAD:
+            for part in parent.findall(kind):
+                parent.remove(part)
     macros = [part.tag.rpartition("}")[2] for part in root.iter() if "xacro" in part.tag]
-    words = [repr(value) for part in root.iter() for value in part.attrib.values() if MACRO.search(value)]
+    words = list[str]()
+    for part in root.iter():
+        words += [repr(value) for value in part.attrib.values() if MACRO.search(value)]
     words += [f"xacro:{name}" for name in macros if name in KEYWORDS]
     if words:
         raise DataError(f"{words[0]} is not accepted; accepted: a URDF, made of xacro by: {expanding(path)}")

@@ -103,7 +103,8 @@ def _imported(tree: Tree, robot: Robot, kind: str, path: Path, armature: float) 
     if not robot.floating:
         masses[0] = STANDING
     notes = [*tree.notes, *robot.notes, *_set_armature(hinges, armature)]
-    notes += [note for mass in masses for note in mass.notes]
+    for mass in masses:
+        notes += mass.notes
     without = [body.name for body, mass in zip(parts, masses, strict=True) if mass.is_token and body.parts]
     if without:
         notes.append(f"no mass in the file: {', '.join(without)}; {TOKEN_MASS:g} kg is taken")

@@ -62,6 +62,7 @@ def rising(path: Path, time_s: Array, bounds: RobotLog) -> Rising:
     )
     own = time_s[rows]
     steps = np.diff(time_s[rows])
+    # Rows that stand twice or were exchanged can be put in order; where more of them go back, the column is no clock.
     if len(own) < 2 or np.mean(steps <= 0.0) > bounds.backward:
         row = int(rows[1:][steps <= 0.0][0]) if len(own) > 1 else 0
         back = f"row {row} is not after the one before it" + f", as {(steps <= 0.0).sum()} of {len(time_s)} rows"
@@ -69,6 +70,7 @@ def rising(path: Path, time_s: Array, bounds: RobotLog) -> Rising:
         raise DataError(f"{path}: clock: {back if len(own) > 1 else f'{len(own)} row'}; accepted: {accepted}")
     if (steps > 0.0).all():
         return Rising(own, rows if hints else None, len(time_s), tuple(hints))
+    # Episodes do not follow from each other: a pause that is longer than a gap ends a segment between them.
     pause = 2.0 * bounds.gap_intervals * float(np.median(steps[steps > 0.0]))
     anew = np.flatnonzero(steps < -pause) + 1
     few = anew[:, None] + np.arange(1, 1 + math.ceil(bounds.gap_intervals))
@@ -129,12 +131,14 @@ def common_ticks(path: Path, clocks: Mapping[str, Array], rate_hz: float, bounds
     spans = _spans(first, pauses, start, end, rate_hz)
     wanted = int((spans[1] - spans[0] + 1).sum())
     samples = max(map(len, clocks.values()))
+    # Far more ticks than samples come from a clock in another unit, or from a wrong rate_hz.
     if wanted > bounds.ticks * samples:
         text = f"{wanted} ticks at {rate_hz:g} Hz for {samples} samples, over {end - start:.4g} s"
         raise DataError(f"{path}: clock: {text}; accepted: up to {bounds.ticks:g} for each: is clock.unit right?")
     every = np.unique(np.concatenate([np.arange(a, b + 1) for a, b in zip(*spans, strict=True)]))
     ticks = start + every / rate_hz
     whole = np.ones(len(ticks), dtype=bool)
+    # Signals of one table share the array of their clock, which is looked at once.
     for clock in {id(clock): clock for clock in clocks.values()}.values():
         whole &= covered(clock, np.clip(ticks, clock[0], clock[-1]), bounds.gap_intervals)
     kept = ticks[whole]

@@ -1,7 +1,8 @@
 """From the columns of a log to the recording that the observer takes: units, order, one clock, gaps."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -60,10 +61,8 @@ def convert(path: Path, columns: Columns, meaning: LogMap, layout: JointLayout, 
     given = given_signals(meaning)
     clock = _table_clock(path, columns, meaning, bounds)
     known = {name: _own(path, name, column, meaning, clock) for name, column in columns.items() if is_truth(name)}
-    hints = [
-        *_reading_hints({name: columns[name] for signal in given.values() for name in signal.columns}),
-        *clock.hints,
-    ]
+    names = dict.fromkeys(chain.from_iterable(signal.columns for signal in given.values()))
+    hints = [*_reading_hints(columns, names), *clock.hints]
     if meaning.clock.stamp == "header":
         hints += stamp_hints((columns[signal.columns[0]] for signal in given.values()), bounds)
     free = {"q": layout.nq - layout.nu, "v": layout.nv - layout.nu}  # for the base: one copy of a long signal less
@@ -74,7 +73,8 @@ def convert(path: Path, columns: Columns, meaning: LogMap, layout: JointLayout, 
     rate_hz = meaning.rate_hz or rate_of(signals["q"].time_s)
     clocks = {name: signal.time_s for name, signal in signals.items()}
     ticks = common_ticks(path, clocks, rate_hz, bounds)
-    del columns  # a log may be as large as the memory
+    # A log may be as large as the memory: its columns go now, and each signal as soon as it has its values.
+    del columns
     values = {}
     while signals:
         name, one = signals.popitem()
@@ -88,16 +88,17 @@ def convert(path: Path, columns: Columns, meaning: LogMap, layout: JointLayout, 
     )
 
 
-def _reading_hints(columns: Columns) -> Iterator[str]:
-    """Yield what readers left out of a log, and how many rows of columns have no number."""
-    yield from dict.fromkeys(column.hint for column in columns.values() if column.hint)
+def _reading_hints(columns: Columns, names: Iterable[str]) -> Iterator[str]:
+    """Yield what readers left out of a log, and how many rows of some of its columns have no number."""
+    used = {name: columns[name] for name in names}
+    yield from dict.fromkeys(column.hint for column in used.values() if column.hint)
     blank: dict[tuple[int, int], list[str]] = {}
-    for name, column in columns.items():
+    for name, column in used.items():
         if count := int((~np.isfinite(column.values)).sum()):
             blank.setdefault((count, len(column.values)), []).append(name)
-    for (count, rows), names in blank.items():
+    for (count, rows), blank_names in blank.items():
         text = "each signal is taken on the rows that it has"
-        yield f"no number in {count} of {rows} rows of {listed(names)}: {text}"
+        yield f"no number in {count} of {rows} rows of {listed(blank_names)}: {text}"
 
 
 def _timed(
@@ -122,6 +123,7 @@ def _timed(
     whole[:, :free] = 0.0
     values = whole[:, free:]
     largest = 0.0
+    # In pieces, as a temporary array as long as the log would cost more time than what is computed in it.
     for rows in pieces(0, len(values)):
         own = np.stack([part[rows] for part in parts], axis=1, dtype=np.float64)
         own *= factor
@@ -129,6 +131,7 @@ def _timed(
         own *= sign
         largest = max(largest, float(own.max()), -float(own.min()))
         values[rows] = own
+    # The residual, which has squares of speeds, would leave the range of single precision.
     if largest > LARGEST:
         row, k = np.unravel_index(int(np.abs(values).argmax()), values.shape)
         what = f"column {signal.columns[k]!r}, sample {row}"
@@ -150,6 +153,7 @@ def _own(path: Path, name: str, column: Column, meaning: LogMap, clock: Rising) 
         kept = np.unique(time_s, return_index=True)[1]
         time_s = time_s[kept]
         values = values[kept]
+    # In a merged table the cells of a slower topic are empty: each column is taken on the rows that it has.
     is_number = np.isfinite(values)
     if not is_number.all():
         time_s = time_s[is_number]
@@ -172,6 +176,7 @@ def _table_clock(path: Path, columns: Columns, meaning: LogMap, bounds: RobotLog
     if clock in columns and columns[clock].time_s is None:
         return rising(path, columns[clock].values * unit, bounds)
     first = next(column for name, column in columns.items() if name != clock)
+    # Each column of messages has the times of its topic, and needs no clock of a table.
     if first.time_s is not None:
         return Rising(np.empty(0))
     if not meaning.rate_hz:

@@ -6,6 +6,7 @@ import re
 from collections import Counter
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -97,7 +98,8 @@ def _layout(path: Path) -> Layout | None:
     names = next((row for row in above if row), [str(k) for k in range(len(rows[first]))])
     if twice := [name for name, count in Counter(names).items() if name and count > 1]:
         raise DataError(f"{path}: column {twice[0]!r} stands twice in the header; accepted: each name once")
-    looked = [field for row in rows[first : first + LOOKED_ROWS] for field in row]
+    looked = list(chain.from_iterable(rows[first : first + LOOKED_ROWS]))
+    # A comma is a decimal sign only where it separates no fields, and where no number has a point.
     has_comma = separator != "," and any(DECIMAL_COMMA.fullmatch(field) for field in looked)
     decimal = "," if has_comma and not any("." in field for field in looked) else "."
     return Layout(tuple(names), separator, decimal, encoding, first, len(lines[first].encode(encoding)) + 1)
@@ -108,6 +110,7 @@ def _first_lines(path: Path) -> tuple[str, list[str]]:
     with path.open("rb") as file:
         start = file.read(LOOKED_BYTES)
     encoding = next((name for mark, name in ENCODINGS.items() if start.startswith(mark)), "utf-8")
+    # In UTF-16 every second byte of plain letters is zero; elsewhere a zero byte says that the file is no text.
     if encoding != "utf-16" and b"\0" in start:
         raise DataError(f"{path}: byte {start.index(0)} is zero, which no text has; accepted: text in UTF-8 or UTF-16")
     try:
@@ -195,6 +198,7 @@ def _separated(path: Path, layout: Layout, asked: Sequence[str]) -> dict[str, Co
         first = file.schema  # of the first block: what looks whole there, or empty, may be a fraction further down
     # Columns of a stated type are read in two thirds of the time of those whose type Arrow looks for.
     kinds = {f.name: pa.float64() if _is_loose(f.type) else f.type for f in first}
+    # The rows of the first block were counted already, and are read again.
     wrong.clear()
     read.block_size = BLOCK_BYTES
     with arrow.open_csv(path, read, parse, arrow.ConvertOptions(**kept, column_types=kinds)) as file:
@@ -254,6 +258,7 @@ def _spaced(path: Path, layout: Layout, asked: Sequence[str]) -> dict[str, Colum
         path, sep=r"\s+", header=None, names=list(layout.names), usecols=list(asked), skiprows=layout.lead,
         decimal=layout.decimal, encoding=layout.encoding, on_bad_lines="skip",
     )  # fmt: skip
+    # A log that ends early may end in a short row, which pandas would fill with NaN.
     last = _fields(_last_line(path, layout.encoding), SPACES)
     is_cut = len(last) != len(layout.names)
     frame = frame.iloc[:-1] if is_cut else frame

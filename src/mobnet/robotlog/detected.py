@@ -54,6 +54,7 @@ def detect_log(
     """
     sampling = Sampling(found.rate_hz, found.gain_hz, found.torque, found.drives)
     gravity = settings.plant.gravity_m_s2
+    # Filters and thresholds are those of one rate: a log at another one is resampled, where its map lets it.
     if meaning and meaning.rate_hz is None:
         meaning = meaning.model_copy(update={"rate_hz": sampling.rate_hz})
     observed = observe_log(path, robot, meaning, found.torque, found.gain_hz, gravity, settings.robotlog)

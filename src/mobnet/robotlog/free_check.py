@@ -90,6 +90,7 @@ def held_out(network: Runnable, data: LimbData, cut: int) -> Held:
     held = [(max(start, cut), end) for start, end in data.segments if end > cut]
     length = sum(end - start for start, end in held)
     first = next((start for start, end in data.segments if start < cut <= end), 0)
+    # An error that is larger on what is held out than on data that trained the network says that more data would help.
     spans = [*held, (max(first, cut - length), cut)]
     found = network.run_all([data.inputs[start:end] for start, end in spans])
     errors = [data.targets[a:b] - one.mean for (a, b), one in zip(spans, found, strict=True)]

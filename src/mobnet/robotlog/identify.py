@@ -9,7 +9,7 @@ import sys
 from argparse import Namespace
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import chain, count
+from itertools import chain
 from pathlib import Path
 
 from mobnet.core.errors import ConfigError, DataError, not_accepted
@@ -79,6 +79,7 @@ def identify(
     windows = [windows_of(robot, one.recording, one.torque, gravity, numbers, carrier) for one in logs]
     known, held_out = split(windows, numbers)
     fits, carried = fit_joints(known, held_out, columns_of(numbers), terms, numbers)
+    # Of a joint that rests a log tells no friction: it keeps the numbers of the table.
     speeds = moved([one.recording for one in logs], robot.layout.nu)
     found = {
         joint: fit
@@ -127,13 +128,18 @@ def with_numbers(table: RobotTable, found: Mapping[str, JointFit]) -> RobotTable
 def with_payload(table: RobotTable, body: str, found: Payload) -> RobotTable:
     """Return a table with one more body, a payload welded to one of its bodies; published totals are left out."""
     names = [row.name for row in table.bodies]
-    free = (name for name in chain((PAYLOAD,), (f"{PAYLOAD}_{k}" for k in count(2))) if name not in names)
+    name = PAYLOAD
+    number = 2
+    while name in names:
+        name = f"{PAYLOAD}_{number}"
+        number += 1
     own = _rounded(found.inertia)
     (x, y, z) = map(_rounded, found.com)
     row = BodyRow(
-        name=next(free), parent=body, pos=(0.0, 0.0, 0.0), quat=(1.0, 0.0, 0.0, 0.0), mass=_rounded(found.mass),
+        name=name, parent=body, pos=(0.0, 0.0, 0.0), quat=(1.0, 0.0, 0.0, 0.0), mass=_rounded(found.mass),
         com=(x, y, z), inertia=(own, own, own, 0.0, 0.0, 0.0),
     )  # fmt: skip
+    # Bodies of a table stand depth-first: the payload comes right after the body that carries it.
     place = names.index(body) + 1
     return table.model_copy(update={"bodies": (*table.bodies[:place], row, *table.bodies[place:]), "totals": None})
 
@@ -160,7 +166,8 @@ def told(found: Mapping[str, JointFit], robot: RobotDescription, held_out: float
         "coulomb": "Coulomb [N m]", "viscous": "viscous [N m s/rad]", "load": "load [-]", "offset": "offset [N m]",
         "armature": "rotor inertia [kg m^2]", "scale": "scale - 1 [-]",
     }  # fmt: skip
-    shown = [term for term in units if any(term in fit.factors for fit in found.values())]
+    fitted = set(chain.from_iterable(fit.factors for fit in found.values()))
+    shown = [term for term in units if term in fitted]
     rows = [["joint", *(units[term] for term in shown), "sign", "residual, held out", "explained"]]
     for joint, fit in found.items():
         cells = [_cell(fit, term) for term in shown]
@@ -170,7 +177,9 @@ def told(found: Mapping[str, JointFit], robot: RobotDescription, held_out: float
         rows.append([joint, *cells, sign, left, f"{fit.explained:.0%}"])
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     yield f"numbers with their intervals; the last {held_out:.0%} of each log are held out to try them"
-    yield from ("  ".join(f"{cell:<{width}}" for cell, width in zip(row, widths, strict=True)).rstrip() for row in rows)
+    for row in rows:
+        cells = [f"{cell:<{width}}" for cell, width in zip(row, widths, strict=True)]
+        yield "  ".join(cells).rstrip()
     if still := [joint for joint in robot.layout.actuated if joint not in found]:
         yield f"did not move, and keep the numbers of the table: {', '.join(still)}"
 

@@ -40,6 +40,7 @@ def label_of(log: OwnLog, nominal: NominalModel, labels: str) -> Array:
         raise DataError(f"{path}: {not_accepted('--labels', labels, ['free'])}; or a log with {what}")
     if labels == "feet":
         return foot_label(nominal, read, read_wrenches(path, nominal.robot), log.sampling.gain_hz)
+    # The residual from which it is taken off is behind the low-pass of the observer.
     external = read_array(path, named(EXTERNAL, layout.names))[0]
     parts = [low_pass(external[span], log.sampling.gain_hz, log.sampling.rate_hz) for span in read.spans()]
     return np.concatenate(parts)
@@ -60,10 +61,10 @@ def limb_data(logs: Sequence[OwnLog], labels: Sequence[Array], layout: JointLayo
     x = np.concatenate([inputs(log.recording.sensed) for log in logs])
     y = np.concatenate([(log.residual - own)[:, columns] for log, own in zip(logs, labels, strict=True)])
     starts = np.cumsum([0, *(len(log.residual) for log in logs)]).tolist()
-    segments = tuple(
-        (start + a, start + b) for start, log in zip(starts, logs, strict=False) for a, b in log.recording.segments
-    )
-    return LimbData(x, y.astype(np.float32), segments, inputs.names, joints, first.sampling.rate_hz)
+    segments = list[tuple[int, int]]()
+    for start, log in zip(starts, logs, strict=False):
+        segments += [(start + a, start + b) for a, b in log.recording.segments]
+    return LimbData(x, y.astype(np.float32), tuple(segments), inputs.names, joints, first.sampling.rate_hz)
 
 
 def check_labels(labels: str) -> None:

@@ -99,6 +99,7 @@ def _planted(
     if data.joints != robot.layout.limb(limb):
         return None
     observers: list[NDArray[Any]] = [data.targets[held.rows]]
+    # `calibrate` keeps the observer without the formula of friction where that finds more: it is tried here, too.
     if robot.friction:
         bare = np.concatenate([one.residual for one in without_friction(logs, robot, gravity)])
         observers.insert(0, bare[held.rows][:, robot.layout.columns(data.joints)] - label[held.rows])

@@ -1,6 +1,7 @@
 """Which columns of a log are which signals: a map by full names, and that of a log without one."""
 
 from collections.abc import Collection, Iterator, Sequence
+from itertools import chain
 from pathlib import Path
 
 from mobnet.core.columns import EXTERNAL, FEET, PUSHED, recording_columns
@@ -15,10 +16,11 @@ BASE = ("quaternion", "velocity", "omega", "acc")  # what a floating base needs
 JOINT_STATE = {"q": "position", "v": "velocity", "tau_motor": "effort"}  # fields of ROS's message
 CLOCKS = ("time", "timestamp", "t")  # usual names of a clock, in the order in which they are looked for
 AXES = ("x", "y", "z")
+WRENCH = (*(f"force.{axis}" for axis in AXES), *(f"torque.{axis}" for axis in AXES))
 ENDS = {  # signal -> how messages of ROS name its numbers
     **dict.fromkeys(("position", "velocity", "omega", "acc"), AXES),
     "quaternion": ("w", *AXES),
-    **dict.fromkeys((*FEET, "tool"), tuple(f"{part}.{axis}" for part in ("force", "torque") for axis in AXES)),
+    **dict.fromkeys((*FEET, "tool"), WRENCH),
 }
 
 
@@ -39,7 +41,9 @@ def default_map(path: Path, names: Collection[str], layout: JointLayout) -> LogM
     taken = dict[str, Signal]()
     held = set(names)
     base = 7 if layout.virtual else 0
-    own = {key: [name for name, *_ in group] for key, group in fields.items()}
+    own = dict[str, list[str]]()
+    for key, group in fields.items():
+        own[key] = [name for name, *_ in group]
     groups = {
         "q": own["q"][base:], "v": own["v"][6 if base else 0 :], "tau_motor": own["tau_motor"],
         "position": own["q"][:3] if base else [], "quaternion": own["q"][3:base], "acc": own["acc_base_in_base"],
@@ -47,13 +51,15 @@ def default_map(path: Path, names: Collection[str], layout: JointLayout) -> LogM
         **{foot: own[f"wrench_{foot}"] for foot in FEET}, "swing": own["swing"], "landing": own["landing"],
     }  # fmt: skip
     if not any(held.intersection(groups[key]) for key in MOTORS):
+        # A JointState says nothing of a base, so that no map can be guessed for one that floats.
         if base:
             raise DataError(f"{path}: {_needs_map(names, groups['q'])}")
         groups = {key: [f"{_joint_state(path, names, layout)}.{field}"] for key, field in JOINT_STATE.items()}
     for key, group in groups.items():
         if group and (key in MOTORS or set(group) <= held):
             taken[key] = Signal(columns=tuple(group))
-    clock = next((name for usual in CLOCKS for name in names if name.lower() == usual), CLOCKS[0])
+    clocks = [name for name in names if name.lower() in CLOCKS]
+    clock = min(clocks, key=lambda name: CLOCKS.index(name.lower()), default=CLOCKS[0])
     return LogMap.model_validate({**taken, "clock": Clock(column=clock)})
 
 
@@ -75,9 +81,10 @@ def _joint_state(path: Path, names: Collection[str], layout: JointLayout) -> str
             if between and topic.startswith("/"):
                 topics.setdefault(topic, {}).setdefault(field, set()).add(joint)
     joints = set(layout.actuated)
-    whole = [
-        topic for topic, fields in topics.items() if all(joints <= fields.get(f, set()) for f in JOINT_STATE.values())
-    ]
+    whole = list[str]()
+    for topic, fields in topics.items():
+        if all(joints <= fields.get(field, set()) for field in JOINT_STATE.values()):
+            whole.append(topic)
     if len(whole) == 1:
         return whole[0]
     if whole:
@@ -85,6 +92,7 @@ def _joint_state(path: Path, names: Collection[str], layout: JointLayout) -> str
         raise DataError(f"{path}: {' and '.join(whole)} have all joints of the robot; accepted: {accepted}")
     if not topics:
         raise DataError(f"{path}: {_needs_map(names, [f'q.{layout.actuated[0]}'])}")
+    # The topic with most of the joints is likely the one that is meant: the line says what it lacks.
     near = max(topics, key=lambda topic: len(joints & set().union(*topics[topic].values())))
     for field in JOINT_STATE.values():
         if field not in topics[near]:
@@ -119,13 +127,16 @@ def resolved(path: Path, meaning: LogMap, names: Collection[str], layout: JointL
     widths |= dict.fromkeys(("swing", "landing"), len(layout.legs))
     joints = meaning.joints or layout.actuated
     full = {key: _full(key, signal, held, joints, widths[key]) for key, signal in given.items()}
-    refuse(path, [fault for key, signal in full.items() for fault in _faults(key, signal, names, widths[key])])
+    faults = list[str]()
+    for key, signal in full.items():
+        faults += _faults(key, signal, names, widths[key])
+    refuse(path, faults)
     return meaning.model_copy(update=full)
 
 
 def wanted_columns(meaning: LogMap, names: Collection[str]) -> list[str]:
     """Return the columns that a map by full names needs, with its clock and the truth where the log has them."""
-    own = [name for signal in given_signals(meaning).values() for name in signal.columns]
+    own = chain.from_iterable(signal.columns for signal in given_signals(meaning).values())
     clock = [name for name in names if name == meaning.clock.column]
     return list(dict.fromkeys([*clock, *own, *filter(is_truth, names)]))
 
@@ -142,9 +153,10 @@ def _full(key: str, signal: Signal, held: Collection[str], joints: Collection[st
         return signal
     named = [f"{stem}.{end}" for end in (joints if key in MOTORS else ENDS.get(key, ()))]
     numbered = [f"{stem}.{k}" for k in range(width)]
-    by_names = joints if key in MOTORS else ()
-    by_numbers = map(str, range(width))
-    starred = [[stem.replace("*", end) for end in ends] for ends in (by_names, by_numbers)] if "*" in stem else []
+    by_names = [stem.replace("*", joint) for joint in joints] if key in MOTORS else []
+    by_numbers = [stem.replace("*", str(k)) for k in range(width)]
+    starred = [by_names, by_numbers] if "*" in stem else []
+    # Names before numbers, as messages may list joints and axes in any order.
     for columns in (named, *starred, numbered):
         if columns and set(columns) <= set(held):
             by_name = {"order": "wxyz"} if key == "quaternion" and columns is named else {}

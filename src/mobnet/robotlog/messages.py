@@ -78,7 +78,8 @@ def message_names(path: Path) -> list[str]:
     with opened(path) as source:
         for topic in source.topics:
             for _, _, content in islice(source.messages([topic]), FIRST):
-                found += [name for part in _parts(content, topic) for name in _in(part, content)]
+                for part in _parts(content, topic):
+                    found += _in(part, content)
         if not found and source.hint:
             raise DataError(f"{path}: {source.hint}, which is before its first message; accepted: a log with messages")
         if not found and source.unread:
@@ -94,7 +95,10 @@ def message_columns(path: Path, wanted: Collection[str]) -> dict[str, Column]:
         DataError: a message lacks a field that one before it has.
     """
     with opened(path) as source:
-        topics = [topic for topic in source.topics if any(name.startswith(f"{topic}.") for name in wanted)]
+        topics = list[str]()
+        for topic in source.topics:
+            if any(name.startswith(f"{topic}.") for name in wanted):
+                topics.append(topic)
         gathered = _gathered(source.messages(topics), set(wanted)) if topics else {}
         hint = source.hint
     began = min((min(own.recorded) for own in gathered.values()), default=0)
@@ -127,7 +131,9 @@ def _parts(content: Any, name: str, steps: tuple[Step, ...] = (), labels: tuple[
 def _entry_steps(items: Sequence[Any]) -> list[tuple[str, Step]]:
     """Return the names of objects in a list, with the steps to them: their own names if all differ, else numbers."""
     for key in OWN_NAMES:
-        steps = [step for item in items for name, step in _fields(item) if name == key]
+        steps = list[Step]()
+        for item in items:
+            steps += [step for name, step in _fields(item) if name == key]
         names = [step(item) for step, item in zip(steps, items, strict=False)]
         if names and len(set(names)) == len(items) and all(isinstance(name, str) and name for name in names):
             return [(name, Entry(step, name, k)) for k, (name, step) in enumerate(zip(names, steps, strict=True))]
@@ -225,6 +231,7 @@ def _gather(own: Gathered, part: Part, content: Any) -> None:
         values = _at(content, part.steps)
         names = _entries(part, content, values)
     except AbsentError:
+        # What stands in some of the messages alone gets the times of those.
         return
     except (AttributeError, IndexError, KeyError, TypeError):
         text = not_accepted(f"message {len(own.recorded)}", "it", [f"one with {part.name}, as one before it has"])
@@ -247,6 +254,7 @@ def _columns_of(topic: str, own: Gathered, began_ns: int, hint: str) -> dict[str
                 pieces.setdefault(name, []).append((rows, block[:, k]))
     found = dict[str, Column]()
     for name, parts in pieces.items():
+        # Several nodes may publish one topic, and a node may list its entries in another order: a column has pieces.
         rows = np.concatenate([rows for rows, _ in parts])
         values = np.concatenate([values for _, values in parts])
         order = np.argsort(rows, kind="stable")

@@ -9,6 +9,7 @@ import sys
 from argparse import Namespace
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
+from itertools import chain
 from pathlib import Path
 
 import numpy as np
@@ -136,6 +137,7 @@ def looked_at(
     spans = read.spans()
     rate_hz = read.rate_hz
     hints = list(found.hints)
+    # With a clock in another unit all speeds and delays are wrong, and no other hint means anything.
     if units := list(unit_hints(found.clocks)):
         return hints + units, []
     hints += clock_hints(found.clocks, bounds)
@@ -152,8 +154,10 @@ def looked_at(
         own = list(base_hints(sensed, spans, rate_hz, bounds))
         wrong += own
         hints += own
-    if wrong:  # torques that a wrong motion would need say nothing
+    # Torques that a wrong motion would need say nothing.
+    if wrong:
         return hints, []
+    # Of feet that do not carry the weight the wrenches are wrong, and would make torques of the legs look wrong.
     heavy = list(weight_hints(nominal, sensed, found.wrenches, gravity_m_s2, bounds))
     wrenches = {} if heavy else found.wrenches
     torques, explained = _torques_looked_at(found, nominal, torque, wrenches, bool(late), bounds)
@@ -171,9 +175,8 @@ def _torques_looked_at(
     if windows is None:
         return [], []
     known = known_joints(nominal, windows, windows.asked(nominal), bounds)
-    delay = (
-        None if late else torque_delay(nominal, *log_of, known, torque, bounds)
-    )  # late speeds make torques look early
+    # Late speeds make torques look early.
+    delay = None if late else torque_delay(nominal, *log_of, known, torque, bounds)
     if delay:
         windows = windows_of(*log_of, torque, delay.samples, bounds) or windows
     hints = list(torque_hints(nominal, windows, bounds))
@@ -199,7 +202,7 @@ def _write_recording(stem: Path, recording: Recording, layout: JointLayout) -> N
     """Write a recording as `mobnet.core.recording` does, in pieces, because a log may be as large as the memory."""
     columns = recording_columns(layout)
     fields = {**vars(recording.sensed), **vars(recording.truth)}
-    with array_writer(stem, [column for group in columns.values() for column in group]) as writer:
+    with array_writer(stem, list(chain.from_iterable(columns.values()))) as writer:
         for rows in pieces(0, len(recording.sensed)):
             writer.append(np.concatenate([fields[name][rows] for name in columns], axis=1))
         writer.close({"rate_hz": recording.rate_hz, **recording.meta}, recording.segments)

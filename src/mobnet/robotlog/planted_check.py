@@ -87,6 +87,7 @@ def planted_check(
     for name, estimate in zip(names, estimates, strict=True):
         watched = watched_signal(WATCHED[name], settings)
         low = setup.low_passed(watched.of(estimate, leg.command), segments)
+        # Nothing touched the robot here: these are the lowest thresholds that raise no false alarm.
         thresholds = np.abs(low[gate.watched]).max(axis=0)
         hits = found_pushes(setup, watched, thresholds, [leg], [estimate], planted)
         found[name] = int(np.count_nonzero(hits))

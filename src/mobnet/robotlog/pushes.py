@@ -22,7 +22,8 @@ class Found(NamedTuple):
 def pushed_rows(log: Converted, joints: Sequence[str]) -> NDArray[np.bool_] | None:
     """Return when a push acts on some joints (T,), None where the log does not tell it."""
     rows = log.truth[PUSHED] > 0.5 if PUSHED in log.truth else None
-    torques = [log.truth[name] for name in (f"{EXTERNAL}.{joint}" for joint in joints) if name in log.truth]
+    names = [f"{EXTERNAL}.{joint}" for joint in joints]
+    torques = [log.truth[name] for name in names if name in log.truth]
     if torques:
         felt = np.any(torques, axis=0)
         rows = felt if rows is None else rows & felt
@@ -35,6 +36,8 @@ def found_pushes(log: Converted, joints: Sequence[str], flags: Sequence[Flag], l
     if rows is None:
         return None
     spans = [(log.time_s[a], log.time_s[b - 1] + late_s) for a, b in stretches(rows, log.recording.segments, 0)]
-    hits = [[start <= flag.end_s and flag.start_s <= end for flag in flags] for start, end in spans]
+    hits = list[list[bool]]()
+    for start, end in spans:
+        hits.append([start <= flag.end_s and flag.start_s <= end for flag in flags])
     others = sum(not any(one) for one in zip(*hits, strict=True)) if hits else len(flags)
     return Found(len(spans), sum(map(any, hits)), others)

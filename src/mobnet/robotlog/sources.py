@@ -69,6 +69,7 @@ def _folder(path: Path) -> Iterator[Source]:
                 yield stack.enter_context(_bag(path))
                 return
             except module_of("rosbags.highlevel", path).AnyReaderError:
+                # Of a recording that was stopped the files may be whole where the metadata are not.
                 if not files:
                     raise
         sources = [stack.enter_context(_opener(file)(file)) for file in files]
@@ -77,9 +78,12 @@ def _folder(path: Path) -> Iterator[Source]:
             for source in sources:
                 yield from source.messages(topics)
 
-        topics = sorted({topic for source in sources for topic in source.topics})
-        unread = {topic: encoding for source in sources for topic, encoding in source.unread.items()}
-        yield Source(topics, messages, unread, next((source.hint for source in sources if source.hint), ""))
+        topics = set[str]()
+        unread = dict[str, str]()
+        for source in sources:
+            topics.update(source.topics)
+            unread.update(source.unread)
+        yield Source(sorted(topics), messages, unread, next((source.hint for source in sources if source.hint), ""))
 
 
 @contextlib.contextmanager
@@ -116,6 +120,7 @@ def _database(path: Path) -> Iterator[Source]:
     reader.open()
     with contextlib.closing(reader):
         types = stores.get_typestore(stores.Stores.LATEST)
+        # The bag has the definitions of messages of one's own; bags of before Iron have none.
         for connection in reader.connections:
             if connection.msgdef.format.name == "MSG":
                 own = stores.get_types_from_msg(connection.msgdef.data, connection.msgtype)
@@ -184,6 +189,7 @@ def _records(file: IO[bytes], path: Path) -> Iterator[Any]:
     streams = module_of("mcap.stream_reader", path)
     most = path.stat().st_size
     start = 0
+    # First the records of the file, then those within the chunk at which it is cut: the first ones there are whole.
     for is_inside in (False, True):
         file.seek(start)
         if is_inside and not _enter_chunk(file):

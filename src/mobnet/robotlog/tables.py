@@ -119,6 +119,7 @@ def array_columns(path: Path, wanted: Collection[str]) -> dict[str, Column]:
         for (array, field), columns in asked.items():
             check_memory(path, max(arrays[array].shape), len(columns))
             values = np.squeeze(np.asarray(arrays[array][() if field is None else field], dtype=np.float64))
+            # MATLAB stores (n, samples): the longest axis is that of the samples.
             if values.ndim == 2 and values.shape[0] < values.shape[1]:
                 values = values.T
             for name, k in columns.items():
@@ -170,6 +171,7 @@ def _array_parts(arrays: Mapping[str, Any]) -> dict[str, Part]:
             base, inner = kind.subdtype or (kind, ())
             axes = [size for size in (*item.shape, *inner) if size != 1]
             name = array if field is None else f"{array}.{field}"
+            # Two long axes are those of a picture or a map, and no signal.
             if base.kind not in "fiub" or len(axes) > 2 or (len(axes) == 2 and min(axes) > MOST):
                 continue
             if len(axes) < 2:

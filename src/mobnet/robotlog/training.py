@@ -36,10 +36,11 @@ def _at_rate(learning: Learning, ratio: float) -> Learning:
     """Return how a network learns at a rate that is so many times that of the configuration: strides are times."""
     phases = [(max(1, round(phase.stride * ratio)), phase.share) for phase in learning.coarse]
     strides = dict.fromkeys(stride for stride, _ in phases if stride > 1)
-    coarse = tuple(
-        Coarse(stride=stride, share=sum(share for other, share in phases if other == stride)) for stride in strides
-    )
-    return learning.model_copy(update={"coarse": coarse})
+    coarse = list[Coarse]()
+    for stride in strides:
+        share = sum(share for other, share in phases if other == stride)
+        coarse.append(Coarse(stride=stride, share=share))
+    return learning.model_copy(update={"coarse": tuple(coarse)})
 
 
 def filled(training: Training, segments: Sequence[tuple[int, int]], settings: Lab) -> Training:

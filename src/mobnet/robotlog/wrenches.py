@@ -22,8 +22,8 @@ from mobnet.robot.point_jacobian import point_jacobian
 from mobnet.robot.wrench import carrier_of
 from mobnet.settings.robotlog import WrenchEstimate
 
-NAMES = tuple(f"{part}_{axis}" for part in ("force", "moment") for axis in "xyz")
-WRENCH_SIGNALS = {f"{kind}{name}" for kind in ("", "std_", "told_") for name in NAMES}
+NAMES = ("force_x", "force_y", "force_z", "moment_x", "moment_y", "moment_z")
+WRENCH_SIGNALS = {*NAMES, *(f"std_{name}" for name in NAMES), *(f"told_{name}" for name in NAMES)}
 UNITS = ("N", "N", "N", "N m", "N m", "N m")
 WRENCH = "wrench"  # array in the folder of a log
 BLOCK_ROWS = 8192  # that are worked on at once
@@ -78,7 +78,9 @@ def place_of(nominal: NominalModel, name: str, joints: Sequence[str] | None = No
         raise ConfigError(not_accepted("--wrench", name, [*points, *(body.name for body in robot.bodies)]))
     body, pos = known[name]
     carrier = carrier_of(robot, body)[0]
-    limbs = {joint: limb for limb, own in robot.layout.groups.items() for joint in own}
+    limbs = dict[str, str]()  # joint -> limb
+    for limb, own in robot.layout.groups.items():
+        limbs |= dict.fromkeys(own, limb)
     own = tuple(joints or (robot.layout.limb(limbs[carrier]) if carrier in limbs else ()))
     if carrier is None or carrier not in own:
         moved = [row.name for row in robot.bodies if carrier_of(robot, row.name)[0] in (joints or limbs)]
@@ -117,6 +119,7 @@ def wrenches_of(
         jacobian = point_jacobian(nominal, place.body, place.pos, q[rows])[:, : place.parts, columns]
         # In units of the large wrench, and torques in those of their errors
         units = large[:, None] * jacobian / np.broadcast_to(error, (len(jacobian), len(columns)))[:, None, :]
+        # The unit matrix is the damping: near a singular pose least squares alone would make huge numbers of errors.
         covariance = np.linalg.inv(units @ np.swapaxes(units, 1, 2) + np.eye(place.parts))
         seen = units @ (torque.tau_ext[rows] / error)[..., None]
         mean[rows] = large * (covariance @ seen)[..., 0]
@@ -144,8 +147,12 @@ def wrench_table(found: Sequence[Wrenches]) -> tuple[NDArray[np.float32], list[C
 
 def wrench_columns(places: Iterable[str]) -> list[str]:
     """Return the columns that an array of wrenches at some points has at least."""
-    signals = [f"{kind}force_{axis}" for kind in ("", "told_") for axis in "xyz"]
-    return [f"{signal}.{place}" for place in sorted(places) for signal in signals]
+    forces = NAMES[:3]
+    columns = list[str]()
+    for place in sorted(places):
+        columns += [f"{name}.{place}" for name in forces]
+        columns += [f"told_{name}.{place}" for name in forces]
+    return columns
 
 
 def write_wrenches(found: Sequence[Wrenches], recording: SensedRecording | Recording, method: str, out: Path) -> None:

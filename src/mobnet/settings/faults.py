@@ -98,7 +98,9 @@ def _text(place: Place, found: Mapping[str, Any], schema: Schema, given: object)
         accepted = context.get("pattern") or context.get("expected") or "a shorter name"
         return f"key {place[-1]!r} is not accepted; accepted: {accepted}"
     if what == "extra_forbidden":
-        keys = [key for part in _schemas_at(schema, place[:-1]) for key in part.get("properties", {})]
+        keys = list[str]()
+        for part in _schemas_at(schema, place[:-1]):
+            keys += part.get("properties", {})
         return not_accepted("key", place[-1], keys)
     if what == "missing":
         return f"key is missing; accepted: {accepted_at(schema, place)}"
@@ -132,7 +134,11 @@ def _schemas_at(schema: Schema, place: Place) -> list[Schema]:
     """Return the schemas of what may stand at a place."""
     found = list(_parts(schema, schema))
     for key in place:
-        found = [part for node in found for below in _below(node, key) for part in _parts(below, schema)]
+        parents = found
+        found = list[Schema]()
+        for node in parents:
+            for below in _below(node, key):
+                found += _parts(below, schema)
     return found
 
 

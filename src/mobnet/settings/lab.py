@@ -4,6 +4,7 @@ A fault in what the paper's experiments alone need, such as a claim or a figure,
 """
 
 from collections.abc import Mapping
+from itertools import chain
 from pathlib import Path
 from typing import Annotated, Any, TypeVar
 
@@ -57,8 +58,10 @@ def load_lab(folder: Path = CONFIGS) -> Lab:
         ConfigError: a file, a key or a value is not accepted; one line for each of them.
     """
     documents = {name: Document(folder / f"{name}.yaml") for name in FILES}
-    refuse_faults(fault for document in documents.values() for fault in document.faults)
-    homes = {section: documents[name] for name, sections in FILES.items() for section in sections}
+    refuse_faults(chain.from_iterable(document.faults for document in documents.values()))
+    homes = dict[str, Document]()
+    for name, sections in FILES.items():
+        homes |= dict.fromkeys(sections, documents[name])
     values = {section: home.values[section] for section, home in homes.items() if section in home.values}
     robot = folder.parent / str(values.get("robot"))
     config = homes["robot"]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Collection, Iterator
+from itertools import chain
 from typing import Annotated, Literal
 
 from pydantic import Field
@@ -87,8 +88,10 @@ class RobotTable(Section):
     @property
     def posture_rad(self) -> dict[str, float]:
         """Joint -> angle [rad] at which it is held where nothing moves it."""
-        rows = self.posture.items()
-        return {joint: rad for limb, row in rows for joint, rad in zip(self.groups[limb], row.angle_rad, strict=True)}
+        found = dict[str, float]()
+        for limb, row in self.posture.items():
+            found.update(zip(self.groups[limb], row.angle_rad, strict=True))
+        return found
 
     @property
     def accepted_names(self) -> dict[str, Collection[str]]:
@@ -96,14 +99,13 @@ class RobotTable(Section):
         order = self.order
         joints = (*order.virtual, *order.actuated)
         legs = [foot.limb for foot in self.feet.values()]
+        joints_of_legs = list(chain.from_iterable(self.groups.get(limb, ()) for limb in legs))
+        points = list(chain.from_iterable(with_image(point.name) for point in self.points))
         return {
             "joint": joints, "motor": order.actuated, "limb": self.groups, "limb or joint": (*self.groups, *joints),
-            "leg": legs, "joint of a leg": [joint for limb in legs for joint in self.groups.get(limb, ())],
+            "leg": legs, "joint of a leg": joints_of_legs,
             "body": [body.name for body in self.bodies],
             "tone": {**self.tones, **(self.looks.tones if self.looks else {})},
             "network of the robot": self.networks,
-            "point": [
-                *(name for point in self.points for name in with_image(point.name)),
-                *(f"{side}_sole" for side in self.feet),
-            ],
+            "point": [*points, *(f"{side}_sole" for side in self.feet)],
         }  # fmt: skip

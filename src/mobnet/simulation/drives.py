@@ -63,11 +63,10 @@ def draw_drives(
     drive = surrogate.drive
     drives = no_drives(robot.layout.nu)
     law = drives.law
-    typical = {
-        joint: {name: values[i] for name, values in dict(row).items()}
-        for limb, row in surrogate.limbs.items()
-        for i, joint in enumerate(robot.layout.limb(limb))
-    }
+    typical = dict[str, dict[str, float]]()
+    for limb, row in surrogate.limbs.items():
+        for i, joint in enumerate(robot.layout.limb(limb)):
+            typical[joint] = {name: values[i] for name, values in row}
     for k, joint in enumerate(robot.layout.actuated):
         row = {name: value * rng.uniform(1 - drive.spread, 1 + drive.spread) for name, value in typical[joint].items()}
         rotor = max(robot.joints[k].armature, drive.rotor_min_kg_m2)

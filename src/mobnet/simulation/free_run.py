@@ -196,5 +196,6 @@ def recording_of(run: Run, layout: JointLayout, rate_hz: float, meta: dict[str, 
     values |= {"tau_ext": run.ext, "pushed": run.pushed, "tau_push": run.push}
     if layout.virtual:
         values["acc_base_in_base"] = run.acc
-    sensed, truth = ({field.name: values[field.name] for field in fields(kind)} for kind in (Sensed, Truth))
+    sensed = {field.name: values[field.name] for field in fields(Sensed)}
+    truth = {field.name: values[field.name] for field in fields(Truth)}
     return Recording(Sensed(**sensed), ((0, rows),), rate_hz, meta, Truth(**truth))

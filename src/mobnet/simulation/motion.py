@@ -78,7 +78,8 @@ def hand_targets(centre: Array, settings: Motion, waves: Array) -> Array:
 def shoulder(robot: RobotDescription) -> Array:
     """Return the left shoulder's third centre (3,) [m] in the chest's frame, the arm's joints at zero."""
     moved = {joint.id: joint.body for joint in robot.joints}
-    links = [body for body in robot.bodies if body.name in [moved[name] for name in robot.layout.limb("LA")[:3]]]
+    names = [moved[name] for name in robot.layout.limb("LA")[:3]]
+    links = [body for body in robot.bodies if body.name in names]
     return np.sum([link.pos for link in links], axis=0)
 
 

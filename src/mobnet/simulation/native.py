@@ -78,7 +78,7 @@ def _c_type(node: Any) -> Any:
 def step_address() -> int:
     """Return the address of MuJoCo's mj_step in the library Python loaded."""
     folder = Path(mujoco.__file__).parent
-    names = [path for pattern in ("libmujoco.so*", "libmujoco*.dylib", "mujoco.dll") for path in folder.glob(pattern)]
+    names = [*folder.glob("libmujoco.so*"), *folder.glob("libmujoco*.dylib"), *folder.glob("mujoco.dll")]
     if not names:
         raise SimulationError(f"{folder}: no MuJoCo library found")
     library = ctypes.CDLL(str(names[0]))

@@ -69,8 +69,10 @@ def set_obstacles(model: mujoco.MjModel, obstacles: Mapping[str, Obstacle]) -> N
 
 def points_on(model: mujoco.MjModel, data: mujoco.MjData) -> Array:
     """Return the points at which obstacles touch the robot in the last step (n, 3) [m], world axes."""
-    names = [[model.geom(geom).name for geom in pair] for pair in data.contact.geom]
-    return data.contact.pos[[any(name.startswith(PREFIX) for name in pair) for pair in names]]
+    touched = list[bool]()
+    for pair in data.contact.geom:
+        touched.append(any(model.geom(geom).name.startswith(PREFIX) for geom in pair))
+    return data.contact.pos[touched]
 
 
 def place_of(model: mujoco.MjModel, name: str) -> Array:

@@ -61,7 +61,7 @@ class Reacher:
             mink.FrameTask(f"{side}_hand", "site", settings.hand_cost, 0.0, gain=settings.gain) for side in SIDES
         ]
         cost = np.full(model.nv, settings.arm_cost)
-        free = [model.joint(name).id for limb in ("W", "N") for name in robot.layout.limb(limb)]
+        free = [model.joint(name).id for name in robot.layout.limbs(("W", "N"))]
         cost[free] = settings.trunk_cost
         self.posture = mink.PostureTask(model, cost, gain=settings.gain)
         self.inertia = mink.PostureTask(model, settings.inertia_cost)
@@ -135,7 +135,10 @@ def upper_body(
     for joint, span in zip(spec.joints, limits, strict=True):
         joint.limited = True
         joint.range = span
-    moved = {body.name for joint in spec.joints for body in [joint.parent, *joint.parent.find_all("body")]}
+    moved = set[str]()
+    for joint in spec.joints:
+        moved.add(joint.parent.name)
+        moved.update(body.name for body in joint.parent.find_all("body"))
     for geom in spec.geoms:
         geom.conaffinity |= ZONE_TYPE * (geom.parent.name in moved and geom.contype > 0)
     base = spec.body(robot.base)

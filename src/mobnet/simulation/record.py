@@ -5,6 +5,7 @@ import time
 from collections import deque
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
+from itertools import chain
 from pathlib import Path
 
 import numpy as np
@@ -69,7 +70,7 @@ def collect(settings: WalkSettings, seed: int, duration_s: float, out: Path, mot
     layout = simulator.robot.layout
     rate = settings.rates.data_hz
     samples = round(duration_s * rate)
-    columns = [column for group in recording_columns(layout).values() for column in group]
+    columns = list(chain.from_iterable(recording_columns(layout).values()))
     watch = CollisionWatch(Clearance(simulator.robot), round(rate / settings.recording.clearance_hz), layout.nq)
     with array_writer(out, columns) as writer:
 

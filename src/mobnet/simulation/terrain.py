@@ -4,6 +4,7 @@ Whatever stands on the even ground is a frustum, because a tilted sole would jam
 """
 
 from collections.abc import Iterator
+from itertools import product
 from typing import NamedTuple
 
 import mujoco
@@ -117,7 +118,8 @@ def _apart(a: Piece, b: Piece, period: float, gap: float) -> bool:
 
     Two convex figures are apart where one of their sides' directions separates them.
     """
-    offsets = np.array([b.place - a.place + period * np.array([i, j]) for i in (-1, 0, 1) for j in (-1, 0, 1)])
+    cells = product((-1, 0, 1), repeat=2)
+    offsets = np.array([b.place - a.place + period * np.array(cell) for cell in cells])
     offsets = offsets[offsets.any(axis=1)]
     sides = np.hstack([_turn(a.yaw), _turn(b.yaw)])
     reach = sum(np.abs(sides.T @ _turn(piece.yaw)) @ piece.bottom for piece in (a, b))

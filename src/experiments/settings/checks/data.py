@@ -1,7 +1,7 @@
 """What must hold for terrains, commands, motions, pushes, scenarios and training sets."""
 
 from collections.abc import Iterator
-from itertools import pairwise, product
+from itertools import chain, pairwise, product
 from math import isclose
 from typing import cast
 
@@ -35,7 +35,7 @@ def _terrain_problems(settings: Settings) -> Iterator[Problem]:
     if checks:
         yield from below(("terrain", "checks", "bevel_m"), checks.bevel_m, checks.cell_m / 2, "half of cell_m")
     if plates:
-        sides = [side for size in plates.sizes_m for side in size]
+        sides = list(chain.from_iterable(plates.sizes_m))
         yield from below(("terrain", "plates", "bevel_m"), plates.bevel_m, min(sides) / 2, "half of a plate's side")
         area = sum(length * width for length, width in plates.sizes_m)
         if max(sides) + plates.gap_m > plates.period_m or area > PACKED * plates.period_m**2:
@@ -79,7 +79,8 @@ def _torque_problems(settings: Settings) -> Iterator[Problem]:
         for index, (joint, value) in enumerate(zip(joints, torque.arms_nm, strict=False)):
             yield from at_most((*place, index), value, limits[joint], f"limit of {joint}")
     for name, limbs in (("legs_waist_nm", ("LL", "RL", "W")), ("neck_nm", ("N",))):
-        most = min((limits[joint] for limb in limbs for joint in groups.get(limb, ())), default=0.0)
+        joints = chain.from_iterable(groups.get(limb, ()) for limb in limbs)
+        most = min((limits[joint] for joint in joints), default=0.0)
         value = getattr(torque, name)
         yield from at_most(("random_torque", name), value, most, "the least limit of a motor")
 

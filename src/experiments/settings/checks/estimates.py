@@ -1,6 +1,7 @@
 """What must hold for the runs that are asked for: their methods estimate what is shown, and learn what they need."""
 
 from collections.abc import Iterator
+from itertools import chain
 
 from experiments.settings.asked import Asked
 from experiments.settings.catalogue import Catalogue
@@ -24,7 +25,9 @@ def asked_problems(catalogue: Catalogue) -> Iterator[Problem]:
                 text = not_accepted(f"level of test {test.scenario}", test.level, levels)
                 yield (*ROOT, name, "tests", k, "level"), text
     for k, test in enumerate(evaluation.calibration.tests):
-        held = {joint for name in test.methods for joint in catalogue.estimated(name, test.scenario, test.level)}
+        held = set[str]()
+        for name in test.methods:
+            held.update(catalogue.estimated(name, test.scenario, test.level))
         if not held.issuperset(layout.limbs(test.limbs)):
             text = misfit("a limb that no method predicts", "limbs of the networks of `methods`")
             yield (*ROOT, "calibration", "tests", k, "limbs"), text
@@ -34,7 +37,8 @@ def _estimate_faults(catalogue: Catalogue, one: Asked) -> Iterator[str]:
     """Yield joints that are shown of a run and that its method does not estimate."""
     groups = catalogue.layout.groups
     held = catalogue.estimated(one.method, one.scenario, one.level)
-    missing = [joint for name in one.shown for joint in groups.get(name, (name,)) if joint not in held]
+    shown = chain.from_iterable(groups.get(name, (name,)) for name in one.shown)
+    missing = [joint for joint in shown if joint not in held]
     if missing and not (one.partly and held):
         yield misfit(one.method, f"methods that estimate {missing[0]} in {one.scenario}, {one.level}")
 

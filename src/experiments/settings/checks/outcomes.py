@@ -6,6 +6,7 @@ interval as wide (`experiments.evaluation.number.clusters`, docs/notes/0022).
 """
 
 from collections.abc import Iterator
+from itertools import chain
 from math import log, sqrt
 from statistics import NormalDist
 
@@ -138,4 +139,5 @@ def hits_of(settings: Settings, leg: str, cell: str) -> int:
     own = [push for push in pushes if (push.point or "").startswith(f"{side}_")]
     struck = [push for push in own if points is None or push.point in points]
     walked_s = settings.test_s(detection.collisions)
-    return sum(moment < walked_s for push in struck for moment in push.at_s or ())
+    moments = chain.from_iterable(push.at_s or () for push in struck)
+    return sum(moment < walked_s for moment in moments)

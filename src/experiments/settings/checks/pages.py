@@ -1,6 +1,7 @@
 """What must hold for the page of pushes: what scenes show is there, and sliders begin between their ends."""
 
 from collections.abc import Iterator
+from itertools import chain
 
 from experiments.settings.checks.results import Results
 from mobnet.core.errors import misfit
@@ -20,7 +21,7 @@ def page_problems(results: Results) -> Iterator[Problem]:
     places: dict[str, Place] = {"story": (*ROOT, "explore", "story")}
     for name, scene in page.scenes.items():
         place = places[name] = (*ROOT, "explore", "scenes", name)
-        joints = [joint for limb in scene.limbs for joint in results.joints(limb)]
+        joints = list(chain.from_iterable(map(results.joints, scene.limbs)))
         pushed = results.pushed_joints(scene.scenario)
         if scene.joint not in joints or scene.joint not in pushed:
             yield (*place, "joint"), misfit(scene.joint, f"a joint of {', '.join(scene.limbs)} that its push turns")

@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import chain
 
 from experiments.settings.asked import tests_in
 from experiments.settings.catalogue import Catalogue
@@ -66,13 +67,14 @@ class Results:
     def joints_of(self, column: str | Mean) -> list[str]:
         """Return the joints behind a column."""
         names = (column,) if isinstance(column, str) else column.joints
-        return [joint for name in names for joint in self.joints(name)]
+        return list(chain.from_iterable(map(self.joints, names)))
 
     def column_names(self, columns: Sequence[str | Mean]) -> list[str]:
         """Return the names of a table's columns: a limb has one for each of its joints."""
-        return [
-            name for column in columns for name in (self.joints(column) if isinstance(column, str) else (column.name,))
-        ]
+        names = list[str]()
+        for column in columns:
+            names += self.joints(column) if isinstance(column, str) else (column.name,)
+        return names
 
     def not_scored(self, scenario: str, metric: str) -> str:
         """Return what is wrong with a metric of a test: pushes need a window, and there are only so many."""
@@ -105,7 +107,9 @@ class Results:
         evaluation = self.settings.evaluation
         sweeps = self.settings.sweeps
         keys = (evaluation.figure_20.parameters, evaluation.figure_20.samples)
-        swept = [name for key in keys for name in swept_names(key, sweeps[key])]
+        swept = list[str]()
+        for key in keys:
+            swept += swept_names(key, sweeps[key])
         figure = evaluation.figure_17
         return [*figure.methods, *figure.best, *evaluation.kinds.variants, *swept]
 
@@ -116,7 +120,8 @@ class Results:
     def pushed_joints(self, scenario: str) -> list[str]:
         """Return the joints that the pushes of a scenario turn."""
         names = self.settings.scenarios[scenario].pushes
-        return list(dict.fromkeys(joint for name in names for joint in self.turned_joints(name)))
+        turned = chain.from_iterable(map(self.turned_joints, names))
+        return list(dict.fromkeys(turned))
 
     def turned_joints(self, name: str) -> list[str]:
         """Return the joints that a push turns: the one that is driven, or all above a point."""

@@ -94,7 +94,7 @@ def _place_of(catalogue: Catalogue, method: str, part: str) -> Place:
 def inconsistencies(catalogue: Catalogue) -> Iterator[Problem]:
     """Yield the place and the text of everything that does not fit together."""
     settings = catalogue.settings
-    found = [problem for check in (walking_problems, data_problems, surrogate_problems) for problem in check(settings)]
+    found = [*walking_problems(settings), *data_problems(settings), *surrogate_problems(settings)]
     found += learning_problems(catalogue)
     yield from found
     if not found:  # only then can sizes and results be looked up

@@ -57,7 +57,7 @@ def _column_problems(results: Results, columns: Sequence[str | Mean]) -> Iterato
             held = results.joints_of(column)
             if len(set(held)) < len(held):
                 yield (index, "joints"), misfit(list(column.joints), "each joint once")
-            units = {results.layout.unit(joint) for name in column.joints for joint in results.joints(name)}
+            units = {results.layout.unit(joint) for joint in held}
             if len(units) > 1:
                 yield (index, "joints"), misfit(list(column.joints), "joints with one unit, N or N m")
 
@@ -70,10 +70,14 @@ def _table_problems(results: Results, table: ErrorTable) -> Iterator[Problem]:
     order = [columns.index(name) for name in table.parts if name in columns]
     if len(order) < len(table.parts) or order != sorted(order) or 0 in order:
         yield ("parts",), misfit(list(table.parts), f"columns in their order: {', '.join(columns[1:])}")
-    shown = {method for row in table.rows for method in (*row.methods, *row.further)}
+    shown = set[str]()
+    for row in table.rows:
+        shown |= {*row.methods, *row.further}
     for name in table.names.keys() - shown:
         yield ("names", name), not_accepted("method", name, shown)
-    own = {metric for column in table.columns if isinstance(column, Mean) for metric in column.metrics}
+    own = set[str]()
+    for column in table.columns:
+        own.update(column.metrics if isinstance(column, Mean) else ())
     for index, row in enumerate(table.rows):
         place = ("rows", index)
         if len(row.labels) != len(table.header):
@@ -228,11 +232,9 @@ def _printed_problems(settings: Settings) -> Iterator[Problem]:
     """Yield places of numbers of the paper that are shown and that it does not print."""
     evaluation = settings.evaluation
     printed = settings.published.tables
-    shown: list[tuple[Place, str, str | None]] = [
-        (("tables", name, "rows", k, "paper"), name, row.paper)
-        for name, table in evaluation.tables.items()
-        for k, row in enumerate(table.rows)
-    ]
+    shown = list[tuple[Place, str, str | None]]()
+    for name, table in evaluation.tables.items():
+        shown += [(("tables", name, "rows", k, "paper"), name, row.paper) for k, row in enumerate(table.rows)]
     shown += [(("noise", "paper", name), name, place) for name, place in evaluation.noise.paper.items()]
     shown += [
         ((f"figure_{k}", "place"), figure.table, figure.place)

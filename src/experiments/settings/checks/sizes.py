@@ -56,12 +56,12 @@ def _result_count(catalogue: Catalogue) -> int:
     shards = settings.sizes.test.shards
     recorded = sum(row.sizes[settings.scale].shards for row in settings.training_sets.values())
     recorded += shards * sum(map(len, tests))
-    seeds = {
-        name: [len(catalogue.experiment(name, limb).seeds) for limb in method.limbs]
-        for name, method in catalogue.all_methods.items()
-    }
-    runs = [max(seeds[catalogue.network_source_of(name)], default=1) for levels in tests
-            for methods in levels.values() for name in methods]  # fmt: skip
+    seeds = dict[str, list[int]]()
+    for name, method in catalogue.all_methods.items():
+        seeds[name] = [len(catalogue.experiment(name, limb).seeds) for limb in method.limbs]
+    runs = list[int]()
+    for methods in chain.from_iterable(levels.values() for levels in tests):
+        runs += [max(seeds[catalogue.network_source_of(name)], default=1) for name in methods]
     return 2 * recorded + sum(map(sum, seeds.values())) + shards * sum(runs)
 
 

@@ -1,6 +1,7 @@
 """What must hold for the surrogate robots, the levels that name them and the fleet that they form."""
 
 from collections.abc import Iterator
+from itertools import chain
 
 from experiments.settings.settings import Settings
 from mobnet.core.errors import misfit
@@ -24,7 +25,7 @@ def _drive_problems(settings: Settings) -> Iterator[Problem]:
             place = ("surrogate", "limbs", limb, name)
             what = f"one for each joint of {limb}"
             yield from as_many(place, len(values), len(groups[limb]), what)
-    driven = {joint for limb in limbs for joint in groups[limb]}
+    driven = set(chain.from_iterable(groups[limb] for limb in limbs))
     for joint in settings.robot.order.actuated:
         if joint not in driven:
             yield ("surrogate", "limbs"), misfit(f"no drive of {joint}", "limbs with all motors of the robot")

@@ -1,6 +1,7 @@
 """What must hold between rates, robot and walking controller."""
 
 from collections.abc import Iterator
+from itertools import chain
 from math import isclose
 
 from experiments.settings.settings import Settings
@@ -28,7 +29,7 @@ def _robot_problems(settings: Settings) -> Iterator[Problem]:
     robot = settings.robot
     legs = [robot.groups[robot.feet[side].limb] for side in ("left", "right") if side in robot.feet]
     above = robot.order.actuated[sum(map(len, legs)) :]
-    held = {joint for limb in robot.posture for joint in robot.groups[limb]}
+    held = set(chain.from_iterable(robot.groups[limb] for limb in robot.posture))
     needed = {
         "base": robot.base == "floating", "feet": len(legs) == 2 and all(len(leg) == LEG_JOINTS for leg in legs),
         "order": [*robot.order.actuated[: len(sum(legs, ()))]] == [*sum(legs, ())], "leg": robot.leg,

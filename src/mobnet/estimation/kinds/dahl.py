@@ -173,5 +173,7 @@ def read_dahl(path: Path, joints: Sequence[str]) -> DahlFriction:
     """
     rows = read_note(path, DahlNote).joints
     refuse(path, [not_accepted("joint", name, joints) for name in rows if name not in joints])
-    factors = {term: np.array([getattr(rows.get(joint), term, 0.0) for joint in joints]) for term in TERMS}
+    factors = dict[str, Array]()
+    for term in TERMS:
+        factors[term] = np.array([getattr(rows.get(joint), term, 0.0) for joint in joints])
     return DahlFriction(factors, np.array([getattr(rows.get(joint), "breakaway_rad", 1.0) for joint in joints]))

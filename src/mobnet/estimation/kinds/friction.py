@@ -225,6 +225,8 @@ def read_friction(path: Path, joints: Sequence[str]) -> FittedFriction:
     rows = found.joints
     refuse(path, [not_accepted("joint", name, joints) for name in rows if name not in joints])
     fitted = [rows[joint].terms() if joint in rows else dict.fromkeys(TERMS, 0.0) for joint in joints]
-    terms = {term: np.array([factors[term] for factors in fitted], dtype=np.float64) for term in TERMS}
+    terms = dict[str, Array]()
+    for term in TERMS:
+        terms[term] = np.array([factors[term] for factors in fitted], dtype=np.float64)
     stribeck = np.array([rows[joint].stribeck_rad_s if joint in rows else 1.0 for joint in joints], dtype=np.float64)
     return FittedFriction(terms, stribeck, found.smoothing_rad_s)

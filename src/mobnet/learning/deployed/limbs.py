@@ -1,6 +1,7 @@
 """Several limb networks run as one: the six independent networks of section 4.1 with their outputs concatenated."""
 
 from collections.abc import Mapping, Sequence
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -22,7 +23,7 @@ class LimbNetworks:
     def __init__(self, networks: Sequence[Runnable], layout: JointLayout) -> None:
         """Find each network's inputs among the robot's signals."""
         self.networks = tuple(networks)
-        self.joints = tuple(joint for network in networks for joint in network.joints)
+        self.joints = tuple(chain.from_iterable(network.joints for network in networks))
         self._columns = [_columns(network, layout) for network in networks]
 
     def init(self) -> State:
@@ -42,10 +43,10 @@ class LimbNetworks:
     def run_all(self, recordings: Sequence[Sensed]) -> list[Prediction]:
         """Run over contiguous recordings side by side, each from fresh states; return (T_i, n) [N, N m] of each."""
         seen = [signals(sensed) for sensed in recordings]
-        limbs = [
-            network.run_all([x[:, columns] for x in seen])
-            for network, columns in zip(self.networks, self._columns, strict=True)
-        ]
+        limbs = list[Sequence[Prediction]]()
+        for network, columns in zip(self.networks, self._columns, strict=True):
+            inputs = [x[:, columns] for x in seen]
+            limbs.append(network.run_all(inputs))
         return [_joined(predictions) for predictions in zip(*limbs, strict=True)]
 
 

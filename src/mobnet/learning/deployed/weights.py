@@ -18,7 +18,7 @@ from mobnet.settings.robot import GroupName
 
 NOTE = "note"  # the only entry of the file's metadata: several would be written in an order that changes
 GRU_TENSORS = (
-    *(f"cell.{kind}_{source}_l0" for kind in ("weight", "bias") for source in ("ih", "hh")),
+    *("cell.weight_ih_l0", "cell.weight_hh_l0", "cell.bias_ih_l0", "cell.bias_hh_l0"),
     *("head.weight", "head.bias"),
 )
 Z_SCORES = ("input.mean", "input.std", "target.mean", "target.std")
@@ -77,8 +77,10 @@ def std_scale_of(tensors: Mapping[str, Array]) -> Array:
 
 def std_scales(paths: Iterable[Path]) -> dict[str, float]:
     """Return joint -> factor in its standard deviation, of several networks."""
-    read = map(read_weights, paths)
-    return {j: x for tensors, note in read for j, x in zip(note.joints, std_scale_of(tensors).tolist(), strict=True)}
+    scales = dict[str, float]()
+    for tensors, note in map(read_weights, paths):
+        scales.update(zip(note.joints, std_scale_of(tensors).tolist(), strict=True))
+    return scales
 
 
 def _faults(tensors: Mapping[str, Array], note: WeightsNote) -> Iterator[str]:

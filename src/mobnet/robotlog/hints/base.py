@@ -27,6 +27,7 @@ def base_hints(sensed: Sensed, spans: Sequence[slice], rate_hz: float, bounds: R
         nearest = min(meanings, key=lambda value: abs(size - value) / max(value, G))
         near = meanings[nearest] if abs(size - nearest) < bounds.gravity * max(nearest, G) else ""
         yield f"acc: its mean has a size of {size:.3g} m/s^2 and not {G:.2f}{near}"
+    # Where gravity is removed, acc has no direction in the mean that could tell the order of a quaternion.
     upward = {name: turned(given, acc).mean(axis=1)[2] / max(size, 1e-9) for name, given in _orders(quat).items()}
     if upward["w x y z"] < UPRIGHT and size > G / 2:
         text = f"turned into world axes, acc points upwards by {upward['w x y z']:.2f} of its size"
@@ -42,6 +43,7 @@ def weight_hints(
     nominal: NominalModel, sensed: Sensed, wrenches: Mapping[str, Array], gravity_m_s2: float, bounds: RobotLog
 ) -> Iterator[str]:
     """Yield hints on the feet's sensors, side -> (T, 6) [N], [N m]: their mean vertical force must carry the weight."""
+    # A foot without a sensor may carry any share of the weight.
     if not wrenches or len(wrenches) < len(nominal.robot.feet):
         return
     carried = np.empty(len(sensed))

@@ -289,7 +289,7 @@ def _left_by_shifts(
 def feet_changes(seen: Seen) -> Iterator[Moved]:
     """Yield the exchange of the sensors of both feet, for the joints of the legs."""
     robot = seen.nominal.robot
-    legs = {joint for foot in robot.feet.values() for joint in robot.layout.limb(foot.limb)}
+    legs = set(robot.layout.limbs(foot.limb for foot in robot.feet.values()))
     own = tuple(k for k in sorted(seen.suspects) if robot.layout.actuated[k] in legs)
     if own and len(seen.windows.loads) > 1:
         text = "the sensors of the left and the right foot are exchanged"
@@ -368,6 +368,7 @@ def _meaning(needed: Sequence[float], bounds: RobotLog) -> str:
     """Return what it means that torques are so many times what the motion needs, nothing where friction may be it."""
     sizes = sorted(map(abs, needed))
     turned = {factor < 0 for factor in needed}
+    # A wrong model makes such factors, too, and joints of both signs have no factor in common.
     if len(turned) > 1 or (sizes[0] < ALIKE and sizes[-1] > 1 / ALIKE):
         return ""
     sign = " and of the wrong sign" if turned == {True} else ""

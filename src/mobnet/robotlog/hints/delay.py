@@ -57,6 +57,7 @@ def torque_delay(
     given = []
     for rows in kept:
         asked, torque = _asked(rows, nominal, sensed, rate_hz, wrenches, kind)
+        # Errors of the model change slowly, as gravity does, and say nothing of a delay: changes are compared.
         near, far = (_swings(values[:, told], smooth, swing) for values in (asked, torque))
         terms.append(near[most + middle])
         given.append(far[middle[:, None] + lags])
@@ -64,6 +65,7 @@ def torque_delay(
     left = np.exp(np.log(shares).mean(axis=0))  # every joint counts alike, however well its model fits
     best = int(np.argmin(left))
     late = step * (_lowest_at(left, best) - count)
+    # Most joints must fit better, so that the slow reaction of one gear is no delay.
     agree = float(np.mean(shares[:, best] < EACH * shares[:, count]))
     if not 0 < best < 2 * count or abs(late) < LEAST or left[best] > BETTER * left[count] or agree < AGREE:
         return None
@@ -80,6 +82,7 @@ def speed_delay_hints(
     most = round(bounds.delay_s * rate_hz)
     smooth = max(1, round(SMOOTH_S * rate_hz))
     kept = stretches(spans, round(STRETCH_S * rate_hz) + 2 * most + smooth)
+    # A speed that is held between updates is late by itself.
     moves = ~np.any(held_share(v)[None] > bounds.held, axis=0)
     if most < 1 or not kept or not moves.any():
         return
@@ -108,7 +111,9 @@ def speed_delay_hints(
 
 def stretches(spans: Sequence[slice], rows: int) -> list[slice]:
     """Return stretches of so many contiguous rows, evenly spread over the spans."""
-    found = [slice(first, first + rows) for s in spans for first in range(s.start, s.stop - rows + 1, rows)]
+    found = list[slice]()
+    for span in spans:
+        found += [slice(first, first + rows) for first in range(span.start, span.stop - rows + 1, rows)]
     picked = np.unique(np.linspace(0, len(found) - 1, min(STRETCHES, len(found))).round().astype(int)) if found else []
     return [found[k] for k in picked]
 

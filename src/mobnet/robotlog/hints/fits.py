@@ -52,6 +52,7 @@ def positive_fit(terms: Array, targets: Array) -> Array:
     across = np.swapaxes(terms, -1, -2)
     gram = across @ terms
     cross = across @ targets
+    # A joint at rest, whose terms are zero, gets numbers, too.
     gram += (SMALL * gram.max(axis=(-1, -2), keepdims=True) + TINY) * np.eye(count)
     chosen, both, others = _choices(count)
     own = gram[..., None, :, :] * both + others

@@ -49,6 +49,7 @@ def payloads(
     for joint in (k for k in range(1, nominal.model.njoints) if not len(nominal.model.children[k])):
         carried = _torque_of_mass(nominal, windows, joint)
         terms = np.concatenate([carried[:, own], friction.reshape(*rest.shape, -1)], axis=-1) * weight[:, None]
+        # Friction and inertia take no torque away from what moves a joint; a centre of mass may lie on any side.
         low = np.where(np.arange(terms.shape[-1]) < carried.shape[-1], -np.inf, 0.0)
         numbers = lsq_linear(terms.reshape(-1, terms.shape[-1]), (rest * weight).ravel(), (low, np.inf)).x[:4]
         if numbers[0] > LEAST_KG:

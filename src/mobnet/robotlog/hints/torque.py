@@ -54,6 +54,7 @@ def torque_hints(nominal: NominalModel, windows: Windows, bounds: RobotLog) -> I
         found = _best(_seen(nominal, windows, asked, bounds))
         if not found:
             break
+        # A mistake is undone before the next one is looked for (note 0045).
         best, *others = found
         windows = best.windows
         asked = best.asked

@@ -88,6 +88,7 @@ def windows_of(
     Torques of a kind are so many samples late.
     """
     steps = max(2, round(bounds.window_s * rate_hz))
+    # Torques that are moved in time must stay within the span, too.
     apart = math.ceil(abs(late))
     firsts = [np.arange(s.start + apart, s.stop - steps - apart, steps) for s in spans]
     starts = np.concatenate(firsts or [np.zeros(0)]).astype(np.intp)
@@ -122,7 +123,7 @@ def known_joints(nominal: NominalModel, windows: Windows, asked: Asked, bounds: 
     """Return which joints tell of themselves (nu,): with a torque, and on no leg whose contact nobody measures."""
     robot = nominal.robot
     felt = [foot.limb for side, foot in robot.feet.items() if side not in windows.loads]
-    blind = {joint for limb in felt for joint in robot.layout.limb(limb)}
+    blind = set(robot.layout.limbs(felt))
     sees = np.array([joint not in blind for joint in robot.layout.actuated])
     sees &= np.ptp(windows.torque, axis=0) > 0.0
     largest = np.maximum(size_of(windows.torque), size_of(asked.needed))

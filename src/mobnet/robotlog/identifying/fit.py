@@ -104,6 +104,7 @@ def fit_joints(
     fits = list[JointFit]()
     for j, sign in enumerate(problem.signs):
         rest = unseen[:, :, j] - problem.own(held_out, j) @ tried.joints[j]
+        # A payload becomes a body of the table, so that it counts here; errors of the links do not get there.
         rest = rest - held_out.payload[:, :, j] @ carried
         factors, widths = (dict(zip(terms, one[j].tolist(), strict=True)) for one in (final.joints, half))
         fits.append(JointFit(columns.signs[sign], factors, widths, _rms(unseen[:, :, j]), _rms(rest)))
@@ -217,7 +218,9 @@ def solution(windows: Windows, problem: Problem) -> Solution:
         right[place] = weight * own.T @ target
         right[behind] += weight * links.T @ target
     size = np.sqrt(np.maximum(np.diag(matrix), LEAST))
-    free = np.array([*(term in FREE for _ in range(nu) for term in problem.terms), *(True for _ in range(d))])
+    own_free = [term in FREE for term in problem.terms]
+    free = np.array([*own_free * nu, *[True] * d])
+    # A log cannot tell all numbers apart; a small share of the diagonal keeps the solution unique.
     scaled = matrix / np.outer(size, size) + LEAST * np.eye(len(size))
     found = _bounded(scaled, right / size, free) / size
     return Solution(found[: nu * count].reshape(nu, count), found[nu * count :], matrix)
@@ -228,6 +231,7 @@ def half_widths(windows: Windows, problem: Problem, found: Solution, confidence:
     (nu, count) = found.joints.shape
     d = len(problem.prior)
     groups = len(windows)
+    # Errors that vary with the motion are alike for about a second: windows are independent, their samples are not.
     scores = np.zeros((groups, nu * count + d))
     for j in range(nu):
         own = problem.own(windows, j)
@@ -236,6 +240,7 @@ def half_widths(windows: Windows, problem: Problem, found: Solution, confidence:
         scores[:, j * count : (j + 1) * count] = problem.weights[j] * np.einsum("gr,grk->gk", rest, own)
         scores[:, nu * count :] += problem.weights[j] * np.einsum("gr,grk->gk", rest, links)
     middle = groups / (groups - 1) * scores.T @ scores
+    # What the prior leaves open of the links adds its own variance.
     middle[nu * count :, nu * count :] += np.diag(problem.prior**-2)
     size = np.sqrt(np.maximum(np.diag(found.matrix), LEAST))
     scaled = found.matrix / np.outer(size, size) + LEAST * np.eye(len(size))

@@ -74,9 +74,10 @@ class Windows:
 
 def together(windows: Sequence[Windows]) -> Windows:
     """Return windows of several logs."""
-    return Windows(
-        *(np.concatenate([getattr(one, name) for one in windows]) for name in ("joints", "links", "payload"))
-    )
+    joints = np.concatenate([one.joints for one in windows])
+    links = np.concatenate([one.links for one in windows])
+    payload = np.concatenate([one.payload for one in windows])
+    return Windows(joints, links, payload)
 
 
 def columns_of(settings: Identification) -> Columns:
@@ -164,6 +165,7 @@ def _links(nominal: NominalModel, sensed: Sensed, thin: _Filter, rows: int) -> A
     nu = nominal.robot.layout.nu
     model = nominal.model
     data = nominal.data
+    # Differences of a velocity with its noise would make the inertia too small: the low-pass comes first.
     velocity = thin(sensed.v.astype(np.float64))
     acceleration = np.gradient(velocity, axis=0) * thin.rate_hz
     keep = slice(1, None, thin.every)

@@ -1,8 +1,9 @@
 """What must hold between the rows of a robot's table: a tree, motors in order, figures that fit each other."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from itertools import zip_longest
+from itertools import chain, zip_longest
 from math import dist
+from typing import TypeVar
 
 import numpy as np
 
@@ -16,6 +17,7 @@ from mobnet.settings.robot import WORLD, RobotTable
 
 MASS_TOLERANCE = 1e-6  # relative, of the total
 LENGTH_TOLERANCE_M = 1e-6
+Row = TypeVar("Row", bound=PointRow)
 # Radius of gyration of a body: what is outside has its mass or inertia in another unit. Links of public files whose
 # figures were not measured reach 3.2 m.
 GYRATION_M = (0.001, 4.0)
@@ -51,18 +53,30 @@ def _repeated(table: RobotTable) -> Iterator[Problem]:
     """Yield names that occur twice where each may occur once."""
     lists: dict[Place, list[str]] = {
         ("bodies",): [body.name for body in table.bodies],
-        ("joints",): [name for joint in table.joints for name in {joint.body, f"id {joint.id}"}],
+        ("joints",): [*(joint.body for joint in table.joints), *(f"id {joint.id}" for joint in table.joints)],
         ("order",): [*table.order.virtual, *table.order.actuated],
-        ("groups",): [joint for limb in table.groups.values() for joint in limb],
-        ("shapes",): [name for shape in table.shapes for name in with_image(shape.name)],
-        ("points",): [name for point in table.points for name in with_image(point.name)],
-        ("looks", "shapes"): [name for shape in shapes_of_looks(table) for name in with_image(shape.name)],
+        ("groups",): list(chain.from_iterable(table.groups.values())),
+        ("shapes",): _with_images(table.shapes),
+        ("points",): _with_images(table.points),
+        ("looks", "shapes"): _with_images(shapes_of_looks(table)),
     }
     for kind, found in (("groups", table.groups), ("networks", table.networks)):
         lists[kind,] = [*lists.get((kind,), []), *(name.casefold() for name in found)]  # names of files
     for place, names in lists.items():
         for name in sorted({name for name in names if names.count(name) > 1}):
             yield place, f"{name!r} {names.count(name)} times is not accepted; accepted: each name once"
+
+
+def _with_images(rows: Sequence[PointRow]) -> list[str]:
+    """Return the names of rows and of their mirror images."""
+    return list(chain.from_iterable(with_image(row.name) for row in rows))
+
+
+def _numbered(rows: Mapping[Place, Sequence[Row]]) -> Iterator[tuple[Place, int, Row]]:
+    """Yield the rows of several lists, each with the place of its list and its number there."""
+    for place, own in rows.items():
+        for index, row in enumerate(own):
+            yield place, index, row
 
 
 def _tree_problems(table: RobotTable) -> Iterator[Problem]:
@@ -78,7 +92,7 @@ def _tree_problems(table: RobotTable) -> Iterator[Problem]:
     mirrored: Mapping[Place, Sequence[PointRow]] = {
         ("shapes",): table.shapes, ("points",): table.points, ("looks", "shapes"): shapes_of_looks(table)
     }  # fmt: skip
-    for place, index, row in ((place, k, row) for place, rows in mirrored.items() for k, row in enumerate(rows)):
+    for place, index, row in _numbered(mirrored):
         if len(with_image(row.name)) > 1 and row.body in names and right_of(row.body) not in names:
             yield (*place, index, "body"), not_accepted("body of the mirror image", right_of(row.body), names)
 
@@ -145,7 +159,9 @@ def _foot_problems(table: RobotTable) -> Iterator[Problem]:
             text = f"{foot.body} is not accepted; accepted: the body at the end of limb {foot.limb}"
             yield ("feet", side, "body"), text
     sides = [(("feet",), {side: foot.body for side, foot in table.feet.items()}), (("hands",), dict(table.hands))]
-    limbs = {joint: limb for limb, joints in table.groups.items() for joint in joints}
+    limbs = dict[str, str]()  # joint -> limb
+    for limb, joints in table.groups.items():
+        limbs |= dict.fromkeys(joints, limb)
     for side, body in table.hands.items():
         found = {limbs[joint] for joint in joints_above(table, body)[-1:] if joint in limbs}
         if found and not any(limb.casefold().startswith(side[0]) for limb in found):
@@ -196,7 +212,7 @@ def _size_problems(table: RobotTable) -> Iterator[Problem]:
     solids: Mapping[Place, Sequence[ShapeRow]] = {
         ("shapes",): table.shapes, ("looks", "shapes"): shapes_of_looks(table)
     }  # fmt: skip
-    for place, index, shape in ((place, k, row) for place, rows in solids.items() for k, row in enumerate(rows)):
+    for place, index, shape in _numbered(solids):
         if shape.segment is not None and dist(shape.segment[:3], shape.segment[3:]) < LENGTH_TOLERANCE_M:
             yield (*place, index, "segment"), misfit(list(shape.segment), "two points that differ")
 
