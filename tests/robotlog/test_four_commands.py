@@ -34,7 +34,9 @@ FOUR = {"observe": observe, "learn": learn, "calibrate": calibrate, "detect": de
 COMMANDS = {**FOUR, "export": export}
 ARM = Path("tests/data/arm.yaml").resolve()
 RATE_HZ, SHORT = 200.0, ("--epochs", "4")
-GUIDE, NEW_ROBOT, RUNTIME = (Path(f"docs/{name}.md").resolve() for name in ("detection", "robots", "runtime"))
+GUIDE, NEW_ROBOT, RUNTIME, INTERFACE = (
+    Path(f"docs/{name}.md").resolve() for name in ("detection", "robots", "runtime", "interface")
+)
 EXAMPLE = Path("docs/examples/run_onnx.py").resolve()
 PUSHES = (10.0, 0.3, (0.0, 6.0)), (20.0, 0.3, (9.0, 0.0))  # start, duration [s], torque of each joint [N m]
 LOGS = {"train": (1, 100.0, ()), "free": (2, 220.0, ()), "new": (3, 30.0, PUSHES)}  # seed, duration [s], pushes
@@ -172,6 +174,25 @@ def test_a_loop_over_the_samples_has_the_flags_of_the_command(made, arm, setting
     spans = [[round(float(row[key]) * RATE_HZ) for key in ("start_s", "end_s")] for row in rows]
     assert set(names["flagged"]) <= {k for start, end in spans for k in range(start, end + 1)}
     assert {k for span in spans for k in span} <= set(names["flagged"])
+
+
+def test_the_examples_of_the_interface_run_on_the_files_of_the_page(made, arm, settings, monkeypatch, capsys):
+    monkeypatch.chdir(made)
+    detect_in_loop, *others = re.findall(r"^```python\n(.*?)^```$", INTERFACE.read_text(), re.DOTALL | re.MULTILINE)
+    meaning = load_section(Path("map.yaml"), LogMap)
+    sensed = converted_log(Path("new.csv"), arm.layout, meaning, settings.robotlog).recording.sensed
+    names = {"ticks": list(zip(sensed.q, sensed.v, sensed.tau_motor, strict=True))}
+    exec(detect_in_loop, names)
+    said = [line.partition(":")[0] for line in capsys.readouterr().out.splitlines()]
+    assert list(dict.fromkeys(said)) == ["J2", "J1"]  # pushed in this order, as PUSHES has them
+    for code in others:
+        exec(code, names)
+    of_observer, _ = read_array(Path("free/estimate"))
+    np.testing.assert_allclose(names["residual"], of_observer, atol=1e-4)
+    np.testing.assert_allclose(names["now"].tau_ext, names["estimate"].tau_ext[99], atol=1e-5)
+    again = names["mobnet"].read_recording("mine", names["arm"])
+    np.testing.assert_allclose(again.sensed.q, names["samples"].q, atol=1e-6)
+    assert names["contract"].is_file()
 
 
 @pytest.fixture(scope="module")

@@ -12,28 +12,22 @@ from experiments.commands.setup import set_up
 from experiments.commands.tell import say
 from experiments.commands.words import Words, parse
 from experiments.running.environment import child_environment, fault_of_place
+from mobnet.commands import COMMANDS as LAB
 from mobnet.core.errors import CommandError, MobnetError
 
 MODULES = {  # command -> the module that `python -m` runs, with words that come first
     "test": ("pytest", "-n", "2", "--dist", "loadfile", "--no-loadscope-reorder", "--max-worker-restart", "0"),
     "bench": ("benchmarks",),
     "check": ("experiments.check",),
-    "calibrate": ("mobnet.detection.calibrate",),
-    "export": ("mobnet.export.export",),
-    "motion": ("mobnet.robotlog.motion",),
-    "observe": ("mobnet.robotlog.observe",),
-    "identify": ("mobnet.robotlog.identify",),
-    "learn": ("mobnet.robotlog.learn",),
-    "detect": ("mobnet.robotlog.detect",),
-    "robot": ("mobnet.robot.import_table",),
+    **{name: (command.module,) for name, command in LAB.items()},
     "demo": ("experiments.demo",),
     "cost": ("experiments.evaluation.report.cost",),
     **{name: ("experiments.evaluation.report.snapshot", name) for name in ("verify", "compare", "snapshot")},
 }
 # Their words are files of the caller, no code of ours.
-OUTSIDE = ("check", "calibrate", "demo", "detect", "export", "identify", "learn", "motion", "observe", "robot")
+OUTSIDE = ("check", "demo", *LAB)
 # They say themselves what Ctrl-C leaves of them.
-LINED = ("calibrate", "cost", "detect", "export", "identify", "learn", "motion", "observe", "robot")
+LINED = ("cost", *LAB)
 REPORT = ("--report", "report.html", "--report-after-run")
 
 

@@ -10,14 +10,8 @@ from typing import NamedTuple
 from experiments.commands.builds import BUILDS
 from experiments.plan.places import scale_of
 from experiments.running.words import RESULTS, bench_parser, check_parser, cost_parser, demo_parser, results_parser
+from mobnet.commands import COMMANDS as LAB
 from mobnet.core.errors import CommandError, not_accepted
-from mobnet.detection.words import calibrate_parser
-from mobnet.export.words import export_parser
-from mobnet.robot.import_words import import_parser
-from mobnet.robotlog.identify_words import identify_parser
-from mobnet.robotlog.learning_words import detect_parser, learn_parser
-from mobnet.robotlog.motion_words import motion_parser
-from mobnet.robotlog.words import observe_parser
 
 COMMANDS = {
     "all": "make every table, figure and the paper (snakemake --cores 2 all); further options go to snakemake",
@@ -25,14 +19,7 @@ COMMANDS = {
     "test": "run every test and check, the workflow at a small scale included; further options go to pytest",
     "verify": "list the missing, changed and unexpected files of a run, by results/MANIFEST.sha256",
     "check": "check recordings, weights and configurations from outside; --help says how",
-    "robot": "make a robot's table from its URDF or MJCF file; --help says how",
-    "motion": "simulate the log of a robot of a table that moves without walking; --help says how",
-    "observe": "make the residual of a robot's own log, and say what looks wrong with it; --help says how",
-    "identify": "find friction and rotor inertia in logs of free motion, for the robot's table; --help says how",
-    "learn": "train a network on a robot's own logs, and try it on their end; --help says how",
-    "calibrate": "print thresholds of detection for a wanted rate of false alarms; --help says how",
-    "detect": "write when something pushes a limb in a robot's own log; --help says how",
-    "export": "write trained networks as ONNX files that run without this project; --help says how",
+    **{name: f"{command.says}; --help says how" for name, command in LAB.items()},
     "tuning": "train what configs/trials.yaml lists, write results/default/trials/tuning.md; not part of all",
     "recipes": "train each method with each recipe, write results/default/trials/recipes.md; not part of all",
     "lengths": "train for longer and longer, write results/default/trials/lengths.md; not part of all",
@@ -58,17 +45,10 @@ TARGETS = {"all": "all", "report": "all", **{name: name for name in APART}}  # c
 HELP = {"-h", "--help"}
 PARSERS = {
     "bench": bench_parser,
-    "calibrate": calibrate_parser,
     "check": check_parser,
     "cost": cost_parser,
     "demo": demo_parser,
-    "detect": detect_parser,
-    "export": export_parser,
-    "identify": identify_parser,
-    "learn": learn_parser,
-    "motion": motion_parser,
-    "observe": observe_parser,
-    "robot": import_parser,
+    **{name: command.parser for name, command in LAB.items()},
     **{name: functools.partial(results_parser, name) for name in RESULTS},
 }  # of commands whose module has words of its own
 CONFIG = {"-C", "--config"}

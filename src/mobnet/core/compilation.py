@@ -30,7 +30,8 @@ from numba.core import event as events
 from numba.extending import intrinsic
 from numba.np.arrayobj import populate_array
 
-from mobnet.core.code import ROOT, code_hash
+from mobnet.core.code import code_hash
+from mobnet.core.place import caches
 
 ITEM = np.dtype(np.float64).itemsize  # bytes
 log = logging.getLogger(__name__)
@@ -79,7 +80,7 @@ def cache_folder(file: str) -> Path:
 
 def cache_root() -> Path:
     """Return the folder of all machine code."""
-    return Path(numba.config.CACHE_DIR or ROOT / ".cache" / "numba")
+    return Path(numba.config.CACHE_DIR or caches() / "numba")
 
 
 @contextlib.contextmanager

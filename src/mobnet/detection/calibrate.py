@@ -15,6 +15,7 @@ from pathlib import Path
 
 from mobnet.core.errors import DataError, not_accepted, refuse_lines
 from mobnet.core.files import check_place, sweep
+from mobnet.core.place import command
 from mobnet.core.printed import printed
 from mobnet.detection.choice import ALONE, BARE, NETWORK, Tried, best_of, lines_of, tried_on_pushes
 from mobnet.detection.limb import OwnRecording, calibrate_limb
@@ -152,11 +153,11 @@ def _tried(
 def _check(options: Namespace) -> None:
     """Raise a DataError for options that contradict each other, or a rate that is not accepted."""
     if bool(options.folders) == bool(options.recording or options.estimate):
-        accepted = ["folders that `./reproduce observe` wrote", "--recording with --estimate"]
+        accepted = [f"folders that `{command('observe')}` wrote", "--recording with --estimate"]
         raise DataError(not_accepted("what calibrates", "both" if options.folders else "nothing", accepted))
     if not options.folders and (options.out or options.network):
         word = "--out" if options.out else "--network"
-        accepted = ["it with folders that `./reproduce observe` wrote"]
+        accepted = [f"it with folders that `{command('observe')}` wrote"]
         raise DataError(not_accepted(word, str(options.out or options.network), accepted))
     if options.signal not in (None, *SIGNALS):
         raise DataError(not_accepted("--signal", options.signal, SIGNALS))

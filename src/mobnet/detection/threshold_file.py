@@ -1,14 +1,17 @@
-"""The file of a limb's thresholds: written by `./reproduce calibrate`, read by `detect` and `export`."""
+"""The file of a limb's thresholds: written by `./reproduce calibrate`, read and checked by `detect` and `export`."""
 
 from pathlib import Path
 
-from mobnet.core.errors import ConfigError, not_accepted
+from mobnet.core.errors import ConfigError, not_accepted, refuse
 from mobnet.core.files import write_text
 from mobnet.core.flow import flow
+from mobnet.core.place import command
+from mobnet.estimation.own import OwnNetwork, check_drives
+from mobnet.robot.description import RobotDescription
 from mobnet.settings.lab import load_section
 from mobnet.settings.limb_thresholds import LimbThresholds
 
-HEADER = "# Thresholds of a limb, by ./reproduce calibrate (docs/detection.md). SI units, rates of alarms per hour."
+HEADER = f"# Thresholds of a limb, by {command('calibrate')} (docs/detection.md). SI units, rates of alarms per hour."
 
 
 def write_thresholds(path: Path, found: LimbThresholds) -> None:
@@ -28,3 +31,16 @@ def read_thresholds(path: Path) -> LimbThresholds:
         accepted = [f"{len(found.joints)}, one for each of its joints"]
         raise ConfigError(f"{path}: {not_accepted('thresholds: number', len(found.thresholds), accepted)}")
     return found
+
+
+def check_thresholds(path: Path, found: LimbThresholds, robot: RobotDescription, network: OwnNetwork | None) -> None:
+    """Raise a DataError where thresholds are those of another robot, limb or network, or of other friction."""
+    check_drives(path, found.drives, robot)
+    own = robot.layout.groups.get(found.limb, ())
+    pairs = {
+        "robot": (found.robot, robot.name), "joints": (found.joints, own),
+        "network": (found.network or "none", network.fingerprint if network else "none"),
+    }  # fmt: skip
+    refuse(
+        path, [not_accepted(key, held, [f"{here}, given here"]) for key, (held, here) in pairs.items() if held != here]
+    )

@@ -3,19 +3,21 @@
 import argparse
 from pathlib import Path
 
+from mobnet.core.place import command
+
 SIGNALS = ("mean", "std", "ratio")
 
 
 def calibrate_parser() -> argparse.ArgumentParser:
     """Return the parser of the calibrator's options."""
     parser = argparse.ArgumentParser(
-        prog="./reproduce calibrate",
+        prog=command("calibrate"),
         description="Print thresholds for a wanted rate of false alarms, from recordings that nothing pushes: of a leg "
         "from its swings, of any other limb from windows of time.",
         epilog="In place of folders, --recording with --estimate takes arrays, .parquet with their .json "
         "(docs/robots.md), in one order.",
     )
-    parser.add_argument("folders", type=Path, nargs="*", metavar="FOLDER", help="what `./reproduce observe` wrote")
+    parser.add_argument("folders", type=Path, nargs="*", metavar="FOLDER", help=f"what `{command('observe')}` wrote")
     parser.add_argument("--network", type=Path, metavar="NET", help="what `learn` wrote (default: the observer alone)")
     usual = "mean; with --network what finds most planted pushes, of the network or of the observer"
     parser.add_argument("--signal", help=f"{', '.join(SIGNALS)} of the estimate (default: {usual})")

@@ -13,6 +13,7 @@ from mobnet.core.estimator import Estimate
 from mobnet.core.files import RUN
 from mobnet.core.joints import JointLayout
 from mobnet.core.notes import Note, Text, pair_differences, read_array_note, read_note
+from mobnet.core.place import command
 from mobnet.core.recording import SensedRecording, read_sensed
 from mobnet.core.store import ARRAY, NOTE, file_of, footer_hash, read_array
 from mobnet.estimation.estimate import Observed, only, run_segments
@@ -122,7 +123,7 @@ def read_log_folder(folder: Path, layout: JointLayout) -> OwnLog:
     """
     stems = [folder / name for name in (RECORDING, ESTIMATE)]
     if missing := [stem.name for stem in stems if not file_of(stem, NOTE).exists()]:
-        accepted = "a folder that `./reproduce observe` wrote"
+        accepted = f"a folder that `{command('observe')}` wrote"
         raise DataError(f"{folder}: {missing[0]}{NOTE} is missing; accepted: {accepted}")
     note, other = (read_array_note(file_of(stem, NOTE)) for stem in reversed(stems))
     refuse(f"{stems[1]}{NOTE}", pair_differences(note, other, f"{stems[0]}{NOTE}"))
@@ -147,7 +148,7 @@ def read_network_folder(folder: Path, layout: JointLayout, settings: Lab) -> Own
             what is taken off the residual.
     """
     if not (folder / RUN).exists():
-        raise DataError(f"{folder}: {RUN} is missing; accepted: a folder that `./reproduce learn` wrote")
+        raise DataError(f"{folder}: {RUN} is missing; accepted: a folder that `{command('learn')}` wrote")
     note, observer = read_note(folder / RUN, LearnedNote), settings.observer
     if note.target != UNCERTAINTY:
         raise DataError(not_accepted(f"{folder / RUN}: target", note.target, [UNCERTAINTY]))

@@ -31,7 +31,7 @@ from mobnet.robot.description import RobotDescription
 from mobnet.robot.given import given_robot
 from mobnet.settings.base import GAIN_HZ, RATE_HZ, TorqueKind
 from mobnet.settings.detection import SwingGate
-from mobnet.settings.lab import load_lab
+from mobnet.settings.lab import Lab, load_lab
 from mobnet.settings.limb_thresholds import LimbThresholds
 
 log = logging.getLogger(__name__)
@@ -156,27 +156,49 @@ def told(contract: Contract, networks: Sequence[Trained], out: Path) -> Iterator
         yield f"{out / MODEL}: not written, as the C library has no other cells than {' and '.join(WITHOUT_TORCH)}"
 
 
+@dataclass(frozen=True)
+class Given:
+    """What a caller says of the run time where no training noted it: rate [Hz], gain [1/s], meaning of torques."""
+
+    rate_hz: float | None = None
+    gain_hz: float | None = None
+    torque: TorqueKind | None = None
+
+
+def export_folders(
+    folders: Sequence[Path], robot: RobotDescription, thresholds: Sequence[Path], given: Given, settings: Lab, out: Path
+) -> tuple[Contract, list[Trained]]:
+    """Export the networks of folders with files of thresholds; return the contract, and the networks.
+
+    Raises:
+        DataError: a file is missing or damaged, or as `export` says.
+        ConfigError: a file of thresholds is not accepted, or as `export` says.
+    """
+    networks = [read_trained(folder, robot.layout) for folder in folders]
+    notes, own = [one.run for one in networks], settings.observer
+    run_time = RunTime(
+        agreed("rate", given.rate_hz, [note.rate_hz for note in notes], settings.rates.data_hz),
+        ObserverContract(
+            gain_hz=agreed("gain", given.gain_hz, [note.gain_hz for note in notes], own.gain_hz),
+            torque=agreed("torque", given.torque, [note.torque for note in notes], own.torque),
+            gravity_m_s2=settings.plant.gravity_m_s2,
+        ),
+    )
+    found = [read_thresholds(path) for path in thresholds]
+    sweep(out)
+    return export(networks, robot, run_time, found, settings.detection.gate, out), networks
+
+
 def run(options: Namespace) -> Iterator[str]:
     """Export networks as the command's options say, and yield what is printed."""
     check_place(options.out)
     settings = load_lab()
     robot = given_robot(options.robot, settings)
-    networks = [read_trained(folder, robot.layout) for folder in options.network]
-    notes, own = [one.run for one in networks], settings.observer
     for word, bounds in {"rate": RATE_HZ, "gain": GAIN_HZ}.items():
         if (value := getattr(options, word)) is not None:
             refuse_lines(beyond(f"--{word}", value, bounds))
-    run_time = RunTime(
-        agreed("rate", options.rate, [note.rate_hz for note in notes], settings.rates.data_hz),
-        ObserverContract(
-            gain_hz=agreed("gain", options.gain, [note.gain_hz for note in notes], own.gain_hz),
-            torque=agreed("torque", options.torque, [note.torque for note in notes], own.torque),
-            gravity_m_s2=settings.plant.gravity_m_s2,
-        ),
-    )
-    thresholds = [read_thresholds(path) for path in options.thresholds]
-    sweep(options.out)
-    contract = export(networks, robot, run_time, thresholds, settings.detection.gate, options.out)
+    given = Given(options.rate, options.gain, options.torque)
+    contract, networks = export_folders(options.network, robot, options.thresholds, given, settings, options.out)
     yield from told(contract, networks, options.out)
 
 

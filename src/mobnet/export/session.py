@@ -19,6 +19,7 @@ from mobnet.core.errors import DataError
 from mobnet.core.files import parse_json
 from mobnet.core.joints import JointLayout
 from mobnet.core.notes import checked
+from mobnet.core.place import command
 from mobnet.export.contract import Contract, read_contract
 from mobnet.learning.deployed.limbs import LimbNetworks
 from mobnet.learning.deployed.networks import Prediction
@@ -43,7 +44,7 @@ class OnnxNetwork:
         try:
             self._session = ort.InferenceSession(path, options, providers=["CPUExecutionProvider"])
         except Exception as error:  # noqa: BLE001, onnxruntime has a class for each kind of fault
-            text = f"not an exported network ({' '.join(str(error).split())}); accepted: a file of ./reproduce export"
+            text = f"not an exported network ({' '.join(str(error).split())}); accepted: a file of {command('export')}"
             raise DataError(f"{path}: {text}") from None
         self.contract = _contract(path, self._session.get_modelmeta().custom_metadata_map)
         (network,) = self.contract.networks

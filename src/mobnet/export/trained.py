@@ -1,17 +1,16 @@
 """Trained networks as they are exported: their folders, and the contract that belongs to them."""
 
 import hashlib
-import tomllib
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from mobnet.core.code import ROOT
 from mobnet.core.columns import Column, recording_columns, torque_columns
 from mobnet.core.errors import DataError, not_accepted, refuse
 from mobnet.core.files import RUN, WEIGHTS
 from mobnet.core.joints import JointLayout
 from mobnet.core.notes import read_note
+from mobnet.core.place import version
 from mobnet.estimation.own import LearnedNote
 from mobnet.export.contract import (
     FORMAT,
@@ -88,10 +87,9 @@ def contract_of(
     thresholds: Iterable[LimbThresholds],
 ) -> Contract:  # fmt: skip
     """Return the contract of some networks of a robot and of detectors of their limbs."""
-    version = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]["version"]
     return Contract(
         format=FORMAT,
-        version=version,
+        version=version(),
         opset=OPSET,
         robot=robot,
         rate_hz=rate_hz,

@@ -3,11 +3,13 @@
 import argparse
 from pathlib import Path
 
+from mobnet.core.place import command
+
 
 def export_parser() -> argparse.ArgumentParser:
     """Return the parser of the command's options."""
     parser = argparse.ArgumentParser(
-        prog="./reproduce export",
+        prog=command("export"),
         description="Write trained networks as ONNX files, one for each limb, with what a program that runs them must "
         "know: names, units and order of inputs and outputs, rate, observer, thresholds. Where all networks are of the "
         "cells GRU and constant, also write model.bin, which the C library in src/runtime runs with the observer.",
@@ -17,7 +19,7 @@ def export_parser() -> argparse.ArgumentParser:
     parser.add_argument("--robot", type=Path, help="table of the robot (default: that of configs)")
     parser.add_argument(
         "--thresholds", type=Path, action="append", default=[], metavar="FILE",
-        help="thresholds of a limb, as ./reproduce calibrate writes them; may be given again",
+        help=f"thresholds of a limb, as {command('calibrate')} writes them; may be given again",
     )  # fmt: skip
     parser.add_argument("--rate", type=float, metavar="HZ", help="samples per second, where the training noted none")
     parser.add_argument(

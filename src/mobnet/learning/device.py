@@ -4,8 +4,8 @@ import functools
 
 import torch
 
-from mobnet.core.code import ROOT
 from mobnet.core.gpus import claimed
+from mobnet.core.place import caches
 
 
 @functools.cache
@@ -14,4 +14,4 @@ def own_device() -> torch.device:
     if not torch.cuda.is_available():
         return torch.device("cpu")
     names = [str(torch.cuda.get_device_properties(place).uuid) for place in range(torch.cuda.device_count())]
-    return torch.device("cuda", claimed(names, ROOT / ".cache"))
+    return torch.device("cuda", claimed(names, caches()))

@@ -69,11 +69,12 @@ class OwnLegWatcher:
 
 @dataclass(frozen=True)
 class LimbWatcher:
-    """Joints that no intended contact loads, watched all the time by the signals of a detector."""
+    """Joints that no intended contact loads, watched by the signals of a detector from some sample on."""
 
     watched: Watched
     chain: Chain
     columns: Columns
+    settle: int = 0
 
     def init(self) -> ChainState:
         """Return the state before the first sample."""
@@ -82,7 +83,8 @@ class LimbWatcher:
     def ratio(self, state: ChainState, sample: Sensed, estimate: Estimate) -> float:
         """Return how far the highest signal lies above its threshold."""
         signals = self.watched.of(some(estimate, self.columns), sample.command)
-        return float(advance_chain(self.chain, state, signals, True, 0.0))
+        is_watched = int(state.place[0]) >= self.settle
+        return float(advance_chain(self.chain, state, signals, is_watched, 0.0))
 
 
 @dataclass(frozen=True)

@@ -12,6 +12,7 @@ from mobnet.core.child import in_child
 from mobnet.core.errors import ConfigError, DataError, refusal
 from mobnet.core.files import check_place, write_text
 from mobnet.core.flow import flow
+from mobnet.core.place import command
 from mobnet.core.printed import printed
 from mobnet.robot.description import RobotDescription, describe
 from mobnet.robot.import_checks import differences
@@ -31,7 +32,7 @@ def table_text(found: Imported, source: str) -> str:
     order = {**({"virtual": VIRTUAL} if found.floating else {}), "actuated": [row["id"] for row in found.joints]}
     networks = {name: {"joints": [name], "Q": [name], "T": []} for name in found.groups}
     lines = [
-        f"# {_line(found.name)}: from {_line(source)}, by ./reproduce robot. SI units; quaternions w x y z.",
+        f"# {_line(found.name)}: from {_line(source)}, by {command('robot')}. SI units; quaternions w x y z.",
         "# inertia: [xx, yy, zz, xy, xz, yz] about the centre of mass, in body axes.",
         *(f"# {_line(note)}" for note in found.notes),
         f"name: {flow(found.name)}",
@@ -81,6 +82,17 @@ def made(options: Namespace) -> tuple[str, list[str]]:
     found = import_robot(options.file, check_base(options.base), *taken)
     text = table_text(found, options.file.name)
     return text, list(told(robot_of_text(text, options.file), found, options.file))
+
+
+def read_robot(path: Path) -> RobotDescription:
+    """Return the robot of a URDF or MJCF file, as the command makes a table of it without further words.
+
+    Raises:
+        DataError: the file is no robot, a table cannot hold it, or the table differs from another reading of the file.
+    """
+    options = import_parser().parse_args([str(path)])
+    text, _ = in_child(lambda: made(options), SECONDS, str(path))
+    return robot_of_text(text, path)
 
 
 def run(options: Namespace) -> Iterator[str]:

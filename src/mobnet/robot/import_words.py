@@ -3,11 +3,13 @@
 import argparse
 from pathlib import Path
 
+from mobnet.core.place import command
+
 
 def import_parser() -> argparse.ArgumentParser:
     """Return the parser of the command's options."""
     parser = argparse.ArgumentParser(
-        prog="./reproduce robot",
+        prog=command("robot"),
         description="Make the table of a robot from its URDF or MJCF file, say what the file lacks, and compare mass "
         "matrix and bias with MuJoCo's and Pinocchio's own reading of the file.",
     )

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array
 from mobnet.core.errors import DataError
+from mobnet.core.place import PYTHON
 
 PACKAGES = {"h5py": "h5py", "mcap": "mcap", "mcap_ros2": "mcap-ros2-support", "rosbags": "rosbags"}  # by module
 MOST = 1000  # entries of an array above which it is a picture or a map, and no signal
@@ -59,7 +60,7 @@ def module_of(name: str, path: Path) -> ModuleType:
         return importlib.import_module(name)
     except ImportError:
         package = PACKAGES[name.partition(".")[0]]
-        text = f"needs the package {package}; install it: .venv/bin/python -m pip install {package}"
+        text = f"needs the package {package}; install it: {PYTHON} -m pip install {package}"
         raise DataError(f"{path}: {text}") from None
 
 

@@ -10,14 +10,14 @@ from mobnet.core.errors import DataError, not_accepted
 from mobnet.core.files import check_place, sweep, write_text
 from mobnet.core.printed import printed
 from mobnet.core.rows import csv_text
-from mobnet.detection.threshold_file import read_thresholds
+from mobnet.detection.threshold_file import check_thresholds, read_thresholds
 from mobnet.estimation import estimate, observer
 from mobnet.estimation.estimate import write_estimate
 from mobnet.estimation.own import ESTIMATE, OwnNetwork, Sampling, check_sampling, read_network_folder
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.given import given_robot
 from mobnet.robot.nominal import NominalModel
-from mobnet.robotlog.detected import Detected, check_thresholds, detect_log
+from mobnet.robotlog.detected import Detected, detect_log
 from mobnet.robotlog.flags import COLUMNS
 from mobnet.robotlog.learning_words import detect_parser
 from mobnet.robotlog.plot_flags import plot_flags

@@ -9,13 +9,13 @@ from pathlib import Path
 import numpy as np
 
 from mobnet.core.arrays import Array
-from mobnet.core.errors import DataError, not_accepted, refuse
+from mobnet.core.errors import DataError, not_accepted
 from mobnet.core.estimator import Estimate
 from mobnet.detection.always import always_on, setup_of
 from mobnet.detection.detector import GateSignal, run_segments
 from mobnet.detection.signals import Watched
 from mobnet.detection.watch import LegSetup, LimbSetup
-from mobnet.estimation.own import OwnLog, OwnNetwork, Sampling, check_drives, estimates_of, estimator_of
+from mobnet.estimation.own import OwnLog, OwnNetwork, Sampling, estimates_of, estimator_of
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.nominal import NominalModel
 from mobnet.robotlog.flags import Flag, flags_of
@@ -39,19 +39,6 @@ class Detected:
     watched: Array
     flags: tuple[Flag, ...]
     found: Found | None
-
-
-def check_thresholds(path: Path, found: LimbThresholds, robot: RobotDescription, network: OwnNetwork | None) -> None:
-    """Raise a DataError where thresholds are those of another robot, limb or network, or of other friction."""
-    check_drives(path, found.drives, robot)
-    own = robot.layout.groups.get(found.limb, ())
-    pairs = {
-        "robot": (found.robot, robot.name), "joints": (found.joints, own),
-        "network": (found.network or "none", network.fingerprint if network else "none"),
-    }  # fmt: skip
-    refuse(
-        path, [not_accepted(key, held, [f"{here}, given here"]) for key, (held, here) in pairs.items() if held != here]
-    )
 
 
 def detect_log(

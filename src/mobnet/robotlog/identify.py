@@ -14,6 +14,7 @@ from pathlib import Path
 
 from mobnet.core.errors import ConfigError, DataError, not_accepted
 from mobnet.core.files import check_place
+from mobnet.core.place import command
 from mobnet.core.printed import printed
 from mobnet.core.recording import SensedRecording
 from mobnet.estimation import observer
@@ -191,7 +192,7 @@ def run(options: Namespace) -> Iterator[str]:
     terms = (*TERMS, *(term for term in FURTHER if getattr(options, term)))
     found, carried = identify(robot, logs, terms, settings, options.payload)
     head = head_of(options.robot) if options.robot else []
-    made = f"friction and armature: from {', '.join(path.name for path in options.logs)}, by ./reproduce identify."
+    made = f"friction and armature: from {', '.join(path.name for path in options.logs)}, by {command('identify')}."
     made_table = with_numbers(table, found)
     made_table = with_payload(made_table, options.payload, carried) if carried else made_table
     write_table(out, made_table, [*head, made])

@@ -3,18 +3,21 @@
 import argparse
 from pathlib import Path
 
+from mobnet.core.place import command
+
 
 def identify_parser() -> argparse.ArgumentParser:
     """Return the parser of the command's options."""
     parser = argparse.ArgumentParser(
-        prog="./reproduce identify",
+        prog=command("identify"),
         description="Find friction, rotor inertia and constant error of each joint in logs of free motion, in which "
         "nothing touches the robot, and write them into a new table. The observer then takes them into account "
         "(docs/identify.md).",
     )
     parser.add_argument(
-        "logs", type=Path, nargs="+", metavar="FOLDER", help="what `./reproduce observe` wrote, or a log as it reads it"
-    )
+        "logs", type=Path, nargs="+", metavar="FOLDER",
+        help=f"what `{command('observe')}` wrote, or a log as it reads it",
+    )  # fmt: skip
     parser.add_argument("--robot", type=Path, help="table of the robot (default: that of configs)")
     parser.add_argument("--map", type=Path, help="what the columns of logs mean, where logs are given")
     parser.add_argument(

@@ -3,6 +3,7 @@
 import argparse
 from pathlib import Path
 
+from mobnet.core.place import command
 from mobnet.robotlog.words import add_wrench
 
 LABELS = {
@@ -15,13 +16,13 @@ LABELS = {
 def learn_parser() -> argparse.ArgumentParser:
     """Return the parser of the options of `learn`."""
     parser = argparse.ArgumentParser(
-        prog="./reproduce learn",
+        prog=command("learn"),
         description="Train a network that predicts what the observer's model gets wrong of a limb, on logs that "
-        "`./reproduce observe` made recordings of, and try it on the end of the logs, which it never sees. The same "
+        f"`{command('observe')}` made recordings of, and try it on the end of the logs, which it never sees. The same "
         "words go on with a training that was stopped.",
         epilog=f"labels, what is known of the external torque: {'; '.join(f'{k}: {v}' for k, v in LABELS.items())}.",
     )
-    parser.add_argument("folders", type=Path, nargs="+", metavar="FOLDER", help="what `./reproduce observe` wrote")
+    parser.add_argument("folders", type=Path, nargs="+", metavar="FOLDER", help=f"what `{command('observe')}` wrote")
     parser.add_argument("--robot", type=Path, help="table of the robot (default: that of configs)")
     parser.add_argument("--limb", help="limb of the robot (default: its only one)")
     parser.add_argument("--labels", default="free", help=f"{', '.join(LABELS)} (default: %(default)s)")
@@ -34,11 +35,11 @@ def learn_parser() -> argparse.ArgumentParser:
 def detect_parser() -> argparse.ArgumentParser:
     """Return the parser of the options of `detect`."""
     parser = argparse.ArgumentParser(
-        prog="./reproduce detect",
+        prog=command("detect"),
         description="Estimate the external torque of a limb in a log, and write when something pushes it: flags.csv, "
         "the estimate with its standard deviation, and a plot of torque, thresholds and flags.",
     )
-    parser.add_argument("log", type=Path, metavar="LOG", help="log of a robot, as `./reproduce observe` reads it")
+    parser.add_argument("log", type=Path, metavar="LOG", help=f"log of a robot, as `{command('observe')}` reads it")
     parser.add_argument("--robot", type=Path, help="table of the robot (default: that of configs)")
     parser.add_argument("--map", type=Path, help="what its columns mean (default: columns named as in docs/data.md)")
     parser.add_argument("--network", type=Path, metavar="NET", help="what `learn` wrote (default: the observer alone)")

@@ -3,13 +3,15 @@
 import argparse
 from pathlib import Path
 
+from mobnet.core.place import command
+
 
 def motion_parser() -> argparse.ArgumentParser:
     """Return the parser of the command's options."""
     parser = argparse.ArgumentParser(
-        prog="./reproduce motion",
+        prog=command("motion"),
         description="Simulate a robot of a table whose joints move at random while it does not walk, and write its log "
-        "with the columns that ./reproduce observe takes without a map (docs/robots.md).",
+        f"with the columns that {command('observe')} takes without a map (docs/robots.md).",
     )
     parser.add_argument("--robot", type=Path, help="table of the robot (default: that of configs)")
     parser.add_argument("--minutes", type=float, default=1.0, help="how long it moves (default: %(default)s)")

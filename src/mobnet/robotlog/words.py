@@ -3,11 +3,13 @@
 import argparse
 from pathlib import Path
 
+from mobnet.core.place import command
+
 
 def observe_parser() -> argparse.ArgumentParser:
     """Return the parser of the command's options."""
     parser = argparse.ArgumentParser(
-        prog="./reproduce observe",
+        prog=command("observe"),
         description="Make a recording and the momentum observer's residual of a robot's log, with a plot of it, and "
         "say what looks wrong with the log.",
         epilog="LOG is a text with a separator, .parquet, .h5, .mat, .npz, .mcap, .bag, .db3, or a folder that "

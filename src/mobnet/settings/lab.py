@@ -9,6 +9,7 @@ from typing import Annotated, Any, TypeVar
 
 from pydantic import Field
 
+from mobnet.core.place import CONFIGS
 from mobnet.settings.base import Index, RobotNetworkName, Section
 from mobnet.settings.checks.robot import robot_problems
 from mobnet.settings.detection import ContactPoint, Detection
@@ -21,7 +22,6 @@ from mobnet.settings.reading import Document, Place
 from mobnet.settings.robot import RobotTable
 from mobnet.settings.robotlog import RobotLog
 
-CONFIGS = Path(__file__).parents[3] / "configs"
 FILES: Mapping[str, tuple[str, ...]] = {  # file -> the sections of it that a lab takes
     "config": ("seed", "robot"),
     "plant": ("rates", "plant"),

@@ -1,13 +1,18 @@
 """Handling collisions (sections 5.4 and 7): identification, reacting steps, stop mode."""
 
-from typing import Literal
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, Literal
 
 from pydantic import Field
 
 from mobnet.core.detections import LARGEST
+from mobnet.core.place import CONFIGS
 from mobnet.settings import base
 from mobnet.settings.base import Section
 from mobnet.settings.data import Wrench
+from mobnet.settings.faults import refuse_faults, validated
+from mobnet.settings.reading import Document, Place
 
 Strategy = Literal["compliant", "rewind"]
 
@@ -91,3 +96,19 @@ def watches_of(reaction: Reaction, case: str) -> tuple[Watch, ...]:
     """Return our detector, then what a case compares with it, and our detector with reactions that wait."""
     ours, row = reaction.ours, reaction.cases[case]
     return ours, *row.compared, *(ours.model_copy(update={"wait_s": wait_s}) for wait_s in row.waits_s)
+
+
+def load_reaction(folder: Path = CONFIGS) -> Reaction:
+    """Read and check section `reaction`, which only a walking robot needs.
+
+    Raises:
+        ConfigError: the file, a key or a value is not accepted; one line for each of them.
+    """
+    document = Document(folder / "reaction.yaml")
+    refuse_faults(document.faults)
+    values: Mapping[str, Any] = document.values.get("reaction", {})
+
+    def told(place: Place, text: str) -> str:
+        return document.told(("reaction", *place), text)
+
+    return validated(Reaction, values, values, told)

@@ -1,0 +1,59 @@
+"""`mobnet demo`: a push on a walking robot, as the observer alone and a trained network estimate it.
+
+Recording and network come with the package, from the published run; nothing is trained or simulated.
+"""
+
+import logging
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mobnet.commands import demo_parser
+from mobnet.core.columns import EXTERNAL, PUSH_TORQUE, named
+from mobnet.core.place import DEMO
+from mobnet.core.printed import printed
+from mobnet.core.store import read_array
+from mobnet.estimation import observer
+from mobnet.estimation.low_pass import low_pass
+from mobnet.interface import Estimator, Observer, Robot, lab, read_recording
+from mobnet.robot.description import describe
+
+NETWORK, RECORDING = DEMO / "networks" / "MOB-Net-LL", DEMO / "recording"
+log = logging.getLogger(__name__)
+
+
+def lines() -> Iterator[str]:
+    """Yield what the command prints."""
+    numbers = lab()
+    robot = Robot(describe(numbers.robot))
+    recording = read_recording(RECORDING, robot)
+    samples, rate_hz = recording.sensed, recording.rate_hz
+    estimator = Estimator.from_folder(robot, NETWORK)
+    joints = list(estimator.joints)
+    places = [robot.joints.index(joint) for joint in joints]
+    residual = Observer(robot, rate_hz, torque=numbers.observer.torque).residual(samples)[:, places]
+    estimate = estimator.estimate(samples).tau_ext
+    layout, gain_hz = robot.description.layout, numbers.observer.gain_hz
+    external = low_pass(read_array(RECORDING, named(EXTERNAL, joints), layout)[0], gain_hz, rate_hz)
+    push = low_pass(read_array(RECORDING, named(PUSH_TORQUE, joints), layout)[0], gain_hz, rate_hz)
+    # Observer and network start from zero, and settle meanwhile.
+    settled = slice(round(numbers.robotlog.settle_s * rate_hz), None)
+    yield f"{len(samples) / rate_hz:.0f} s of a walking humanoid that is pushed at a leg; torques in N m"
+    yield f"{'joint':<7}{'largest of the push':>20}{'error of the observer':>23}{'with the network':>18}"
+    for k, joint in enumerate(joints):
+        errors = [root_mean_square((one - external)[settled, k]) for one in (residual, estimate)]
+        yield f"{joint:<7}{np.abs(push[:, k]).max():>20.1f}{errors[0]:>23.1f}{errors[1]:>18.1f}"
+    yield f"errors are root mean squares after {numbers.robotlog.settle_s:g} s; files: {DEMO}"
+
+
+def root_mean_square(values: NDArray[np.float64]) -> float:
+    """Return the root mean square of values (T,)."""
+    return float(np.sqrt(np.mean(np.square(values))))
+
+
+def main(words: Sequence[str]) -> int:
+    """Run the command; return its exit status."""
+    demo_parser().parse_args(words)
+    logging.getLogger(observer.__name__).setLevel(logging.WARNING)  # it tells of each segment
+    return printed(log, lines)

@@ -1,0 +1,472 @@
+"""The names that programs of others import from `mobnet`: robot, observer, estimators, detectors, and their files.
+
+All units are SI. Generalized positions q (nq,) are those of the base, its place [m] and quaternion w x y z, and the
+angles of the joints [rad]. Velocities v (nv,) are those of the base, linear [m/s] in world axes and angular [rad/s] in
+its own axes, and of the joints [rad/s]. A robot with a fixed base has its joints alone. A *sample* holds these at one
+tick, 1-D arrays; *samples* of T ticks have time as their first axis. `Robot.sample` makes both.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from mobnet.core.columns import recording_columns
+from mobnet.core.errors import ConfigError, DataError, MobnetError, not_accepted
+from mobnet.core.estimator import Estimate
+from mobnet.core.extras import with_extra
+from mobnet.core.files import RUN
+from mobnet.core.recording import Recording, Sensed, SensedRecording, Truth, read_sensed
+from mobnet.core.recording import write_recording as write_whole
+from mobnet.detection import contact
+from mobnet.detection.always import setup_of
+from mobnet.detection.chain import ChainState
+from mobnet.detection.contact import Contact
+from mobnet.detection.detector import ALARM_RATIO, LegDetector
+from mobnet.detection.signals import Watched
+from mobnet.detection.threshold_file import check_thresholds, read_thresholds
+from mobnet.detection.watch import LegSetup
+from mobnet.estimation.kinds.residual import ResidualEstimator
+from mobnet.estimation.observer import MomentumObserver, ObserverState
+from mobnet.estimation.own import Sampling, check_drives, check_sampling, estimator_of, read_network_folder
+from mobnet.export.contract import CONTRACT
+from mobnet.learning.deployed.limbs import load_limb_networks
+from mobnet.reaction.handler import Handler, Reacted
+from mobnet.reaction.watchers import LegWatcher, LimbWatcher, some
+from mobnet.robot.description import RobotDescription, describe
+from mobnet.robot.nominal import NominalModel
+from mobnet.settings.base import TorqueKind
+from mobnet.settings.detection import Detector as DetectorRow
+from mobnet.settings.lab import Lab, load_lab, load_section
+from mobnet.settings.limb_thresholds import LimbThresholds
+from mobnet.settings.reaction import Strategy, load_reaction
+from mobnet.settings.robot import RobotTable
+
+__all__ = [
+    "ContactFinder",
+    "Detector",
+    "Estimator",
+    "MobnetError",
+    "Observer",
+    "ReactionHandler",
+    "Robot",
+    "export_networks",
+    "read_recording",
+    "write_recording",
+]
+FILES = (".urdf", ".xml", ".mjcf")  # of robots that no table describes yet
+FIELDS = {"acc": "acc_base_in_base"}  # argument of `sample` -> field, where their names differ
+
+
+@cache
+def lab() -> Lab:
+    """Return the configuration of a lab."""
+    return load_lab()
+
+
+class Robot:
+    """A robot: the names of its joints and limbs, and its model.
+
+    Attributes:
+        name: of its table.
+        joints: names of the generalized velocities (nv,); those of a floating base are V1 to V6 and come first.
+        motors: names of the joints with a motor (nu,).
+        limbs: limb -> names of its joints.
+    """
+
+    def __init__(self, description: RobotDescription) -> None:
+        """Take a description; `read` makes one of a file."""
+        self.description = description
+        self.name, self.joints = description.name, description.layout.names
+        self.motors, self.limbs = description.layout.actuated, dict(description.layout.groups)
+
+    @classmethod
+    def read(cls, path: str | Path) -> "Robot":
+        """Read a robot from its table (.yaml), or from a URDF or MJCF file, as `mobnet robot` makes a table of it.
+
+        Raises:
+            ConfigError: the table cannot be read, or a value is not accepted.
+            DataError: the file is no robot, or a table cannot hold it.
+        """
+        path = Path(path)
+        if path.suffix not in FILES:
+            return cls(describe(load_section(path, RobotTable)))
+        return cls(with_extra("mobnet.robot.import_table").read_robot(path))
+
+    def sample(
+        self, q: ArrayLike, v: ArrayLike, tau_motor: ArrayLike, tau_des: ArrayLike | None = None,
+        acc: ArrayLike | None = None, swing: ArrayLike | None = None, landing: ArrayLike | None = None,
+        command: ArrayLike | None = None,
+    ) -> Sensed:  # fmt: skip
+        """Return what the robot senses at one tick (1-D arrays), or at T ticks (2-D); what is not given is zero.
+
+        Args:
+            q: generalized position (..., nq) [m, -, rad].
+            v: generalized velocity (..., nv) [m/s, rad/s].
+            tau_motor: torque of the motors behind their gears (..., nu) [N m].
+            tau_des: torque that the motors were asked for (..., nu) [N m]; `tau_motor` where it is not given.
+            acc: specific force of a floating base (..., 3) [m/s^2], gravity included, in its axes.
+            swing: 1 where a foot is planned to be in the air, left and right (..., 2) [-].
+            landing: time until it is planned to land (..., 2) [s].
+            command: the step that a walking robot makes (..., 5), as in Table 2.
+
+        Raises:
+            DataError: an array has another shape, or a number is not finite.
+        """
+        given = {
+            "q": q, "v": v, "tau_motor": tau_motor, "tau_des": tau_motor if tau_des is None else tau_des, "acc": acc,
+            "swing": swing, "landing": landing, "command": command,
+        }  # fmt: skip
+        columns = recording_columns(self.description.layout)
+        values = {}
+        for name, array in given.items():
+            field = FIELDS.get(name, name)
+            wanted = (*np.shape(q)[:-1], len(columns[field]))
+            taken = np.zeros(wanted) if array is None else np.asarray(array, dtype=np.float64)
+            if taken.shape != wanted:
+                raise DataError(not_accepted(f"{name}: shape", taken.shape, [wanted]))
+            if not np.isfinite(taken).all():
+                raise DataError(not_accepted(name, float(taken[~np.isfinite(taken)][0]), ["finite numbers"]))
+            values[field] = taken
+        return Sensed(**values)
+
+
+class Observer:
+    """The momentum observer: the residual r of (9), the external torque behind a low-pass, and errors of the model.
+
+    Attributes:
+        joints: names of its joints, those of the robot (nv,).
+        rate_hz: samples per second [Hz].
+    """
+
+    def __init__(
+        self, robot: Robot, rate_hz: float, gain_hz: float | None = None, torque: TorqueKind = "sample"
+    ) -> None:
+        """Make the observer of a robot.
+
+        Args:
+            robot: the robot.
+            rate_hz: samples per second [Hz].
+            gain_hz: gain K_0 [1/s], the inverse of the low-pass's time constant; that of the configuration if None.
+            torque: whether `tau_motor` is a `sample` at the tick, or the `mean` over the interval before it.
+
+        Raises:
+            ConfigError: a number or a word is not accepted.
+        """
+        numbers = lab()
+        nominal = NominalModel(robot.description, gravity_m_s2=numbers.plant.gravity_m_s2)
+        gain_hz = numbers.observer.gain_hz if gain_hz is None else gain_hz
+        self.joints, self.rate_hz = robot.joints, rate_hz
+        self._observer = MomentumObserver(nominal, gain_hz, rate_hz, torque)
+
+    def init(self) -> ObserverState:
+        """Return the state before the first sample."""
+        return self._observer.init()
+
+    def step(self, state: ObserverState, sample: Sensed) -> tuple[ObserverState, NDArray[np.float64]]:
+        """Return the state after a sample, and the residual (nv,) [N, N m]."""
+        return self._observer.step(state, sample)
+
+    def residual(self, samples: Sensed) -> NDArray[np.float64]:
+        """Return the residual of samples without a gap (T, nv) [N, N m], from a fresh state."""
+        return self._observer.residual(samples)
+
+
+class Estimator:
+    """The external torque of the joints of some limbs, by observer and networks, eq. (15).
+
+    Attributes:
+        joints: names of the estimated joints (n,).
+        rate_hz: samples per second, that of the training [Hz].
+    """
+
+    def __init__(self, estimator: ResidualEstimator, rate_hz: float) -> None:
+        """Take an estimator; `from_folder` reads one."""
+        self.joints, self.rate_hz = estimator.joints, rate_hz
+        self._estimator = estimator
+
+    @classmethod
+    def from_folder(cls, robot: Robot, folder: str | Path) -> "Estimator":
+        """Read the network of a limb, as `mobnet learn` writes it, or a folder of such folders, one for each limb.
+
+        Raises:
+            DataError: a file is missing or damaged, a network is another robot's or was trained with other friction
+                than that of its table, two are of one limb, or the networks differ in their rate or observer.
+        """
+        folder, layout, numbers = Path(folder), robot.description.layout, lab()
+        folders = [folder] if (folder / RUN).exists() else sorted(path.parent for path in folder.glob(f"*/{RUN}"))
+        networks = [read_network_folder(one, layout, numbers) for one in folders or [folder]]
+        first = networks[0]
+        of_limbs: dict[str, Path] = {}
+        for one in networks:
+            check_drives(one.folder, one.sampling.drives, robot.description)
+            check_sampling(one.folder, one.sampling, first.sampling, first.folder)
+            if one.limb in of_limbs:
+                text = f"{of_limbs[one.limb]} is of limb {one.limb}, too; accepted: one of each limb"
+                raise DataError(f"{one.folder}: {text}")
+            of_limbs[one.limb] = one.folder
+        together = load_limb_networks(of_limbs, layout)
+        nominal = NominalModel(robot.description, gravity_m_s2=numbers.plant.gravity_m_s2)
+        sampling = first.sampling
+        observer = MomentumObserver(nominal, sampling.gain_hz, sampling.rate_hz, sampling.torque)
+        return cls(ResidualEstimator(observer, layout, together), sampling.rate_hz)
+
+    def init(self) -> Any:
+        """Return the state before the first sample."""
+        return self._estimator.init()
+
+    def step(self, state: Any, sample: Sensed) -> tuple[Any, Estimate]:
+        """Return the state after a sample, and its estimate: `tau_ext` and `std` (n,) [N, N m]."""
+        return self._estimator.step(state, sample)
+
+    def estimate(self, samples: Sensed) -> Estimate:
+        """Return the estimate of samples without a gap: `tau_ext` and `std` (T, n) [N, N m], from a fresh state."""
+        return self._estimator.estimate(samples)
+
+
+@dataclass(frozen=True)
+class Alarm:
+    """What a detector says of a sample.
+
+    Attributes:
+        is_on: whether something pushes the limb.
+        ratio: of the highest signal to its threshold [-]; zero while the limb is not watched.
+        joint: the joint of this signal.
+        estimate: external torque of the limb's joints, `tau_ext` and `std` (n,) [N m].
+    """
+
+    is_on: bool
+    ratio: float
+    joint: str
+    estimate: Estimate
+
+
+class Detector:
+    """Says, sample by sample, whether something pushes a limb, as `mobnet detect` does for a whole log.
+
+    Attributes:
+        joints: names of the limb's joints (n,).
+        rate_hz: samples per second [Hz].
+    """
+
+    def __init__(self, robot: RobotDescription, estimator: ResidualEstimator, found: LimbThresholds) -> None:
+        """Take the estimator and the thresholds of a limb; `from_files` reads them."""
+        self.joints, self.rate_hz = found.joints, found.rate_hz
+        self.thresholds = found
+        self._columns = np.array([estimator.joints.index(joint) for joint in found.joints])
+        self._estimator, self._watcher = estimator, watcher_of(robot, found, self._columns)
+        self.reset()
+
+    @classmethod
+    def from_files(
+        cls, robot: Robot, network: str | Path | None, thresholds: str | Path
+    ) -> "Detector":  # fmt: skip
+        """Read the network of `mobnet learn`, None for the observer alone, and the thresholds of `mobnet calibrate`.
+
+        Thresholds that are those of the observer alone leave the network out, as `mobnet detect` does.
+
+        Raises:
+            ConfigError: a file or a value is not accepted.
+            DataError: network, thresholds and robot do not belong together.
+        """
+        numbers, path, description = lab(), Path(thresholds), robot.description
+        found = read_thresholds(path)
+        own = read_network_folder(Path(network), description.layout, numbers) if network and found.network else None
+        check_thresholds(path, found, description, own)
+        sampling = Sampling(found.rate_hz, found.gain_hz, found.torque, found.drives)
+        if own:
+            check_sampling(path, sampling, own.sampling, own.folder)
+        return cls(description, estimator_of(description, numbers.plant.gravity_m_s2, sampling, own), found)
+
+    def reset(self) -> None:
+        """Begin anew, as after a gap in the samples."""
+        self._state: Any = self._estimator.init()
+        self._watched: Any = self._watcher.init()
+
+    def step(self, sample: Sensed) -> Alarm:
+        """Take the next sample (1-D arrays); return what it tells."""
+        self._state, whole = self._estimator.step(self._state, sample)
+        ratio = self._watcher.ratio(self._watched, sample, whole)
+        chain = self._watched if isinstance(self._watched, ChainState) else self._watched.chain
+        joint = self.joints[int(chain.place[1])]
+        return Alarm(ratio > ALARM_RATIO, ratio, joint, some(whole, self._columns))
+
+
+class ContactFinder:
+    """Names where on a limb something presses, and how hard, from the external torques of one sample.
+
+    Attributes:
+        joints: names of the joints whose torques it takes (n,).
+    """
+
+    def __init__(self, robot: Robot, limb: str, joints: Sequence[str] | None = None) -> None:
+        """Find contacts with the bodies of a limb, whose table needs `shapes`; torques are those of its own joints.
+
+        On a floating base give the `joints` of both legs and of the base, which tell much more (docs/detection.md).
+
+        Raises:
+            ConfigError: limb or joints are unknown, or the limb has no shapes.
+        """
+        own = robot.description.layout.limb(limb) if joints is None else tuple(joints)
+        self._finder = contact.ContactFinder.of(lab().contact_point, robot.description, limb, own)
+        self.joints = self._finder.joints
+
+    def locate(
+        self, q: NDArray[Any], tau: NDArray[Any], std: NDArray[Any], standing: Sequence[str] = ()
+    ) -> Contact | None:  # fmt: skip
+        """Return the contact that explains external torques; None where no force that presses does.
+
+        Args:
+            q: generalized position (nq,) [m, -, rad].
+            tau: external torque of the joints (n,) [N m], of V1 to V3 [N].
+            std: standard deviation of its error (n,), in the same units; without one, the error that is usual.
+            standing: bodies on which the ground acts with a wrench that is not known.
+
+        Returns:
+            The body, the `point` in its axes and the `place` in world axes (3,) [m], the `force` on the robot in world
+            axes (3,) [N], and `spread_m`, the error of the point to expect [m].
+
+        Raises:
+            DataError: torques or standard deviations are not one of each joint.
+            ConfigError: a body is unknown.
+        """
+        return self._finder.locate(q, tau, std, standing)
+
+
+class ReactionHandler:
+    """The pipeline of section 7 in a walking controller: which steps answer a push, sample by sample."""
+
+    def __init__(
+        self, robot: Robot, estimator: Estimator, detectors: Sequence[Detector], foot_spacing_m: float,
+        strategy: Strategy = "compliant",
+    ) -> None:  # fmt: skip
+        """Make a handler.
+
+        Args:
+            robot: a robot with two legs.
+            estimator: of the joints of legs and arms, and of the base.
+            detectors: one for each limb that is watched; all take what the estimator says.
+            foot_spacing_m: how far apart the controller sets the feet [m].
+            strategy: `compliant`, steps along the force, or `rewind`, back on the previous footsteps.
+
+        Raises:
+            ConfigError: the estimator lacks a joint that a detector watches.
+        """
+        description = robot.description
+        self._estimator, self._layout = estimator, description.layout
+        self._columns = description.layout.columns(estimator.joints)
+        watchers = {}
+        for one in detectors:
+            if missing := [joint for joint in one.joints if joint not in estimator.joints]:
+                raise ConfigError(not_accepted("joint of a detector", missing[0], estimator.joints))
+            columns = description.layout.columns(one.joints)
+            watchers[one.thresholds.limb] = watcher_of(description, one.thresholds, columns)
+        self._handler = Handler(description, load_reaction(), foot_spacing_m, watchers, strategy)
+        self.reset()
+
+    def reset(self) -> None:
+        """Begin anew."""
+        self._state, self._estimated = self._handler.init(), self._estimator.init()
+
+    def step(self, sample: Sensed) -> Reacted | None:
+        """Take the next sample (1-D arrays); return a reaction when it begins, else None.
+
+        Returns:
+            The `limb` that was hit, the `direction` in which to step, horizontal in the world (2,), the unexpected
+            `wrench` on the base (6,) [N, N m], and the `steps` (k, 5): x, y [m], turn [rad], duration [s] and foot
+            height [m], as in Table 2; the first one is for the step that is being made.
+        """
+        self._estimated, own = self._estimator.step(self._estimated, sample)
+        return self._handler.step(self._state, sample, self._whole(own))
+
+    def _whole(self, own: Estimate) -> Estimate:
+        """Return an estimate of all joints (nv,), zero where there is none."""
+        tau = np.zeros(len(self._layout.names))
+        tau[self._columns] = own.tau_ext
+        if own.std is None:
+            return Estimate(tau)
+        std = np.ones(len(tau))
+        std[self._columns] = own.std
+        return Estimate(tau, std)
+
+
+def watcher_of(robot: RobotDescription, found: LimbThresholds, columns: NDArray[np.intp]) -> LegWatcher | LimbWatcher:
+    """Return what watches a limb with thresholds, on an estimate in which the limb's joints have these columns."""
+    filters = {"low_pass_hz": found.low_pass_hz, "hold_s": found.hold_s}
+    detection = lab().detection.model_copy(update=filters)
+    watched = Watched(DetectorRow(method=found.method, signals=(found.signal,)))
+    setup = setup_of(detection, robot, found.limb, found.rate_hz, walks=found.watched == "swing")
+    chain = setup.chain(np.array([found.thresholds]))
+    if found.watched == "always":
+        return LimbWatcher(watched, chain, columns, round(found.settle_s * found.rate_hz))
+    if not isinstance(setup, LegSetup):
+        raise DataError(not_accepted(f"thresholds of {found.limb}: watched", found.watched, ["always"]))
+    return LegWatcher(LegDetector(watched, setup.gate, chain), columns)
+
+
+def read_recording(path: str | Path, robot: Robot) -> SensedRecording:
+    """Read what a robot sensed: `sensed` (T samples), `segments` without a gap as (start, end), `rate_hz`, and `meta`.
+
+    Args:
+        path: the file without its ending; both NAME.parquet and NAME.json are read, as `mobnet observe` writes them.
+        robot: the robot, whose columns the file must have.
+
+    Raises:
+        DataError: a file is missing or damaged, or a column is missing.
+    """
+    return read_sensed(Path(path), robot.description.layout)
+
+
+def write_recording(
+    path: str | Path, robot: Robot, samples: Sensed, rate_hz: float,
+    segments: Sequence[tuple[int, int]] | None = None, tau_ext: NDArray[Any] | None = None,
+) -> None:  # fmt: skip
+    """Write NAME.parquet and NAME.json, which `mobnet learn`, `calibrate` and `read_recording` take.
+
+    Args:
+        path: the file without its ending.
+        robot: the robot.
+        samples: what it sensed, T samples, as `Robot.sample` makes them.
+        rate_hz: samples per second [Hz].
+        segments: stretches without a gap, (start, end) each; all samples are one if None.
+        tau_ext: external torque where it is known (T, nv) [N, N m]; zero if None.
+
+    Raises:
+        DataError: the file cannot be written.
+    """
+    layout = robot.description.layout
+    columns = recording_columns(layout)
+    values = {name: np.zeros((len(samples), len(columns[name]))) for name in Truth.__dataclass_fields__}
+    if tau_ext is not None:
+        values["tau_ext"] = np.asarray(tau_ext)
+    spans = ((0, len(samples)),) if segments is None else tuple(segments)
+    meta = {"scenario": "log", "level": "robot", "seed": 0}
+    write_whole(Path(path), Recording(samples, spans, rate_hz, meta, Truth(**values)), layout)
+
+
+def export_networks(
+    folders: Sequence[str | Path], robot: Robot, out: str | Path, thresholds: Sequence[str | Path] = ()
+) -> Path:  # fmt: skip
+    """Write networks as ONNX files, the model of the C library, and their contract, as `mobnet export` does.
+
+    Args:
+        folders: of one trained network for each limb.
+        robot: the robot.
+        out: the folder of what is made.
+        thresholds: files of `mobnet calibrate`, one for each limb that is watched.
+
+    Returns:
+        The path of the contract.
+
+    Raises:
+        DataError: a file is missing or damaged, or networks, thresholds and robot do not belong together.
+        ConfigError: thresholds are not accepted.
+    """
+    paths, limits = [Path(one) for one in folders], [Path(one) for one in thresholds]
+    made = with_extra("mobnet.export.export")
+    made.export_folders(paths, robot.description, limits, made.Given(), lab(), Path(out))
+    return Path(out) / CONTRACT
