@@ -47,7 +47,7 @@ def main(words: Sequence[str]) -> int:
     if out.suffix not in ENDINGS:
         parser.error(not_accepted("--out: ending", out.suffix, ENDINGS))
     logging.basicConfig(level=logging.INFO, format="%(message)s", stream=sys.stdout)
-    logging.getLogger("matplotlib").setLevel(logging.WARNING)  # it tells of its cache of fonts
+    logging.getLogger("matplotlib").setLevel(logging.ERROR)  # it warns that it makes its cache of fonts, once
     quieten(ROOT)
     try:
         show(StoredPush(data, load_settings()), out)

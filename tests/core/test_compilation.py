@@ -61,7 +61,15 @@ def test_cache_lies_in_a_folder_named_after_the_hash_and_numba_s_settings_stay()
 def test_cached_code_follows_the_functions_that_it_calls(tmp_path: Path) -> None:
     """The caller's own file stays; what it calls gets another number, then a comment."""
     package = tmp_path / "mobnet"
-    for name in ("__init__", "core/__init__", "core/code", "core/errors", "core/compilation", "control/__init__"):
+    for name in (
+        "__init__",
+        "core/__init__",
+        "core/code",
+        "core/errors",
+        "core/place",
+        "core/compilation",
+        "control/__init__",
+    ):
         (package / name).parent.mkdir(parents=True, exist_ok=True)
         shutil.copy(SOURCE / f"mobnet/{name}.py", package / f"{name}.py")
     (package / "control/caller.py").write_text(CALLER)

@@ -1,8 +1,11 @@
 """How all drawings look: sizes of text and lines, and widths on a page."""
 
-from typing import Any
+import functools
+from collections.abc import Callable
+from typing import Any, ParamSpec, TypeVar
 
-import matplotlib as mpl
+Parameters = ParamSpec("Parameters")
+Value = TypeVar("Value")
 
 STYLE: dict[Any, Any] = {
     "font.size": 8,
@@ -18,5 +21,17 @@ STYLE: dict[Any, Any] = {
     "svg.hashsalt": "mobnet",  # names of parts of a drawing, the same in every run
     "savefig.dpi": 200,
 }
-styled = mpl.rc_context(STYLE)  # decorates functions that draw
 COLUMN_INCH, PAGE_INCH = 3.4, 7.0  # width of one column of the paper and of two
+
+
+def styled(function: Callable[Parameters, Value]) -> Callable[Parameters, Value]:
+    """Return a function that draws in this style."""
+
+    @functools.wraps(function)
+    def drawn(*args: Parameters.args, **kwargs: Parameters.kwargs) -> Value:
+        import matplotlib as mpl  # here: a command refuses a wrong word before the third of a second that this takes
+
+        with mpl.rc_context(STYLE):
+            return function(*args, **kwargs)
+
+    return drawn

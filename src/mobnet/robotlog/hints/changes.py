@@ -7,7 +7,6 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import linear_sum_assignment
 
 from mobnet.core.arrays import Array
 from mobnet.robot.nominal import NominalModel
@@ -156,6 +155,8 @@ def order_changes(seen: Seen) -> Iterator[Change]:
     if len(suspects) < LEAST_ORDER:
         return
     yield Change("tau_motor stands in the reverse order", tuple(suspects), 1, _in_order(np.arange(nu)[::-1]))
+    from scipy.optimize import linear_sum_assignment  # here, as it takes a second to import
+
     left = np.array([seen.with_torque(i, torque[:, suspects]) for i in suspects])
     place, own = linear_sum_assignment(_logs(left, seen.bounds))
     order = np.arange(nu)

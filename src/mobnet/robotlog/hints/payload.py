@@ -5,7 +5,6 @@ from typing import NamedTuple
 
 import numpy as np
 import pinocchio as pin
-from scipy.optimize import lsq_linear
 
 from mobnet.core.arrays import Array
 from mobnet.robot.linkage import linkage_of
@@ -40,6 +39,8 @@ def payloads(
     """
     if nominal.robot.floating:
         return []
+    from scipy.optimize import lsq_linear  # here, as it takes a second to import
+
     own = list(joints)
     rest = (windows.torque - asked.needed)[:, own]
     weight = quotient(np.ones(len(own)), (np.sqrt(left) * size_of(windows.torque))[own])
