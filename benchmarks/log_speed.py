@@ -15,10 +15,10 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 from pyarrow import csv
 
-from experiments.settings.load import load_section
 from mobnet.core.columns import recording_columns
 from mobnet.core.joints import JointLayout
 from mobnet.robot.description import describe
+from mobnet.settings.lab import load_section
 from mobnet.settings.robot import RobotTable
 
 ROOT = Path(__file__).parents[1]

@@ -11,10 +11,11 @@ from benchmarks.step_latency import Row, model_of, row_of, six_networks, six_tra
 from experiments.settings.load import load_settings
 from experiments.settings.settings import Settings
 from mobnet.core.threads import one_thread
+from mobnet.estimation.own import LearnedNote
 from mobnet.export.contract import ObserverContract
 from mobnet.export.export import RunTime, export
 from mobnet.export.session import load_exported
-from mobnet.export.trained import Trained, TrainedNote
+from mobnet.export.trained import Trained
 from mobnet.learning.deployed.limbs import LimbNetworks
 from mobnet.learning.deployed.weights import WeightsNote
 from mobnet.learning.features import limb_inputs
@@ -48,7 +49,7 @@ def _trained(training: Training, settings: Settings) -> Trained:
     model, inputs, joints = model_of(training, layout), limb_inputs(layout, network).names, layout.limbs(network.joints)
     names = {"name": training.limb, "limb": training.limb, "joints": list(joints), "inputs": list(inputs)}
     note = WeightsNote(**names, std_min=model.std_min, network=network.model_dump(mode="json"))
-    run = TrainedNote(target=training.target, fingerprint="-")
+    run = LearnedNote(limb=training.limb, target=training.target, fingerprint="-")
     return Trained(Path(), tensors_of(model, len(inputs), len(joints)), note, run, "-")
 
 

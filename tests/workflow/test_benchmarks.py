@@ -20,6 +20,11 @@ def test_every_benchmark_has_a_name(runner):
     assert {*runner.NAMES, *runner.LONG} == {path.stem for path in (ROOT / "benchmarks").glob("*.py")} - OTHERS
 
 
+@pytest.mark.parametrize("name", sorted({path.stem for path in (ROOT / "benchmarks").glob("*.py")} - OTHERS))
+def test_a_benchmark_finds_what_it_imports(runner, name):
+    assert callable(importlib.import_module(f"benchmarks.{name}").main)
+
+
 def test_the_table_marks_a_missed_bar(runner):
     row = {"name": "walk", "ours": 2.0, "reference": 1.0, "unit": "us", "ratio": 0.5}
     assert "missed" in runner.table([{**row, "bar": 0.65}])
