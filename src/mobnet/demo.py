@@ -17,7 +17,7 @@ from mobnet.core.store import read_array
 from mobnet.estimation import observer
 from mobnet.estimation.low_pass import low_pass
 from mobnet.interface import Estimator, Observer, Robot, lab, read_recording
-from mobnet.robot.description import describe
+from mobnet.robot.given import given_robot
 
 NETWORK, RECORDING = DEMO / "networks" / "MOB-Net-LL", DEMO / "recording"
 log = logging.getLogger(__name__)
@@ -26,7 +26,7 @@ log = logging.getLogger(__name__)
 def lines() -> Iterator[str]:
     """Yield what the command prints."""
     numbers = lab()
-    robot = Robot(describe(numbers.robot))
+    robot = Robot(given_robot(None, numbers))
     recording = read_recording(RECORDING, robot)
     samples, rate_hz = recording.sensed, recording.rate_hz
     estimator = Estimator.from_folder(robot, NETWORK)
