@@ -24,15 +24,13 @@ from mobnet.core.files import RUN
 from mobnet.core.recording import Recording, Sensed, SensedRecording, Truth, read_sensed
 from mobnet.core.recording import write_recording as write_whole
 from mobnet.detection import contact
-from mobnet.detection.always import setup_of
 from mobnet.detection.contact import Contact
 from mobnet.detection.detector import ALARM_RATIO, LegDetector
-from mobnet.detection.signals import Watched
-from mobnet.detection.threshold_file import check_thresholds, read_thresholds
+from mobnet.detection.threshold_file import check_thresholds, read_thresholds, sampling_of, setup_with, watched_of
 from mobnet.detection.watch import LegSetup
 from mobnet.estimation.kinds.residual import ResidualEstimator
 from mobnet.estimation.observer import MomentumObserver, ObserverState
-from mobnet.estimation.own import Sampling, check_drives, check_sampling, estimator_of, read_network_folder
+from mobnet.estimation.own import check_drives, check_sampling, estimator_of, read_network_folder
 from mobnet.export.contract import CONTRACT
 from mobnet.learning.deployed.limbs import load_limb_networks
 from mobnet.reaction.handler import Handler, Reacted
@@ -41,7 +39,6 @@ from mobnet.robot.description import RobotDescription
 from mobnet.robot.given import given_robot
 from mobnet.robot.nominal import NominalModel
 from mobnet.settings.base import TorqueKind
-from mobnet.settings.detection import Detector as DetectorRow
 from mobnet.settings.lab import Lab, load_lab
 from mobnet.settings.limb_thresholds import LimbThresholds
 from mobnet.settings.reaction import Strategy, load_reaction
@@ -266,7 +263,7 @@ class Detector:
         found = read_thresholds(path)
         own = read_network_folder(Path(network), description.layout, numbers) if network and found.network else None
         check_thresholds(path, found, description, own)
-        sampling = Sampling(found.rate_hz, found.gain_hz, found.torque, found.drives)
+        sampling = sampling_of(found)
         if own:
             check_sampling(path, sampling, own.sampling, own.folder)
         return cls(description, estimator_of(description, numbers.plant.gravity_m_s2, sampling, own), found)
@@ -384,15 +381,11 @@ class ReactionHandler:
 
 def watcher_of(robot: RobotDescription, found: LimbThresholds, columns: NDArray[np.intp]) -> LegWatcher | LimbWatcher:
     """Return what watches a limb with thresholds, on an estimate in which the limb's joints have these columns."""
-    filters = {"low_pass_hz": found.low_pass_hz, "hold_s": found.hold_s}
-    detection = lab().detection.model_copy(update=filters)
-    watched = Watched(DetectorRow(method=found.method, signals=(found.signal,)))
-    setup = setup_of(detection, robot, found.limb, found.rate_hz, walks=found.watched == "swing")
+    watched = watched_of(found)
+    setup = setup_with(found, lab().detection, robot)
     chain = setup.chain(np.array([found.thresholds]))
-    if found.watched == "always":
+    if found.watched == "always" or not isinstance(setup, LegSetup):
         return LimbWatcher(watched, chain, columns, round(found.settle_s * found.rate_hz))
-    if not isinstance(setup, LegSetup):
-        raise DataError(not_accepted(f"thresholds of {found.limb}: watched", found.watched, ["always"]))
     return LegWatcher(LegDetector(watched, setup.gate, chain), columns)
 
 
