@@ -7,7 +7,6 @@ import logging
 from collections.abc import Iterator, Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mobnet.commands import demo_parser
 from mobnet.core.columns import EXTERNAL, PUSH_TORQUE, named
@@ -17,7 +16,8 @@ from mobnet.core.store import read_array
 from mobnet.estimation import observer
 from mobnet.estimation.low_pass import low_pass
 from mobnet.interface import Estimator, Observer, Robot, lab, read_recording
-from mobnet.robot.description import describe
+from mobnet.robot.given import given_robot
+from mobnet.robotlog.pieces import root_mean_square
 
 NETWORK = DEMO / "networks" / "MOB-Net-LL"
 RECORDING = DEMO / "recording"
@@ -27,7 +27,7 @@ log = logging.getLogger(__name__)
 def lines() -> Iterator[str]:
     """Yield what the command prints."""
     numbers = lab()
-    robot = Robot(describe(numbers.robot))
+    robot = Robot(given_robot(None, numbers))
     recording = read_recording(RECORDING, robot)
     samples = recording.sensed
     rate_hz = recording.rate_hz
@@ -44,15 +44,11 @@ def lines() -> Iterator[str]:
     settled = slice(round(numbers.robotlog.settle_s * rate_hz), None)
     yield f"{len(samples) / rate_hz:.0f} s of a walking humanoid that is pushed at a leg; torques in N m"
     yield f"{'joint':<7}{'largest of the push':>20}{'error of the observer':>23}{'with the network':>18}"
-    for k, joint in enumerate(joints):
-        errors = [root_mean_square((one - external)[settled, k]) for one in (residual, estimate)]
-        yield f"{joint:<7}{np.abs(push[:, k]).max():>20.1f}{errors[0]:>23.1f}{errors[1]:>18.1f}"
+    alone = root_mean_square((residual - external)[settled])
+    learned = root_mean_square((estimate - external)[settled])
+    for joint, largest, error, rest in zip(joints, np.abs(push).max(axis=0), alone, learned, strict=True):
+        yield f"{joint:<7}{largest:>20.1f}{error:>23.1f}{rest:>18.1f}"
     yield f"errors are root mean squares after {numbers.robotlog.settle_s:g} s; files: {DEMO}"
-
-
-def root_mean_square(values: NDArray[np.float64]) -> float:
-    """Return the root mean square of values (T,)."""
-    return float(np.sqrt(np.mean(np.square(values))))
 
 
 def main(words: Sequence[str]) -> int:

@@ -16,48 +16,33 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mobnet.core.columns import recording_columns
-from mobnet.core.errors import ConfigError, DataError, MobnetError, not_accepted
+from mobnet.core.errors import ConfigError, DataError, not_accepted
+from mobnet.core.errors import MobnetError as MobnetError
 from mobnet.core.estimator import Estimate
 from mobnet.core.extras import with_extra
 from mobnet.core.files import RUN
 from mobnet.core.recording import Recording, Sensed, SensedRecording, Truth, read_sensed
 from mobnet.core.recording import write_recording as write_whole
 from mobnet.detection import contact
-from mobnet.detection.always import setup_of
-from mobnet.detection.chain import ChainState
 from mobnet.detection.contact import Contact
 from mobnet.detection.detector import ALARM_RATIO, LegDetector
-from mobnet.detection.signals import Watched
-from mobnet.detection.threshold_file import check_thresholds, read_thresholds
+from mobnet.detection.threshold_file import check_thresholds, read_thresholds, sampling_of, setup_with, watched_of
 from mobnet.detection.watch import LegSetup
 from mobnet.estimation.kinds.residual import ResidualEstimator
 from mobnet.estimation.observer import MomentumObserver, ObserverState
-from mobnet.estimation.own import Sampling, check_drives, check_sampling, estimator_of, read_network_folder
+from mobnet.estimation.own import check_drives, check_sampling, estimator_of, read_network_folder
 from mobnet.export.contract import CONTRACT
 from mobnet.learning.deployed.limbs import load_limb_networks
 from mobnet.reaction.handler import Handler, Reacted
 from mobnet.reaction.watchers import LegWatcher, LimbWatcher, some
-from mobnet.robot.description import RobotDescription, describe
+from mobnet.robot.description import RobotDescription
+from mobnet.robot.given import given_robot
 from mobnet.robot.nominal import NominalModel
 from mobnet.settings.base import TorqueKind
-from mobnet.settings.detection import Detector as DetectorRow
-from mobnet.settings.lab import Lab, load_lab, load_section
+from mobnet.settings.lab import Lab, load_lab
 from mobnet.settings.limb_thresholds import LimbThresholds
 from mobnet.settings.reaction import Strategy, load_reaction
-from mobnet.settings.robot import RobotTable
 
-__all__ = [
-    "ContactFinder",
-    "Detector",
-    "Estimator",
-    "MobnetError",
-    "Observer",
-    "ReactionHandler",
-    "Robot",
-    "export_networks",
-    "read_recording",
-    "write_recording",
-]
 FILES = (".urdf", ".xml", ".mjcf")  # of robots that no table describes yet
 FIELDS = {"acc": "acc_base_in_base"}  # argument of `sample` -> field, where their names differ
 
@@ -85,6 +70,8 @@ class Robot:
         self.joints = description.layout.names
         self.motors = description.layout.actuated
         self.limbs = dict(description.layout.groups)
+        columns = recording_columns(description.layout)
+        self._widths = {name: len(columns[name]) for name in Sensed.__dataclass_fields__}  # once, not at each tick
 
     @classmethod
     def read(cls, path: str | Path) -> "Robot":
@@ -96,7 +83,7 @@ class Robot:
         """
         path = Path(path)
         if path.suffix not in FILES:
-            return cls(describe(load_section(path, RobotTable)))
+            return cls(given_robot(path, lab()))
         return cls(with_extra("mobnet.robot.import_table").read_robot(path))
 
     def sample(
@@ -123,11 +110,10 @@ class Robot:
             "q": q, "v": v, "tau_motor": tau_motor, "tau_des": tau_motor if tau_des is None else tau_des, "acc": acc,
             "swing": swing, "landing": landing, "command": command,
         }  # fmt: skip
-        columns = recording_columns(self.description.layout)
         values = {}
         for name, array in given.items():
             field = FIELDS.get(name, name)
-            wanted = (*np.shape(q)[:-1], len(columns[field]))
+            wanted = (*np.shape(q)[:-1], self._widths[field])
             taken = np.zeros(wanted) if array is None else np.asarray(array, dtype=np.float64)
             if taken.shape != wanted:
                 raise DataError(not_accepted(f"{name}: shape", taken.shape, [wanted]))
@@ -286,7 +272,7 @@ class Detector:
         found = read_thresholds(path)
         own = read_network_folder(Path(network), description.layout, numbers) if network and found.network else None
         check_thresholds(path, found, description, own)
-        sampling = Sampling(found.rate_hz, found.gain_hz, found.torque, found.drives)
+        sampling = sampling_of(found)
         if own:
             check_sampling(path, sampling, own.sampling, own.folder)
         return cls(description, estimator_of(description, numbers.plant.gravity_m_s2, sampling, own), found)
@@ -300,8 +286,7 @@ class Detector:
         """Take the next sample (1-D arrays); return what it tells."""
         self._state, whole = self._estimator.step(self._state, sample)
         ratio = self._watcher.ratio(self._watched, sample, whole)
-        chain = self._watched if isinstance(self._watched, ChainState) else self._watched.chain
-        joint = self.joints[int(chain.place[1])]
+        joint = self.joints[self._watcher.highest(self._watched)]
         return Alarm(ratio > ALARM_RATIO, ratio, joint, some(whole, self._columns))
 
 
@@ -406,15 +391,11 @@ class ReactionHandler:
 
 def watcher_of(robot: RobotDescription, found: LimbThresholds, columns: NDArray[np.intp]) -> LegWatcher | LimbWatcher:
     """Return what watches a limb with thresholds, on an estimate in which the limb's joints have these columns."""
-    filters = {"low_pass_hz": found.low_pass_hz, "hold_s": found.hold_s}
-    detection = lab().detection.model_copy(update=filters)
-    watched = Watched(DetectorRow(method=found.method, signals=(found.signal,)))
-    setup = setup_of(detection, robot, found.limb, found.rate_hz, walks=found.watched == "swing")
+    watched = watched_of(found)
+    setup = setup_with(found, lab().detection, robot)
     chain = setup.chain(np.array([found.thresholds]))
-    if found.watched == "always":
+    if found.watched == "always" or not isinstance(setup, LegSetup):
         return LimbWatcher(watched, chain, columns, round(found.settle_s * found.rate_hz))
-    if not isinstance(setup, LegSetup):
-        raise DataError(not_accepted(f"thresholds of {found.limb}: watched", found.watched, ["always"]))
     return LegWatcher(LegDetector(watched, setup.gate, chain), columns)
 
 

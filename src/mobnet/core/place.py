@@ -9,8 +9,9 @@ import os
 import tomllib
 from pathlib import Path
 
+from mobnet.core.code import ROOT
+
 PACKAGE = Path(__file__).parents[1]
-ROOT = PACKAGE.parents[1]
 IS_CHECKOUT = (ROOT / "reproduce").is_file()
 PROGRAM = "./reproduce" if IS_CHECKOUT else "mobnet"  # what a user types before a command's name
 PYTHON = ".venv/bin/python" if IS_CHECKOUT else "python"  # that has the packages

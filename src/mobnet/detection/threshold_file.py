@@ -2,12 +2,16 @@
 
 from pathlib import Path
 
-from mobnet.core.errors import ConfigError, not_accepted, refuse
+from mobnet.core.errors import ConfigError, DataError, not_accepted, refuse
 from mobnet.core.files import write_text
 from mobnet.core.flow import flow
 from mobnet.core.place import command
-from mobnet.estimation.own import OwnNetwork, check_drives
+from mobnet.detection.always import setup_of
+from mobnet.detection.signals import Watched
+from mobnet.detection.watch import LegSetup, LimbSetup
+from mobnet.estimation.own import OwnNetwork, Sampling, check_drives
 from mobnet.robot.description import RobotDescription
+from mobnet.settings.detection import Detection, Detector
 from mobnet.settings.lab import load_section
 from mobnet.settings.limb_thresholds import LimbThresholds
 
@@ -31,6 +35,26 @@ def read_thresholds(path: Path) -> LimbThresholds:
         accepted = [f"{len(found.joints)}, one for each of its joints"]
         raise ConfigError(f"{path}: {not_accepted('thresholds: number', len(found.thresholds), accepted)}")
     return found
+
+
+def sampling_of(found: LimbThresholds) -> Sampling:
+    """Return how the log was sampled and observed that thresholds were made with."""
+    return Sampling(found.rate_hz, found.gain_hz, found.torque, found.drives)
+
+
+def watched_of(found: LimbThresholds) -> Watched:
+    """Return what a detector with these thresholds watches."""
+    return Watched(Detector(method=found.method, signals=(found.signal,)))
+
+
+def setup_with(found: LimbThresholds, detection: Detection, robot: RobotDescription) -> LimbSetup:
+    """Return the setup of a limb with the filters of its thresholds; a DataError names a limb without swings."""
+    filters = {"low_pass_hz": found.low_pass_hz, "hold_s": found.hold_s}
+    walks = found.watched == "swing"
+    setup = setup_of(detection.model_copy(update=filters), robot, found.limb, found.rate_hz, walks=walks)
+    if walks and not isinstance(setup, LegSetup):
+        raise DataError(not_accepted(f"thresholds of {found.limb}: watched", found.watched, ["always"]))
+    return setup
 
 
 def check_thresholds(path: Path, found: LimbThresholds, robot: RobotDescription, network: OwnNetwork | None) -> None:

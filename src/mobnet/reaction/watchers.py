@@ -38,6 +38,10 @@ class LegWatcher:
         own = some(estimate, self.columns)
         return float(self.detector.step(state, sample, own, own.tau_ext).ratio)
 
+    def highest(self, state: State) -> int:
+        """Return the signal that lay highest above its threshold at the last sample, counted from 0."""
+        return int(state.chain.place[1])
+
 
 @dataclass
 class OwnState:
@@ -85,6 +89,10 @@ class LimbWatcher:
         signals = self.watched.of(some(estimate, self.columns), sample.command)
         is_watched = int(state.place[0]) >= self.settle
         return float(advance_chain(self.chain, state, signals, is_watched, 0.0))
+
+    def highest(self, state: ChainState) -> int:
+        """Return the signal that lay highest above its threshold at the last sample, counted from 0."""
+        return int(state.place[1])
 
 
 @dataclass(frozen=True)

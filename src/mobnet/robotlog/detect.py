@@ -10,10 +10,10 @@ from mobnet.core.errors import DataError, not_accepted
 from mobnet.core.files import check_place, sweep, write_text
 from mobnet.core.printed import printed
 from mobnet.core.rows import csv_text
-from mobnet.detection.threshold_file import check_thresholds, read_thresholds
+from mobnet.detection.threshold_file import check_thresholds, read_thresholds, sampling_of
 from mobnet.estimation import estimate, observer
 from mobnet.estimation.estimate import write_estimate
-from mobnet.estimation.own import ESTIMATE, OwnNetwork, Sampling, check_sampling, read_network_folder
+from mobnet.estimation.own import ESTIMATE, OwnNetwork, check_sampling, read_network_folder
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.given import given_robot
 from mobnet.robot.nominal import NominalModel
@@ -73,8 +73,7 @@ def run(options: Namespace) -> Iterator[str]:
         accepted = [f"{found.torque}, that of {options.thresholds}"]
         raise DataError(not_accepted(f"{options.map}: torque", meaning.torque, accepted))
     if network:
-        given = Sampling(found.rate_hz, found.gain_hz, found.torque, found.drives)
-        check_sampling(options.thresholds, given, network.sampling, network.folder)
+        check_sampling(options.thresholds, sampling_of(found), network.sampling, network.folder)
     nominal = NominalModel(robot)
     places = [place_of(nominal, name, found.joints) for name in dict.fromkeys(options.wrench)]
     out = options.out or Path(f"{options.log.stem}_detected")

@@ -11,17 +11,16 @@ import numpy as np
 from mobnet.core.arrays import Array
 from mobnet.core.errors import DataError, not_accepted
 from mobnet.core.estimator import Estimate
-from mobnet.detection.always import always_on, setup_of
+from mobnet.detection.always import always_on
 from mobnet.detection.detector import GateSignal, run_segments
-from mobnet.detection.signals import Watched
+from mobnet.detection.threshold_file import sampling_of, setup_with, watched_of
 from mobnet.detection.watch import LegSetup, LimbSetup
-from mobnet.estimation.own import OwnLog, OwnNetwork, Sampling, estimates_of, estimator_of
+from mobnet.estimation.own import OwnLog, OwnNetwork, estimates_of, estimator_of
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.nominal import NominalModel
 from mobnet.robotlog.flags import Flag, flags_of
 from mobnet.robotlog.observe import Observed, observe_log
 from mobnet.robotlog.pushes import Found, found_pushes
-from mobnet.settings.detection import Detector
 from mobnet.settings.lab import Lab
 from mobnet.settings.limb_thresholds import LimbThresholds
 from mobnet.settings.robotlog import LogMap
@@ -52,9 +51,8 @@ def detect_log(
             is watched in its swings is in the air.
         ConfigError: the map does not fit the robot.
     """
-    sampling = Sampling(found.rate_hz, found.gain_hz, found.torque, found.drives)
+    sampling = sampling_of(found)
     gravity = settings.plant.gravity_m_s2
-    # Filters and thresholds are those of one rate: a log at another one is resampled, where its map lets it.
     if meaning and meaning.rate_hz is None:
         meaning = meaning.model_copy(update={"rate_hz": sampling.rate_hz})
     observed = observe_log(path, robot, meaning, found.torque, found.gain_hz, gravity, settings.robotlog)
@@ -64,12 +62,9 @@ def detect_log(
         raise DataError(not_accepted(f"{path}: rate", read.rate_hz, accepted))
     own = OwnLog(path, read, observed.residual.astype(np.float32), sampling)
     (estimate,) = estimates_of([own], estimator_of(robot, gravity, sampling, network), found.joints)
-    filters = {"low_pass_hz": found.low_pass_hz, "hold_s": found.hold_s}
-    detection = settings.detection.model_copy(update=filters)
-    walks = found.watched == "swing"
-    setup = setup_of(detection, robot, found.limb, sampling.rate_hz, walks=walks)
+    setup = setup_with(found, settings.detection, robot)
     gate = _gate(path, setup, observed, estimate, found)
-    signals = Watched(Detector(method=found.method, signals=(found.signal,))).of(estimate, read.sensed.command)
+    signals = watched_of(found).of(estimate, read.sensed.command)
     alarm = run_segments(setup.chain(np.array([found.thresholds])), signals, gate, read.segments)
     low = setup.low_passed(estimate.tau_ext.astype(np.float64), read.segments)
     nominal = NominalModel(robot, gravity_m_s2=gravity)
@@ -81,12 +76,10 @@ def detect_log(
 
 
 def _gate(path: Path, setup: LimbSetup, observed: Observed, estimate: Estimate, found: LimbThresholds) -> GateSignal:
-    """Return when the limb is watched; a DataError says that thresholds of swings do not fit the limb or the log."""
+    """Return when the limb is watched; a DataError says that thresholds of swings do not fit the log."""
     read = observed.converted.recording
-    if found.watched == "always":
+    if found.watched == "always" or not isinstance(setup, LegSetup):
         return always_on(len(read.sensed), read.segments, found.settle_s, read.rate_hz)
-    if not isinstance(setup, LegSetup):
-        raise DataError(not_accepted(f"thresholds of {found.limb}: watched", found.watched, ["always"]))
     if missing := read.unplanned():
         # They would be zero, as of a foot on the ground: nothing would ever be watched.
         text = f"{', '.join(missing)}: missing in the log or its map"
