@@ -19,7 +19,7 @@ from experiments.evaluation.measure.reaction.results import read_file
 from experiments.evaluation.measure.registry import measure_problems
 from experiments.evaluation.number.rows import read_detections, read_scores
 from experiments.jobs.method_problems import method_problems
-from experiments.plan.places import scale_of
+from experiments.plan.targets import scale_of
 from experiments.plan.plan import make_plan
 from experiments.plan.precision import with_precision
 from experiments.plan.stamps import Stamped

@@ -3,8 +3,8 @@
 from collections.abc import Iterator
 from pathlib import Path
 
-from experiments.plan.call import Call, Job
-from experiments.plan.files import Files, files_in
+from experiments.plan.call import Call
+from experiments.plan.files import Files, made_by_jobs
 from experiments.plan.products import CAPTIONS, Product
 
 ROOT = ("README.md", "CONTRIBUTING.md", "CHANGELOG.md", "CITATION.cff", "paper/README.md")
@@ -23,9 +23,9 @@ def documentation(files: Files) -> Iterator[Product]:
         "captions": [*_found(f"{CAPTIONS}/figures/*.rst"), *_found(f"{CAPTIONS}/tables/*.rst")],
         "modules": modules,
     }
-    out = files.results / "docs"
+    out = files.shared / "docs"
     call = Call("experiments.evaluation.report.docs:docs", {**given, "claims": files.settings.claims, "out": out})
-    yield Product("docs", Job(call, tuple(map(str, files_in(given)))), (str(out),))
+    yield Product("docs", call, tuple(made_by_jobs(given)), (str(out),))
 
 
 def _found(pattern: str) -> list[Path]:

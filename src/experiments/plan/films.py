@@ -3,9 +3,9 @@
 import shutil
 from collections.abc import Iterator
 
-from experiments.plan.call import Call, Job
+from experiments.plan.call import Call
 from experiments.plan.detection import level_of_detectors
-from experiments.plan.files import Files, files_in
+from experiments.plan.files import Files, made_by_jobs
 from experiments.plan.products import Product
 from experiments.plan.reactions import courses_of
 
@@ -17,12 +17,11 @@ def film_products(files: Files) -> Iterator[Product]:
     settings = files.settings
     section = settings.evaluation.films
     ending = "mp4" if shutil.which("ffmpeg") else "webp"
-    outs = {case: files.results / "films" / f"{case}.{ending}" for case in section.joints}
+    outs = {case: files.shared / "films" / f"{case}.{ending}" for case in section.joints}
     courses = courses_of(files, section.joints)
     arguments = {
         "settings": section, "robot": settings.robot, "looks": settings.robot.looks, "obstacles": settings.obstacles,
         "courses": courses, "outs": outs,
     }  # fmt: skip
-    inputs = tuple(map(str, files_in(courses)))
-    job = Job(Call("experiments.evaluation.figures.further.films:films", arguments), inputs)
-    yield Product("films", job, tuple(map(str, outs.values())))
+    call = Call("experiments.evaluation.figures.further.films:films", arguments)
+    yield Product("films", call, tuple(made_by_jobs(courses)), tuple(map(str, outs.values())))

@@ -1,62 +1,124 @@
-"""The whole plan of a scale: its files, its jobs and its products."""
+"""The whole plan of a scale: its files, what its jobs get, and its products."""
 
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 
 from experiments.plan.documentation import documentation
-from experiments.plan.files import ARRAY, Files
+from experiments.plan.files import PLANT, Files
 from experiments.plan.films import film_products
-from experiments.plan.places import MAIN
-from experiments.plan.products import Folders, Product, Products
-from experiments.plan.steps import Step, all_steps, trial_steps
+from experiments.plan.jobs import Jobs
+from experiments.plan.products import CAPTIONS, Folders, Product, Products
+from experiments.plan.reactions import is_pushed
+from experiments.plan.targets import MAIN
 from experiments.plan.trials import trial_products
-from experiments.plan.work import SECONDS, Work
 from experiments.settings.catalogue import Catalogue
 from experiments.settings.settings import Settings
-
-RECORDED = ("recordings", "residuals", "estimates")  # kinds of arrays whose duration says how much there is to do
+from mobnet.core.errors import ConfigError, not_accepted
 
 
 @dataclass(frozen=True)
 class Plan:
-    """What the workflow makes at the chosen scale: steps, and products, each after those that it needs.
+    """What the workflow makes at the chosen scale.
 
-    The trials are products that are made on their own, by steps of their own; films and the documentation are made on
-    their own too, by none.
+    Of the products, `all` makes the first ones; trials, films and the documentation are made on their own.
     """
 
     settings: Settings
     folders: Folders
     files: Files
-    steps: tuple[Step, ...]
     products: tuple[Product, ...]
-    trial_steps: tuple[Step, ...]
     trials: tuple[Product, ...]
     films: tuple[Product, ...]
     docs: tuple[Product, ...]
+    tables: tuple[str, ...]
+    figures: tuple[str, ...]
 
     @property
-    def stored(self) -> tuple[str, ...]:
-        """Every file that products are made from, also those that could be made again."""
-        return tuple(name for step in self.steps for name in step.outputs)
+    def jobs(self) -> Jobs:
+        """What the jobs of the steps before products get."""
+        return Jobs(self.files)
 
     @property
-    def rules(self) -> dict[str, tuple[Work, tuple[str, ...]]]:
-        """Rule -> the work of its job, and the files that it makes; not those of the trials."""
-        steps = {step.rule: (step.work, step.outputs) for step in self.steps}
-        return {**steps, **{product.name: (self._work_of(product), product.outputs) for product in self.products}}
+    def robots(self) -> list[str]:
+        """Folders of the plant of section 5.1 and of each robot."""
+        return [PLANT, *self.files.robots]
 
     @property
-    def work(self) -> tuple[Work, ...]:
-        """The work of every job but the trials'."""
-        return tuple(work for work, _ in self.rules.values())
+    def levels(self) -> list[str]:
+        """Levels of uncertainty, those of each robot among them."""
+        found = dict.fromkeys(self.settings.levels)
+        for own in self.files.owners:
+            found |= dict.fromkeys(own.settings.levels)
+        return [*found, *self.settings.fleet.levels]
 
-    def _work_of(self, product: Product) -> Work:
-        """Return the work of a product: the duration of all recordings, residuals and estimates that it reads [s]."""
-        arrays = [path for path in map(Path, product.job.inputs) if path.suffix == ARRAY]
-        owned = [(path, *self.files.owner_of(path)) for path in arrays]
-        seconds = sum(files.array_s(path) for path, files, (kind, *_) in owned if kind in RECORDED)
-        return Work(product.name, product.name, {SECONDS: seconds} if seconds else {}, seconds)
+    @cached_property
+    def methods(self) -> list[str]:
+        """Methods, and variants of them in sweeps and trials."""
+        catalogue = self.files.catalogue
+        return [*catalogue.all_methods, *catalogue.tried]
+
+    @property
+    def trained(self) -> list[str]:
+        """Methods whose networks learn the uncertainty or the external torque itself."""
+        return [name for name in self.methods if name not in self.trained_gray]
+
+    @cached_property
+    def trained_gray(self) -> list[str]:
+        """Methods whose networks learn what is left by a fit."""
+        return [name for name in self.methods if self.files.fit(name)]
+
+    @property
+    def pushed_cases(self) -> list[str]:
+        """Cases of reactions in which a robot walks into something, or is pushed."""
+        return [case for case in self.settings.reaction.cases if is_pushed(self.files, case)]
+
+    @property
+    def free_cases(self) -> list[str]:
+        """Cases of reactions in which nothing is in the way."""
+        return [case for case in self.settings.reaction.cases if not is_pushed(self.files, case)]
+
+    @cached_property
+    def _by_name(self) -> dict[str, Product]:
+        every = (*self.products, *self.trials, *self.films, *self.docs)
+        return {product.name: product for product in every}
+
+    def product(self, name: str) -> Product:
+        """Return a table, a figure or a text by its name.
+
+        Raises:
+            ConfigError: there is none.
+        """
+        if name not in self._by_name:
+            raise ConfigError(not_accepted("table, figure or text", name, self._by_name))
+        return self._by_name[name]
+
+    @property
+    def shown(self) -> list[str]:
+        """Files of all products."""
+        found: list[str] = []
+        for product in self._by_name.values():
+            found += product.outputs
+        return found
+
+    def title(self, figure: str) -> str:
+        """Return the first line of a figure's caption, or its name."""
+        return self.caption(figure).partition("\n")[0] or figure
+
+    def caption(self, figure: str) -> str:
+        """Return the caption of a figure; nothing where it has none."""
+        path = CAPTIONS / "figures" / f"{figure}.rst"
+        return path.read_text(encoding="utf-8") if path.is_file() else ""
+
+    def made_by(self, rule: str) -> list[str]:
+        """Return the names of the products that a rule makes."""
+        trials = {product.name for product in self.trials}
+        found: list[str] = []
+        for product in self._by_name.values():
+            own = "trial" if product.name in trials else product.rule
+            if own == rule:
+                found.append(product.name)
+        return found
 
 
 def make_plan(settings: Settings, *, with_pdf: bool) -> Plan:
@@ -66,10 +128,16 @@ def make_plan(settings: Settings, *, with_pdf: bool) -> Plan:
     part = "" if scale == MAIN else scale
     paper, manifest = (Path("paper"), results.parent) if scale == MAIN else (results / "paper", results)
     folders = Folders(results, Path("tables") / part, Path("figures") / part, paper, manifest / "MANIFEST.sha256")
-    files = Files(Catalogue(settings), results)
-    steps = tuple(all_steps(files))
-    trials = tuple(trial_products(files))
-    films = tuple(film_products(files))
-    docs = tuple(documentation(files))
-    products = Products(settings, files, folders, with_pdf, tuple(name for step in steps for name in step.outputs))
-    return Plan(settings, folders, files, steps, tuple(products.all()), tuple(trial_steps(files)), trials, films, docs)
+    files = Files(Catalogue(settings), results / PLANT)
+    products = Products(settings, files, folders, with_pdf)
+    return Plan(
+        settings=settings,
+        folders=folders,
+        files=files,
+        products=tuple(products.all()),
+        trials=tuple(trial_products(files)),
+        films=tuple(film_products(files)),
+        docs=tuple(documentation(files)),
+        tables=tuple(products.table_names),
+        figures=tuple(products.figure_names),
+    )

@@ -1,0 +1,7 @@
+from pathlib import Path
+
+from experiments.jobs.estimates import estimate
+from experiments.running.logs import job
+
+with job(snakemake.log[0]):
+    estimate(**snakemake.params.given, out=Path(snakemake.output.estimates))

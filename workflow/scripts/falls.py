@@ -1,0 +1,7 @@
+from pathlib import Path
+
+from experiments.evaluation.measure.data.falls import count_falls
+from experiments.running.logs import job
+
+with job(snakemake.log[0]):
+    count_falls(**snakemake.params.given, out=Path(snakemake.output[0]))

@@ -1,0 +1,5 @@
+from experiments.plan.call import Call
+from experiments.running.logs import job
+
+with job(snakemake.log[0]):
+    Call(snakemake.params.function, snakemake.params.given).run()
