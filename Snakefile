@@ -36,3 +36,4 @@ rule all:
 
 
 check_targets()
+answer_interrupts()

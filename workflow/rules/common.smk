@@ -2,6 +2,7 @@
 
 import os
 import shlex
+import signal
 import sys
 import time
 from importlib.metadata import version
@@ -21,6 +22,7 @@ from experiments.plan.texts import text_problems
 from experiments.running.cluster import LIMITED, failed_jobs, warm_cache
 from experiments.running.environment import fault_of_process, quieten
 from experiments.running.follow import follow_trainings
+from experiments.running.sweep import sweep
 from experiments.settings.load import load_settings
 from mobnet.core.code import code_hash
 from mobnet.core.detections import FILES
@@ -33,7 +35,8 @@ STARTED_S = time.time()
 if fault := fault_of_process(ROOT):
     sys.exit(fault)
 quieten(ROOT)
-sys.executable = shlex.quote(sys.executable)  # Snakemake writes it into shell commands as it is
+PYTHON = sys.executable
+sys.executable = shlex.quote(PYTHON)  # Snakemake writes it into shell commands as it is
 
 
 def what_other_packages_know(settings):
@@ -81,13 +84,14 @@ wildcard_constraints:
 
 onstart:
     try:
+        sweep(ROOT)  # Snakemake holds its lock: no other run writes here
         record_precision(PLAN.folders.results)
         waiting = list(workflow.dag.needrun_jobs())
         check_room(waiting)
         if not workflow.local_exec:
-            warm_cache(ROOT, jobs=len(waiting))
+            warm_cache(PYTHON, ROOT, jobs=len(waiting))
         if any(job.rule.name.startswith("train") for job in waiting):
-            follow_trainings(PLAN.folders.results, Path(".cache") / "wandb_live.log")
+            follow_trainings(PYTHON, PLAN.folders.results, Path(".cache") / "wandb_live.log")
     except MobnetError as error:
         sys.exit(str(error))
     if workflow.local_exec:
@@ -148,3 +152,15 @@ def check_targets():
     for target in TARGETS:
         if target not in names and not any(rule.is_producer(target) for rule in workflow.rules):
             sys.exit(nearest(target, [*names, *PLAN.shown]))
+
+
+def answer_interrupts():
+    """Let Ctrl-C, which `./reproduce` blocks until here, say how to go on before Snakemake ends its jobs."""
+
+    def stop(number, frame):
+        sys.stderr.write("stopped; the same command goes on from here\n")
+        raise KeyboardInterrupt
+
+    if workflow.is_main_process:
+        signal.signal(signal.SIGINT, stop)
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})

@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from experiments.plan.parts import MethodRun
+from experiments.plan.parts import TOGETHER_S, MethodRun
 from mobnet.core.files import WEIGHTS
 from mobnet.core.notes import read_array_note
 from mobnet.core.store import NOTE, file_of
@@ -15,8 +15,6 @@ from mobnet.robot.description import describe
 from mobnet.settings.methods import Observer
 from mobnet.settings.robot import RobotTable
 from mobnet.settings.surrogate import Level
-
-TOGETHER_S = 960.0  # recordings of so long are held in memory and run side by side [s]: 1.3 GB
 
 
 def estimate(

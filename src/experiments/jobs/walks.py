@@ -16,7 +16,7 @@ def collect_walks(settings: WalkSettings, duration_s: float, motions: Mapping[in
     Args:
         settings: the scenario on the robot.
         duration_s: of each recording [s].
-        motions: seed of each recording -> motion of the upper body, without its ending; None where it holds its posture.
+        motions: seed of each recording -> motion of the upper body, without its ending; None where it stays as it is.
         out: folder, in which the recording with seed 1 is `s1`.
 
     Raises:

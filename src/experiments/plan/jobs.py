@@ -39,8 +39,12 @@ class Jobs:
         return self.plant.settings
 
     def files(self, w: Any) -> Files:
-        """Return the files of a robot, or of the plant of section 5.1."""
-        return self.plant if w.robot == PLANT else self.plant.robots[w.robot]
+        """Return the files of the robot of some wildcards."""
+        return self.files_of(w.robot)
+
+    def files_of(self, robot: str) -> Files:
+        """Return the files of a robot, or of the plant of section 5.1, by the name of its folder."""
+        return self.plant if robot == PLANT else self.plant.robots[robot]
 
     def motion(self, w: Any) -> Arguments:
         """Return the making of a random motion of the upper body."""
@@ -91,7 +95,7 @@ class Jobs:
         """Return the training of a network; one with a `start` begins with the weights of that method's network."""
         files = self.files(w)
         training = files.catalogue.training(w.method, w.limb)
-        arguments = {
+        arguments: Arguments = {
             "root_seed": self.settings.seed,
             "layout": self.settings.layout,
             "training": training,

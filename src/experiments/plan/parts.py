@@ -8,6 +8,8 @@ from experiments.settings.scales import ReactionSizes
 from mobnet.settings.methods import Method
 from mobnet.settings.walk import WalkSettings
 
+TOGETHER_S = 960.0  # recordings of so long are held in memory and run side by side [s]: 1.3 GB
+
 
 @dataclass(frozen=True)
 class MethodRun:

@@ -106,7 +106,7 @@ class Product:
 
     @property
     def params(self) -> dict[str, Callable[[Any], object]]:
-        """The parameters of a rule for this product alone; a hash of code takes its time, so they are worked out late."""
+        """The parameters of a rule for this product alone, worked out late: a hash of code takes its time."""
         return {
             "function": lambda w: self.function,
             "given": lambda w: self.arguments,

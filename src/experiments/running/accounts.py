@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from pydantic import ConfigDict, Field
+from pydantic import ConfigDict
 
 from experiments.running.logs import Account
 from mobnet.core.errors import not_accepted, refuse
@@ -23,7 +23,6 @@ class AccountNote(Note):
     peak_mib: NotNegative
     succeeded: bool
     commit: Text = UNKNOWN
-    stamps: dict[str, Text] = Field(default_factory=dict)
 
 
 def read_account(path: Path) -> Account:

@@ -5,13 +5,11 @@ import contextlib
 import subprocess
 from pathlib import Path
 
-from experiments.running.patches import python
-
 MODULE = "experiments.evaluation.report.wandb_live"
 LONGEST_S = 20.0  # that it may take to end
 
 
-def follow_trainings(results: Path, log: Path) -> subprocess.Popen[bytes]:
+def follow_trainings(python: str, results: Path, log: Path) -> subprocess.Popen[bytes]:
     """Start the process, which ends with this one: its standard input is a pipe that nobody writes to.
 
     It never stops a run: what goes wrong stands in its log.
@@ -19,7 +17,7 @@ def follow_trainings(results: Path, log: Path) -> subprocess.Popen[bytes]:
     log.parent.mkdir(parents=True, exist_ok=True)
     with log.open("wb") as file:
         process = subprocess.Popen(
-            [python(), "-m", MODULE, str(results)], stdin=subprocess.PIPE, stdout=file, stderr=file
+            [python, "-m", MODULE, str(results)], stdin=subprocess.PIPE, stdout=file, stderr=file
         )
     atexit.register(end, process)
     return process
