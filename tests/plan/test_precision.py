@@ -3,7 +3,7 @@
 from pathlib import Path
 
 import pytest
-from made_steps import arguments
+from jobs_of import arguments, network
 
 from experiments.plan.plan import make_plan
 from experiments.plan.precision import PLACE, record_precision, with_precision
@@ -58,8 +58,10 @@ def test_a_named_format_stays_and_that_of_a_method_is_named_too(asked: Settings,
 
 def test_a_training_of_the_plan_has_a_named_format(asked: Settings, tmp_path: Path) -> None:
     plan = make_plan(with_precision(asked, tmp_path), with_pdf=False)
-    (network, *_) = arguments(plan, "networks/MOB-Net-LL-s0/weights.safetensors")["networks"]
-    assert network.training.learning.precision in ("float32", "bfloat16")
+    assert arguments(plan, "train", **network("MOB-Net-LL-s0"))["training"].learning.precision in (
+        "float32",
+        "bfloat16",
+    )
 
 
 def test_a_damaged_record_is_named(asked: Settings, tmp_path: Path) -> None:
