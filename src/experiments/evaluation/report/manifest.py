@@ -37,7 +37,12 @@ def manifest(results: Path, beside: Sequence[Path], built: Sequence[Path], out: 
         files += folder.glob("*")
     files = [path for path in [*files, *built] if path.is_file() and path.name not in KEPT]
     timed = [path for path in files if path.name in TIMED or path.stem == COMPUTE]
-    for listed, paths in ((out.with_name(TIMES), timed), (out, set(files) - set(timed))):
+    write_lists(set(files) - set(timed), timed, out)
+
+
+def write_lists(files: Iterable[Path], timed: Iterable[Path], out: Path) -> None:
+    """Write the list of some files, and beside it that of files with times."""
+    for listed, paths in ((out.with_name(TIMES), timed), (out, files)):
         write_text(listed, "".join(f"{file_hash(path)}  {path}\n" for path in sorted(set(paths))))
 
 
