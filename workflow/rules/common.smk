@@ -17,7 +17,7 @@ from experiments.plan.plan import make_plan
 from experiments.plan.products import shown as report_of
 from experiments.plan.precision import record_precision, with_precision
 from experiments.plan.room import Sizes, check_room
-from experiments.plan.targets import nearest, one_of, scale_of_targets
+from experiments.plan.targets import in_set, nearest, one_of, scale_of_targets
 from experiments.plan.texts import text_problems
 from experiments.running.cluster import LIMITED, failed_jobs, warm_cache
 from experiments.running.environment import fault_of_process, quieten
@@ -39,6 +39,17 @@ PYTHON = sys.executable
 sys.executable = shlex.quote(PYTHON)  # Snakemake writes it into shell commands as it is
 
 
+def is_main():
+    """Return whether the words of the call are meant for these rules: not in a job, nor in a module of others."""
+    return workflow.is_main_process and Path(workflow.main_snakefile).parent == ROOT
+
+
+def targets_of(words):
+    """Return the targets among the words of a call."""
+    known, _ = get_argument_parser().parse_known_args(words)
+    return [str(target) for target in known.targets]
+
+
 def what_other_packages_know(settings):
     """Yield what kinds of methods, modules of measures and the paper's text do not accept."""
     yield from method_problems(settings)
@@ -47,7 +58,7 @@ def what_other_packages_know(settings):
 
 
 try:
-    TARGETS = get_argument_parser().parse_known_args(sys.argv[1:])[0].targets if workflow.is_main_process else []
+    TARGETS = targets_of(sys.argv[1:]) if is_main() else []
     if scale := scale_of_targets(TARGETS, config.get("scale")):
         config["scale"] = scale
     SETTINGS = load_settings(ROOT / "configs", config, what_other_packages_know)
@@ -146,12 +157,16 @@ def flagged(name):
 
 def check_targets():
     """End with one line where a target is none; Snakemake would say so after it has worked out the whole graph."""
-    if not workflow.is_main_process or Path(workflow.main_snakefile).parent != ROOT:
-        return
     names = [rule.name for rule in workflow.rules]
     for target in TARGETS:
-        if target not in names and not any(rule.is_producer(target) for rule in workflow.rules):
-            sys.exit(nearest(target, [*names, *PLAN.shown]))
+        if target not in names and not is_made(target):
+            (folder,) = made_by_jobs([Path(target)])
+            sys.exit(in_set(target, folder) if is_made(folder) else nearest(target, [*names, *PLAN.shown]))
+
+
+def is_made(target):
+    """Return whether a rule makes a file or a folder."""
+    return any(rule.is_producer(target.rstrip("/")) for rule in workflow.rules)
 
 
 def answer_interrupts():

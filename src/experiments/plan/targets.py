@@ -45,3 +45,8 @@ def nearest(target: str, known: Sequence[str]) -> str:
     """Return the one line that says that a target is none, with the names nearest to it."""
     near = difflib.get_close_matches(target, known, 3)
     return f"{target}: is no target; " + (f"did you mean {', '.join(near)}?" if near else "--list says which there are")
+
+
+def in_set(target: str, folder: str) -> str:
+    """Return the one line that says that a target is a file of a set, which one job makes whole."""
+    return f"{target}: is a file of a set; the target is its folder, {folder}"
