@@ -11,7 +11,8 @@ from mobnet.core.files import METRICS, RUN, WEIGHTS
 from .cluster import cluster_in, wait_for
 
 SMOKE = ("--config", "scale=smoke")
-PROFILE = ("--profile", "workflow/profiles/slurm", "--latency-wait", "5")
+SOON = ("--slurm-init-seconds-before-status-checks", "1", "--latency-wait", "5")  # jobs take seconds here
+PROFILE = ("--profile", "workflow/profiles/slurm", *SOON)
 NETWORK = Path("results/smoke/networks/MOB-Net-LA-s0")
 TARGETS = tuple(str(NETWORK / name) for name in (WEIGHTS, METRICS, RUN))
 COLLECTED = "results/smoke/recordings/random_walk/all_uncertainty/s1000.parquet"
