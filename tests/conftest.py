@@ -1,6 +1,7 @@
 """Made-up recordings: smooth random joint motion and an uncertainty torque that the inputs explain."""
 
 import logging
+import signal
 from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
@@ -33,6 +34,15 @@ WAVES = 3  # sines per signal
 # minutes each; while one worker compiles for the first of them, another checks what needs nothing compiled
 LONGEST = ("test_smoke.py", "test_static.py", "test_cluster.py")
 Array = NDArray[np.float64]
+
+
+def pytest_configure() -> None:
+    """Let Ctrl-C reach what tests start, also where the tests run in the background.
+
+    A shell lets its background processes ignore it, and with them all that they start.
+    """
+    if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
