@@ -4,18 +4,17 @@ import os
 import shutil
 import socket
 import subprocess
-import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
 import psutil
 import pytest
+from patience import wait_for
 
 DAEMONS = ("slurmctld", "slurmd")
 PROGRAMS = ("munged", *DAEMONS, "unshare", "nsenter")
-READY_S, STEP_S = 30.0, 0.2
 CONFIGURATION = """
 ClusterName=test
 SlurmctldHost={node}
@@ -116,11 +115,3 @@ def free_ports() -> tuple[int, int]:
         for one in (first, second):
             one.bind(("", 0))
         return first.getsockname()[1], second.getsockname()[1]
-
-
-def wait_for(is_so: Callable[[], bool], longest_s: float = READY_S) -> None:
-    """Wait until something is so; fail after a while."""
-    end = time.monotonic() + longest_s
-    while not is_so():
-        assert time.monotonic() < end, "it did not come about in time"
-        time.sleep(STEP_S)
