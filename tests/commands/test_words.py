@@ -64,7 +64,7 @@ def test_targets_name_the_scale():
     assert scale_of_targets(["tables/table_05.tex", "results/default/x"], "default") == "default"
     with pytest.raises(ConfigError, match="targets of the scales default, smoke: one scale"):
         scale_of_targets(["tables/table_05.tex", "tables/smoke/table_05.tex"])
-    with pytest.raises(ConfigError, match=r"table_05\.tex: is not made at scale=smoke; accepted: --config scale=default"):
+    with pytest.raises(ConfigError, match="is not made at scale=smoke; accepted: --config scale=default"):
         scale_of_targets(["tables/table_05.tex"], "smoke")
 
 

@@ -103,7 +103,7 @@ def test_jobs_of_a_copy_run_its_code(copied):
     module = copied / "src/mobnet/simulation/record.py"
     text = module.read_text()
     module.write_text(f"{text}\nraise SystemExit('the code of the copy')\n")
-    target = "results/smoke/recordings/forward_walk/ideal/s101.parquet"
+    target = "results/smoke/plant/recordings/forward_walk/ideal"
     done = call(sys.executable, copied / "reproduce", target, "--cores", "1", folder=copied)
     module.write_text(text)
     assert done.returncode == 1
@@ -144,7 +144,7 @@ def test_a_path_that_tools_misread_is_refused(make_project, snakemake):
 
 
 def test_a_target_of_another_scale_is_told(snakemake):
-    done = snakemake("-n", "tables/smoke/table_05.tex")
+    done = snakemake("-n", "--config", "scale=default", "--", "tables/smoke/table_05.tex")
     assert done.returncode == 1
     line = "tables/smoke/table_05.tex: is not made at scale=default; accepted: --config scale=smoke"
     assert done.stderr.splitlines()[-1] == line
