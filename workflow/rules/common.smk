@@ -107,7 +107,7 @@ onstart:
         sys.exit(str(error))
     if workflow.local_exec:
         # The number of cores limits the rate. Snakemake looks at all ready jobs in every timespan, once for each job
-        # that has ended: half of a core after 100 jobs.
+        # that has ended: half of a core after 100 jobs (its pull request 3744).
         workflow.scheduler.job_rate_limiter = None
 
 
