@@ -15,7 +15,9 @@ from experiments.plan.plan import Plan, make_plan
 from experiments.plan.products import Shown, shown
 from experiments.plan.runs import SweptSize
 from experiments.plan.steps import Step
+from experiments.settings.evaluation import PRODUCTS
 from experiments.settings.load import load_settings
+from experiments.settings.products import MadeBy
 from experiments.settings.settings import Settings
 from mobnet.core.errors import ConfigError
 
@@ -256,7 +258,11 @@ def test_a_push_reruns_the_walks_that_it_comes_in(plan: Plan) -> None:
 def test_scores_and_runs_follow_from_the_section_of_a_product(plan: Plan) -> None:
     settings = plan.settings.evaluation
     figure, rows, panels = settings.figure_06, settings.methods, settings.figure_18
-    assert needs_of(plan.files, "figure_06", figure, ["runs", "seed"]) == {"runs": plan.files.first_runs(figure)}
+    own: Any = needs_of(plan.files, PRODUCTS["figure_06"], figure)
+    assert own == {
+        "runs": plan.files.first_runs(figure),
+        "scores": plan.files.scores([(figure.scenario, figure.level)]),
+    }
     for name, section, tests in (
         ("figure_06", figure, [(figure.scenario, figure.level)]),
         ("methods", rows, [(row.scenario, row.level) for row in rows]),
@@ -270,11 +276,13 @@ def test_scores_and_runs_follow_from_the_section_of_a_product(plan: Plan) -> Non
             ],
         ),
     ):
-        own: Any = needs_of(plan.files, "any other", section, ["scores"])["scores"]
+        own = needs_of(plan.files, PRODUCTS[name], section)["scores"]
         assert own == plan.files.scores(tests), name
         assert len(own) == len(set(tests)), name
-    with pytest.raises(ConfigError, match=r"bins: its section lacks .*'Steps' object has no"):
-        needs_of(plan.files, "bins", settings.steps, ["runs"])
+    with pytest.raises(ConfigError, match=r"need of a.b:c: 'scors' is not accepted; accepted: scores, "):
+        needs_of(plan.files, MadeBy("a.b:c", needs={"scores": "scors"}), settings.steps)
+    with pytest.raises(AttributeError, match="'Steps' object has no"):  # a bug is no fault of the configuration
+        needs_of(plan.files, PRODUCTS["figure_06"], settings.steps)
 
 
 def behind(plan: Plan, target: str) -> set[str]:

@@ -4,14 +4,15 @@ A section asks for the runs that stand in it: a test, a level, methods; what it 
 joints that it names, or that a section around it does. A test is a scenario that is asked for.
 """
 
-from collections.abc import Iterator, Mapping
-from typing import Any, NamedTuple, cast
+from collections.abc import Iterator
+from typing import NamedTuple, cast
 
 from pydantic import BaseModel
 
 from experiments.settings.claims import Cell
 from experiments.settings.figures import Figure05, Figure18, FineTuning
 from experiments.settings.measures import CalibrationTest
+from experiments.settings.products import items_of
 from experiments.settings.runs import Mean, Runs
 from experiments.settings.settings import Settings
 from experiments.settings.tables import ErrorRow
@@ -55,12 +56,7 @@ def asked_in(settings: Settings, section: object, place: Place, shown: tuple[str
         for key, scenario, level, method in _own(settings, section):
             partly = isinstance(section, CalibrationTest)
             yield Asked((*place, *key), scenario, level, method, shown, partly)
-        items: Mapping[Any, object] = {key: getattr(section, key) for key in type(section).model_fields}
-    elif isinstance(section, dict):
-        items = cast("Mapping[Any, object]", section)
-    else:
-        items = dict(enumerate(cast("tuple[object, ...]", section))) if isinstance(section, tuple) else {}
-    for key, item in items.items():
+    for key, item in items_of(section).items():
         yield from asked_in(settings, item, (*place, key), shown)
 
 

@@ -5,32 +5,15 @@ from itertools import chain
 
 from experiments.settings.asked import Asked
 from experiments.settings.catalogue import Catalogue
-from mobnet.core.errors import misfit, not_accepted
-from mobnet.settings.reading import Place, Problem
-
-ROOT: Place = ("evaluation",)
+from mobnet.core.errors import misfit
+from mobnet.settings.reading import Problem
 
 
 def asked_problems(catalogue: Catalogue) -> Iterator[Problem]:
-    """Yield methods that do not estimate what is shown of them, or not of robots, and tests that nothing is run on."""
+    """Yield methods that do not estimate what is shown of them, or that do not learn from what robots record."""
     for one in catalogue.asked:
         for text in (*_estimate_faults(catalogue, one), *_fleet_faults(catalogue, one)):
             yield one.place, text
-    evaluation = catalogue.settings.evaluation
-    layout = catalogue.settings.layout
-    for name in ("coverage", "calibration"):
-        for k, test in enumerate(getattr(evaluation, name).tests):
-            levels = catalogue.tests.get(test.scenario, {})
-            if test.level not in levels:
-                text = not_accepted(f"level of test {test.scenario}", test.level, levels)
-                yield (*ROOT, name, "tests", k, "level"), text
-    for k, test in enumerate(evaluation.calibration.tests):
-        held = set[str]()
-        for name in test.methods:
-            held.update(catalogue.estimated(name, test.scenario, test.level))
-        if not held.issuperset(layout.limbs(test.limbs)):
-            text = misfit("a limb that no method predicts", "limbs of the networks of `methods`")
-            yield (*ROOT, "calibration", "tests", k, "limbs"), text
 
 
 def _estimate_faults(catalogue: Catalogue, one: Asked) -> Iterator[str]:

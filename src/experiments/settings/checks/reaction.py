@@ -1,4 +1,4 @@
-"""What must hold for reactions: cases that results and sizes name, and a closed loop where wrenches are estimated."""
+"""What must hold for reactions: cases that sizes name, and a closed loop where wrenches are estimated."""
 
 from collections.abc import Iterator
 
@@ -10,17 +10,10 @@ ROOT: Place = ("reaction",)
 
 
 def reaction_problems(results: Results) -> Iterator[Problem]:
-    """Yield unsuitable cases of results, loops without all legs, and scenarios that no loop walks but that need one."""
+    """Yield cases of sizes that there are not, loops without all legs, and scenarios that no loop walks but must."""
     settings = results.settings
     reaction = results.settings.reaction
     walked = {row.scenario for row in reaction.cases.values()}
-    scenarios = {name: settings.scenarios[row.scenario] for name, row in reaction.cases.items()}
-    pushed = [name for name, row in scenarios.items() if row.obstacles or row.pushes]
-    free = [name for name in scenarios if name not in pushed]
-    for product, fitting in {"safety": pushed, "figure_16": pushed, "figure_22": pushed, "sensorless": free}.items():
-        for name in getattr(settings.evaluation, product).cases:
-            if name not in fitting:
-                yield ("evaluation", product, "cases"), misfit(name, ", ".join(fitting))
     for scale, sizes in settings.scales.items():
         for name in sizes.reactions.cases:
             if name not in reaction.cases:

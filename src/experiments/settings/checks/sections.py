@@ -11,6 +11,7 @@ from experiments.settings.catalogue import Catalogue
 from experiments.settings.checks.data import data_problems
 from experiments.settings.checks.detection import LARGEST
 from experiments.settings.checks.learning import learning_problems
+from experiments.settings.checks.outcomes import outcome_problems
 from experiments.settings.checks.shown import shown_problems
 from experiments.settings.checks.sizes import size_problems
 from experiments.settings.checks.surrogate import surrogate_problems
@@ -96,7 +97,9 @@ def inconsistencies(catalogue: Catalogue) -> Iterator[Problem]:
     settings = catalogue.settings
     found = [*walking_problems(settings), *data_problems(settings), *surrogate_problems(settings)]
     found += learning_problems(catalogue)
-    yield from found
     if not found:  # only then can sizes and results be looked up
-        yield from size_problems(catalogue)
-        yield from shown_problems(catalogue)
+        found = [*size_problems(catalogue), *shown_problems(catalogue)]
+    yield from found
+    for name, scale in settings.scales.items():
+        if scale.decides and not found:  # only then is known what a claim counts
+            yield from outcome_problems(catalogue.at_scale(name))
