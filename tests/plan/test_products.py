@@ -18,10 +18,24 @@ SECTIONS = ("tables", "figures", "measures", "pages", "reaction_tables", "detect
 MOST = 4  # files: row, module, and tests
 # Everyday words: as a text they mean something else nearly everywhere.
 WORDS = {}
-# Products that more files name. These numbers only fall. Many of the names are words that mean something else, too.
 # Everyday words: as a text they mean something else nearly everywhere.
-WORDS = {"calibration", "changed", "claims", "commands", "coverage", "data", "kinds", "links", "methods", "noise", "peaks",
-         "phases", "sigma", "steps", "uncertainty"}  # fmt: skip
+WORDS = {
+    "calibration",
+    "changed",
+    "claims",
+    "commands",
+    "coverage",
+    "data",
+    "kinds",
+    "links",
+    "methods",
+    "noise",
+    "peaks",
+    "phases",
+    "sigma",
+    "steps",
+    "uncertainty",
+}
 # Products that more files name. These numbers only fall.
 MORE = {
     "figure_05": 5,
