@@ -17,8 +17,6 @@ ROWS = {name: row for name, row in PRODUCTS.items() if name not in ENTRIES}
 SECTIONS = ("tables", "figures", "measures", "pages", "reaction_tables", "detection_tables")
 MOST = 4  # files: row, module, and tests
 # Everyday words: as a text they mean something else nearly everywhere.
-WORDS = {}
-# Everyday words: as a text they mean something else nearly everywhere.
 WORDS = {
     "calibration",
     "changed",
