@@ -73,7 +73,7 @@ def estimated(
 ) -> list[OwnRecording]:
     """Return logs with the estimate of a limb: the observer's, or less what a network predicts."""
     _progress(logs, "estimating the external torque" + (" less what the network predicts" if network else ""))
-    estimator = estimator_of(robot, settings.plant.gravity_m_s2, logs[0].sampling, network)
+    estimator = estimator_of(robot, settings.plant.gravity_m_s2, logs[0].sampling, network and network.networks)
     estimates = estimates_of(logs, estimator, robot.layout.limb(limb))
     _progress(logs, "looking for thresholds")
     return [OwnRecording(one.folder, one.recording, own) for one, own in zip(logs, estimates, strict=True)]

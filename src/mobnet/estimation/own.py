@@ -196,12 +196,12 @@ def check_drives(path: Path, drives: str | None, robot: RobotDescription) -> Non
 
 
 def estimator_of(
-    robot: RobotDescription, gravity_m_s2: float, sampling: Sampling, network: OwnNetwork | None
+    robot: RobotDescription, gravity_m_s2: float, sampling: Sampling, networks: LimbNetworks | None
 ) -> ResidualEstimator:
-    """Return the estimator of a log, as a closed loop has it: the observer, or less what a network predicts."""
+    """Return the estimator of a log, as a closed loop has it: the observer, or less what networks predict."""
     nominal = NominalModel(robot, gravity_m_s2=gravity_m_s2)
     observer = MomentumObserver(nominal, sampling.gain_hz, sampling.rate_hz, sampling.torque)
-    return ResidualEstimator(observer, robot.layout, network.networks if network else None)
+    return ResidualEstimator(observer, robot.layout, networks)
 
 
 def without_friction(logs: Sequence[OwnLog], robot: RobotDescription, gravity_m_s2: float) -> list[OwnLog]:

@@ -61,7 +61,8 @@ def detect_log(
         accepted = [f"{sampling.rate_hz:g}, that of the thresholds; a --map with rate_hz resamples the log"]
         raise DataError(not_accepted(f"{path}: rate", read.rate_hz, accepted))
     own = OwnLog(path, read, observed.residual.astype(np.float32), sampling)
-    (estimate,) = estimates_of([own], estimator_of(robot, gravity, sampling, network), found.joints)
+    estimator = estimator_of(robot, gravity, sampling, network and network.networks)
+    (estimate,) = estimates_of([own], estimator, found.joints)
     setup = setup_with(found, settings.detection, robot)
     gate = _gate(path, setup, observed, estimate, found)
     signals = watched_of(found).of(estimate, read.sensed.command)
