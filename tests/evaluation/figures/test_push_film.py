@@ -13,7 +13,7 @@ from PIL import Image
 
 from experiments.evaluation.figures.drawing.push_film import eased, lines_of, push_film, shots_of
 from experiments.evaluation.measure.estimates.felt import Felt
-from experiments.evaluation.measure.push_scene import Alarm, read_story
+from experiments.evaluation.measure.push_scene import PushAlarm, read_story
 from experiments.plan.runs import Run
 from experiments.settings.pages import PushFilm, Story
 from experiments.settings.settings import Settings
@@ -82,7 +82,7 @@ def test_shares_delays_and_errors_are_those_of_the_estimates(settings: Settings,
     assert (push.time_s[0], push.time_s[-1]) == pytest.approx((-0.3, 0.399))
     assert np.linalg.norm(push.force, axis=1).max() == pytest.approx(PEAK_N, rel=0.01)
     assert (push.first + push.start, push.end - push.start) == (START, LENGTH)
-    assert (hit.link, push.alarm) == ("knee", Alarm(DELAY_S, "knee", "front"))
+    assert (hit.link, push.alarm) == ("knee", PushAlarm(DELAY_S, "knee", "front"))
 
 
 def test_a_run_without_the_push_is_refused(settings: Settings, made: Made) -> None:

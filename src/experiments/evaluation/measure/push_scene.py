@@ -32,7 +32,7 @@ from mobnet.estimation.low_pass import low_pass
 FORCE = named(PUSH, ("force_x", "force_y", "force_z"))
 
 
-class Alarm(NamedTuple):
+class PushAlarm(NamedTuple):
     """When a detector finds a push, from its beginning on [s], and the link and direction that it names, if it does."""
 
     delay_s: float
@@ -85,7 +85,7 @@ class PushScene:
     flags: Mapping[str, NDArray[np.bool_]]
     q: Array
     force: Array
-    alarm: Alarm | None = None
+    alarm: PushAlarm | None = None
 
     @property
     def time_s(self) -> Array:
@@ -125,7 +125,7 @@ def read_push(
     limbs: Iterable[str],
     joint: str,
     rows: PushRows,
-    alarm: Alarm | None = None,
+    alarm: PushAlarm | None = None,
 ) -> PushScene:
     """Read a push from the runs of some methods on one recording, at those joints of limbs that all of them estimate.
 
@@ -183,7 +183,7 @@ def read_story(
     Raises:
         DataError: a file is missing or damaged, or the recording has no such push.
     """
-    hit, alarm = told_push(story, files, runs[0].test_seed, kind)
+    hit, alarm = story_push(story, files, runs[0].test_seed, kind)
     note = read_array_note(file_of(runs[0].recording, NOTE))
     rate_hz = note["rate_hz"]
     start = round(hit.start_s * rate_hz)
@@ -194,7 +194,7 @@ def read_story(
     return hit, read_push(runs, layout, [limb], story.joint, rows, alarm)
 
 
-def told_push(story: Story, files: Mapping[str, Path], seed: int, kind: str) -> tuple[Collision, Alarm | None]:
+def story_push(story: Story, files: Mapping[str, Path], seed: int, kind: str) -> tuple[Collision, PushAlarm | None]:
     """Return the push of a story in the recording of a seed, and the alarm of its detector, None without one.
 
     The files are those of the robot's detectors, `kind` is the rule of the thresholds.
@@ -211,6 +211,6 @@ def told_push(story: Story, files: Mapping[str, Path], seed: int, kind: str) -> 
     wanted = (*place, hit.leg, hit.number, story.detector, kind)
     for row in read_rows(files["detected"], Detected):
         if (row.scenario, row.seed, row.leg, row.number, row.detector, row.kind) == wanted:
-            alarm = None if row.delay_s is None else Alarm(row.delay_s, row.link, row.direction)
+            alarm = None if row.delay_s is None else PushAlarm(row.delay_s, row.link, row.direction)
             return hit, alarm
     raise DataError(f"{files['detected']}: {story.detector} says nothing of push {hit.number} of s{seed}")

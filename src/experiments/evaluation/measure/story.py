@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from experiments.evaluation.compare.windows import FLAG
-from experiments.evaluation.measure.push_scene import FORCE, Alarm, PushScene
+from experiments.evaluation.measure.push_scene import FORCE, PushAlarm, PushScene
 from experiments.evaluation.number.rows import read_detections
 from experiments.plan.demo import RECORDING, fit_place, network_place
 from experiments.settings.catalogue import Catalogue
@@ -106,7 +106,7 @@ class StoredPush:
             flags={"swing": sensed.swing[:, self._setup.gate.foot] > FLAG, "pushed": pushed},
             q=sensed.q.astype(np.float64),
             force=self._read(FORCE).astype(np.float64),
-            alarm=None if alarm_s is None else Alarm(alarm_s),
+            alarm=None if alarm_s is None else PushAlarm(alarm_s),
         )
 
     def estimator(self, method: str) -> Estimator:

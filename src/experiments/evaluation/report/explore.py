@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from experiments.evaluation.measure.push_scene import PushScene, told_push
+from experiments.evaluation.measure.push_scene import PushScene, story_push
 from experiments.evaluation.report.explore_numbers import PushNumbers, push_numbers, stretches
 from experiments.evaluation.report.explore_pack import Part, packed
 from experiments.evaluation.report.explore_scenes import PagePush, read_scene
@@ -207,7 +207,7 @@ def alarm_of(shown: PagePush, story: Story, layout: JointLayout, files: Mapping[
 
     Its thresholds are those for one false alarm an hour; the files are those of the robot's detectors.
     """
-    hit, alarm = told_push(story, files, shown.scene.runs[0].test_seed, COLLISION)
+    hit, alarm = story_push(story, files, shown.scene.runs[0].test_seed, COLLISION)
     if alarm is None:
         return None
     push = shown.push
