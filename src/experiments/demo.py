@@ -57,17 +57,17 @@ def main(words: Sequence[str]) -> int:
     return 0
 
 
-def show(push: StoredPush, out: Path) -> None:
+def show(stored: StoredPush, out: Path) -> None:
     """Print what each method shows of a stored push, and write the picture.
 
     Raises:
         DataError: a file is missing or damaged, or the picture cannot be written.
     """
-    log.info("%s", title_of(push))
-    estimates = {method: push.estimate(method) for method in push.story.methods}
-    for line in lines_of(push, estimates):
+    log.info("%s", title_of(stored))
+    push = stored.scene({method: stored.estimate(method) for method in stored.story.methods})
+    for line in lines_of(stored, push):
         log.info("%s", line)
-    draw(push, estimates, out)
+    draw(stored, push, out)
     log.info("%s", out)
 
 

@@ -5,12 +5,11 @@ is not installed is named in one line.
 """
 
 import argparse
-import difflib
 import sys
 from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
-from mobnet.core.errors import ConfigError, not_accepted
+from mobnet.core.errors import ConfigError, unknown_command
 from mobnet.core.extras import with_extra
 from mobnet.core.place import PROGRAM, version
 from mobnet.detection.words import calibrate_parser
@@ -83,9 +82,7 @@ def main(words: Sequence[str] | None = None) -> int:
     if first.startswith("-"):
         overview(commands).parse_args([first])
     if first not in commands:
-        near = difflib.get_close_matches(first, commands, 1)
-        hint = f"; did you mean {near[0]}?" if near else ""
-        overview(commands).error(not_accepted("command", first, commands) + hint)
+        overview(commands).error(unknown_command(first, commands))
     if {"-h", "--help"} & set(others):
         commands[first].parser().parse_args(["--help"])
     try:

@@ -202,10 +202,8 @@ class Estimator:
                 raise DataError(f"{one.folder}: {text}")
             of_limbs[one.limb] = one.folder
         together = load_limb_networks(of_limbs, layout)
-        nominal = NominalModel(robot.description, gravity_m_s2=numbers.plant.gravity_m_s2)
-        sampling = first.sampling
-        observer = MomentumObserver(nominal, sampling.gain_hz, sampling.rate_hz, sampling.torque)
-        return cls(ResidualEstimator(observer, layout, together), sampling.rate_hz)
+        gravity_m_s2 = numbers.plant.gravity_m_s2
+        return cls(estimator_of(robot.description, gravity_m_s2, first.sampling, together), first.sampling.rate_hz)
 
     def init(self) -> Any:
         """Return the state before the first sample."""
@@ -275,7 +273,8 @@ class Detector:
         sampling = sampling_of(found)
         if own:
             check_sampling(path, sampling, own.sampling, own.folder)
-        return cls(description, estimator_of(description, numbers.plant.gravity_m_s2, sampling, own), found)
+        estimator = estimator_of(description, numbers.plant.gravity_m_s2, sampling, own and own.networks)
+        return cls(description, estimator, found)
 
     def reset(self) -> None:
         """Begin anew, as after a gap in the samples."""

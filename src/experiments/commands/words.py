@@ -1,7 +1,6 @@
 """The words of `./reproduce`: its commands, or targets and options of snakemake."""
 
 import argparse
-import difflib
 import functools
 import re
 from collections.abc import Sequence
@@ -11,7 +10,7 @@ from experiments.commands.builds import BUILDS
 from experiments.plan.places import scale_of
 from experiments.running.words import RESULTS, bench_parser, check_parser, cost_parser, demo_parser, results_parser
 from mobnet.commands import COMMANDS as LAB
-from mobnet.core.errors import CommandError, not_accepted
+from mobnet.core.errors import CommandError, unknown_command
 
 COMMANDS = {
     "all": "make every table, figure and the paper (snakemake --cores 2 all); further options go to snakemake",
@@ -72,8 +71,7 @@ def parse(words: Sequence[str]) -> Words:
     if re.search(r"^-|[/.]", first):
         return Words("all", argparse.Namespace(), in_order(words))
     if first not in COMMANDS:
-        near = difflib.get_close_matches(first, COMMANDS, 1)
-        overview().error(not_accepted("command", first, COMMANDS) + "".join(f"; did you mean {n}?" for n in near))
+        overview().error(unknown_command(first, COMMANDS))
     options = parser_of(first)
     if first in OWN:
         return Words(first, options.parse_args(words[1:]), [])

@@ -14,7 +14,7 @@ def explore_needs(files: Files) -> dict[str, object]:
     page = evaluation.explore
     methods = (*story.methods, *page.story.further)
     runs = files.first_runs(Runs(scenario=story.scenario, level=story.level, methods=methods))
-    limb = next(name for name, joints in files.settings.layout.groups.items() if story.joint in joints)
+    limb = files.settings.layout.limb_of[story.joint]
     told = page.story
     pushes = _pushes(files, story.scenario)
     first = PageScene(told.push, told.plant, runs, (limb,), story.joint, told.threshold_nm, pushes, story.push)

@@ -1,6 +1,6 @@
 """Errors a user can act on: one line that names the bad value and what is accepted."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from difflib import get_close_matches
 from reprlib import Repr
 
@@ -46,6 +46,13 @@ def not_accepted(what: str, value: object, accepted: Iterable[object]) -> str:
     shown = SHOWN.repr(value)
     shown = shown if len(shown) <= LONGEST else f"{shown[:LONGEST]}..."
     return f"{what}: {shown} is not accepted; accepted: {', '.join(ordered) or 'none'}"
+
+
+def unknown_command(name: str, commands: Collection[str]) -> str:
+    """Return the message about a command that there is not, with the one that was probably meant."""
+    near = get_close_matches(name, commands, 1)
+    hint = f"; did you mean {near[0]}?" if near else ""
+    return not_accepted("command", name, commands) + hint
 
 
 def beyond(what: str, value: float, bounds: tuple[float, float]) -> Iterator[str]:

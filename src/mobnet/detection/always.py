@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array
-from mobnet.core.errors import DataError, not_accepted
+from mobnet.core.errors import DataError
 from mobnet.core.estimator import Estimate
 from mobnet.core.recording import SensedRecording
 from mobnet.detection.detector import GateSignal
@@ -73,8 +73,9 @@ def always_watched(
     least = setup.detection.thresholds.least_swings
     found = windows(window_s)
     if (count := sum(map(len, found))) < least:
-        what = f"seconds of free motion, in windows of {window_s:g} s"
-        raise DataError(not_accepted(what, round(count * window_s, 1), [f"{least * window_s:g} or more"]))
+        seconds = round(count * window_s, 1)
+        needed = f"{least * window_s:g} s or more are needed"
+        raise DataError(f"{seconds:g} s of free motion, in windows of {window_s:g} s; {needed}")
     while (is_alike := alike([largest(*pair) for pair in zip(low, found, strict=True)])) and (
         sum(map(len, longer := windows(2.0 * window_s))) >= least
     ):

@@ -73,7 +73,7 @@ def estimated(
 ) -> list[OwnRecording]:
     """Return logs with the estimate of a limb: the observer's, or less what a network predicts."""
     _progress(logs, "estimating the external torque" + (" less what the network predicts" if network else ""))
-    estimator = estimator_of(robot, settings.plant.gravity_m_s2, logs[0].sampling, network)
+    estimator = estimator_of(robot, settings.plant.gravity_m_s2, logs[0].sampling, network and network.networks)
     estimates = estimates_of(logs, estimator, robot.layout.limb(limb))
     _progress(logs, "looking for thresholds")
     return [OwnRecording(one.folder, one.recording, own) for one, own in zip(logs, estimates, strict=True)]
@@ -156,16 +156,17 @@ def _tried(
 def _check(options: Namespace) -> None:
     """Raise a DataError for options that contradict each other, or a rate that is not accepted."""
     if bool(options.folders) == bool(options.recording or options.estimate):
-        accepted = [f"folders that `{command('observe')}` wrote", "--recording with --estimate"]
-        raise DataError(not_accepted("what calibrates", "both" if options.folders else "nothing", accepted))
+        given = "both are given" if options.folders else "nothing to calibrate from is given"
+        folders = f"folders that `{command('observe')}` wrote"
+        raise DataError(f"{given}; either {folders} are needed, or --recording with --estimate")
     if not options.folders and (options.out or options.network):
         word = "--out" if options.out else "--network"
-        accepted = [f"it with folders that `{command('observe')}` wrote"]
-        raise DataError(not_accepted(word, str(options.out or options.network), accepted))
+        given = options.out or options.network
+        raise DataError(f"{word} {given}: it needs folders that `{command('observe')}` wrote")
     if options.signal not in (None, *SIGNALS):
         raise DataError(not_accepted("--signal", options.signal, SIGNALS))
     if options.folders and options.signal not in (None, MEAN) and not options.network:
-        raise DataError(not_accepted("--signal", options.signal, ["mean; or it with --network"]))
+        raise DataError(f"--signal {options.signal}: it needs --network; without, the signal is {MEAN}")
     if not LEAST_RATE <= options.rate < math.inf:
         raise DataError(not_accepted("--rate", options.rate, [f"a number from {LEAST_RATE:g}, one in a century"]))
 

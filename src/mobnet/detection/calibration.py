@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array
 from mobnet.core.detections import CALIBRATION, COLLISION, HELD_OUT, LARGEST, FreeSwing, Promise, Threshold
-from mobnet.core.errors import DataError, not_accepted
+from mobnet.core.errors import DataError
 from mobnet.core.estimator import Estimate
 from mobnet.detection.chain import Chain
 from mobnet.detection.signals import MEAN, STD, Watched, slopes_of, whitening_of
@@ -18,7 +18,7 @@ from mobnet.detection.thresholds import HOUR_S, Calibrated, calibrate
 from mobnet.detection.watch import LegRecording, LegSetup, LimbSetup
 from mobnet.settings.detection import Detector
 
-NEVER = not_accepted("swings in which the leg is watched", "none", ["some of those that calibrate"])
+NEVER = "the leg is watched in none of the swings that calibrate; some are needed in which it is"
 
 
 class NotWatchedError(DataError):
@@ -178,8 +178,8 @@ def check_signals(setup: LimbSetup, detector: Detector, walk: QuietWalk) -> None
     for one, signals in zip(walk.legs, walk.signals(Watched(detector)), strict=True):
         for name, column in zip(names, signals.T, strict=True):
             if column.min() == column.max():
-                where = f"{one.recording}: signal {name}: every number"
-                raise DataError(not_accepted(where, float(column[0]), ["numbers that change"]))
+                value = float(column[0])
+                raise DataError(f"{one.recording}: signal {name} is always {value}; numbers that change are needed")
 
 
 def _slopes(setup: LegSetup, watched: Watched, walk: QuietWalk) -> Array:

@@ -32,8 +32,9 @@ def read_thresholds(path: Path) -> LimbThresholds:
     """
     found = load_section(path, LimbThresholds)
     if len(found.thresholds) != len(found.joints):
-        accepted = [f"{len(found.joints)}, one for each of its joints"]
-        raise ConfigError(f"{path}: {not_accepted('thresholds: number', len(found.thresholds), accepted)}")
+        raise ConfigError(
+            f"{path}: {len(found.thresholds)} thresholds for {len(found.joints)} joints; each joint needs one"
+        )
     return found
 
 
@@ -66,5 +67,6 @@ def check_thresholds(path: Path, found: LimbThresholds, robot: RobotDescription,
         "network": (found.network or "none", network.fingerprint if network else "none"),
     }  # fmt: skip
     refuse(
-        path, [not_accepted(key, held, [f"{here}, given here"]) for key, (held, here) in pairs.items() if held != here]
+        path,
+        [f"made for {key} {held!r}, and {here!r} is given here" for key, (held, here) in pairs.items() if held != here],
     )

@@ -109,9 +109,7 @@ def refuse_twice(logs: Sequence[OwnLog], why: str) -> None:
     seen = dict[str, Path]()
     for one in logs:
         if one.footer in seen:
-            raise DataError(
-                not_accepted("FOLDER", str(one.folder), [f"each log once, {why}; {seen[one.footer]} is it"])
-            )
+            raise DataError(f"{one.folder} is the same log as {seen[one.footer]}; give each log once, {why}")
         seen[one.footer] = one.folder
 
 
@@ -191,17 +189,17 @@ def check_sampling(path: Path, sampling: Sampling, wanted: Sampling, of: Path) -
 def check_drives(path: Path, drives: str | None, robot: RobotDescription) -> None:
     """Raise a DataError where a file was made with other friction or rotors than those of a robot's table."""
     if drives != robot.drives:
-        accepted = [f"{robot.drives or 'none'}, those of --robot; make it anew with that table"]
-        raise DataError(f"{path}: {not_accepted('drives (friction and armature)', drives or 'none', accepted)}")
+        made = f"made with friction and armature {drives or 'none'}, and the table of --robot has"
+        raise DataError(f"{path}: {made} {robot.drives or 'none'}; make it anew with that table")
 
 
 def estimator_of(
-    robot: RobotDescription, gravity_m_s2: float, sampling: Sampling, network: OwnNetwork | None
+    robot: RobotDescription, gravity_m_s2: float, sampling: Sampling, networks: LimbNetworks | None
 ) -> ResidualEstimator:
-    """Return the estimator of a log, as a closed loop has it: the observer, or less what a network predicts."""
+    """Return the estimator of a log, as a closed loop has it: the observer, or less what networks predict."""
     nominal = NominalModel(robot, gravity_m_s2=gravity_m_s2)
     observer = MomentumObserver(nominal, sampling.gain_hz, sampling.rate_hz, sampling.torque)
-    return ResidualEstimator(observer, robot.layout, network.networks if network else None)
+    return ResidualEstimator(observer, robot.layout, networks)
 
 
 def without_friction(logs: Sequence[OwnLog], robot: RobotDescription, gravity_m_s2: float) -> list[OwnLog]:

@@ -39,9 +39,7 @@ class Ends(NamedTuple):
 def end_effectors(robot: RobotDescription) -> dict[str, str]:
     """Return limb -> body of its hand or foot, the left and right foot first."""
     joints = {joint.body: joint.id for joint in robot.joints}
-    limbs = dict[str, str]()  # joint -> limb
-    for limb, names in robot.layout.groups.items():
-        limbs |= dict.fromkeys(names, limb)
+    limbs = robot.layout.limb_of
     hands = {limbs[joints[body]]: body for body in robot.hands.values()}
     return {robot.feet[side].limb: robot.feet[side].body for side in SIDES} | hands
 

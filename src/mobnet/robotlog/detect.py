@@ -6,7 +6,7 @@ from argparse import Namespace
 from collections.abc import Iterator
 from pathlib import Path
 
-from mobnet.core.errors import DataError, not_accepted
+from mobnet.core.errors import DataError
 from mobnet.core.files import check_place, sweep, write_text
 from mobnet.core.printed import printed
 from mobnet.core.rows import csv_text
@@ -70,8 +70,8 @@ def run(options: Namespace) -> Iterator[str]:
         yield f"{options.thresholds} are thresholds of the observer alone: the network is not used"
     check_thresholds(options.thresholds, found, robot, network)
     if meaning and "torque" in meaning.model_fields_set and meaning.torque != found.torque:
-        accepted = [f"{found.torque}, that of {options.thresholds}"]
-        raise DataError(not_accepted(f"{options.map}: torque", meaning.torque, accepted))
+        made = f"{options.thresholds} was made with {found.torque!r}"
+        raise DataError(f"{options.map}: torque is {meaning.torque!r}, but {made}; one of both has to be made anew")
     if network:
         check_sampling(options.thresholds, sampling_of(found), network.sampling, network.folder)
     nominal = NominalModel(robot)

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from mobnet.core.arrays import Array
-from mobnet.core.errors import DataError, not_accepted
+from mobnet.core.errors import DataError
 from mobnet.core.estimator import Estimate
 from mobnet.detection.always import always_on
 from mobnet.detection.detector import GateSignal, run_segments
@@ -58,10 +58,11 @@ def detect_log(
     observed = observe_log(path, robot, meaning, found.torque, found.gain_hz, gravity, settings.robotlog)
     read = observed.converted.recording
     if read.rate_hz != sampling.rate_hz:
-        accepted = [f"{sampling.rate_hz:g}, that of the thresholds; a --map with rate_hz resamples the log"]
-        raise DataError(not_accepted(f"{path}: rate", read.rate_hz, accepted))
+        made = f"the thresholds were made at {sampling.rate_hz:g} Hz; a --map with rate_hz resamples the log"
+        raise DataError(f"{path}: its rate is {read.rate_hz} Hz, and {made}")
     own = OwnLog(path, read, observed.residual.astype(np.float32), sampling)
-    (estimate,) = estimates_of([own], estimator_of(robot, gravity, sampling, network), found.joints)
+    estimator = estimator_of(robot, gravity, sampling, network and network.networks)
+    (estimate,) = estimates_of([own], estimator, found.joints)
     setup = setup_with(found, settings.detection, robot)
     gate = _gate(path, setup, observed, estimate, found)
     signals = watched_of(found).of(estimate, read.sensed.command)
@@ -78,7 +79,7 @@ def detect_log(
 def _gate(path: Path, setup: LimbSetup, observed: Observed, estimate: Estimate, found: LimbThresholds) -> GateSignal:
     """Return when the limb is watched; a DataError says that thresholds of swings do not fit the log."""
     read = observed.converted.recording
-    if found.watched == "always" or not isinstance(setup, LegSetup):
+    if not isinstance(setup, LegSetup):
         return always_on(len(read.sensed), read.segments, found.settle_s, read.rate_hz)
     if missing := read.unplanned():
         # They would be zero, as of a foot on the ground: nothing would ever be watched.

@@ -109,7 +109,7 @@ def split(windows: Sequence[Windows], numbers: Identification) -> tuple[Windows,
     if len(known) < numbers.least_windows or not len(held_out):
         seconds = numbers.window_s * (len(known) + len(held_out))
         least = numbers.window_s * numbers.least_windows / (1 - numbers.held_out)
-        raise DataError(not_accepted("seconds of free motion", seconds, [f"{least:g} or more"]))
+        raise DataError(f"{seconds:g} s of free motion; {least:g} s or more are needed")
     return known, held_out
 
 

@@ -116,8 +116,7 @@ def _is_new(fingerprint: str, out: Path, *, force: bool) -> bool:
         log.info("%s: already trained from these logs in this way", out)
         return False
     if not force:
-        accepted = [f"{held}, the one that is there; or --force, or another --out"]
-        raise DataError(not_accepted(f"{out}: a network with the fingerprint", fingerprint, accepted))
+        raise DataError(f"{out} holds another network, of other logs or options; give --force or another --out")
     return True
 
 

@@ -78,9 +78,7 @@ def place_of(nominal: NominalModel, name: str, joints: Sequence[str] | None = No
         raise ConfigError(not_accepted("--wrench", name, [*points, *(body.name for body in robot.bodies)]))
     body, pos = known[name]
     carrier = carrier_of(robot, body)[0]
-    limbs = dict[str, str]()  # joint -> limb
-    for limb, own in robot.layout.groups.items():
-        limbs |= dict.fromkeys(own, limb)
+    limbs = robot.layout.limb_of
     own = tuple(joints or (robot.layout.limb(limbs[carrier]) if carrier in limbs else ()))
     if carrier is None or carrier not in own:
         moved = [row.name for row in robot.bodies if carrier_of(robot, row.name)[0] in (joints or limbs)]

@@ -7,7 +7,7 @@ import pytest
 
 from experiments.evaluation.number.clusters import Place, mean_in, rate_in, share_in
 from experiments.evaluation.number.number import Number
-from experiments.evaluation.number.single import rate
+from experiments.evaluation.number.single import rate_of
 from experiments.settings.runs import Statistics
 
 STATISTICS = Statistics(confidence=0.95)
@@ -95,7 +95,7 @@ def test_nothing_found_in_all_walks_of_three_robots_leaves_half_open() -> None:
 
 
 def test_no_event_in_an_hour_of_three_robots_ends_where_robots_are_few() -> None:
-    found, apart = rate_in([0] * 18, [1 / 18] * 18, places_of(1), STATISTICS), rate(0, 1.0, STATISTICS)
+    found, apart = rate_in([0] * 18, [1 / 18] * 18, places_of(1), STATISTICS), rate_of(0, 1.0, STATISTICS)
     assert found.low == 0.0
     assert found.high == pytest.approx((apart.high or 0.0) * (4.3027 / 1.96) ** 2, rel=1e-3)
 

@@ -10,9 +10,13 @@ from mobnet.core.joints import JointLayout
 
 @dataclass(frozen=True)
 class Column:
-    """A column of a table: the mean over joints, each with its limb (n,), and metrics, mostly one of each.
+    """A column of a table: the mean over its joints and its metrics, of which there is mostly one each.
 
-    Without metrics, that of the row counts. The unit is that of the joints' torques.
+    Attributes:
+        name: its name.
+        unit: that of the joints' torques.
+        joints: limb and name of each joint, (n,).
+        metrics: names of the metrics; empty where each row of the table names its own.
     """
 
     name: str
@@ -48,9 +52,7 @@ def column_of(layout: JointLayout, name: str, joints: Sequence[str], metrics: Se
     units = sorted({layout.unit(joint) for joint in joints})
     if len(units) > 1:
         raise ConfigError(f"column {name!r}: a mean over {', '.join(joints)} mixes {' and '.join(units)}")
-    limbs: dict[str, str] = {}
-    for limb, own in layout.groups.items():
-        limbs |= dict.fromkeys(own, limb)
+    limbs = layout.limb_of
     return Column(name, units[0], tuple((limbs[joint], joint) for joint in joints), tuple(metrics))
 
 

@@ -81,10 +81,16 @@ def rate_in(counts: Sequence[int], hours: Sequence[float], places: Sequence[Plac
         return Number(total / whole, unit="1/h")
     # Of a Poisson count the variance is the count itself.
     part = _independent(effects, total, 1, statistics)
-    tail = (1.0 - statistics.confidence) / 2.0
-    low = float(scipy.special.gammaincinv(total * part, tail)) if total else 0.0
-    high = float(scipy.special.gammaincinv(total * part + 1.0, 1.0 - tail))
+    low, high = garwood(total * part, statistics)
     return Number(total / whole, low / (whole * part), high / (whole * part), unit="1/h")
+
+
+def garwood(count: float, statistics: Statistics) -> tuple[float, float]:
+    """Return the interval of the mean of a Poisson count (Garwood 1936), which need not be a whole number."""
+    tail = (1.0 - statistics.confidence) / 2.0
+    low = float(scipy.special.gammaincinv(count, tail)) if count else 0.0
+    high = float(scipy.special.gammaincinv(count + 1.0, 1.0 - tail))
+    return low, high
 
 
 def _effects(parts: Array, places: Sequence[Place]) -> list[tuple[int, float]]:

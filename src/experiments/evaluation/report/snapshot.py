@@ -158,10 +158,10 @@ def tell_readme(results: Path, readme: Path = README) -> None:
     write_text(readme, page)
 
 
-def tell_demo(push: StoredPush, page: Path) -> None:
+def tell_demo(stored: StoredPush, page: Path) -> None:
     """Write into the page of the demo what it prints."""
-    estimates = {method: push.estimate(method) for method in push.story.methods}
-    said = "\n".join(["```", title_of(push), *lines_of(push, estimates), "```"])
+    push = stored.scene({method: stored.estimate(method) for method in stored.story.methods})
+    said = "\n".join(["```", title_of(stored), *lines_of(stored, push), "```"])
     write_text(page, with_block(read_text(page), "demo", said, page))
 
 

@@ -25,7 +25,7 @@ HALO = [withStroke(linewidth=2.2, foreground="white")]
 
 def limbs_of(robot: RobotDescription) -> dict[str, str]:
     """Return body -> limb whose joint moves it, or the body that it hangs on; of a free base the virtual one."""
-    of_joint = {joint: limb for limb, joints in robot.layout.groups.items() for joint in joints}
+    of_joint = robot.layout.limb_of
     found: dict[str, str] = {}
     for body in robot.bodies:
         joint = robot.joint_of(body.name)

@@ -129,18 +129,6 @@ def median_of(values: Sequence[float], statistics: Statistics, unit: str) -> Num
     return Number(float(np.median(values)), low, high, unit=unit)
 
 
-def rate_of(alarms: int, hours: float, statistics: Statistics) -> Number:
-    """Return a rate [1/h] with the exact interval of Poisson's law (Garwood 1936)."""
-    if hours <= 0.0:
-        return Number(None, unit="1/h")
-    from scipy.stats import chi2  # here, as it takes a second to import
-
-    tail = (1.0 - statistics.confidence) / 2.0
-    low = chi2.ppf(tail, 2 * alarms) / 2.0 if alarms else 0.0
-    high = chi2.ppf(1.0 - tail, 2 * alarms + 2) / 2.0
-    return Number(alarms / hours, float(low) / hours, float(high) / hours, unit="1/h")
-
-
 def hours_per_swing(promises: Sequence[Promise]) -> float:
     """Return how long a swing of a walk takes [h], the other leg's and the steps between included."""
     return sum(row.hours for row in promises) / max(sum(row.swings for row in promises), 1)

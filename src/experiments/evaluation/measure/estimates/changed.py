@@ -8,7 +8,6 @@ from experiments.evaluation.compare.rmse import parts
 from experiments.evaluation.compare.scene import Scene
 from experiments.evaluation.compare.values import Measured, Measures
 from experiments.settings.measures import Changed
-from experiments.settings.metrics import Metric
 from mobnet.estimation.consistency import shares_inside
 from mobnet.learning.gaussian import half_width
 from mobnet.learning.swings import hanging
@@ -18,7 +17,6 @@ FREE = "free_share"
 FLAGGED = "flagged_share"
 FLAGS = "flags"
 WATCHED = "watched"
-METRICS = (Metric("(known|free|flagged)_share", "-", high=1.0), Metric("flags", "-"), Metric("watched", "h"))
 HOUR_S = 3600.0
 
 

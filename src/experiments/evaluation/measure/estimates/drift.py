@@ -11,11 +11,9 @@ from experiments.evaluation.compare.scene import STANCE, SWINGING, Scene, shown_
 from experiments.evaluation.compare.values import Measured, Measures
 from experiments.evaluation.compare.windows import flagged_spans, rows_in
 from experiments.settings.measures import Drift
-from experiments.settings.metrics import Metric
 
 HELD = "held_{}"  # phase: over the whole push
 HELD_STEP = "held_{}_{}"  # phase, and its number since the push began, from 1 on
-METRICS = (Metric("held_(swing|stance)(_[1-9][0-9]*)?", "-", low=None),)
 
 
 def measure(pair: Pair, scene: Scene, settings: Drift) -> Measures:

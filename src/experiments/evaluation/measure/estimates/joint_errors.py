@@ -22,9 +22,7 @@ def joint_errors(
 
     The paper's numbers are those at a place of one of its tables. An error that was not scored has no value.
     """
-    limbs: dict[str, str] = {}
-    for limb, own in layout.groups.items():
-        limbs |= dict.fromkeys(own, limb)
+    limbs = layout.limb_of
 
     def error(method: str, joint: str) -> Number:
         wanted = Wanted(test.scenario, limbs[joint], test.level, method, joint, metric)

@@ -31,8 +31,7 @@ Responses = Mapping[
 
 def wanted_of(layout: JointLayout, test: Runs, method: str, joint: str, metric: str = ERROR) -> Wanted:
     """Return which number of a joint of a test is wanted, an error [N m] if no metric is named."""
-    limb = next(name for name, joints in layout.groups.items() if joint in joints)
-    return Wanted(test.scenario, limb, test.level, method, joint, metric)
+    return Wanted(test.scenario, layout.limb_of[joint], test.level, method, joint, metric)
 
 
 def collision_errors(

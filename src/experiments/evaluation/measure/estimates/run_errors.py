@@ -5,15 +5,8 @@ from experiments.evaluation.compare.rmse import LABELLED, PUSH, PUSHED, RAW, rel
 from experiments.evaluation.compare.scene import Scene
 from experiments.evaluation.compare.values import Measured, Measures
 from experiments.evaluation.compare.windows import push_windows
-from experiments.settings.metrics import Metric
 
 ERROR = "rmse"
-METRICS = (
-    Metric("rmse(_raw|_label)?"),
-    Metric("r_rmse", "%"),
-    Metric("roughness", "{}/s"),
-    Metric("rmse_(pushed|push_[1-9][0-9]*)(_raw)?"),
-)
 
 
 def measure(pair: Pair, scene: Scene) -> Measures:

@@ -187,17 +187,14 @@ def _share(trials: Sequence[Trial], is_so: Callable[[Trial], bool | None], stati
 
 
 def _delay_ms(row: Trial) -> float | None:
-    """Return the time from the contact to the alarm [ms]."""
     return None if row.alarm_s is None or row.contact_s is None else MS * (row.alarm_s - row.contact_s)
 
 
 def _is_over(impulse_ns: float | None, most_ns: float) -> bool | None:
-    """Return whether an impulse is larger than this [N s]; None where there is none."""
     return None if impulse_ns is None else impulse_ns > most_ns
 
 
 def _is_within(angle_deg: float | None, most_deg: float) -> bool | None:
-    """Return whether an angle is at most so large [deg]; None where there is none."""
     return None if angle_deg is None else angle_deg <= most_deg
 
 

@@ -9,11 +9,11 @@ from experiments.evaluation.measure.detection.results import (
     alarms_in,
     hours_per_swing,
     owners,
-    rate_of,
     rows_of,
 )  # fmt: skip
 from experiments.evaluation.number.files import Field
 from experiments.evaluation.number.number import Number
+from experiments.evaluation.number.single import rate_of
 from experiments.evaluation.tables.layout import RULE, Line, Table, write_table
 from experiments.settings.detection_tables import AlarmTable
 from experiments.settings.runs import Statistics

@@ -6,7 +6,7 @@ from pathlib import Path
 from experiments.evaluation.measure.estimates.changed import FLAGS, HOUR_S, WATCHED
 from experiments.evaluation.number.grid import Wanted
 from experiments.evaluation.number.lookup import AVERAGE, Lookup, read_lookup
-from experiments.evaluation.number.single import rate
+from experiments.evaluation.number.single import rate_of
 from experiments.evaluation.tables.layout import Table, write_table
 from experiments.settings.measures import Changed
 from experiments.settings.runs import LegRuns, Statistics
@@ -31,7 +31,7 @@ def hourly(
     records = []
     lines = []
     for event, walked, method, hours, count in rows:
-        found = rate(count, hours, statistics)
+        found = rate_of(count, hours, statistics)
         records.append((event, walked, method, hours, count, *found.with_ends, found.unit))
         lines.append([event, walked, method, f"{hours:.2f}", str(count), found.text(), found.interval()])
     header = ["Event", "Walks", "Method", "Hours", "Events", "In an hour", f"{statistics.confidence:.0%}"]
