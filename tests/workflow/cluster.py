@@ -84,7 +84,7 @@ class Cluster:
 def cluster_in(folder: Path) -> Iterator[Cluster]:
     """Start a cluster, and end it with all that it runs.
 
-    A job that its node lost waits for the end of its credential, `cred_expire` [s], before it goes into the queue again.
+    A job that its node lost waits until its credential ends, `cred_expire` [s], before it goes into the queue again.
     """
     missing = [name for name in PROGRAMS if shutil.which(name) is None]
     if missing or os.geteuid() != 0:
