@@ -13,14 +13,14 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 import pytest
+from patience import HANGS_S
 
 BROWSER = shutil.which("chromium") or shutil.which("google-chrome")
 with_browser = pytest.mark.skipif(BROWSER is None, reason="no browser is installed: apt-get install chromium")
-WAIT_S = 60.0  # a busy machine
 Answer = TypeVar("Answer")
 
 
-def wait(ask: Callable[[], Answer], seconds: float = WAIT_S) -> Answer:
+def wait(ask: Callable[[], Answer], seconds: float = HANGS_S) -> Answer:
     """Ask until the answer is true or the time is over, and return the last answer."""
     end = time.monotonic() + seconds
     while not (answer := ask()) and time.monotonic() < end:
@@ -54,7 +54,7 @@ class Browser:
 
     def close(self) -> None:
         os.close(self._write)
-        self.process.wait(WAIT_S)
+        self.process.wait(HANGS_S)
         os.close(self._read)
 
     def tell(self, method: str, **parameters: Any) -> dict[str, Any]:
@@ -69,7 +69,7 @@ class Browser:
 
     def _message(self) -> dict[str, Any]:
         while b"\0" not in self._rest:
-            assert select.select([self._read], [], [], WAIT_S)[0], "the browser does not answer"
+            assert select.select([self._read], [], [], HANGS_S)[0], "the browser does not answer"
             part = os.read(self._read, 1 << 16)
             assert part, "the browser has gone"
             self._rest += part

@@ -10,7 +10,11 @@ import pytest
 from browser import BROWSER, Browser
 from made_swings import unseen
 from numpy.typing import NDArray
+from once import once
+from patience import hear_ctrl_c
 
+from experiments.evaluation.report.docs import docs
+from experiments.plan.plan import make_plan
 from experiments.plan.precision import with_precision
 from experiments.settings.catalogue import Catalogue
 from experiments.settings.load import load_settings
@@ -27,8 +31,14 @@ from mobnet.settings.robot import RobotTable
 ROOT = Path(__file__).parents[1]
 RATE_HZ = 1000.0
 WAVES = 3  # sines per signal
-LONGEST = ("test_smoke.py", "test_cluster.py")  # minutes each
+# minutes each; while one worker compiles for the first of them, another checks what needs nothing compiled
+LONGEST = ("test_smoke.py", "test_static.py", "test_cluster.py")
 Array = NDArray[np.float64]
+
+
+def pytest_configure() -> None:
+    """Let Ctrl-C reach what tests start, also where the tests run in the background."""
+    hear_ctrl_c()
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
@@ -174,6 +184,19 @@ def mirrored(robot):
         return q, v, s
 
     return mirror
+
+
+@pytest.fixture(scope="session")
+def site(tmp_path_factory):
+    """The documentation of this checkout as the rule makes it, which takes some minutes: once for all tests."""
+
+    def build(folder):
+        with pytest.MonkeyPatch.context() as patch:
+            patch.chdir(ROOT)
+            (product,) = make_plan(load_settings(overrides={"scale": "smoke"}), with_pdf=False).docs
+            docs(**{**product.job.call.arguments, "out": folder})
+
+    return once(tmp_path_factory, "site", build)
 
 
 @pytest.fixture(scope="session")

@@ -64,8 +64,8 @@ def test_a_step_takes_a_twentieth_of_a_tick(gate, walk, estimate):
     one = Estimate(estimate.tau_ext[0], estimate.std[0])
     state, best = detector.init(), np.inf
     for _ in range(5):
-        start = time.perf_counter()
+        start = time.process_time()
         for sample in samples:
             detector.step(state, sample, one, one.tau_ext)
-        best = min(best, (time.perf_counter() - start) / len(samples))
+        best = min(best, (time.process_time() - start) / len(samples))
     assert best < STEP_S

@@ -6,10 +6,10 @@ import pickle
 import signal
 import subprocess
 import sys
-import time
 
 import pytest
 import torch
+from patience import wait_for
 
 from experiments.check import Against, check
 from mobnet.core.errors import TrainingError
@@ -18,7 +18,6 @@ from mobnet.learning.deployed.networks import load_network
 from mobnet.learning.job import precision_name, precision_of
 
 SCRIPT = "import pickle, sys; from experiments.jobs.trainings import train_all as a; a(**pickle.load(sys.stdin.buffer))"
-TIMEOUT_S = 120.0
 
 
 def kill_after(small, training, folder, epochs):
@@ -28,11 +27,13 @@ def kill_after(small, training, folder, epochs):
     assert process.stdin is not None
     pickle.dump(small.arguments(training, folder), process.stdin)
     process.stdin.close()
-    metrics, end = folder / "state" / METRICS, time.monotonic() + TIMEOUT_S
-    while not (metrics.exists() and len(metrics.read_text().splitlines()) > epochs):
+    metrics = folder / "state" / METRICS
+
+    def is_far():
         assert process.poll() is None, "the training ended before it could be killed"
-        assert time.monotonic() < end, "the training is too slow"
-        time.sleep(0.005)
+        return metrics.exists() and len(metrics.read_text().splitlines()) > epochs
+
+    wait_for(is_far, 0.005)
     process.send_signal(signal.SIGKILL)
     process.wait()
 

@@ -5,10 +5,9 @@ import subprocess
 import sys
 
 import pytest
+from patience import HANGS_S
 
 from experiments.check import main
-
-LONGEST_S = 60.0
 
 
 def test_pipes_and_folders_are_one_line_each(tmp_path):
@@ -19,7 +18,7 @@ def test_pipes_and_folders_are_one_line_each(tmp_path):
         (tmp_path / name).mkdir()
     words = sorted(path.name for path in tmp_path.iterdir())
     run = [sys.executable, "-m", "experiments.check", *words]
-    done = subprocess.run(run, cwd=tmp_path, capture_output=True, text=True, check=False, timeout=LONGEST_S)
+    done = subprocess.run(run, cwd=tmp_path, capture_output=True, text=True, check=False, timeout=HANGS_S)
     told = dict(line.split(": ", 1) for line in done.stdout.splitlines()[:-1])
     assert sorted(told) == sorted([*(word for word in words if word != "full"), "full/pipe.csv"])
     assert all("accepted; accepted: " in line for line in told.values())
@@ -31,7 +30,7 @@ def test_the_array_of_a_note_may_be_a_pipe(copied):
     (copied / "recording.parquet").unlink()
     os.mkfifo(copied / "recording.parquet")
     run = [sys.executable, "-m", "experiments.check", "recording.json"]
-    done = subprocess.run(run, cwd=copied, capture_output=True, text=True, check=False, timeout=LONGEST_S)
+    done = subprocess.run(run, cwd=copied, capture_output=True, text=True, check=False, timeout=HANGS_S)
     assert done.stdout == "recording.parquet: a pipe or a device is not accepted; accepted: a file\n"
 
 

@@ -52,15 +52,16 @@ def test_logging_and_signals_are_as_before_afterwards(tmp_path):
 
 @pytest.mark.parametrize(("log", "name"), [("logs/collect/walk-s1.log", "collect/walk-s1"), ("paper.log", "paper")])
 def test_account_says_when_and_how_long(tmp_path, log, name):
-    before = time.time()
+    before, began, used = time.time(), time.monotonic(), time.process_time()
     with job(tmp_path / log):
         time.sleep(0.2)
+    took_s, used_s = time.monotonic() - began, time.process_time() - used
     told = account(tmp_path / log)
     assert (told.job, told.succeeded) == (name, True)
     assert before - 0.01 <= told.start_s <= told.end_s <= time.time() + 0.01
-    assert told.end_s - told.start_s == pytest.approx(told.wall_s, abs=0.05)
-    assert told.wall_s >= 0.19
-    assert told.cpu_s < 0.15
+    assert 0.19 <= told.end_s - told.start_s <= took_s + 0.01
+    assert 0.19 <= told.wall_s <= took_s + 0.01
+    assert told.cpu_s <= used_s + 0.01
 
 
 def test_children_count(tmp_path):

@@ -4,25 +4,24 @@ import os
 import shutil
 import socket
 import subprocess
-import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
 import psutil
 import pytest
+from patience import wait_for
 
 DAEMONS = ("slurmctld", "slurmd")
 PROGRAMS = ("munged", *DAEMONS, "unshare", "nsenter")
-READY_S, STEP_S = 30.0, 0.2
 CONFIGURATION = """
 ClusterName=test
 SlurmctldHost={node}
 SlurmUser=root
 SlurmdUser=root
 AuthType=auth/munge
-AuthInfo=socket={folder}/munge/socket
+AuthInfo=socket={folder}/munge/socket,cred_expire=20
 SlurmctldPort={ports[0]}
 SlurmdPort={ports[1]}
 StateSaveLocation={folder}/state
@@ -83,7 +82,10 @@ class Cluster:
 
 @contextmanager
 def cluster_in(folder: Path) -> Iterator[Cluster]:
-    """Start a cluster, and end it with all that it runs."""
+    """Start a cluster, and end it with all that it runs.
+
+    A job that its node lost waits until its credential ends, `cred_expire` [s], before it goes into the queue again.
+    """
     missing = [name for name in PROGRAMS if shutil.which(name) is None]
     if missing or os.geteuid() != 0:
         pytest.skip(f"a cluster needs root and Debian's slurm-wlm and munge; missing: {', '.join(missing) or 'root'}")
@@ -116,11 +118,3 @@ def free_ports() -> tuple[int, int]:
         for one in (first, second):
             one.bind(("", 0))
         return first.getsockname()[1], second.getsockname()[1]
-
-
-def wait_for(is_so: Callable[[], bool], longest_s: float = READY_S) -> None:
-    """Wait until something is so; fail after a while."""
-    end = time.monotonic() + longest_s
-    while not is_so():
-        assert time.monotonic() < end, "it did not come about in time"
-        time.sleep(STEP_S)

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 import pytest
+from once import once
 
 from mobnet.core.compilation import cache_root
 
@@ -70,7 +71,18 @@ def outputs(planned):
 
 
 @pytest.fixture(scope="session")
-def make_project(tmp_path_factory):
+def compiled(tmp_path_factory):
+    """All that jobs compile is compiled for this checkout: else each copy of it would take a minute of its own."""
+
+    def compile_all(folder):
+        folder.mkdir()
+        subprocess.run([sys.executable, "workflow/scripts/warm.py"], cwd=ROOT, check=True, capture_output=True)
+
+    return once(tmp_path_factory, "compiled", compile_all)
+
+
+@pytest.fixture(scope="session")
+def make_project(tmp_path_factory, compiled):
     """Return a function of a name that copies the project, or a copy, without its environment.
 
     The copy has the machine code that its origin has compiled, as its code is the same.

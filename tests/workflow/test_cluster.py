@@ -5,18 +5,19 @@ import sys
 from pathlib import Path
 
 import pytest
+from patience import HANGS_S, wait_for
 
 from mobnet.core.files import METRICS, RUN, WEIGHTS
 
-from .cluster import cluster_in, wait_for
+from .cluster import cluster_in
 
 SMOKE = ("--config", "scale=smoke")
-PROFILE = ("--profile", "workflow/profiles/slurm", "--latency-wait", "5")
+SOON = ("--slurm-init-seconds-before-status-checks", "1", "--latency-wait", "5")  # jobs take seconds here
+PROFILE = ("--profile", "workflow/profiles/slurm", *SOON)
 NETWORK = Path("results/smoke/networks/MOB-Net-LA-s0")
 TARGETS = tuple(str(NETWORK / name) for name in (WEIGHTS, METRICS, RUN))
 COLLECTED = "results/smoke/recordings/random_walk/all_uncertainty/s1000.parquet"
 JOB = NETWORK.name  # it trains this network first, and those of other limbs after it
-LONGEST_S = 300.0
 
 pytestmark = [pytest.mark.slow, pytest.mark.sim]
 
@@ -59,13 +60,13 @@ def told(folder):
 
 def wait_for_training(cluster, folder):
     log = folder / "results" / "smoke" / "logs" / "train" / f"{JOB}.log"
-    wait_for(lambda: log.exists() and "epoch" in log.read_text(), LONGEST_S)
+    wait_for(lambda: log.exists() and "epoch" in log.read_text())
     return next(job for job, state in cluster.jobs() if state == "RUNNING")
 
 
 def ended(run, cluster, folder):
     """Wait for the end of a run; return its status. Nothing of it is left in the queue, and no file is half written."""
-    status = run.wait(LONGEST_S)
+    status = run.wait(HANGS_S)
     wait_for(lambda: not cluster.jobs())
     assert not list(folder.glob("results/**/.partial.*"))
     return status
@@ -89,7 +90,7 @@ def test_a_node_that_fails_and_returns_does_not_lose_its_job(cluster, project, t
     run = start(cluster, project)
     wait_for_training(cluster, project)
     cluster.kill("slurmd")
-    wait_for(lambda: "down" in cluster.ask("sinfo", "--noheader", "--format=%T"), LONGEST_S)
+    wait_for(lambda: "down" in cluster.ask("sinfo", "--noheader", "--format=%T"))
     cluster.start("slurmd")
     assert_ends_the_same(run, cluster, project, trained)
 
@@ -106,7 +107,7 @@ def test_a_killed_run_started_again_ends_the_same(cluster, project, trained):
     run = start(cluster, project)
     wait_for_training(cluster, project)
     cluster.ask("pkill", "-KILL", "-f", "experiments.running.run")
-    run.wait(LONGEST_S)
+    run.wait(HANGS_S)
     again = start(cluster, project)
     assert_ends_the_same(again, cluster, project, trained)
 

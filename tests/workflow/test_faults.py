@@ -12,12 +12,13 @@ from contextlib import contextmanager
 
 import psutil
 import pytest
+from patience import HANGS_S, start_s, wait_for
 
 SMOKE = ("--config", "scale=smoke")
 QUICK, SLOW = "tables/smoke/table_01.csv", "results/smoke/recordings/forward_walk/ideal/s101.parquet"
 ONE_CORE = ("--cores", "1", *SMOKE, "--")
 MOMENTS_S = (0.3, 1.0, 2.0, 4.0, 8.0)  # after the start: before and while the workflow is planned, while jobs run
-SOON_S, LONGEST_S = 15.0, 300.0  # five and thirty on an idle machine
+SOON = 10.0  # times that a start of Snakemake takes
 STOPPED, AGAIN = ("stopped; the same command goes on from here", "held by another run in this folder; waiting")
 
 pytestmark = [pytest.mark.slow, pytest.mark.sim]
@@ -53,24 +54,18 @@ def left_behind(folder):
     return [path for place in places for path in folder.glob(place)]
 
 
-def as_in_a_terminal():
-    """Let Ctrl-C reach a new process; a shell lets its background processes, and all that these start, ignore it."""
-    signal.signal(signal.SIGINT, signal.SIG_DFL)
-
-
 @pytest.mark.parametrize("moment_s", MOMENTS_S)
 def test_ctrl_c_ends_at_once_with_one_line(project, moment_s):
     words = [sys.executable, str(project / "reproduce"), "all", *SMOKE]
     with (project / "out.log").open("w+") as out:
-        run = subprocess.Popen(
-            words, cwd=project, stdout=out, stderr=out, start_new_session=True, preexec_fn=as_in_a_terminal
-        )
+        soon_s = SOON * start_s()
+        run = subprocess.Popen(words, cwd=project, stdout=out, stderr=out, start_new_session=True)
         try:
             time.sleep(moment_s)
             out.seek(0)
             before = out.read()
             os.killpg(run.pid, signal.SIGINT)  # as a terminal does
-            assert run.wait(SOON_S) == 128 + signal.SIGINT
+            assert run.wait(soon_s) == 128 + signal.SIGINT
         finally:
             run.kill()
         out.seek(0)
@@ -92,12 +87,10 @@ def test_a_run_waits_for_another_one_removes_what_it_left_and_plans_again(projec
     with (project / ".cache" / "run.lock").open("w") as lock, (project / "out.log").open("w+") as out:
         fcntl.flock(lock, fcntl.LOCK_EX)
         run = subprocess.Popen(words, cwd=project, stdout=out, stderr=out, env=environment)
-        end = time.monotonic() + LONGEST_S
-        while AGAIN not in (project / "out.log").read_text() and time.monotonic() < end:
-            time.sleep(0.1)
+        wait_for(lambda: AGAIN in (project / "out.log").read_text())
         assert unfinished.exists()
         fcntl.flock(lock, fcntl.LOCK_UN)
-        assert run.wait(LONGEST_S) == 0
+        assert run.wait(HANGS_S) == 0
     assert (project / "out.log").read_text().count("Building DAG of jobs...") == 2
     assert (project / QUICK).is_file()
     assert not unfinished.exists()
@@ -132,9 +125,7 @@ def test_a_disk_that_fills_while_a_job_writes_is_told_by_the_job(project, snakem
         words = [sys.executable, "-m", "snakemake", *ONE_CORE, SLOW]
         environment = {**os.environ, "PYTHONPATH": str(project / "src")}
         run = subprocess.Popen(words, cwd=project, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
-        end = time.monotonic() + LONGEST_S
-        while not list((project / "results").rglob(".partial.*")) and time.monotonic() < end:
-            time.sleep(0.05)
+        wait_for(lambda: list((project / "results").rglob(".partial.*")), 0.05)
         fill = project / "results" / "fill"
         fill.write_bytes(bytes(shutil.disk_usage(fill.parent).free))
         output = run.communicate()[0].decode()

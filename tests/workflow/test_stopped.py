@@ -4,16 +4,15 @@ import os
 import signal
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import pytest
+from patience import wait_for
 
 from .conftest import PARTS
 
 TARGET = "results/smoke/residuals/forward_walk/ideal/s101.parquet"
 ARRAYS = ("recordings", "residuals")
-LONGEST_S = 120.0
 CHECK = """
 import sys
 from pathlib import Path
@@ -43,10 +42,7 @@ def start(folder):
 
 def kill_when(run, began):
     """Kill a run with all its processes as soon as a file is there."""
-    end = time.monotonic() + LONGEST_S
-    while not began.exists() and time.monotonic() < end:
-        time.sleep(0.02)
-    assert began.exists()
+    wait_for(began.exists, 0.02)
     os.killpg(run.pid, signal.SIGKILL)
     run.wait()
 

@@ -9,7 +9,7 @@ from mobnet.core.arrays import Array
 from mobnet.core.files import atomic_path
 from mobnet.core.joints import JointLayout
 from mobnet.core.recording import Recording
-from mobnet.core.style import PAGE_INCH, styled
+from mobnet.core.style import PAGE_INCH, settle, styled
 from mobnet.robotlog.flags import stretches
 
 MOST_POINTS = 4000  # of a line: more than a page shows
@@ -49,5 +49,6 @@ def plot_residual(
     bands = "; bands: pushes" if pushes else ""
     text = f"residual of the momentum observer: external torque and error of the model{bands}"
     figure.suptitle(text, fontsize=8, y=1 - 0.2 / height)
+    settle(figure)
     with atomic_path(stem.with_suffix(".png")) as temporary:
         figure.savefig(temporary, metadata={"Software": None})

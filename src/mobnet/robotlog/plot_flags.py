@@ -7,7 +7,7 @@ import numpy as np
 
 from mobnet.core.arrays import Array
 from mobnet.core.files import atomic_path
-from mobnet.core.style import PAGE_INCH, styled
+from mobnet.core.style import PAGE_INCH, settle, styled
 from mobnet.robotlog.flags import Flag
 from mobnet.robotlog.plot import MOST_POINTS, PANEL_INCH
 from mobnet.settings.limb_thresholds import LimbThresholds
@@ -52,6 +52,7 @@ def plot_flags(
     ]
     axes[0].legend(handles=[*lines, *bands], loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=4, frameon=False)
     axes[-1].set_xlabel("time [s]")
+    settle(figure)
     with atomic_path(stem.with_suffix(".png")) as temporary:
         figure.savefig(temporary, metadata={"Software": None})
 

@@ -6,29 +6,10 @@ import pytest
 from browser import with_browser
 from links import broken, outside
 
-from experiments.evaluation.report.docs import build, docs, modules_of, relinked
-from experiments.plan.plan import make_plan
-from experiments.settings.load import load_settings
+from experiments.evaluation.report.docs import build, modules_of, relinked
 from mobnet.core.errors import DataError
 
 ROOT = Path(__file__).parents[3]
-
-
-@pytest.fixture(scope="module")
-def arguments():
-    """What the rule gives to its function."""
-    with pytest.MonkeyPatch.context() as patch:
-        patch.chdir(ROOT)
-        (product,) = make_plan(load_settings(overrides={"scale": "smoke"}), with_pdf=False).docs
-        yield product.job.call.arguments
-
-
-@pytest.fixture(scope="module")
-def site(arguments, tmp_path_factory):
-    """The documentation as the rule makes it."""
-    folder = tmp_path_factory.mktemp("site") / "docs"
-    docs(**{**arguments, "out": folder})
-    return folder
 
 
 def test_links_to_folders_and_to_the_readme_lead_to_pages(tmp_path, monkeypatch):
@@ -84,15 +65,6 @@ def test_every_document_is_a_page_and_every_published_figure_is_shown(site):
     gallery = (site / "docs" / "results" / "README.html").read_text()
     drawn = [path.stem for path in (ROOT / "docs" / "results").glob("*.png")]
     assert [name for name in drawn if f"{name}.png" not in gallery] == []
-
-
-@pytest.mark.slow
-def test_two_builds_are_equal_to_the_byte(site, arguments, tmp_path):
-    docs(**{**arguments, "out": tmp_path / "docs"})
-    found = {path.relative_to(site): path.read_bytes() for path in site.rglob("*") if path.is_file()}
-    again = {path.relative_to(tmp_path / "docs"): path for path in (tmp_path / "docs").rglob("*") if path.is_file()}
-    assert found.keys() == again.keys()
-    assert [path for path, content in found.items() if again[path].read_bytes() != content] == []
 
 
 @pytest.mark.slow

@@ -12,11 +12,11 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from patience import HANGS_S
 
 from experiments.evaluation.report.wandb_runs import wandb_runs
 
 EPOCHS = [",".join(map(str, (k, *(10.0 * k + i for i in range(1, 6))))) for k in (1, 2, 3)]
-TERMINAL_S = 20
 
 pytestmark = pytest.mark.slow
 
@@ -55,7 +55,7 @@ def test_the_terminal_viewer_opens_the_folder(wandb_dir: Path) -> None:
     words = (sys.executable, "-m", "wandb", "leet", str(wandb_dir))
     ends = dict.fromkeys(("stdin", "stdout", "stderr"), slave)
     with subprocess.Popen(words, **ends, env=quiet(wandb_dir), start_new_session=True) as viewer:
-        shown, end = b"", time.monotonic() + TERMINAL_S
+        shown, end = b"", time.monotonic() + HANGS_S
         while b"validation_rmse" not in shown and time.monotonic() < end:
             if select.select([master], [], [], 0.1)[0]:
                 shown += os.read(master, 1 << 16)

@@ -50,6 +50,7 @@ def test_nothing_is_promised_about_an_hour_in_which_nothing_fell(tmp_path: Path)
     assert float(read_texts(tmp_path / "out.csv")[-1]["high"]) == pytest.approx(7.38, abs=0.01)
 
 
+@pytest.mark.slow
 @pytest.mark.sim
 def test_a_robot_that_cannot_stand_a_torque_falls(tmp_path: Path, settings: Settings) -> None:
     walk = walk_settings(settings, "robot_walk", "robot_1")

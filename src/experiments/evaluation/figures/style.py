@@ -15,7 +15,7 @@ from matplotlib.figure import Figure
 
 from experiments.evaluation.number.files import Field, write_csv
 from mobnet.core.files import atomic_path
-from mobnet.core.style import COLUMN_INCH, PAGE_INCH, STYLE
+from mobnet.core.style import COLUMN_INCH, PAGE_INCH, STYLE, settle
 
 log = logging.getLogger(__name__)
 
@@ -155,6 +155,7 @@ def save_figure(figure: Figure, stem: Path, columns: Sequence[str], rows: Iterab
     """
     write_csv(stem.with_suffix(".csv"), columns, rows)
     with mpl.rc_context(STYLE):
+        settle(figure)
         for suffix, metadata in UNDATED.items():
             with atomic_path(stem.with_suffix(suffix)) as temporary:
                 figure.savefig(temporary, format=suffix[1:], metadata=metadata)
@@ -172,8 +173,8 @@ def shortened(svg: str) -> str:
 def with_stable_names(svg: str) -> str:
     """Return a drawing whose clip paths are named by what is drawn and by their order.
 
-    Matplotlib names them by their corners, of which the last digits differ from process to process. A page may hold
-    several drawings, so that their names differ.
+    Matplotlib names them by their corners, to the last digit. A page may hold several drawings, so that their names
+    differ.
     """
     order = {name: k for k, name in enumerate(dict.fromkeys(CLIP.findall(svg)))}
     numbered = CLIP.sub(lambda found: str(order[found[0]]), svg)

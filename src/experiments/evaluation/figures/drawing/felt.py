@@ -16,13 +16,12 @@ from experiments.evaluation.figures.drawing.curves import draw_panel
 from experiments.evaluation.figures.style import entitle, legend, looks
 from mobnet.core.arrays import Array
 from mobnet.core.files import atomic_path
-from mobnet.core.style import PAGE_INCH, STYLE, styled
+from mobnet.core.style import PAGE_INCH, STYLE, settle, styled
 
 HEIGHT_INCH, WIDTHS = 4.4, (1.3, 1.0)  # of the figure; of its columns, side by side
 LINE = 9  # from one line of a note to the next [points]
 NOTED = 0.25  # share of a panel's height that the lines of notes take
 ALARM = {"color": "#CC79A7", "linewidth": 1.2}
-WRITTEN: dict[Any, Any] = {**STYLE, "svg.hashsalt": "mobnet"}  # names the parts of an SVG alike
 # ending -> what is left out, so that equal numbers give equal files
 METADATA = {".png": {"Software": None}, ".pdf": {"CreationDate": None, "Producer": None}, ".svg": {"Date": None}}
 
@@ -105,5 +104,6 @@ def _notes(axis: Axes, felt: FeltPush, row: int) -> None:
 def save_felt(felt: FeltPush, out: Path) -> None:
     """Write the picture of a push as PNG, PDF or SVG, as the ending of its name says."""
     figure = draw_felt(felt)
-    with mpl.rc_context(WRITTEN), atomic_path(out) as temporary:
+    with mpl.rc_context(STYLE), atomic_path(out) as temporary:
+        settle(figure)
         figure.savefig(temporary, format=out.suffix[1:], metadata=METADATA[out.suffix])
