@@ -17,9 +17,14 @@ from mobnet.core.joints import JointLayout
 ERROR = "rmse"
 RISES = ("sigma, times", "error, times")
 PARTS = {
-    "": "all", f"_{SWINGING}": "swing", f"_{TOUCH_DOWN}": "touch-down", f"_{STANCE}": "stance", f"_{STUCK}": "stuck",
-    f"_{MOVING}": "moving", f"_{PUSHED}": "pushed",
-}  # fmt: skip
+    "": "all",
+    f"_{SWINGING}": "swing",
+    f"_{TOUCH_DOWN}": "touch-down",
+    f"_{STANCE}": "stance",
+    f"_{STUCK}": "stuck",
+    f"_{MOVING}": "moving",
+    f"_{PUSHED}": "pushed",
+}
 
 
 def sigma_table(settings: Sigma, layout: JointLayout, lookup: Lookup, share: float, table_dir: Path) -> None:
