@@ -31,9 +31,16 @@ ANGLE = "angle"
 
 
 def contact_points(
-    settings: ContactPoints, contact_point: ContactPoint, robot: RobotTable, observer: Observer, statistics: Statistics,
-    pushes: Mapping[str, Push], runs: Sequence[Run], detections: Detections, table_dir: Path,
-) -> None:  # fmt: skip
+    settings: ContactPoints,
+    contact_point: ContactPoint,
+    robot: RobotTable,
+    observer: Observer,
+    statistics: Statistics,
+    pushes: Mapping[str, Push],
+    runs: Sequence[Run],
+    detections: Detections,
+    table_dir: Path,
+) -> None:
     """Write contact_points.csv, .tex and .md: medians over collisions of what `contacts_of` says of them.
 
     Quantities are the distance to the true point [cm], its parts in the axes of the body that was hit, the distance
@@ -54,8 +61,9 @@ def write_contacts(stem: Path, settings: ContactPoints, statistics: Statistics, 
             own = [one for one in found if one.line == title and cell in (one.cell, ALL)]
             numbers[cell] = {name: median_of(values, statistics, unit) for name, unit, values in _values(own)}
             place = settings.level, title, "+".join(settings.legs), settings.kind, cell
-            rows += [(*place, name, *number.with_ends, len(own), number.unit, None)
-                     for name, number in numbers[cell].items()]  # fmt: skip
+            rows += [
+                (*place, name, *number.with_ends, len(own), number.unit, None) for name, number in numbers[cell].items()
+            ]
         lines += [RULE] if title == NAMED else []
         lines.append([title, *_texts(numbers)])
     # the guesses are of every collision; a line has none of those in which it finds no contact
@@ -63,9 +71,14 @@ def write_contacts(stem: Path, settings: ContactPoints, statistics: Statistics, 
     counts = [str(hit.count(cell)) for cell in CELLS]
     lines = [["collisions", str(len(hit)), "", *counts, "", "", ""], RULE, *lines]
     header = [
-        "Point from", "error [cm]", f"{statistics.confidence:.0%}", *(f"{cell} [cm]" for cell in CELLS),
-        "expected [cm]", "force [%]", "angle [deg]",
-    ]  # fmt: skip
+        "Point from",
+        "error [cm]",
+        f"{statistics.confidence:.0%}",
+        *(f"{cell} [cm]" for cell in CELLS),
+        "expected [cm]",
+        "force [%]",
+        "angle [deg]",
+    ]
     write_table(stem, Table(DETECTION, rows, header, lines))
 
 

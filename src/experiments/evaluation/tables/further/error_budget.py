@@ -28,9 +28,12 @@ Cells = Mapping[tuple[str, str, str, str], Number]  # scenario, level, method, M
 
 
 def error_budget(
-    settings: ErrorBudget, statistics: Statistics, layout: JointLayout, scores: Sequence[Path],
+    settings: ErrorBudget,
+    statistics: Statistics,
+    layout: JointLayout,
+    scores: Sequence[Path],
     table_dir: Path,
-) -> None:  # fmt: skip
+) -> None:
     """Write error_budget.csv, .tex and .md: RMSE [N m] of joints with one source of error off, and the share [%] gone.
 
     The first test of `settings` has every source on.

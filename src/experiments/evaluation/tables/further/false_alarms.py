@@ -10,7 +10,7 @@ from experiments.evaluation.measure.detection.results import (
     hours_per_swing,
     owners,
     rows_of,
-)  # fmt: skip
+)
 from experiments.evaluation.number.files import Field
 from experiments.evaluation.number.number import Number
 from experiments.evaluation.number.single import rate_of
@@ -55,9 +55,18 @@ def false_alarms(
                 lines.append(_line(made, level, name))
     share = f"{statistics.confidence:.0%}"
     header = [
-        "Level", "Detector", "promised", share, "counted", share, "within", BETWEEN,
-        "paper's rule: in place", "random walking", BETWEEN,
-    ]  # fmt: skip
+        "Level",
+        "Detector",
+        "promised",
+        share,
+        "counted",
+        share,
+        "within",
+        BETWEEN,
+        "paper's rule: in place",
+        "random walking",
+        BETWEEN,
+    ]
     write_table(table_dir / "false_alarms", Table(DETECTION, rows, header, lines, left=2))
 
 
@@ -84,7 +93,7 @@ def cells_of(swings: Sequence[FreeSwing], detection: Detection) -> dict[str, lis
 
 def _rows(
     place: tuple[str, str, str], promises: Sequence[Promise], cells: Cells, statistics: Statistics
-) -> Iterator[Sequence[Field]]:  # fmt: skip
+) -> Iterator[Sequence[Field]]:
     """Yield the rows of CSV of a detector: rates by rule and where they were counted."""
     by_kind: dict[str, list[Promise]] = {}
     for row in promises:
@@ -102,8 +111,18 @@ def _rows(
             measured = rate_of(alarms, hours, statistics)
             yield (*place, kind, cell, MEASURED, *measured.with_ends, alarms, "1/h", None)
             if cell in (COUNTED, RANDOM, BETWEEN):
-                yield (*place, kind, cell, WITHIN, _is_within(promised, hours, alarms, statistics), None, None,
-                       len(swings), "-", None)  # fmt: skip
+                yield (
+                    *place,
+                    kind,
+                    cell,
+                    WITHIN,
+                    _is_within(promised, hours, alarms, statistics),
+                    None,
+                    None,
+                    len(swings),
+                    "-",
+                    None,
+                )
     for cell, swings in cells.items():
         alarms = sum(row.ratio_largest > 1.0 for row in swings)
         measured = rate_of(alarms, len(swings) * swing_h, statistics)
@@ -138,8 +157,17 @@ def _line(rows: Sequence[Sequence[Field]], level: str, name: str) -> list[str]:
     within = "yes" if number(COLLISION, COUNTED, WITHIN).value else "no"
     paper = [number(LARGEST, cell).text(0) for cell in ("in place", RANDOM, BETWEEN)]
     between = number(COLLISION, BETWEEN).text(1)
-    return [level.replace("_", " "), name, promised.text(1), promised.interval(1), counted.text(1), counted.interval(1),
-            within, between, *paper]  # fmt: skip
+    return [
+        level.replace("_", " "),
+        name,
+        promised.text(1),
+        promised.interval(1),
+        counted.text(1),
+        counted.interval(1),
+        within,
+        between,
+        *paper,
+    ]
 
 
 def _mean(values: Sequence[float]) -> float:

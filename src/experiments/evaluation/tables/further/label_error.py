@@ -26,9 +26,13 @@ AVERAGE = "avg"
 
 
 def label_error(
-    settings: LabelError, robot: RobotTable, observer: Observer, layout: JointLayout,
-    walks: Mapping[str, tuple[Path, Path]], table_dir: Path,
-) -> None:  # fmt: skip
+    settings: LabelError,
+    robot: RobotTable,
+    observer: Observer,
+    layout: JointLayout,
+    walks: Mapping[str, tuple[Path, Path]],
+    table_dir: Path,
+) -> None:
     """Write label_error.csv, .tex and .md: RMSE of the labels of a leg's joints [N m] in a walk of each robot.
 
     `walks` has a recording of each robot, with labels by foot sensors, and its residual.

@@ -76,9 +76,11 @@ def number_of(lookup: Lookup, test: MethodsRow, method: str, metric: str, place:
 
 
 def method_lines(
-    settings: Sequence[MethodsRow], rows: Mapping[Row, Mapping[Place, Number]], places: Sequence[Place],
+    settings: Sequence[MethodsRow],
+    rows: Mapping[Row, Mapping[Place, Number]],
+    places: Sequence[Place],
     confidence: float,
-) -> list[Line]:  # fmt: skip
+) -> list[Line]:
     """Return the rows of text, test by test: errors [N m] with intervals, errors against the raw truth, and skill.
 
     A test that does not ask for a place, a limb and a joint, has a dash there.

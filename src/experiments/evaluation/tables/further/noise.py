@@ -26,9 +26,13 @@ Readings = Mapping[str, tuple[Sequence[Number], Mapping[str, Number]]]  # label 
 
 
 def noise(
-    settings: NoiseTable, statistics: Statistics, layout: JointLayout, printed: Mapping[str, PublishedTable],
-    scores: Sequence[Path], table_dir: Path,
-) -> None:  # fmt: skip
+    settings: NoiseTable,
+    statistics: Statistics,
+    layout: JointLayout,
+    printed: Mapping[str, PublishedTable],
+    scores: Sequence[Path],
+    table_dir: Path,
+) -> None:
     """Write noise.csv, .tex and .md: RMSE [N m] of each joint by reading, V1..V3 [N], and each reading's factors [-].
 
     Raises:

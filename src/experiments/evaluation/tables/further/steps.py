@@ -51,9 +51,13 @@ class Followed:
 
 
 def steps(
-    settings: StepsTable, robot: RobotTable, walking: Walking, commands: Commands,
-    sets: Mapping[str, Sequence[Path]], table_dir: Path,
-) -> None:  # fmt: skip
+    settings: StepsTable,
+    robot: RobotTable,
+    walking: Walking,
+    commands: Commands,
+    sets: Mapping[str, Sequence[Path]],
+    table_dir: Path,
+) -> None:
     """Write the table of measured against commanded steps, by bins of the command, as CSV, TeX and Markdown."""
     nominal = NominalModel(describe(robot))
     rows: dict[tuple[str, int], list[Followed]] = {}

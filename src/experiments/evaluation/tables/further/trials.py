@@ -24,9 +24,13 @@ log = logging.getLogger(__name__)
 
 
 def trials(
-    robot: RobotTable, gravity_m_s2: float, observer: Observer, tasks: Mapping[str, TriedTask], rate_hz: float,
+    robot: RobotTable,
+    gravity_m_s2: float,
+    observer: Observer,
+    tasks: Mapping[str, TriedTask],
+    rate_hz: float,
     out: Path,
-) -> None:  # fmt: skip
+) -> None:
     """Write a CSV, .tex and .md: RMSE [N m] of each variant at each task, means over its development walks.
 
     The CSV has every joint and network, the text means over the joints. Recordings and residuals, at a rate [Hz], and
@@ -73,9 +77,21 @@ def rows_of(task: str, joints: Sequence[str], outcome: Outcome, outcomes: Sequen
     for joint, errors in zip((*joints, AVERAGE), by_walk.T, strict=True):
         std = float(errors.std(ddof=1)) if len(errors) > 1 else None
         yield TrialError(
-            task, outcome.tried.base, changes, recipe, outcome.tried.network_seed, steps, outcome.seconds, state, loss,
-            joint, float(errors.mean()), std, len(errors), int(is_best(outcome, outcomes)),
-        )  # fmt: skip
+            task,
+            outcome.tried.base,
+            changes,
+            recipe,
+            outcome.tried.network_seed,
+            steps,
+            outcome.seconds,
+            state,
+            loss,
+            joint,
+            float(errors.mean()),
+            std,
+            len(errors),
+            int(is_best(outcome, outcomes)),
+        )
 
 
 HEADER = [

@@ -62,9 +62,14 @@ class TableLook:
 
 
 def error_table(
-    settings: ErrorTable, name: str, statistics: Statistics, layout: JointLayout,
-    published: PublishedTable | None, scores: Sequence[Path], table_dir: Path,
-) -> None:  # fmt: skip
+    settings: ErrorTable,
+    name: str,
+    statistics: Statistics,
+    layout: JointLayout,
+    published: PublishedTable | None,
+    scores: Sequence[Path],
+    table_dir: Path,
+) -> None:
     """Write a table of errors by test, method and joint [N m], as CSV, TeX and Markdown.
 
     Raises:
@@ -120,9 +125,14 @@ def cut(numbers: Mapping[Column, Number], first: int, end: int) -> dict[Column, 
 
 
 def numbers_of(
-    columns: Sequence[Column], run: tuple[str, str, str], metric: str, scores: Sequence[Score], statistics: Statistics,
-    printed: Mapping[str, float | None], ending: str = "",
-) -> dict[Column, Number]:  # fmt: skip
+    columns: Sequence[Column],
+    run: tuple[str, str, str],
+    metric: str,
+    scores: Sequence[Score],
+    statistics: Statistics,
+    printed: Mapping[str, float | None],
+    ending: str = "",
+) -> dict[Column, Number]:
     """Return the number of each column [N m], as `cell_of` does; `printed` is a column's name -> the paper's number."""
     numbers = {}
     for column in columns:
@@ -131,9 +141,14 @@ def numbers_of(
 
 
 def cell_of(
-    column: Column, run: tuple[str, str, str], metric: str, scores: Sequence[Score], statistics: Statistics,
-    published: float | None, ending: str = "",
-) -> Number:  # fmt: skip
+    column: Column,
+    run: tuple[str, str, str],
+    metric: str,
+    scores: Sequence[Score],
+    statistics: Statistics,
+    published: float | None,
+    ending: str = "",
+) -> Number:
     """Return the number of a column [N m] over the runs of a method in a test; none where a run has too few pushes.
 
     The ending chooses the truth that errors are taken against.
@@ -182,10 +197,14 @@ def row_lines(row: TableRow, over: TableRow | None, look: TableLook, stacked: bo
     share = f"{look.confidence:.0%}"
     lines = [[OURS[look.robot], *with_increase(row, over, "value")]]
     if not row.short and any(number.low is not None for number in ours):
-        lines += [
-            [f"{share} from", *(number_text(number.low) for number in ours)],
-            [f"{share} to", *(number_text(number.high) for number in ours)],
-        ] if stacked else [[share, *(number.interval() for number in ours)]]  # fmt: skip
+        lines += (
+            [
+                [f"{share} from", *(number_text(number.low) for number in ours)],
+                [f"{share} to", *(number_text(number.high) for number in ours)],
+            ]
+            if stacked
+            else [[share, *(number.interval() for number in ours)]]
+        )
     if row.raw:
         lines.append([RAW_LABEL, *(number_text(number.value) for number in row.raw.values())])
     if any(number.published is not None for number in ours):
