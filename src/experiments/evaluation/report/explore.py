@@ -42,9 +42,18 @@ log = logging.getLogger(__name__)
 
 
 def explore(
-    settings: Explore, story: Story, detection: Detection, peaks: Peaks, robot: RobotTable, looks: Looks | None,
-    scenes: Mapping[str, PageScene], collisions: Path, detected: Path, templates: Sequence[Path], out: Path,
-) -> None:  # fmt: skip
+    settings: Explore,
+    story: Story,
+    detection: Detection,
+    peaks: Peaks,
+    robot: RobotTable,
+    looks: Looks | None,
+    scenes: Mapping[str, PageScene],
+    collisions: Path,
+    detected: Path,
+    templates: Sequence[Path],
+    out: Path,
+) -> None:
     """Write the page; a scene whose recording has no such push is left out.
 
     `templates` has the page's HTML, then the files that it includes; `collisions` are those of the story's robot and
@@ -65,9 +74,15 @@ def explore(
 
 
 def page_of(
-    shown: Mapping[str, Shown], alarm: Mapping[str, Any] | None, settings: Explore, story: Story, detection: Detection,
-    peaks: Peaks, robot: RobotDescription, template: Path,
-) -> str:  # fmt: skip
+    shown: Mapping[str, Shown],
+    alarm: Mapping[str, Any] | None,
+    settings: Explore,
+    story: Story,
+    detection: Detection,
+    peaks: Peaks,
+    robot: RobotDescription,
+    template: Path,
+) -> str:
     """Return the page of some scenes; `alarm` is that of the story's detector; scripts stand beside the template."""
     numbers: dict[str, list[PushNumbers]] = {}
     steps: dict[str, dict[str, PushNumbers]] = {}
@@ -86,21 +101,33 @@ def page_of(
         ],
     }
     return rendered(
-        template, told=json.dumps(told, separators=(",", ":")), numbers=numbers, shown=shown, roles=ROLES,
-        data=packed(parts), detection=detection,
-        peaks=peaks, joint_names=joint_names(robot), alarm_of=story.detector,
+        template,
+        told=json.dumps(told, separators=(",", ":")),
+        numbers=numbers,
+        shown=shown,
+        roles=ROLES,
+        data=packed(parts),
+        detection=detection,
+        peaks=peaks,
+        joint_names=joint_names(robot),
+        alarm_of=story.detector,
         steps=steps,
         trained_hz=next(iter(shown.values())).gain_hz,
-    )  # fmt: skip
+    )
 
 
 def page_numbers(settings: Explore, detection: Detection, peaks: Peaks) -> dict[str, Any]:
     """Return the numbers of the configuration with which the page computes."""
     return {
-        "gains": settings.gains_hz, "thresholds": settings.thresholds_nm,
-        "poseHz": settings.pose_hz, "lowPassHz": detection.low_pass_hz, "holdS": detection.hold_s,
-        "lateS": detection.late_s, "afterS": peaks.after_s, "longestS": peaks.longest_s,
-    }  # fmt: skip
+        "gains": settings.gains_hz,
+        "thresholds": settings.thresholds_nm,
+        "poseHz": settings.pose_hz,
+        "lowPassHz": detection.low_pass_hz,
+        "holdS": detection.hold_s,
+        "lateS": detection.late_s,
+        "afterS": peaks.after_s,
+        "longestS": peaks.longest_s,
+    }
 
 
 def robot_parts(robot: RobotDescription) -> dict[str, Any]:
@@ -138,7 +165,7 @@ def joint_names(robot: RobotDescription) -> dict[str, str]:
 
 def scene_note(
     name: str, shown: Shown, robot: RobotDescription, settings: Explore, alarm: Mapping[str, Any] | None
-) -> dict[str, Any]:  # fmt: skip
+) -> dict[str, Any]:
     """Return what the page must know of a scene besides its arrays."""
     scene = shown.scene
     push = shown.scene.pushes[shown.pushed]
@@ -146,15 +173,26 @@ def scene_note(
     bodies = [body.name for body in robot.bodies]
     point = next((point for point in robot.points if point.name == push.point), None)
     return {
-        "name": name, "push": scene.push, "plant": scene.plant, "joint": scene.joint, "threshold": scene.threshold_nm,
+        "name": name,
+        "push": scene.push,
+        "plant": scene.plant,
+        "joint": scene.joint,
+        "threshold": scene.threshold_nm,
         "joints": [[joint, names[joint]] for joint in shown.joints],
         "methods": [[method, ROLES.get(method, "formula")] for method in shown.estimates],
-        "stds": list(shown.stds), "rate": shown.rate_hz, "gain": shown.gain_hz,
-        "lead": shown.lead, "start": shown.start, "end": shown.end, "count": len(shown.truth),
+        "stds": list(shown.stds),
+        "rate": shown.rate_hz,
+        "gain": shown.gain_hz,
+        "lead": shown.lead,
+        "start": shown.start,
+        "end": shown.end,
+        "count": len(shown.truth),
         "point": [bodies.index(point.body), point.pos, point.name.replace("_", " ")] if point else None,
-        "turned": push.joint, "flags": {key: list(stretches(flag)) for key, flag in shown.flags.items()},
-        "alarm": alarm, "parts": [part.place for part in parts_of(shown, settings)],
-    }  # fmt: skip
+        "turned": push.joint,
+        "flags": {key: list(stretches(flag)) for key, flag in shown.flags.items()},
+        "alarm": alarm,
+        "parts": [part.place for part in parts_of(shown, settings)],
+    }
 
 
 def parts_of(shown: Shown, settings: Explore) -> Iterator[Part]:
@@ -195,16 +233,17 @@ def as_stored(shown: Shown, step_nm: float) -> Shown:
 
 def alarm_of(
     shown: Shown, story: Story, layout: JointLayout, collisions: Path, detected: Path
-) -> dict[str, Any] | None:  # fmt: skip
+) -> dict[str, Any] | None:
     """Return when the story's detector finds its push and what it names, as recorded; None if it does not find it.
 
     Its thresholds are those for one false alarm an hour.
     """
     seed = shown.scene.runs[0].test_seed
     hit = next(
-        row for row in read_rows(collisions, Collision)
+        row
+        for row in read_rows(collisions, Collision)
         if (row.scenario, row.seed, row.push) == (story.scenario, seed, story.push)
-    )  # fmt: skip
+    )
     wanted = (story.scenario, seed, hit.leg, hit.number, story.detector, COLLISION)
     for row in read_rows(detected, Detected):
         if (row.scenario, row.seed, row.leg, row.number, row.detector, row.kind) == wanted and row.delay_s is not None:
