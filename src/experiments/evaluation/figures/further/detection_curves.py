@@ -126,7 +126,8 @@ def _over_rates(
         places: list[Place] = []
         for robot, row in own:
             flags += [True] * row.found + [False] * (row.collisions - row.found)
-            places += [Place(robot, 0)] * row.collisions  # a point is of all walks of a robot together: one cluster
+            # A point is of all walks of a robot together: one cluster.
+            places += [Place(robot, 0)] * row.collisions
         rates.append(alarms_in(quiet, factor) / hours if hours else 0.0)
         shares.append(share_in(flags, places, statistics))
         late = MS * sum(row.delay_sum_s for _, row in own) / found if found else None
