@@ -87,10 +87,16 @@ class Robot:
         return cls(with_extra("mobnet.robot.import_table").read_robot(path))
 
     def sample(
-        self, q: ArrayLike, v: ArrayLike, tau_motor: ArrayLike, tau_des: ArrayLike | None = None,
-        acc: ArrayLike | None = None, swing: ArrayLike | None = None, landing: ArrayLike | None = None,
+        self,
+        q: ArrayLike,
+        v: ArrayLike,
+        tau_motor: ArrayLike,
+        tau_des: ArrayLike | None = None,
+        acc: ArrayLike | None = None,
+        swing: ArrayLike | None = None,
+        landing: ArrayLike | None = None,
         command: ArrayLike | None = None,
-    ) -> Sensed:  # fmt: skip
+    ) -> Sensed:
         """Return what the robot senses at one tick (1-D arrays), or at T ticks (2-D); what is not given is zero.
 
         Args:
@@ -107,9 +113,15 @@ class Robot:
             DataError: an array has another shape, or a number is not finite.
         """
         given = {
-            "q": q, "v": v, "tau_motor": tau_motor, "tau_des": tau_motor if tau_des is None else tau_des, "acc": acc,
-            "swing": swing, "landing": landing, "command": command,
-        }  # fmt: skip
+            "q": q,
+            "v": v,
+            "tau_motor": tau_motor,
+            "tau_des": tau_motor if tau_des is None else tau_des,
+            "acc": acc,
+            "swing": swing,
+            "landing": landing,
+            "command": command,
+        }
         values = {}
         for name, array in given.items():
             field = FIELDS.get(name, name)
@@ -253,9 +265,7 @@ class Detector:
         self.reset()
 
     @classmethod
-    def from_files(
-        cls, robot: Robot, network: str | Path | None, thresholds: str | Path
-    ) -> "Detector":  # fmt: skip
+    def from_files(cls, robot: Robot, network: str | Path | None, thresholds: str | Path) -> "Detector":
         """Read the network of `mobnet learn`, None for the observer alone, and the thresholds of `mobnet calibrate`.
 
         Thresholds that are those of the observer alone leave the network out, as `mobnet detect` does.
@@ -310,7 +320,7 @@ class ContactFinder:
 
     def locate(
         self, q: NDArray[Any], tau: NDArray[Any], std: NDArray[Any], standing: Sequence[str] = ()
-    ) -> Contact | None:  # fmt: skip
+    ) -> Contact | None:
         """Return the contact that explains external torques; None where no force that presses does.
 
         Args:
@@ -334,9 +344,13 @@ class ReactionHandler:
     """The pipeline of section 7 in a walking controller: which steps answer a push, sample by sample."""
 
     def __init__(
-        self, robot: Robot, estimator: Estimator, detectors: Sequence[Detector], foot_spacing_m: float,
+        self,
+        robot: Robot,
+        estimator: Estimator,
+        detectors: Sequence[Detector],
+        foot_spacing_m: float,
         strategy: Strategy = "compliant",
-    ) -> None:  # fmt: skip
+    ) -> None:
         """Make a handler.
 
         Args:
@@ -412,9 +426,13 @@ def read_recording(path: str | Path, robot: Robot) -> SensedRecording:
 
 
 def write_recording(
-    path: str | Path, robot: Robot, samples: Sensed, rate_hz: float,
-    segments: Sequence[tuple[int, int]] | None = None, tau_ext: NDArray[Any] | None = None,
-) -> None:  # fmt: skip
+    path: str | Path,
+    robot: Robot,
+    samples: Sensed,
+    rate_hz: float,
+    segments: Sequence[tuple[int, int]] | None = None,
+    tau_ext: NDArray[Any] | None = None,
+) -> None:
     """Write NAME.parquet and NAME.json, which `mobnet learn`, `calibrate` and `read_recording` take.
 
     Args:
@@ -440,7 +458,7 @@ def write_recording(
 
 def export_networks(
     folders: Sequence[str | Path], robot: Robot, out: str | Path, thresholds: Sequence[str | Path] = ()
-) -> Path:  # fmt: skip
+) -> Path:
     """Write networks as ONNX files, the model of the C library, and their contract, as `mobnet export` does.
 
     Args:

@@ -34,9 +34,14 @@ COLUMNS = tuple(field.name for field in fields(Threshold))
 
 
 def watch(
-    settings: WalkSettings, reaction: Reaction, detection: Detection, observer: Observer, runs: Mapping[str, MethodRun],
-    quiet: Sequence[Path], out: Path,
-) -> None:  # fmt: skip
+    settings: WalkSettings,
+    reaction: Reaction,
+    detection: Detection,
+    observer: Observer,
+    runs: Mapping[str, MethodRun],
+    quiet: Sequence[Path],
+    out: Path,
+) -> None:
     """Write the thresholds of `reaction.watched` and of the feet's sensors, rows of `Threshold`.
 
     Args:

@@ -34,9 +34,13 @@ log = logging.getLogger(__name__)
 
 
 def react(
-    reaction: Reaction, detection: Detection, observer: Observer, runs: Mapping[str, MethodRun],
-    thresholds: Sequence[Path], walks: Sequence[CaseWalks],
-) -> None:  # fmt: skip
+    reaction: Reaction,
+    detection: Detection,
+    observer: Observer,
+    runs: Mapping[str, MethodRun],
+    thresholds: Sequence[Path],
+    walks: Sequence[CaseWalks],
+) -> None:
     """Write the trials of cases with a robot, rows of `Trial`, and the course of the first walk of each.
 
     Args:

@@ -41,9 +41,17 @@ def train_all(
         same = list(alike)
         training = same[0].training
         data = load_limb_data(
-            layout, training.network, training.target, recordings, residuals, rate_hz, training.held_out, known,
-            training.learning.data_s, margins,
-        )  # fmt: skip
+            layout,
+            training.network,
+            training.target,
+            recordings,
+            residuals,
+            rate_hz,
+            training.held_out,
+            known,
+            training.learning.data_s,
+            margins,
+        )
         for network in same:
             job = TrainingJob(network.training, network.seed, root_seed)
             train_on(data, job, stage.place(network.out), network.state, network.start)

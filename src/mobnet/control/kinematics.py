@@ -71,11 +71,19 @@ def empty_pose(tree: Tree) -> Pose:
     """Return a pose of zeros for the bodies and joints of a tree."""
     nb = len(tree.parent)
     nu = len(tree.body_of_joint)
-    vectors = [np.zeros((nb, 3)) for _ in range(4)]
     return Pose(
-        np.zeros((nb, 3, 3)), vectors[0], vectors[1], vectors[2], np.zeros((nu, 3)), vectors[3], np.zeros(nb),
-        np.zeros(3), np.zeros(3), np.zeros(3), np.zeros(nu),
-    )  # fmt: skip
+        rotation=np.zeros((nb, 3, 3)),
+        position=np.zeros((nb, 3)),
+        velocity=np.zeros((nb, 3)),
+        omega=np.zeros((nb, 3)),
+        axis=np.zeros((nu, 3)),
+        moment=np.zeros((nb, 3)),
+        weight=np.zeros(nb),
+        com=np.zeros(3),
+        com_velocity=np.zeros(3),
+        spin=np.zeros(3),
+        gravity=np.zeros(nu),
+    )
 
 
 @compiled

@@ -34,9 +34,13 @@ PACKAGES = ("mobnet", "experiments")
 # Imports of these modules are not followed. Provenance and logs write notes, never results. Settings and plan read and
 # check the configuration and compute nothing: what a job takes of their values is a parameter of its rule, so that a
 # changed value reruns the job, and a changed check of it reruns nothing.
-NOT_FOLLOWED = frozenset({
-    "mobnet.core.provenance", "experiments.running.logs", "mobnet.settings", "experiments.settings", "experiments.plan",
-})  # fmt: skip
+NOT_FOLLOWED = (
+    "mobnet.core.provenance",
+    "experiments.running.logs",
+    "mobnet.settings",
+    "experiments.settings",
+    "experiments.plan",
+)
 DISTRIBUTIONS = {  # import name -> name in the lock, where they differ; asking importlib.metadata for all takes 0.4 s
     "OpenGL": "pyopengl",
     "PIL": "pillow",

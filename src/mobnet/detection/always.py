@@ -51,9 +51,14 @@ class AlwaysWatched:
 
 
 def always_watched(
-    setup: LimbSetup, watched: Watched, paths: Sequence[Path], read: Sequence[SensedRecording],
-    estimates: Sequence[Estimate], window_s: float, settle_s: float,
-) -> AlwaysWatched:  # fmt: skip
+    setup: LimbSetup,
+    watched: Watched,
+    paths: Sequence[Path],
+    read: Sequence[SensedRecording],
+    estimates: Sequence[Estimate],
+    window_s: float,
+    settle_s: float,
+) -> AlwaysWatched:
     """Return a limb in recordings, watched in windows that fill their segments.
 
     Windows have the length `window_s` or, where they are alike, one that is twice, four times ... as long, as far as

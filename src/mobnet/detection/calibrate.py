@@ -132,9 +132,13 @@ def run(options: Namespace) -> list[str]:
 
 
 def _tried(
-    logs: Sequence[OwnLog], robot: RobotDescription, limb: str, network: OwnNetwork | None, options: Namespace,
+    logs: Sequence[OwnLog],
+    robot: RobotDescription,
+    limb: str,
+    network: OwnNetwork | None,
+    options: Namespace,
     settings: Lab,
-) -> Iterator[Tried]:  # fmt: skip
+) -> Iterator[Tried]:
     """Yield the calibrated detectors among which one is kept, the observer's and then those of a network.
 
     Where a signal is given, it is kept.

@@ -41,7 +41,7 @@ class QuietWalk:
     @classmethod
     def of(
         cls, setup: LimbSetup, scenario: str, legs: Sequence[LegRecording], estimates: Sequence[Estimate], share: float
-    ) -> "QuietWalk":  # fmt: skip
+    ) -> "QuietWalk":
         """Return a walk of which a share of the swings, the first ones, calibrates."""
         count = sum(len(one.swings) for one in legs)
         first = int(np.ceil(share * count))
@@ -88,7 +88,7 @@ class CalibratedDetector:
 
 def calibrate_detector(
     setup: LegSetup, name: str, detector: Detector, place: QuietWalk, random: QuietWalk
-) -> CalibratedDetector:  # fmt: skip
+) -> CalibratedDetector:
     """Calibrate a detector on the first swings of quiet walks: in place by the paper's rule [5.3], else for rates.
 
     Raises:

@@ -61,9 +61,7 @@ class ContactFinder:
     surface: Surface
 
     @classmethod
-    def of(
-        cls, settings: ContactPoint, robot: RobotDescription, limb: str, joints: Sequence[str]
-    ) -> "ContactFinder":  # fmt: skip
+    def of(cls, settings: ContactPoint, robot: RobotDescription, limb: str, joints: Sequence[str]) -> "ContactFinder":
         """Return a finder of contacts with the bodies that a limb moves.
 
         Joints are those of the limb. On a floating base those of the base and of the standing leg tell much more,
@@ -78,7 +76,7 @@ class ContactFinder:
 
     def locate(
         self, q: NDArray[Any], tau: NDArray[Any], std: NDArray[Any], standing: Sequence[str] = ()
-    ) -> Contact | None:  # fmt: skip
+    ) -> Contact | None:
         """Return the contact that explains the external torque of one sample; None where no force that presses does.
 
         Args:

@@ -14,12 +14,14 @@ from mobnet.core.compilation import compiled
 from mobnet.detection.leg import Leg, foot_load, sole_height
 from mobnet.settings import detection as settings
 
-STATE = np.dtype([
-    ("air", "i8"),  # samples since the plan lifted the foot off, counted from 1; 0 on the ground
-    ("touching", "i8"),  # samples in which the force looked like the ground's, without a gap
-    ("landed", "i8"),  # 1 once it did for long enough in this swing
-    ("phase", "f8"),  # time since lift-off over that plus the time until landing [-]
-])  # fmt: skip
+STATE = np.dtype(
+    [
+        ("air", "i8"),  # samples since the plan lifted the foot off, counted from 1; 0 on the ground
+        ("touching", "i8"),  # samples in which the force looked like the ground's, without a gap
+        ("landed", "i8"),  # 1 once it did for long enough in this swing
+        ("phase", "f8"),  # time since lift-off over that plus the time until landing [-]
+    ]
+)
 IN_THE_AIR = 0.5  # of a flag
 
 
@@ -86,9 +88,16 @@ def advance_gate(gate: Gate, leg: Leg, s: Any, q: Array, tau: Array, swing: floa
 
 @compiled
 def run_gate(
-    gate: Gate, leg: Leg, s: Any, q: Array, tau: Array, swing: NDArray[Any], landing: NDArray[Any],
-    watched: NDArray[np.bool_], phase: Array,
-) -> None:  # fmt: skip
+    gate: Gate,
+    leg: Leg,
+    s: Any,
+    q: Array,
+    tau: Array,
+    swing: NDArray[Any],
+    landing: NDArray[Any],
+    watched: NDArray[np.bool_],
+    phase: Array,
+) -> None:
     """Run the gate over samples (T, ...) as `advance_gate` does, and write whether it watches and the phase (T,)."""
     for row in range(len(q)):
         watched[row] = advance_gate(gate, leg, s, q[row], tau[row], swing[row], landing[row])

@@ -99,9 +99,13 @@ def watched_signal(signal: Signal, settings: Lab) -> Watched:
 
 
 def calibrate_limb(
-    own: Sequence[OwnRecording], robot: RobotDescription, limb: str, signal: Signal, rate_per_h: float,
+    own: Sequence[OwnRecording],
+    robot: RobotDescription,
+    limb: str,
+    signal: Signal,
+    rate_per_h: float,
     settings: Lab,
-) -> LimbCalibration:  # fmt: skip
+) -> LimbCalibration:
     """Calibrate a detector of a limb on recordings that nothing pushes.
 
     Raises:

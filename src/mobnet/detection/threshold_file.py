@@ -63,9 +63,10 @@ def check_thresholds(path: Path, found: LimbThresholds, robot: RobotDescription,
     check_drives(path, found.drives, robot)
     own = robot.layout.groups.get(found.limb, ())
     pairs = {
-        "robot": (found.robot, robot.name), "joints": (found.joints, own),
+        "robot": (found.robot, robot.name),
+        "joints": (found.joints, own),
         "network": (found.network or "none", network.fingerprint if network else "none"),
-    }  # fmt: skip
+    }
     refuse(
         path,
         [f"made for {key} {held!r}, and {here!r} is given here" for key, (held, here) in pairs.items() if held != here],

@@ -78,7 +78,7 @@ def _moments(over: Array) -> tuple[float, float]:
 
 def calibrate(
     largest: Array, episodes: Sequence[int], duration_s: float, rate_per_h: float, settings: Thresholds
-) -> Calibrated:  # fmt: skip
+) -> Calibrated:
     """Return the multiple of the scales for a wanted rate of false alarms.
 
     Args:
@@ -131,9 +131,13 @@ def _check_tail(above: Array, level: float) -> None:
 
 
 def _resampled(
-    largest: Array, groups: Sequence[NDArray[np.intp]], tail: Tail, factor: float, settings: Thresholds,
+    largest: Array,
+    groups: Sequence[NDArray[np.intp]],
+    tail: Tail,
+    factor: float,
+    settings: Thresholds,
     rng: np.random.Generator,
-) -> float:  # fmt: skip
+) -> float:
     """Return the share of swings above a factor that a walk like this one, drawn anew, would make one expect."""
     # Whole episodes: their ground and commands make swings alike, and single swings would look like more than they are.
     drawn = np.concatenate([largest[groups[k]] for k in rng.integers(0, len(groups), len(groups))])

@@ -11,9 +11,13 @@ from mobnet.learning.gaussian import half_width
 
 
 def shares_inside(
-    estimate: NDArray[Any], std: NDArray[Any], free: NDArray[np.bool_], spans: Sequence[tuple[int, int]], rows: int,
+    estimate: NDArray[Any],
+    std: NDArray[Any],
+    free: NDArray[np.bool_],
+    spans: Sequence[tuple[int, int]],
+    rows: int,
     share: float,
-) -> Array:  # fmt: skip
+) -> Array:
     """Return for windows of some rows the share of estimates in their central interval of a nominal share (k,).
 
     Estimates and standard deviations are of a leg's joints, (T, n) each [N m], and count where the leg is free (T,). A

@@ -49,9 +49,13 @@ class RunTime:
 
 
 def export(
-    networks: Sequence[Trained], robot: RobotDescription, run: RunTime, thresholds: Sequence[LimbThresholds],
-    gate: SwingGate, out: Path,
-) -> Contract:  # fmt: skip
+    networks: Sequence[Trained],
+    robot: RobotDescription,
+    run: RunTime,
+    thresholds: Sequence[LimbThresholds],
+    gate: SwingGate,
+    out: Path,
+) -> Contract:
     """Write networks, the model of the C library and their contract into a folder; return the contract.
 
     All is made before anything is written. The contract is removed first and written last, so that a folder that has
@@ -105,10 +109,13 @@ def check_thresholds(
             accepted = [f"{OBSERVER}, or a network of {', '.join(one.joints)}"]
             raise DataError(not_accepted(f"thresholds of {one.limb}: method", one.method, accepted))
         expected = {
-            "robot": robot.name, "rate_hz": run.rate_hz, "gain_hz": run.observer.gain_hz, "torque": run.observer.torque,
+            "robot": robot.name,
+            "rate_hz": run.rate_hz,
+            "gain_hz": run.observer.gain_hz,
+            "torque": run.observer.torque,
             "joints": robot.layout.limb(one.limb),
             **({"network": fingerprints.get(one.limb, "that of an exported network")} if one.network else {}),
-        }  # fmt: skip
+        }
         for key, accepted in expected.items():
             if getattr(one, key) != accepted:
                 raise DataError(not_accepted(f"thresholds of {one.limb}: {key}", getattr(one, key), [accepted]))

@@ -84,7 +84,7 @@ class RuntimeDetector:
 
 def write_model_file(
     path: Path, observer: MomentumObserver, networks: Sequence[RuntimeNetwork], detectors: Sequence[RuntimeDetector]
-) -> None:  # fmt: skip
+) -> None:
     """Write the file of an observer that knows its robot, and of the networks and detectors of the robot's limbs.
 
     Raises:
@@ -98,7 +98,7 @@ def write_model_file(
 
 def model_content(
     observer: MomentumObserver, networks: Sequence[RuntimeNetwork], detectors: Sequence[RuntimeDetector]
-) -> bytes:  # fmt: skip
+) -> bytes:
     """Return the bytes of such a file.
 
     Raises:

@@ -20,9 +20,7 @@ from mobnet.settings.limb_thresholds import LimbThresholds
 MODEL = "model.bin"
 
 
-def model_of(
-    robot: RobotDescription, contract: Contract, networks: Sequence[Trained], gate: SwingGate
-) -> bytes | None:  # fmt: skip
+def model_of(robot: RobotDescription, contract: Contract, networks: Sequence[Trained], gate: SwingGate) -> bytes | None:
     """Return the model file of a robot, whose table is what the observer knows, with networks and their contract.
 
     Where the library lacks the cell of a network there is none.

@@ -18,17 +18,22 @@ def export_parser() -> argparse.ArgumentParser:
     parser.add_argument("network", type=Path, nargs="+", metavar="NET", help="folder of a trained network")
     parser.add_argument("--robot", type=Path, help="table of the robot (default: that of configs)")
     parser.add_argument(
-        "--thresholds", type=Path, action="append", default=[], metavar="FILE",
+        "--thresholds",
+        type=Path,
+        action="append",
+        default=[],
+        metavar="FILE",
         help=f"thresholds of a limb, as {command('calibrate')} writes them; may be given again",
-    )  # fmt: skip
+    )
     parser.add_argument("--rate", type=float, metavar="HZ", help="samples per second, where the training noted none")
     parser.add_argument(
         "--gain", type=float, metavar="K", help="gain of the observer [1/s], where the training noted none"
     )
     parser.add_argument(
-        "--torque", choices=("sample", "mean"),
+        "--torque",
+        choices=("sample", "mean"),
         help="whether torques are samples at the ticks or means over the intervals before them, "
         "where the training noted neither",
-    )  # fmt: skip
+    )
     parser.add_argument("--out", type=Path, required=True, help="folder of what is made")
     return parser

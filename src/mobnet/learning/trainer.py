@@ -158,9 +158,15 @@ class Trainer:
         plan, scored = self._plan(epoch, stride)
         with seeded(self._seed("dropout", epoch)):
             losses, norms = train_epoch(
-                self.network, self._optimizer, self._samples, plan, job.horizon, learning.gradient_norm, scored,
+                self.network,
+                self._optimizer,
+                self._samples,
+                plan,
+                job.horizon,
+                learning.gradient_norm,
+                scored,
                 objective_of(learning),
-            )  # fmt: skip
+            )
         # The median: a few updates of a training that goes well can have losses of thousands.
         self._check("median training", epoch, losses.median().item(), rate, learning.divergence_loss)
         validation, errors = self._validate(self._validation_at(stride))
@@ -204,6 +210,12 @@ class Trainer:
         epochs = self.job.training.epochs
         log.info(
             "%s: epoch %d/%d, loss %.3f, validation %.3f (%.3g N m), rate %.2g, %.0f s left",
-            self.job.name, last.epoch, epochs, last.train_loss, last.validation_loss, last.validation_rmse, last.rate,
+            self.job.name,
+            last.epoch,
+            epochs,
+            last.train_loss,
+            last.validation_loss,
+            last.validation_rmse,
+            last.rate,
             done.seconds / last.epoch * (epochs - last.epoch),
-        )  # fmt: skip
+        )

@@ -55,10 +55,17 @@ def make_ends(robot: RobotDescription, bodies: Mapping[str, str], numbers: Ident
     per_force = numbers.torque_error_nm / numbers.force_n
     per_moment = numbers.torque_error_nm / numbers.moment_nm
     return Ends(
-        tree, empty_pose(tree), np.array(body), np.array(first), np.array(count),
-        np.repeat([per_force**2, per_moment**2], 3), np.zeros(robot.layout.nv), np.zeros((6, max(count))),
-        np.zeros((6, 6)), np.zeros((len(body), 6)),
-    )  # fmt: skip
+        tree=tree,
+        pose=empty_pose(tree),
+        body=np.array(body),
+        first=np.array(first),
+        joints=np.array(count),
+        damping=np.repeat([per_force**2, per_moment**2], 3),
+        still=np.zeros(robot.layout.nv),
+        jacobian=np.zeros((6, max(count))),
+        normal=np.zeros((6, 6)),
+        wrench=np.zeros((len(body), 6)),
+    )
 
 
 @compiled

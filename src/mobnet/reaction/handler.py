@@ -82,9 +82,15 @@ class Handler:
     """Detects collisions and decides how to step; `identified` has the last sample's wrenches on hands and feet."""
 
     def __init__(
-        self, robot: RobotDescription, numbers: Numbers, spacing_m: float, watchers: Mapping[str, Watcher],
-        strategy: Strategy, delay: int = 0, settle: int = 0,
-    ) -> None:  # fmt: skip
+        self,
+        robot: RobotDescription,
+        numbers: Numbers,
+        spacing_m: float,
+        watchers: Mapping[str, Watcher],
+        strategy: Strategy,
+        delay: int = 0,
+        settle: int = 0,
+    ) -> None:
         """Watch limbs; react `delay` samples after an alarm, with feet that the controller sets spacing_m [m] apart.
 
         In the first `settle` samples, while filters and networks begin from rest, nothing is an alarm.

@@ -50,10 +50,11 @@ def mass_of(body: Body, links: Sequence[Link]) -> Mass:
     dropped = tuple(part.link for part in tokens)
     rest = fused([part for part in body.parts if part.link not in dropped])
     if is_rigid(rest[0], rest[2]):
-        told = [
-            f"{links[part.link].name}: {_told(part.mass, part.inertia)} of no rigid body; left out" for part in tokens
-        ]
-        return Mass(*rest, told, is_changed=True, dropped=dropped)
+        notes = list[str]()
+        for part in tokens:
+            text = _told(part.mass, part.inertia)
+            notes.append(f"{links[part.link].name}: {text} of no rigid body; left out")
+        return Mass(*rest, notes, is_changed=True, dropped=dropped)
     mass, com, inertia = fused(body.parts)
     changed_mass, changed = balanced(mass, inertia)
     text = f"{body.name}: {_told(mass, inertia)} of no rigid body; changed to {_told(changed_mass, changed)}"
@@ -103,7 +104,8 @@ def _large(name: str, whole: Mass) -> Iterator[str]:
     """Yield that a radius of gyration is larger than that of links of robots."""
     radius = float(np.sqrt(np.diag(whole.inertia).max() / whole.mass))
     if radius > LARGE_M:
-        yield f"{name}: {_told(whole.mass, whole.inertia)}, a radius of gyration of {radius:.3g} m, as the file has it"
+        text = _told(whole.mass, whole.inertia)
+        yield f"{name}: {text}, a radius of gyration of {radius:.3g} m, as the file has it"
 
 
 def _told(mass: float, inertia: Array) -> str:

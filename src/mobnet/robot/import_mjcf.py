@@ -142,11 +142,16 @@ def _link(model: mujoco.MjModel, b: int, couplings: Mapping[int, Follows]) -> Li
         mass = 0.0
     if model.body_inertia[b].max() <= BOUND_INERTIA:
         inertia = np.zeros((3, 3))
-    place = model.body_pos[b].copy(), _turn(model.body_quat[b])
     return Link(
-        model.body(b).name, int(model.body_parentid[b]) - 1 if model.body_parentid[b] else WORLD, *place, joints, mass,
-        model.body_ipos[b].copy(), inertia,
-    )  # fmt: skip
+        name=model.body(b).name,
+        parent=int(model.body_parentid[b]) - 1 if model.body_parentid[b] else WORLD,
+        pos=model.body_pos[b].copy(),
+        turn=_turn(model.body_quat[b]),
+        joints=joints,
+        mass=mass,
+        com=model.body_ipos[b].copy(),
+        inertia=inertia,
+    )
 
 
 def _turn(quat: Array) -> Array:
@@ -165,14 +170,20 @@ def _joint(model: mujoco.MjModel, k: int, couplings: Mapping[int, Follows]) -> J
         torques.append(float(np.abs(model.jnt_actfrcrange[k]).max()))
     kind = KINDS[int(model.jnt_type[k])]
     return Joint(
-        model.joint(k).name, kind, model.jnt_axis[k].copy(), k, model.jnt_pos[k].copy(),
+        name=model.joint(k).name,
+        kind=kind,
+        axis=model.jnt_axis[k].copy(),
+        index=k,
+        pos=model.jnt_pos[k].copy(),
         at=float(model.qpos0[model.jnt_qposadr[k]]) if kind in (HINGE, SLIDE) else 0.0,
         range=(float(model.jnt_range[k, 0]), float(model.jnt_range[k, 1])) if model.jnt_limited[k] else None,
-        torque=min(torques, default=None), armature=float(model.dof_armature[dof]),
-        damping=float(np.ravel(model.dof_damping[dof])[0]), friction=float(model.dof_frictionloss[dof]),
+        torque=min(torques, default=None),
+        armature=float(model.dof_armature[dof]),
+        damping=float(np.ravel(model.dof_damping[dof])[0]),
+        friction=float(model.dof_frictionloss[dof]),
         has_motor=bool(actuators) or not model.nu,
         follows=None if actuators else couplings.get(k),
-    )  # fmt: skip
+    )
 
 
 def _actuators(model: mujoco.MjModel, joint: int) -> Iterator[int]:

@@ -84,10 +84,15 @@ def joint_rows(
         unlimited["torque"] += [] if torque else [word]
         unlimited["speed"] += [] if speed else [word]
         yield {
-            "id": word, **({"name": joint.name} if joint.name else {}), "body": body,
-            "axis": [float(x) + 0.0 for x in joint.axis], "range": [low, high],
-            "torque_limit": torque or torque_limit, "armature": joint.armature, "velocity_limit": speed or speed_limit,
-        }  # fmt: skip
+            "id": word,
+            **({"name": joint.name} if joint.name else {}),
+            "body": body,
+            "axis": [float(x) + 0.0 for x in joint.axis],
+            "range": [low, high],
+            "torque_limit": torque or torque_limit,
+            "armature": joint.armature,
+            "velocity_limit": speed or speed_limit,
+        }
     defaults = {"range": f"{MOST_RAD} rad", "torque": f"{torque_limit:g} N m", "speed": f"{speed_limit:g} rad/s"}
     for kind, without in unlimited.items():
         if without:

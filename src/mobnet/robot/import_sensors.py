@@ -53,9 +53,12 @@ def _places(tree: Tree, parts: Sequence[Body]) -> Iterator[tuple[str, int, Array
 
 
 def feet_of(
-    turn: Array, parts: Sequence[Body], rows: Sequence[Mapping[str, Any]], limbs: Mapping[str, Sequence[str]],
+    turn: Array,
+    parts: Sequence[Body],
+    rows: Sequence[Mapping[str, Any]],
+    limbs: Mapping[str, Sequence[str]],
     joints: Sequence[Mapping[str, Any]],
-) -> Iterator[str]:  # fmt: skip
+) -> Iterator[str]:
     """Yield the pair of bodies at the ends of limbs that are lowest while all joints are at zero: feet, most likely.
 
     The base has the axes `turn` (3, 3).

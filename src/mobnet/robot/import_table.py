@@ -38,12 +38,17 @@ def table_text(found: Imported, source: str) -> str:
         f"name: {flow(found.name)}",
         f"base: {'floating' if found.floating else 'fixed'}",
         *([f"imu: {flow(found.imu)}"] if found.imu else []),
-        "order:", *(f"  {key}: {flow(value)}" for key, value in order.items()),
-        "groups:", *(f"  {flow(name)}: {flow(joints)}" for name, joints in limbs.items()),
-        "networks:", *(f"  {flow(name)}: {flow(row)}" for name, row in networks.items()),
-        "joints:", *(f"  - {flow(row)}" for row in found.joints),
-        "bodies:", *(f"  - {flow(row)}" for row in found.bodies),
-    ]  # fmt: skip
+        "order:",
+        *(f"  {key}: {flow(value)}" for key, value in order.items()),
+        "groups:",
+        *(f"  {flow(name)}: {flow(joints)}" for name, joints in limbs.items()),
+        "networks:",
+        *(f"  {flow(name)}: {flow(row)}" for name, row in networks.items()),
+        "joints:",
+        *(f"  - {flow(row)}" for row in found.joints),
+        "bodies:",
+        *(f"  - {flow(row)}" for row in found.bodies),
+    ]
     return "\n".join(lines) + "\n"
 
 

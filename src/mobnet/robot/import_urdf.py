@@ -179,9 +179,17 @@ def _joint(row: _Row, kind: str, numbers: Mapping[str, int]) -> Joint:
     coupling = row.row.find("mimic")
     follows = None if coupling is None else _coupling(coupling, where, numbers)
     return Joint(
-        row.name, kind, axis / (length or 1.0), row.index, torque=torque, speed=speed, damping=damping,
-        range=None if row.is_endless or not low < high else (low, high), friction=friction, follows=follows,
-    )  # fmt: skip
+        name=row.name,
+        kind=kind,
+        axis=axis / (length or 1.0),
+        index=row.index,
+        torque=torque,
+        speed=speed,
+        damping=damping,
+        range=None if row.is_endless or not low < high else (low, high),
+        friction=friction,
+        follows=follows,
+    )
 
 
 def _coupling(row: ET.Element, where: str, numbers: Mapping[str, int]) -> Follows:

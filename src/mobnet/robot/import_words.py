@@ -14,9 +14,11 @@ def import_parser() -> argparse.ArgumentParser:
         "matrix and bias with MuJoCo's and Pinocchio's own reading of the file.",
     )
     parser.add_argument(
-        "file", type=Path, metavar="FILE",
+        "file",
+        type=Path,
+        metavar="FILE",
         help="URDF or MJCF of a robot; it needs no meshes, except bodies of a MJCF without an <inertial>",
-    )  # fmt: skip
+    )
     parser.add_argument(
         "--base", metavar="KIND", help="fixed or floating (default: floating where the file has a free joint)"
     )
@@ -29,12 +31,17 @@ def import_parser() -> argparse.ArgumentParser:
         "--speed-limit", type=float, default=10.0, help="of joints without one [rad/s] (default: %(default)s)"
     )
     parser.add_argument(
-        "--armature", type=float, default=0.0,
+        "--armature",
+        type=float,
+        default=0.0,
         help="rotor inertia of joints without one, behind the gear [kg m^2] (default: %(default)s)",
-    )  # fmt: skip
+    )
     parser.add_argument(
-        "--lock", action="append", default=[], metavar="JOINT=ANGLE",
+        "--lock",
+        action="append",
+        default=[],
+        metavar="JOINT=ANGLE",
         help="weld a joint that the log does not have, such as one of a gripper, at an angle [rad], JOINT alone at "
         "zero; may be given several times",
-    )  # fmt: skip
+    )
     return parser

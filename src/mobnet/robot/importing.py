@@ -62,9 +62,13 @@ class Imported:
 
 
 def import_robot(
-    path: Path, floating: bool | None, torque_limit: float, speed_limit: float, armature: float = 0.0,
+    path: Path,
+    floating: bool | None,
+    torque_limit: float,
+    speed_limit: float,
+    armature: float = 0.0,
     locked: Sequence[str] = (),
-) -> Imported:  # fmt: skip
+) -> Imported:
     """Read a robot from a URDF or a MJCF file.
 
     Whether the base floats follows from the file if it is not said. Limits [N m], [rad/s] and rotor inertia [kg m^2]

@@ -23,9 +23,18 @@ from mobnet.robotlog.pieces import pieces
 from mobnet.settings.robotlog import LogMap, RobotLog, Signal
 
 SI = {  # unit -> in SI units
-    "deg": np.pi / 180, "deg/s": np.pi / 180, "rpm": 2 * np.pi / 60, "mN m": 1e-3, "kN m": 1e3, "mm": 1e-3,
-    "g": 9.80665, "kN": 1e3, "ms": 1e-3, "us": 1e-6, "ns": 1e-9,
-}  # fmt: skip
+    "deg": np.pi / 180,
+    "deg/s": np.pi / 180,
+    "rpm": 2 * np.pi / 60,
+    "mN m": 1e-3,
+    "kN m": 1e3,
+    "mm": 1e-3,
+    "g": 9.80665,
+    "kN": 1e3,
+    "ms": 1e-3,
+    "us": 1e-6,
+    "ns": 1e-9,
+}
 LARGEST = 1e15  # number of a signal in SI units: with the square of a speed a residual is one of single precision
 
 
@@ -247,15 +256,24 @@ def _recording(
         v[:, :3], v[:, 3:6] = values["velocity"], values["omega"]
     motor = values["tau_motor"]
     sensed = Sensed(
-        q=q, v=v,
-        acc_base_in_base=given("acc", "acc_base_in_base"), tau_des=motor, tau_motor=motor,
-        swing=given("swing", "swing"), command=given("command", "command"), landing=given("landing", "landing"),
-    )  # fmt: skip
+        q=q,
+        v=v,
+        acc_base_in_base=given("acc", "acc_base_in_base"),
+        tau_des=motor,
+        tau_motor=motor,
+        swing=given("swing", "swing"),
+        command=given("command", "command"),
+        landing=given("landing", "landing"),
+    )
     truth = Truth(
-        tau_ext=np.zeros((rows, layout.nv)), wrench_left_foot=given("left_foot", "wrench_left_foot"),
-        wrench_right_foot=given("right_foot", "wrench_right_foot"), contact=np.zeros((rows, len(fields["contact"]))),
-        pushed=np.zeros((rows, 1)), tau_random=np.zeros(motor.shape), tau_push=np.zeros((rows, layout.nv)),
+        tau_ext=np.zeros((rows, layout.nv)),
+        wrench_left_foot=given("left_foot", "wrench_left_foot"),
+        wrench_right_foot=given("right_foot", "wrench_right_foot"),
+        contact=np.zeros((rows, len(fields["contact"]))),
+        pushed=np.zeros((rows, 1)),
+        tau_random=np.zeros(motor.shape),
+        tau_push=np.zeros((rows, layout.nv)),
         push=np.zeros((rows, len(fields["push"]))),
-    )  # fmt: skip
+    )
     meta = {"scenario": "log", "level": "robot", "seed": 0, ABSENT: list(absent)}
     return Recording(sensed, segments, rate_hz, meta, truth), absent

@@ -189,9 +189,12 @@ def _separated(path: Path, layout: Layout, asked: Sequence[str]) -> dict[str, Co
 
     parse = arrow.ParseOptions(delimiter=layout.separator, invalid_row_handler=leave_out)
     read = arrow.ReadOptions(
-        column_names=list(layout.names), skip_rows=layout.lead, block_size=FIRST_BYTES, encoding=layout.encoding,
+        column_names=list(layout.names),
+        skip_rows=layout.lead,
+        block_size=FIRST_BYTES,
+        encoding=layout.encoding,
         use_threads=False,
-    )  # fmt: skip
+    )
     empty = [*arrow.ConvertOptions().null_values, " "]
     kept = {"include_columns": asked, "null_values": empty, "decimal_point": layout.decimal}
     with arrow.open_csv(path, read, parse, arrow.ConvertOptions(**kept)) as file:
@@ -255,9 +258,16 @@ def _spaced(path: Path, layout: Layout, asked: Sequence[str]) -> dict[str, Colum
     import pandas as pd
 
     frame = pd.read_csv(
-        path, sep=r"\s+", header=None, names=list(layout.names), usecols=list(asked), skiprows=layout.lead,
-        decimal=layout.decimal, encoding=layout.encoding, on_bad_lines="skip",
-    )  # fmt: skip
+        path,
+        sep=r"\s+",
+        header=None,
+        names=list(layout.names),
+        usecols=list(asked),
+        skiprows=layout.lead,
+        decimal=layout.decimal,
+        encoding=layout.encoding,
+        on_bad_lines="skip",
+    )
     # A log that ends early may end in a short row, which pandas would fill with NaN.
     last = _fields(_last_line(path, layout.encoding), SPACES)
     is_cut = len(last) != len(layout.names)

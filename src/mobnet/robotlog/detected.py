@@ -41,9 +41,13 @@ class Detected:
 
 
 def detect_log(
-    path: Path, robot: RobotDescription, meaning: LogMap | None, network: OwnNetwork | None, found: LimbThresholds,
+    path: Path,
+    robot: RobotDescription,
+    meaning: LogMap | None,
+    network: OwnNetwork | None,
+    found: LimbThresholds,
     settings: Lab,
-) -> Detected:  # fmt: skip
+) -> Detected:
     """Estimate the external torque of a limb in a log, and flag what lies above its thresholds.
 
     Raises:

@@ -43,9 +43,15 @@ COLUMNS = ("start_s", "end_s", "joint", "ratio", "link", "point", "direction", "
 
 
 def flags_of(
-    alarm: Alarm, time_s: Array, read: SensedRecording, low: Array, std: NDArray[Any] | None, found: LimbThresholds,
-    nominal: NominalModel, bounds: RobotLog,
-) -> Iterator[Flag]:  # fmt: skip
+    alarm: Alarm,
+    time_s: Array,
+    read: SensedRecording,
+    low: Array,
+    std: NDArray[Any] | None,
+    found: LimbThresholds,
+    nominal: NominalModel,
+    bounds: RobotLog,
+) -> Iterator[Flag]:
     """Yield the flags of a limb in a log.
 
     Args:

@@ -121,10 +121,17 @@ def free_check(held: Held, data: LimbData, label: Array, cut: int, units: Sequen
     beyond = np.maximum(low - data.inputs[rows], data.inputs[rows] - high) > margin * (high - low)
     often = beyond.mean(axis=0)
     return FreeCheck(
-        data.joints, tuple(units), len(rows) / data.rate_hz, _size(label[rows]), _size(data.targets[rows]),
-        _size(errors), _size(held.seen), coverage(errors, std, SHARES),
-        float(beyond.any(axis=1).mean()), data.input_names[int(np.argmax(often))] if often.any() else "",
-    )  # fmt: skip
+        joints=data.joints,
+        units=tuple(units),
+        seconds=len(rows) / data.rate_hz,
+        zero=_size(label[rows]),
+        observer=_size(data.targets[rows]),
+        network=_size(errors),
+        seen=_size(held.seen),
+        covered=coverage(errors, std, SHARES),
+        outside=float(beyond.any(axis=1).mean()),
+        widest=data.input_names[int(np.argmax(often))] if often.any() else "",
+    )
 
 
 def course_of(metrics: Path, kept: int) -> Course:

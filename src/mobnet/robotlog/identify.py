@@ -64,9 +64,12 @@ def read_free_log(path: Path, robot: RobotDescription, meaning: LogMap | None, s
 
 
 def identify(
-    robot: RobotDescription, logs: Sequence[FreeLog], terms: Sequence[str], settings: Lab,
+    robot: RobotDescription,
+    logs: Sequence[FreeLog],
+    terms: Sequence[str],
+    settings: Lab,
     payload: str | None = None,
-) -> tuple[dict[str, JointFit], Payload | None]:  # fmt: skip
+) -> tuple[dict[str, JointFit], Payload | None]:
     """Return the numbers of the joints that move in logs of free motion, and the payload of a body.
 
     Raises:
@@ -136,9 +139,14 @@ def with_payload(table: RobotTable, body: str, found: Payload) -> RobotTable:
     own = _rounded(found.inertia)
     (x, y, z) = map(_rounded, found.com)
     row = BodyRow(
-        name=name, parent=body, pos=(0.0, 0.0, 0.0), quat=(1.0, 0.0, 0.0, 0.0), mass=_rounded(found.mass),
-        com=(x, y, z), inertia=(own, own, own, 0.0, 0.0, 0.0),
-    )  # fmt: skip
+        name=name,
+        parent=body,
+        pos=(0.0, 0.0, 0.0),
+        quat=(1.0, 0.0, 0.0, 0.0),
+        mass=_rounded(found.mass),
+        com=(x, y, z),
+        inertia=(own, own, own, 0.0, 0.0, 0.0),
+    )
     # Bodies of a table stand depth-first: the payload comes right after the body that carries it.
     place = names.index(body) + 1
     return table.model_copy(update={"bodies": (*table.bodies[:place], row, *table.bodies[place:]), "totals": None})
@@ -163,9 +171,13 @@ def _rounded(value: float) -> float:
 def told(found: Mapping[str, JointFit], robot: RobotDescription, held_out: float) -> Iterator[str]:
     """Yield what the command prints."""
     units = {
-        "coulomb": "Coulomb [N m]", "viscous": "viscous [N m s/rad]", "load": "load [-]", "offset": "offset [N m]",
-        "armature": "rotor inertia [kg m^2]", "scale": "scale - 1 [-]",
-    }  # fmt: skip
+        "coulomb": "Coulomb [N m]",
+        "viscous": "viscous [N m s/rad]",
+        "load": "load [-]",
+        "offset": "offset [N m]",
+        "armature": "rotor inertia [kg m^2]",
+        "scale": "scale - 1 [-]",
+    }
     fitted = set(chain.from_iterable(fit.factors for fit in found.values()))
     shown = [term for term in units if term in fitted]
     rows = [["joint", *(units[term] for term in shown), "sign", "residual, held out", "explained"]]

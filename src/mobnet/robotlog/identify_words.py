@@ -15,9 +15,12 @@ def identify_parser() -> argparse.ArgumentParser:
         "(docs/identify.md).",
     )
     parser.add_argument(
-        "logs", type=Path, nargs="+", metavar="FOLDER",
+        "logs",
+        type=Path,
+        nargs="+",
+        metavar="FOLDER",
         help=f"what `{command('observe')}` wrote, or a log as it reads it",
-    )  # fmt: skip
+    )
     parser.add_argument("--robot", type=Path, help="table of the robot (default: that of configs)")
     parser.add_argument("--map", type=Path, help="what the columns of logs mean, where logs are given")
     parser.add_argument(

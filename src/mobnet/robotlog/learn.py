@@ -49,9 +49,16 @@ SEED = 0
 
 
 def learn(
-    settings: Lab, table: RobotTable, logs: Sequence[OwnLog], limb: str, labels: str, epochs: int, out: Path,
-    *, force: bool = False,
-) -> list[str]:  # fmt: skip
+    settings: Lab,
+    table: RobotTable,
+    logs: Sequence[OwnLog],
+    limb: str,
+    labels: str,
+    epochs: int,
+    out: Path,
+    *,
+    force: bool = False,
+) -> list[str]:
     """Train a network of a limb on logs, or go on with it, and return what is printed of it.
 
     Raises:
@@ -87,9 +94,14 @@ def learn(
 
 
 def _planted(
-    logs: Sequence[OwnLog], nominal: NominalModel, limb: str, data: LimbData, label: Array, held: Held,
+    logs: Sequence[OwnLog],
+    nominal: NominalModel,
+    limb: str,
+    data: LimbData,
+    label: Array,
+    held: Held,
     settings: Lab,
-) -> PlantedCheck | None:  # fmt: skip
+) -> PlantedCheck | None:
     """Return which detectors of a limb find pushes that are planted into what is held out.
 
     There is none of a network of several limbs, or of a part that is too short.

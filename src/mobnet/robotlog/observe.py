@@ -76,9 +76,14 @@ class Observed:
 
 
 def observe_log(
-    path: Path, robot: RobotDescription, meaning: LogMap | None, torque: TorqueKind, gain_hz: float,
-    gravity_m_s2: float, bounds: RobotLog,
-) -> Observed:  # fmt: skip
+    path: Path,
+    robot: RobotDescription,
+    meaning: LogMap | None,
+    torque: TorqueKind,
+    gain_hz: float,
+    gravity_m_s2: float,
+    bounds: RobotLog,
+) -> Observed:
     """Read a log, run the momentum observer on it, and look for what is wrong with it.
 
     Without a map, columns have the names of a recording. `torque` says what torques are, whatever the map says; the
@@ -165,9 +170,13 @@ def looked_at(
 
 
 def _torques_looked_at(
-    found: Converted, nominal: NominalModel, torque: TorqueKind, wrenches: Mapping[str, Array], late: bool,
+    found: Converted,
+    nominal: NominalModel,
+    torque: TorqueKind,
+    wrenches: Mapping[str, Array],
+    late: bool,
     bounds: RobotLog,
-) -> tuple[list[str], list[str]]:  # fmt: skip
+) -> tuple[list[str], list[str]]:
     """Return what looks wrong with torques, or else what explains the residual; speeds may be known to be late."""
     read = found.recording
     log_of = read.sensed, read.spans(), read.rate_hz, wrenches

@@ -58,9 +58,15 @@ class PlantedCheck:
 
 
 def planted_check(
-    nominal: NominalModel, limb: str, sampling: Sampling, q: NDArray[Any], segments: Spans, network: Estimate,
-    observers: Sequence[NDArray[Any]], settings: Lab,
-) -> PlantedCheck | None:  # fmt: skip
+    nominal: NominalModel,
+    limb: str,
+    sampling: Sampling,
+    q: NDArray[Any],
+    segments: Spans,
+    network: Estimate,
+    observers: Sequence[NDArray[Any]],
+    settings: Lab,
+) -> PlantedCheck | None:
     """Plant pushes into a part of logs, and return which detectors find them; None where it is too short for a push.
 
     Args:

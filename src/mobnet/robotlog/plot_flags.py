@@ -18,9 +18,13 @@ LABELS = {"mean": "torque [N m]", "std": "sigma [N m]", "ratio": "torque / sigma
 
 @styled
 def plot_flags(
-    time_s: Array, segments: Sequence[tuple[int, int]], signals: Array, flags: Sequence[Flag], found: LimbThresholds,
+    time_s: Array,
+    segments: Sequence[tuple[int, int]],
+    signals: Array,
+    flags: Sequence[Flag],
+    found: LimbThresholds,
     stem: Path,
-) -> None:  # fmt: skip
+) -> None:
     """Write what is watched of a limb behind the low-pass (T, n) over time (T,) [s] as `stem.png`, a panel a joint.
 
     Thresholds are dashed on both sides of zero, flags are bands, darker in the panel of the joint that lies highest

@@ -26,10 +26,14 @@ def training_of(settings: Lab, table: RobotTable, limb: str, labels: str, rate_h
     learning = in_precision(settings.learning, of_processor())
     horizon = row.horizon_steps
     return Training(
-        method=LEARNED, limb=limb, target="uncertainty", network=Network.model_validate({**vars(ports), **vars(row)}),
-        learning=_at_rate(learning, rate_hz / settings.rates.data_hz), epochs=epochs,
+        method=LEARNED,
+        limb=limb,
+        target="uncertainty",
+        network=Network.model_validate({**vars(ports), **vars(row)}),
+        learning=_at_rate(learning, rate_hz / settings.rates.data_hz),
+        epochs=epochs,
         epoch_samples=max(numbers.epoch_samples, horizon * numbers.updates),
-    )  # fmt: skip
+    )
 
 
 def _at_rate(learning: Learning, ratio: float) -> Learning:

@@ -19,9 +19,10 @@ def observe_parser() -> argparse.ArgumentParser:
     parser.add_argument("--robot", type=Path, help="table of the robot (default: that of configs)")
     parser.add_argument("--map", type=Path, help="what its columns mean (default: columns named as in docs/data.md)")
     parser.add_argument(
-        "--torque", choices=("sample", "mean"),
+        "--torque",
+        choices=("sample", "mean"),
         help="whether torques are samples at the ticks or means over the intervals before them (default: the map's)",
-    )  # fmt: skip
+    )
     parser.add_argument("--gain", type=float, metavar="K", help="gain of the observer [1/s] (default: that of configs)")
     add_wrench(parser)
     parser.add_argument("--out", type=Path, help="folder of what is made (default: LOG's name with _observed, here)")
@@ -31,6 +32,9 @@ def observe_parser() -> argparse.ArgumentParser:
 def add_wrench(parser: argparse.ArgumentParser) -> None:
     """Add the option by which `observe` and `detect` also write wrenches."""
     parser.add_argument(
-        "--wrench", action="append", default=[], metavar="NAME",
+        "--wrench",
+        action="append",
+        default=[],
+        metavar="NAME",
         help="also write the external wrench at a point or body of the table (repeat for several)",
-    )  # fmt: skip
+    )

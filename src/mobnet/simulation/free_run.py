@@ -83,9 +83,14 @@ class Run:
     """A plant in motion, and its samples: q (T, nq), v (T, nv), acc (T, 3), tau (T, nu), ext (T, nv), pushed (T, 1)."""
 
     def __init__(
-        self, robot: RobotDescription, numbers: Numbers, model: mujoco.MjModel, motion: BSpline, constants: Array,
+        self,
+        robot: RobotDescription,
+        numbers: Numbers,
+        model: mujoco.MjModel,
+        motion: BSpline,
+        constants: Array,
         ideal: bool,
-    ) -> None:  # fmt: skip
+    ) -> None:
         """Put a robot at the start of a motion; `constants` (nu,) are true torques over reported ones."""
         self.robot = robot
         self.numbers = numbers

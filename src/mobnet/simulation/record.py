@@ -80,11 +80,16 @@ def collect(settings: WalkSettings, seed: int, duration_s: float, out: Path, mot
 
         course = record(simulator, samples, settings.recording, rate, keep)
         meta = {
-            "rate_hz": rate, "scenario": settings.scenario_name, "level": settings.level_name, "seed": seed,
-            "falls": course.falls, "terrains": course.terrains, "clearance_min_m": round(watch.nearest, 4),
+            "rate_hz": rate,
+            "scenario": settings.scenario_name,
+            "level": settings.level_name,
+            "seed": seed,
+            "falls": course.falls,
+            "terrains": course.terrains,
+            "clearance_min_m": round(watch.nearest, 4),
             "self_collisions": watch.collisions,
             "provenance": provenance(),
-        }  # fmt: skip
+        }
         writer.close(meta, course.segments)
     speed = duration_s / (time.perf_counter() - started)
     log.info("%s: %d samples, %d falls, %.1f x real time", out.name, samples, course.falls, speed)

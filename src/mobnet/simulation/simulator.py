@@ -170,6 +170,16 @@ class Simulator:
         """Simulate len(rows) samples into rows (n, C); return how many came before a fall."""
         rng = self.rng
         return run(
-            self.plant, self.walker, self.sensors, self.state, self.commands, self.upper, self.torque,
-            self.pushes, rng["noise"], rng["torque"], rng["pushes"], rows,
-        )  # fmt: skip
+            self.plant,
+            self.walker,
+            self.sensors,
+            self.state,
+            self.commands,
+            self.upper,
+            self.torque,
+            self.pushes,
+            rng["noise"],
+            rng["torque"],
+            rng["pushes"],
+            rows,
+        )

@@ -72,9 +72,12 @@ def rows_of(method: str, seeds: Sequence[int]) -> str:
 
 
 def number_of(
-    scores: Sequence[Score], wanted: Sequence[Wanted], statistics: Statistics, formula: Formula = MEAN,
+    scores: Sequence[Score],
+    wanted: Sequence[Wanted],
+    statistics: Statistics,
+    formula: Formula = MEAN,
     published: float | None = None,
-) -> Number:  # fmt: skip
+) -> Number:
     """Return the number that a formula makes of mean errors, with its interval, in the first one's unit, e.g. [N m]."""
     unit = wanted[0].rows(scores)[0].unit
     number = summarise([run_grid(scores, each) for each in wanted], statistics, formula, unit)

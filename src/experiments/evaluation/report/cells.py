@@ -25,8 +25,9 @@ def cells_of(path: Path) -> dict[str, Number]:
         name = "@".join([path.stem, *(row[column] for column in before if column not in COUNTS)])
         numbers = {
             column: parse_field(row[column], float | None, f"{path}:{line}: {column}", faults)
-            for column in ("value", "low", "high", "published") if column in row
-        }  # fmt: skip
+            for column in ("value", "low", "high", "published")
+            if column in row
+        }
         found[name] = Number(**numbers, unit=row["unit"])
     refuse_lines(faults)
     return found

@@ -31,9 +31,17 @@ log = logging.getLogger(__name__)
 
 
 def demo_data(
-    settings: Story, scale: str, layout: JointLayout, limb: str, pushes: Sequence[str], recording: Path,
-    estimates: Mapping[str, Path], copied: Mapping[str, Path], detections: Mapping[str, Path], out: Path,
-) -> None:  # fmt: skip
+    settings: Story,
+    scale: str,
+    layout: JointLayout,
+    limb: str,
+    pushes: Sequence[str],
+    recording: Path,
+    estimates: Mapping[str, Path],
+    copied: Mapping[str, Path],
+    detections: Mapping[str, Path],
+    out: Path,
+) -> None:
     """Write the files of the stored push beside `out`, which says what each of them is made from, with its hash.
 
     Args:

@@ -43,9 +43,18 @@ log = logging.getLogger(__name__)
 
 
 def explore(
-    settings: Explore, story: Story, detection: Detection, peaks: Peaks, robot: RobotTable, looks: Looks | None,
-    scenes: Mapping[str, PageScene], collisions: Path, detected: Path, templates: Sequence[Path], out: Path,
-) -> None:  # fmt: skip
+    settings: Explore,
+    story: Story,
+    detection: Detection,
+    peaks: Peaks,
+    robot: RobotTable,
+    looks: Looks | None,
+    scenes: Mapping[str, PageScene],
+    collisions: Path,
+    detected: Path,
+    templates: Sequence[Path],
+    out: Path,
+) -> None:
     """Write the page; a scene whose recording has no such push is left out.
 
     `templates` has the page's HTML, then the files that it includes; `collisions` are those of the story's robot and
@@ -95,21 +104,33 @@ def page_of(
         ],
     }
     return rendered(
-        template, told=json.dumps(told, separators=(",", ":")), numbers=numbers, shown=shown, roles=ROLES,
-        data=packed(parts), detection=detection,
-        peaks=peaks, joint_names=joint_names(robot), alarm_of=story.detector,
+        template,
+        told=json.dumps(told, separators=(",", ":")),
+        numbers=numbers,
+        shown=shown,
+        roles=ROLES,
+        data=packed(parts),
+        detection=detection,
+        peaks=peaks,
+        joint_names=joint_names(robot),
+        alarm_of=story.detector,
         steps=steps,
         trained_hz=next(iter(shown.values())).push.gain_hz,
-    )  # fmt: skip
+    )
 
 
 def page_numbers(settings: Explore, detection: Detection, peaks: Peaks) -> dict[str, Any]:
     """Return the numbers of the configuration with which the page computes."""
     return {
-        "gains": settings.gains_hz, "thresholds": settings.thresholds_nm,
-        "poseHz": settings.pose_hz, "lowPassHz": detection.low_pass_hz, "holdS": detection.hold_s,
-        "lateS": detection.late_s, "afterS": peaks.after_s, "longestS": peaks.longest_s,
-    }  # fmt: skip
+        "gains": settings.gains_hz,
+        "thresholds": settings.thresholds_nm,
+        "poseHz": settings.pose_hz,
+        "lowPassHz": detection.low_pass_hz,
+        "holdS": detection.hold_s,
+        "lateS": detection.late_s,
+        "afterS": peaks.after_s,
+        "longestS": peaks.longest_s,
+    }
 
 
 def robot_parts(robot: RobotDescription) -> dict[str, Any]:
@@ -145,7 +166,7 @@ def joint_names(robot: RobotDescription) -> dict[str, str]:
 
 def scene_note(
     name: str, shown: PagePush, robot: RobotDescription, settings: Explore, alarm: Mapping[str, Any] | None
-) -> dict[str, Any]:  # fmt: skip
+) -> dict[str, Any]:
     """Return what the page must know of a scene besides its arrays."""
     scene = shown.scene
     push = shown.push
@@ -154,15 +175,26 @@ def scene_note(
     bodies = [body.name for body in robot.bodies]
     point = next((point for point in robot.points if point.name == row.point), None)
     return {
-        "name": name, "push": scene.push, "plant": scene.plant, "joint": scene.joint, "threshold": scene.threshold_nm,
+        "name": name,
+        "push": scene.push,
+        "plant": scene.plant,
+        "joint": scene.joint,
+        "threshold": scene.threshold_nm,
         "joints": [[joint, names[joint]] for joint in push.joints],
         "methods": [[method, ROLES.get(method, "formula")] for method in push.estimates],
-        "stds": list(push.stds), "rate": push.rate_hz, "gain": push.gain_hz,
-        "lead": push.settled, "start": push.start, "end": push.end, "count": len(push.truth),
+        "stds": list(push.stds),
+        "rate": push.rate_hz,
+        "gain": push.gain_hz,
+        "lead": push.settled,
+        "start": push.start,
+        "end": push.end,
+        "count": len(push.truth),
         "point": [bodies.index(point.body), point.pos, point.name.replace("_", " ")] if point else None,
-        "turned": row.joint, "flags": {key: list(stretches(push.flags[key])) for key in FLAGS},
-        "alarm": alarm, "parts": [part.place for part in parts_of(shown, settings)],
-    }  # fmt: skip
+        "turned": row.joint,
+        "flags": {key: list(stretches(push.flags[key])) for key in FLAGS},
+        "alarm": alarm,
+        "parts": [part.place for part in parts_of(shown, settings)],
+    }
 
 
 def parts_of(shown: PagePush, settings: Explore) -> Iterator[Part]:

@@ -24,10 +24,16 @@ DETECTED = {  # quantity -> its cell, of a detector of a leg; both rules of thre
     "alarms at rate": "false_alarms@{}@collision@held out@measured",
 }
 HEADS = {  # head -> quantity of a column; heads of the right half say so
-    "LL3 [N m]": "threshold", "found": "found", "paper": "paper", "delay [ms]": "delay", "false [1/h]": "alarms",
-    "at 1/h: found": "found at rate", "at 1/h: 95%": "interval", "at 1/h: delay [ms]": "delay at rate",
+    "LL3 [N m]": "threshold",
+    "found": "found",
+    "paper": "paper",
+    "delay [ms]": "delay",
+    "false [1/h]": "alarms",
+    "at 1/h: found": "found at rate",
+    "at 1/h: 95%": "interval",
+    "at 1/h: delay [ms]": "delay at rate",
     "at 1/h: false [1/h]": "alarms at rate",
-}  # fmt: skip
+}
 
 Cells = Mapping[str, Number]
 Fields = Sequence[str | float | None]
@@ -91,8 +97,8 @@ def detectors_table(settings: AlarmTable, cells: Cells) -> Table:
     rows = list[Fields]()
     lines = list[Line]()
     for level, detector in product(settings.levels, settings.detectors):
-        found = {name: cells.get(cell.format(f"{level}@{detector}@{settings.leg}"), NONE)
-                 for name, cell in DETECTED.items()}  # fmt: skip
+        place = f"{level}@{detector}@{settings.leg}"
+        found = {name: cells.get(cell.format(place), NONE) for name, cell in DETECTED.items()}
         rows += [(detector, name, *one.with_ends, one.unit, one.published) for name, one in found.items()]
         texts = {name: cell_text(one) for name, one in found.items()}
         texts["interval"] = found["found at rate"].interval()

@@ -54,10 +54,20 @@ MILLION = 1e6
 
 
 def numbers(
-    scale: str, rates: Rates, sizes: Scale, fleet: Fleet, train: Recordings, table_csvs: Sequence[Path],
-    further_csvs: Sequence[Path], claims_csv: Path, summary_csv: Path, captions: Sequence[Path],
-    compared: MainTables, sources: Sequence[Path], out: Path,
-) -> None:  # fmt: skip
+    scale: str,
+    rates: Rates,
+    sizes: Scale,
+    fleet: Fleet,
+    train: Recordings,
+    table_csvs: Sequence[Path],
+    further_csvs: Sequence[Path],
+    claims_csv: Path,
+    summary_csv: Path,
+    captions: Sequence[Path],
+    compared: MainTables,
+    sources: Sequence[Path],
+    out: Path,
+) -> None:
     r"""Write what the paper's text takes: macros of numbers, captions.tex beside them, and the tables of the main text.
 
     \ourcell{scenario}{level}{method}{joint}{metric} and \publishedcell give a cell of a table of errors (metric: `mean`

@@ -38,9 +38,14 @@ class PaperError(MobnetError):
 
 
 def paper(
-    scale: str, settings: PaperText, main: Path, references: Path, tables: Sequence[Path], figures: Sequence[Path],
+    scale: str,
+    settings: PaperText,
+    main: Path,
+    references: Path,
+    tables: Sequence[Path],
+    figures: Sequence[Path],
     out: Path,
-) -> None:  # fmt: skip
+) -> None:
     """Set the paper with latexmk, and write a note of it (JSON) also where TeX is missing.
 
     The note holds the scale, the name of the PDF beside it or null, and the missing packages. Tables are TeX files that
@@ -117,9 +122,15 @@ def compile_pdf(source: Path) -> None:
     """Run latexmk in the source's folder, which writes its files beside the source."""
     fixed = {"SOURCE_DATE_EPOCH": os.environ.get("SOURCE_DATE_EPOCH", EPOCH), "max_print_line": LINE}
     run = subprocess.run(
-        [*LATEXMK, source.name], cwd=source.parent, capture_output=True, text=True, errors="replace", check=False,
-        stdin=subprocess.DEVNULL, env={**os.environ, **fixed},
-    )  # fmt: skip
+        [*LATEXMK, source.name],
+        cwd=source.parent,
+        capture_output=True,
+        text=True,
+        errors="replace",
+        check=False,
+        stdin=subprocess.DEVNULL,
+        env={**os.environ, **fixed},
+    )
     if run.returncode != 0:
         check_room(source.parent)
         lines = [line for line in run.stdout.splitlines() if line.strip()]

@@ -13,9 +13,14 @@ from mobnet.settings.networks import Learning
 
 
 def sigma(
-    settings: Sigma, learning: Learning, layout: JointLayout, statistics: Statistics,
-    scores: Sequence[Path], table_dir: Path, figure_dir: Path,
-) -> None:  # fmt: skip
+    settings: Sigma,
+    learning: Learning,
+    layout: JointLayout,
+    statistics: Statistics,
+    scores: Sequence[Path],
+    table_dir: Path,
+    figure_dir: Path,
+) -> None:
     """Write sigma.csv, .tex and .md, and sigma.pdf, .png and .csv."""
     lookup = read_lookup(scores, statistics)
     share = learning.calibration_share

@@ -18,9 +18,24 @@ FOLDER = "rows"  # of the snapshot
 WALKS = "reactions.csv.gz"
 COLLISIONS = "collisions.csv.gz"
 COLUMNS = (
-    "level", "scenario", "seed", "number", "leg", "hit_link", "hit_direction", "force_n", "impulse_ns", "swing_share",
-    "detector", "kind", "ratio", "delay_s", "perfect_s", "link", "direction",
-)  # fmt: skip
+    "level",
+    "scenario",
+    "seed",
+    "number",
+    "leg",
+    "hit_link",
+    "hit_direction",
+    "force_n",
+    "impulse_ns",
+    "swing_share",
+    "detector",
+    "kind",
+    "ratio",
+    "delay_s",
+    "perfect_s",
+    "link",
+    "direction",
+)
 
 
 def write_single_rows(detections: Detections, reactions: Reactions, cases: Sequence[str], out: Path) -> None:

@@ -50,11 +50,40 @@ PICTURES = (".png", ".svg", ".webp")
 NOTED = ("recordings", "motions", "networks")  # folders of results whose notes name the commit that made them
 README = Path("README.md")
 KEYS = (  # columns that name a row; the others are results
-    "scenario", "level", "method", "joint", "metric", "claim",
-    "set", "quantity", "part", "command", "bin_from", "measure", "limb", "test", "pushed", "share", "unit",
-    "score", "outcome", "detector", "leg", "kind", "cell", "case", "wrench", "thresholds", "wait_s", "feed_forward",
-    "event", "robot", "label", "phase", "row",
-)  # fmt: skip
+    "scenario",
+    "level",
+    "method",
+    "joint",
+    "metric",
+    "claim",
+    "set",
+    "quantity",
+    "part",
+    "command",
+    "bin_from",
+    "measure",
+    "limb",
+    "test",
+    "pushed",
+    "share",
+    "unit",
+    "score",
+    "outcome",
+    "detector",
+    "leg",
+    "kind",
+    "cell",
+    "case",
+    "wrench",
+    "thresholds",
+    "wait_s",
+    "feed_forward",
+    "event",
+    "robot",
+    "label",
+    "phase",
+    "row",
+)
 KEYS_OF = {"hourly": ("walks",)}  # a number in other tables
 Rows = dict[tuple[str, ...], dict[str, str]]
 

@@ -22,14 +22,26 @@ from mobnet.core.notes import Count, Index, Note, Text, read_note
 SEEDS = Path("docs/results/seeds.json")
 KINDS = "mobnet/estimation/kinds"
 CODE = (  # what learns, estimates, detects and reacts; the modules of estimators, which are imported by name, are added
-    "experiments.jobs.trainings", "experiments.jobs.estimates", "mobnet.detection.calibrate", "experiments.jobs.detect",
-    "experiments.jobs.calm", "experiments.jobs.react",
-)  # fmt: skip
+    "experiments.jobs.trainings",
+    "experiments.jobs.estimates",
+    "mobnet.detection.calibrate",
+    "experiments.jobs.detect",
+    "experiments.jobs.calm",
+    "experiments.jobs.react",
+)
 # Sections that change no method: what is shown, printed and claimed, trials apart from the published results, what
 # belongs to other robots, and the scales, of which the lengths of trainings are added.
-NO_METHOD = frozenset({
-    "scale", "scales", "evaluation", "published", "claims", "trials", "development", "robotlog", "free_motion",
-})  # fmt: skip
+NO_METHOD = {
+    "scale",
+    "scales",
+    "evaluation",
+    "published",
+    "claims",
+    "trials",
+    "development",
+    "robotlog",
+    "free_motion",
+}
 LENGTHS = ("experiments", "robots", "least_swings", "batch_size", "stream_s", "rate_decay_share")
 
 
@@ -108,7 +120,7 @@ def walked(files: Files, commit: str) -> Walked:
 
 def methods_hash(settings: Settings) -> str:
     """Return a short hash of what makes the methods: their code, and the configuration without what is only shown."""
-    written = settings.model_dump(mode="json", exclude=set(NO_METHOD))
+    written = settings.model_dump(mode="json", exclude=NO_METHOD)
     lengths = settings.sizes.model_dump(mode="json", include=set(LENGTHS))
     kinds = sorted((SOURCE / KINDS).glob("*.py"))
     text = json.dumps([written, lengths, source_hash(*CODE, *kinds)], sort_keys=True)

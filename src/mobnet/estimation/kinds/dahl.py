@@ -103,11 +103,15 @@ def regressors(velocity: NDArray[Any], torque: NDArray[Any], bend: Array) -> dic
     """Return term -> what its factor multiplies in -tau_f of (O20), of velocity [rad/s], torque [N m] and bend."""
     loaded = np.abs(torque) * bend
     drives = torque * bend > 0
-    columns = (
-        np.maximum(bend, 0.0), np.minimum(bend, 0.0), loaded * drives, loaded * ~drives,
-        velocity, np.ones_like(velocity), torque,
-    )  # fmt: skip
-    return dict(zip(TERMS, columns, strict=True))
+    return {
+        "forward_nm": np.maximum(bend, 0.0),
+        "backward_nm": np.minimum(bend, 0.0),
+        "driving": loaded * drives,
+        "driven": loaded * ~drives,
+        "viscous_nms": velocity,
+        "constant_nm": np.ones_like(velocity),
+        "gain": torque,
+    }
 
 
 def build(recipe: Recipe) -> ResidualEstimator:

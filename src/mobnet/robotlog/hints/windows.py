@@ -80,9 +80,14 @@ def repeated(windows: Windows, times: int) -> Windows:
 
 
 def windows_of(
-    sensed: Sensed, spans: Sequence[slice], rate_hz: float, wrenches: Mapping[str, Array], kind: TorqueKind,
-    late: float, bounds: RobotLog,
-) -> Windows | None:  # fmt: skip
+    sensed: Sensed,
+    spans: Sequence[slice],
+    rate_hz: float,
+    wrenches: Mapping[str, Array],
+    kind: TorqueKind,
+    late: float,
+    bounds: RobotLog,
+) -> Windows | None:
     """Return windows spread evenly over the spans, None where no span is long enough.
 
     Torques of a kind are so many samples late.

@@ -93,9 +93,13 @@ def bare(robot: RobotDescription) -> RobotDescription:
 
 
 def windows_of(
-    robot: RobotDescription, read: SensedRecording, torque: TorqueKind, gravity_m_s2: float, settings: Identification,
+    robot: RobotDescription,
+    read: SensedRecording,
+    torque: TorqueKind,
+    gravity_m_s2: float,
+    settings: Identification,
     carrier: int | None = None,
-) -> Windows:  # fmt: skip
+) -> Windows:
     """Return the windows of a recording; the end of a segment behind its last whole window is not used.
 
     `carrier` is the joint whose body carries a payload that the table does not have.

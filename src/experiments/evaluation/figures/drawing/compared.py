@@ -69,9 +69,13 @@ def draw_sigma(axis: Axes, method: str, time: NDArray[Any], std: NDArray[Any]) -
 
 @styled
 def draw_columns(
-    pairs: Sequence[Compared], bars: Sequence[Sequence[NamedBar]], units: Sequence[str], methods: Sequence[str],
-    x_label: str, source: str,
-) -> Figure:  # fmt: skip
+    pairs: Sequence[Compared],
+    bars: Sequence[Sequence[NamedBar]],
+    units: Sequence[str],
+    methods: Sequence[str],
+    x_label: str,
+    source: str,
+) -> Figure:
     """Draw joints side by side, as wide as a page: torque, errors, and the RMSE of each method [a unit each].
 
     The errors of some methods are drawn, those of others are far beyond them. The legend calls the paper's numbers

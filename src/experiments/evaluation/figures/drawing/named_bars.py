@@ -92,9 +92,19 @@ def draw_named_dots(axis: Axes, rows: Sequence[NamedBar], x_label: str, at: floa
             ends = [[value[place] - low[place]], [high[place] - value[place]]]
             look = styles[row.method]
             axis.errorbar(
-                value[place], place, xerr=ends, marker=look.marker, markersize=3.5, color=look.colour,
-                ecolor="black", elinewidth=0.7, capsize=1.5, markeredgecolor="black", markeredgewidth=0.4, zorder=4,
-            )  # fmt: skip
+                value[place],
+                place,
+                xerr=ends,
+                marker=look.marker,
+                markersize=3.5,
+                color=look.colour,
+                ecolor="black",
+                elinewidth=0.7,
+                capsize=1.5,
+                markeredgecolor="black",
+                markeredgewidth=0.4,
+                zorder=4,
+            )
             _number(axis, row, place, high[place])
     left, right = axis.get_xlim()
     axis.set_xlim(left, right + NUMBER_ROOM / 2 * (right - left))

@@ -55,9 +55,16 @@ class Shot:
 
 
 def push_film(
-    settings: PushFilm, story: Story, peaks: Peaks, robot: RobotTable, looks: Looks | None, layout: JointLayout,
-    runs: Sequence[Run], detections: Detections, out: Path,
-) -> None:  # fmt: skip
+    settings: PushFilm,
+    story: Story,
+    peaks: Peaks,
+    robot: RobotTable,
+    looks: Looks | None,
+    layout: JointLayout,
+    runs: Sequence[Run],
+    detections: Detections,
+    out: Path,
+) -> None:
     """Write the film as WebP and GIF, a still of it as PNG, and the numbers in it as CSV, beside each other."""
     joint = story.joint
     hit, push = read_story(story, layout, runs, detections[story.level], settings.kind)

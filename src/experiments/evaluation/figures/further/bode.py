@@ -45,9 +45,15 @@ class Answer:
 
 
 def bode(
-    settings: Bode, pushes: Mapping[str, Push], layout: JointLayout, observer: Observer, rates: Rates,
-    statistics: Statistics, scores: Sequence[Path], figure_dir: Path,
-) -> None:  # fmt: skip
+    settings: Bode,
+    pushes: Mapping[str, Push],
+    layout: JointLayout,
+    observer: Observer,
+    rates: Rates,
+    statistics: Statistics,
+    scores: Sequence[Path],
+    figure_dir: Path,
+) -> None:
     """Write gain [-] and phase [deg] over frequency [Hz] of each method, as PDF, PNG and CSV.
 
     `bode` has the joints that the settings show, `bode_all` every joint of the leg.

@@ -41,9 +41,12 @@ class Bars:
 
 
 def commands(
-    settings: CommandsFigure, commands: Commands, layout: JointLayout, sets: Mapping[str, Sequence[Path]],
+    settings: CommandsFigure,
+    commands: Commands,
+    layout: JointLayout,
+    sets: Mapping[str, Sequence[Path]],
     figure_dir: Path,
-) -> None:  # fmt: skip
+) -> None:
     """Write the histograms of the commands given (Table 2) in each data set's recordings, as PDF, PNG and CSV.
 
     The figure has the first set, the CSV file has all.

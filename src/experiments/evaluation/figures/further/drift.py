@@ -30,10 +30,19 @@ def drift(settings: Drift, statistics: Statistics, scores: Sequence[Path], figur
         for phase in (SWINGING, STANCE):
             held = {method: held_by_step(lookup, settings, test, method, phase) for method in test.methods}
             lines = [Line(method, list(own), list(own.values())) for method, own in held.items() if own]
-            panels.append(
-                LinePanel(f"{title}, {phase}", X_LABEL, Y_LABEL, lines, guide=1.0, ends=ENDS, note=beyond(held),
-                          note_below=True, logarithmic=False, dodge=APART)
-            )  # fmt: skip
+            panel = LinePanel(
+                f"{title}, {phase}",
+                X_LABEL,
+                Y_LABEL,
+                lines,
+                guide=1.0,
+                ends=ENDS,
+                note=beyond(held),
+                note_below=True,
+                logarithmic=False,
+                dodge=APART,
+            )
+            panels.append(panel)
             for method, own in held.items():
                 place = title, test.scenario, test.level, method, phase
                 rows += [(*place, step, *number.with_ends, *number.spread) for step, number in own.items()]

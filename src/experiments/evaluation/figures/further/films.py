@@ -53,9 +53,13 @@ class Curves:
 
 
 def films(
-    settings: Films, robot: RobotTable, looks: Looks | None, obstacles: Mapping[str, Obstacle],
-    courses: Mapping[str, Path], outs: Mapping[str, Path],
-) -> None:  # fmt: skip
+    settings: Films,
+    robot: RobotTable,
+    looks: Looks | None,
+    obstacles: Mapping[str, Obstacle],
+    courses: Mapping[str, Path],
+    outs: Mapping[str, Path],
+) -> None:
     """Write a film of the first walk of each case; its ending says of which kind."""
     description = dressed(describe(robot), looks)
     for case, out in outs.items():
@@ -79,9 +83,13 @@ def read_curves(stem: Path, course: StoredCourse, joint: str) -> Curves:
 
 @styled
 def frames(
-    settings: Films, robot: RobotDescription, obstacles: Mapping[str, Obstacle], course: StoredCourse, curves: Curves,
+    settings: Films,
+    robot: RobotDescription,
+    obstacles: Mapping[str, Obstacle],
+    course: StoredCourse,
+    curves: Curves,
     case: str,
-) -> Iterator[Pixels]:  # fmt: skip
+) -> Iterator[Pixels]:
     """Yield the frames of a film (height, width, 3)."""
     figure = Figure(figsize=SIZE_INCH, dpi=DPI)
     canvas = FigureCanvasAgg(figure)

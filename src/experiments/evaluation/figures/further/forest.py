@@ -19,7 +19,19 @@ from experiments.evaluation.measure.claims.places import BEYOND_BOUND, OVER_PAPE
 from experiments.evaluation.measure.claims.verdicts import Judged
 from experiments.evaluation.number.number import Number
 from mobnet.core.claim_ranges import range_text
-from mobnet.core.columns import FOREST, SCORED, VERDICTS
+from mobnet.core.columns import (
+    FOREST,
+    NETWORKS,
+    NO_NUMBER,
+    NOT_MEASURED,
+    NOT_REPRODUCED,
+    OBSERVER,
+    OPEN,
+    OURS,
+    REPRODUCED,
+    SIGN_AT_LEAST,
+    SIGN_ONLY,
+)
 from mobnet.core.style import PAGE_INCH, STYLE
 
 STEMS = {OVER_PAPER: "claims", BEYOND_BOUND: "claims_own"}  # of the two figures
@@ -29,15 +41,21 @@ TICKS: Mapping[str, Mapping[float, str]] = {
     OVER_PAPER: {0.125: "1/8", 0.25: "1/4", 0.5: "1/2", 1.0: "1", 2.0: "2", 4.0: "4", 8.0: "8"},
     BEYOND_BOUND: {-1.0: "against", 0.0: "bound", 1.0: "for"},
 }
-HEADS: Mapping[str, str] = dict(
-    zip(SCORED, ("Statements of the paper about the observer", "Statements of the paper about networks",
-                 "Statements of the paper without a number", "Our own statements"), strict=True)
-)  # fmt: skip
-MARKS = (("#D55E00", "X", "\N{BALLOT X}"), ("#9A6700", "v", "\N{SOUTH EAST ARROW}"), ("0.35", "s", "?"),
-         ("#0072B2", "^", "\N{NORTH EAST ARROW}"), ("#00795A", "o", "\N{CHECK MARK}"),
-         ("0.45", "", "\N{EN DASH}"))  # fmt: skip
+HEADS: Mapping[str, str] = {
+    OBSERVER: "Statements of the paper about the observer",
+    NETWORKS: "Statements of the paper about networks",
+    NO_NUMBER: "Statements of the paper without a number",
+    OURS: "Our own statements",
+}
 # verdict -> colour, dark enough for text, marker, and sign before a text
-LOOKS: Mapping[str, tuple[str, str, str]] = dict(zip(VERDICTS, MARKS, strict=True))
+LOOKS: Mapping[str, tuple[str, str, str]] = {
+    NOT_REPRODUCED: ("#D55E00", "X", "\N{BALLOT X}"),
+    SIGN_ONLY: ("#9A6700", "v", "\N{SOUTH EAST ARROW}"),
+    OPEN: ("0.35", "s", "?"),
+    SIGN_AT_LEAST: ("#0072B2", "^", "\N{NORTH EAST ARROW}"),
+    REPRODUCED: ("#00795A", "o", "\N{CHECK MARK}"),
+    NOT_MEASURED: ("0.45", "", "\N{EN DASH}"),
+}
 POINTS, ROW_INCH, HEAD_INCH, KEY_INCH = 6.5, 0.13, 0.2, 0.5  # size of text; heights of a row, a head and the legend
 KEY_COLUMNS = 3
 AXIS_INCH = 0.33  # height below the last row, of an axis
@@ -91,8 +109,8 @@ def _scale(axis: Axes, name: str, rows: float) -> None:
 
 def _text(axis: Axes, inch: float, row: float, text: str, **look: Any) -> None:
     """Write a text beside an axis, so far from the page's left side and from the first row's top [inch]."""
-    axis.text((inch - LEFT_INCH) / WIDTH_INCH, row, text, transform=axis.get_yaxis_transform(), va="center",
-              fontsize=POINTS, **look)  # fmt: skip
+    x = (inch - LEFT_INCH) / WIDTH_INCH
+    axis.text(x, row, text, transform=axis.get_yaxis_transform(), va="center", fontsize=POINTS, **look)
 
 
 def _head(axis: Axes, top: float, own: Sequence[Statement], name: str) -> None:
@@ -147,10 +165,10 @@ def _place(axis: Axes, row: float, place: Place) -> None:
         ends = [min(max(end, first), last) for end in (low, high)]
         axis.plot(ends, [row, row], color=colour, linewidth=1.2, solid_capstyle="butt", zorder=3)
     look: dict[str, Any] = {"color": colour, "markeredgewidth": 0.0, "zorder": 4, "clip_on": False}
-    for end, outside, arrow in ((first, min(value, low or value) < first, "<"),
-                                (last, max(value, high or value) > last, ">")):  # fmt: skip
-        if outside:
-            axis.plot([end], [row], arrow, markersize=4.0, **look)
+    if min(value, low or value) < first:
+        axis.plot([first], [row], "<", markersize=4.0, **look)
+    if max(value, high or value) > last:
+        axis.plot([last], [row], ">", markersize=4.0, **look)
     if first <= value <= last:
         axis.plot([value], [row], marker, markersize=3.8, **look)
 
@@ -158,12 +176,22 @@ def _place(axis: Axes, row: float, place: Place) -> None:
 def _key(figure: Figure, statements: Sequence[Statement], band: str) -> None:
     """Put what colours, signs and markers mean on top of a figure, with how many statements have each verdict."""
     counts = Counter(each.worst.judged.verdict for each in statements)
-    handles: list[Any] = [
-        mpl.lines.Line2D([], [], color=colour, marker=marker, markersize=4, linewidth=1.2 if marker else 0.0,
-                         label=f"{sign} {verdict} ({counts[verdict]})")
-        for verdict, (colour, marker, sign) in LOOKS.items()
-    ]  # fmt: skip
+    handles: list[Any] = []
+    for verdict, (colour, marker, sign) in LOOKS.items():
+        width = 1.2 if marker else 0.0
+        text = f"{sign} {verdict} ({counts[verdict]})"
+        line = mpl.lines.Line2D([], [], color=colour, marker=marker, markersize=4, linewidth=width, label=text)
+        handles.append(line)
     handles.append(mpl.patches.Patch(color="0.88", label=band))
-    figure.legend(handles=handles, loc="upper center", bbox_to_anchor=(0.5, 1.0), ncols=KEY_COLUMNS, frameon=False,
-                  fontsize=POINTS, borderaxespad=0.3, handlelength=1.4, columnspacing=1.0,
-                  handletextpad=0.4)  # fmt: skip
+    figure.legend(
+        handles=handles,
+        loc="upper center",
+        bbox_to_anchor=(0.5, 1.0),
+        ncols=KEY_COLUMNS,
+        frameon=False,
+        fontsize=POINTS,
+        borderaxespad=0.3,
+        handlelength=1.4,
+        columnspacing=1.0,
+        handletextpad=0.4,
+    )

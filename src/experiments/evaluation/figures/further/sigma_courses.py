@@ -75,7 +75,7 @@ def sigma_figure(settings: Sigma, lookup: Lookup, share: float, figure_dir: Path
 
 def courses_of(
     settings: Sigma, lookup: Lookup, titled: tuple[str, LimbRuns], method: str, limb: str
-) -> Iterator[SigmaLine]:  # fmt: skip
+) -> Iterator[SigmaLine]:
     """Yield the lines of a limb of a method in a test, those whose numbers are all there."""
     title, test = titled
 

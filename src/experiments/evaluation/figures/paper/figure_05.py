@@ -21,9 +21,15 @@ from mobnet.core.joints import JointLayout
 
 
 def figure_05(
-    settings: Figure05, start_s: float, layout: JointLayout, statistics: Statistics, published: PublishedTable,
-    runs: Sequence[Run], scores: Sequence[Path], figure_dir: Path,
-) -> None:  # fmt: skip
+    settings: Figure05,
+    start_s: float,
+    layout: JointLayout,
+    statistics: Statistics,
+    published: PublishedTable,
+    runs: Sequence[Run],
+    scores: Sequence[Path],
+    figure_dir: Path,
+) -> None:
     """Write Figure 5 as PDF, SVG, PNG and CSV: torque of one joint and errors over a gait cycle [N m] at each level.
 
     Its bars are errors over all walks.

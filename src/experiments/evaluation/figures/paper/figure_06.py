@@ -19,9 +19,16 @@ from mobnet.settings.data import Push, Scenario
 
 
 def figure_06(
-    settings: Figure06, published: PublishedTable, layout: JointLayout, statistics: Statistics, runs: Sequence[Run],
-    scenarios: Mapping[str, Scenario], pushes: Mapping[str, Push], scores: Sequence[Path], figure_dir: Path,
-) -> None:  # fmt: skip
+    settings: Figure06,
+    published: PublishedTable,
+    layout: JointLayout,
+    statistics: Statistics,
+    runs: Sequence[Run],
+    scenarios: Mapping[str, Scenario],
+    pushes: Mapping[str, Push],
+    scores: Sequence[Path],
+    figure_dir: Path,
+) -> None:
     """Write Figure 6, a step of torque on a swinging hip [N m]: curves around the first, errors around all.
 
     The runs are one of each method, all of one recording.

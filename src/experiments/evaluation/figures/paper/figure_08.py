@@ -18,9 +18,15 @@ from mobnet.core.joints import JointLayout
 
 
 def figure_08(
-    settings: Figure08, start_s: float, layout: JointLayout, statistics: Statistics, published: PublishedTable,
-    runs: Sequence[Run], scores: Sequence[Path], figure_dir: Path,
-) -> None:  # fmt: skip
+    settings: Figure08,
+    start_s: float,
+    layout: JointLayout,
+    statistics: Statistics,
+    published: PublishedTable,
+    runs: Sequence[Run],
+    scores: Sequence[Path],
+    figure_dir: Path,
+) -> None:
     """Write Figure 8, uncertainty torque of a leg over one gait cycle [N m]: the target and what a network predicts.
 
     There is one run. The titles have the RMSE of the cycle and that over all walks and robots.

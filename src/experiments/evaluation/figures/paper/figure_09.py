@@ -18,9 +18,15 @@ from mobnet.core.joints import JointLayout
 
 
 def figure_09(
-    settings: Figure09, start_s: float, layout: JointLayout, statistics: Statistics, published: PublishedTable,
-    runs: Sequence[Run], scores: Sequence[Path], figure_dir: Path,
-) -> None:  # fmt: skip
+    settings: Figure09,
+    start_s: float,
+    layout: JointLayout,
+    statistics: Statistics,
+    published: PublishedTable,
+    runs: Sequence[Run],
+    scores: Sequence[Path],
+    figure_dir: Path,
+) -> None:
     """Write Figure 9, external torque of a leg over one gait cycle [N m] by method, from runs of one recording.
 
     Some joints are drawn, the CSV has all; the bars are errors over all walks and robots.

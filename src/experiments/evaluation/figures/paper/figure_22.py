@@ -19,9 +19,13 @@ from mobnet.settings.parts import Looks
 from mobnet.settings.robot import RobotTable
 
 COLUMNS = (
-    "case", "moment", "time_s", *(f"base_{a}_m" for a in "xyz"), *(f"point_{a}_m" for a in "xyz"),
+    "case",
+    "moment",
+    "time_s",
+    *(f"base_{a}_m" for a in "xyz"),
+    *(f"point_{a}_m" for a in "xyz"),
     *(f"force_{a}_n" for a in "xyz"),
-)  # fmt: skip
+)
 ROW_INCH = 2.1
 ROOM_M = (-0.75, 0.75, -0.1, 1.9)  # of a panel: right of the base's first place, and above the ground
 

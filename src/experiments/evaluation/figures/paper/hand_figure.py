@@ -19,9 +19,16 @@ from mobnet.core.joints import JointLayout
 
 
 def hand_figure(
-    settings: HandFigure, name: str, layout: JointLayout, fleet: Fleet, statistics: Statistics,
-    published: PublishedTable, runs: Sequence[Run], scores: Sequence[Path], figure_dir: Path,
-) -> None:  # fmt: skip
+    settings: HandFigure,
+    name: str,
+    layout: JointLayout,
+    fleet: Fleet,
+    statistics: Statistics,
+    published: PublishedTable,
+    runs: Sequence[Run],
+    scores: Sequence[Path],
+    figure_dir: Path,
+) -> None:
     """Write a figure as PDF, SVG, PNG and CSV: external torque of joints [N m], force on the base [N], and errors.
 
     The runs are one of each method, all of one recording; the bars are errors over all recordings.

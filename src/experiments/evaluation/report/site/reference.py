@@ -24,9 +24,13 @@ PUBLIC = {  # packages with an interface for others -> what it is for
     "export": "networks for programs without this project",
 }
 LIMITS = {
-    "exclusiveMinimum": "above {}", "minimum": "from {}", "exclusiveMaximum": "below {}", "maximum": "up to {}",
-    "minItems": "at least {} items", "maxItems": "at most {} items",
-}  # fmt: skip
+    "exclusiveMinimum": "above {}",
+    "minimum": "from {}",
+    "exclusiveMaximum": "below {}",
+    "maximum": "up to {}",
+    "minItems": "at least {} items",
+    "maxItems": "at most {} items",
+}
 TYPES = {"array": "list", "object": "mapping", "string": "text", "null": "nothing"}  # as YAML calls them
 REFERENCE = "#/$defs/"
 COMMAND = re.compile(r"^ {2}(\w+) {2,}\w", re.MULTILINE)  # in the list of commands
