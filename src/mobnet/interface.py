@@ -315,7 +315,7 @@ class ContactFinder:
             ConfigError: limb or joints are unknown, or the limb has no shapes.
         """
         own = robot.description.layout.limb(limb) if joints is None else tuple(joints)
-        self._finder = contact.ContactFinder.of(lab().contact_point, robot.description, limb, own)
+        self._finder = contact.ContactLocator.of(lab().contact_point, robot.description, limb, own)
         self.joints = self._finder.joints
 
     def locate(

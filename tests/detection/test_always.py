@@ -11,11 +11,11 @@ from mobnet.detection.always import alike, always_on, always_watched, setup_of, 
 from mobnet.detection.calibration import QuietWalk, rate_scales
 from mobnet.detection.signals import Watched
 from mobnet.detection.watch import LegSetup
-from mobnet.settings.detection import Detector
+from mobnet.settings.detection import DetectorSettings
 
 RATE_HZ, SECONDS = 10.0, 1800
 RECORDINGS, RESAMPLES = 40, 60
-WATCHED = Watched(Detector(method="MOB", signals=("mean",)))
+WATCHED = Watched(DetectorSettings(method="MOB", signals=("mean",)))
 
 
 def slow(rng, rows, lasts_s, spread=0.25):

@@ -13,7 +13,7 @@ from mobnet.core.errors import DataError
 from mobnet.core.recording import Recording, write_recording
 from mobnet.core.store import write_array
 from mobnet.detection.leg import make_leg, unit_torques
-from mobnet.settings.detection import Detector
+from mobnet.settings.detection import DetectorSettings
 
 POINTS = ("left_foot_front", "left_foot_side", "left_ankle_front", "left_knee_side")
 PEAK, LENGTH, LATE = 150.0, 78, 150  # of a hit [N], in samples, and samples after lift-off
@@ -26,12 +26,12 @@ def section(settings):
     """Detectors of an estimate without and with standard deviations, and of one that sees nothing."""
     numbers = settings.detection.thresholds.model_copy(update={"least_swings": 10, "resamples": 50})
     detectors = {
-        "mean": Detector(method="MOB-Net", signals=("mean",)),
-        "OR": Detector(method="MOB-Net", signals=("mean", "std")),
-        "norm": Detector(method="MOB-Net", signals=("mean",), norm=True),
-        "phases": Detector(method="MOB-Net", signals=("mean",), phases=4),
-        "command": Detector(method="MOB-Net", signals=("mean",), commanded=True),
-        "blind": Detector(method="MOB", signals=("mean",)),
+        "mean": DetectorSettings(method="MOB-Net", signals=("mean",)),
+        "OR": DetectorSettings(method="MOB-Net", signals=("mean", "std")),
+        "norm": DetectorSettings(method="MOB-Net", signals=("mean",), norm=True),
+        "phases": DetectorSettings(method="MOB-Net", signals=("mean",), phases=4),
+        "command": DetectorSettings(method="MOB-Net", signals=("mean",), commanded=True),
+        "blind": DetectorSettings(method="MOB", signals=("mean",)),
     }
     return settings.detection.model_copy(update={"thresholds": numbers, "detectors": detectors})
 

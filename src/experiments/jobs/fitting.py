@@ -9,7 +9,7 @@ from mobnet.core.files import write_json
 from mobnet.core.joints import JointLayout
 from mobnet.estimation.methods import kind_of
 from mobnet.estimation.recipe import options_of
-from mobnet.settings.methods import Method, Observer
+from mobnet.settings.methods import Method, ObserverSettings
 from mobnet.settings.networks import Network
 
 log = logging.getLogger(__name__)
@@ -17,7 +17,7 @@ log = logging.getLogger(__name__)
 
 def write_fit(
     layout: JointLayout,
-    observer: Observer,
+    observer: ObserverSettings,
     method: Method,
     networks: Mapping[str, Network],
     training: Mapping[str, Sequence[tuple[Path, Path]]],

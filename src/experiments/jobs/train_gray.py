@@ -14,13 +14,13 @@ from mobnet.core.joints import JointLayout
 from mobnet.core.store import read_array, spans_and_rate
 from mobnet.estimation.kinds.friction import FittedFriction, read_friction
 from mobnet.estimation.low_pass import low_pass
-from mobnet.settings.methods import Observer
+from mobnet.settings.methods import ObserverSettings
 
 
 def train_gray(
     root_seed: int,
     layout: JointLayout,
-    observer: Observer,
+    observer: ObserverSettings,
     networks: Sequence[Repetition],
     recordings: Sequence[Path],
     residuals: Sequence[Path],

@@ -8,7 +8,7 @@ from experiments.jobs.observing import observe
 from experiments.plan.parts import Shard
 from experiments.running.stage import Stage
 from mobnet.core.store import files_of
-from mobnet.settings.methods import Observer
+from mobnet.settings.methods import ObserverSettings
 from mobnet.settings.walk import WalkSettings
 from mobnet.simulation.record import collect
 
@@ -16,7 +16,7 @@ log = logging.getLogger(__name__)
 
 
 def collect_walks(
-    settings: WalkSettings, observer: Observer, duration_s: float, shards: Sequence[Shard], stage: Stage
+    settings: WalkSettings, observer: ObserverSettings, duration_s: float, shards: Sequence[Shard], stage: Stage
 ) -> None:
     """Simulate recordings of a scenario [s] one after another, and observe each of them as soon as it is there.
 

@@ -58,7 +58,7 @@ class PushFilm(Section):
     opening: base.Some[base.Text]
 
 
-class Note(Section):
+class DrawingLabel(Section):
     """A text of the drawing of the robot: a point of a body that it names, and where it begins [m]."""
 
     text: base.Text
@@ -82,7 +82,7 @@ class Drawings(Section):
     floor_m: base.Length
     leg: base.LegName
     force_n: base.Newton
-    notes: tuple[Note, ...] = ()
+    notes: tuple[DrawingLabel, ...] = ()
 
 
 class ExploreStory(Checked):

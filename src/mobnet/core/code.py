@@ -53,7 +53,7 @@ LEVELS = frozenset({"debug", "info", "warning", "warn", "error", "exception", "c
 SHORT = 16  # characters of a hash that are kept
 
 
-class Source(NamedTuple):
+class SourceFile(NamedTuple):
     """What one file contributes: the hash of its syntax tree, and what it imports of these packages and of others."""
 
     digest: bytes
@@ -99,9 +99,9 @@ def start_of(start: Path | str) -> Path:
     return found
 
 
-def reached(starts: Iterable[Path]) -> tuple[Source, ...]:
+def reached(starts: Iterable[Path]) -> tuple[SourceFile, ...]:
     """Return some files and all that they import of these packages, directly or not."""
-    found: dict[Path, Source] = {}
+    found: dict[Path, SourceFile] = {}
     waiting = list(starts)
     while waiting:
         path = waiting.pop()
@@ -112,14 +112,14 @@ def reached(starts: Iterable[Path]) -> tuple[Source, ...]:
 
 
 @functools.cache
-def read(path: Path) -> Source:
+def read(path: Path) -> SourceFile:
     """Read one file."""
     reader = Reader()
     reader.read(ast.parse(path.read_bytes(), str(path)))
     files = set(chain.from_iterable(map(module_files, reader.imports)))
     tops = {name.partition(".")[0] for name in reader.imports} - {*PACKAGES} - sys.stdlib_module_names
     packages = {DISTRIBUTIONS.get(top, lock_name(top)) for top in tops}
-    return Source(hashlib.sha256(" ".join(reader.words).encode()).digest(), tuple(files), frozenset(packages))
+    return SourceFile(hashlib.sha256(" ".join(reader.words).encode()).digest(), tuple(files), frozenset(packages))
 
 
 @dataclass

@@ -69,7 +69,7 @@ def misfit(value: object, accepted: object) -> str:
 
 def refusal(path: object, faults: Iterable[str]) -> DataError:
     """Return the error that tells the faults of a file, one line for each, of which only the first are told."""
-    return _told([f"{path}: {fault}" for fault in faults])
+    return _error_of([f"{path}: {fault}" for fault in faults])
 
 
 def refuse(path: object, faults: Iterable[str]) -> None:
@@ -81,10 +81,10 @@ def refuse_lines(faults: Iterable[str]) -> None:
     """Raise a DataError with these lines, of which only the first are told, if there are any."""
     lines = list(dict.fromkeys(faults))
     if lines:
-        raise _told(lines)
+        raise _error_of(lines)
 
 
-def _told(lines: list[str]) -> DataError:
+def _error_of(lines: list[str]) -> DataError:
     """Return an error of some lines, of which only the first are told."""
     if len(lines) > MOST:
         lines = [*lines[:MOST], f"{lines[0].partition(': ')[0]}: {len(lines) - MOST} further faults"]

@@ -17,7 +17,7 @@ from mobnet.core.errors import DataError, not_accepted, refuse_lines
 from mobnet.core.files import check_place, sweep
 from mobnet.core.place import command
 from mobnet.core.printed import printed
-from mobnet.detection.choice import ALONE, BARE, NETWORK, Tried, best_of, lines_of, tried_on_pushes
+from mobnet.detection.choice import ALONE, BARE, NETWORK, DetectorCandidate, best_of, lines_of, tried_on_pushes
 from mobnet.detection.limb import OwnRecording, calibrate_limb
 from mobnet.detection.limb_report import beside, report, thresholds_of
 from mobnet.detection.signals import MEAN, RATIO, STD
@@ -138,15 +138,19 @@ def _tried(
     network: OwnNetwork | None,
     options: Namespace,
     settings: Lab,
-) -> Iterator[Tried]:
+) -> Iterator[DetectorCandidate]:
     """Yield the calibrated detectors among which one is kept, the observer's and then those of a network.
 
     Where a signal is given, it is kept.
     """
 
-    def calibrated(name: str, logs: Sequence[OwnLog], network: OwnNetwork | None, signal: Signal, keep: bool) -> Tried:
+    def calibrated(
+        name: str, logs: Sequence[OwnLog], network: OwnNetwork | None, signal: Signal, keep: bool
+    ) -> DetectorCandidate:
         own = estimated(logs, robot, limb, network, settings)
-        return Tried(name, calibrate_limb(own, robot, limb, signal, options.rate, settings), own, network, keep)
+        return DetectorCandidate(
+            name, calibrate_limb(own, robot, limb, signal, options.rate, settings), own, network, keep
+        )
 
     if robot.friction:
         bare = without_friction(logs, robot, settings.plant.gravity_m_s2)

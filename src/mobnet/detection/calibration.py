@@ -16,7 +16,7 @@ from mobnet.detection.signals import MEAN, STD, Watched, slopes_of, whitening_of
 from mobnet.detection.swings import Spans, episodes_of, largest
 from mobnet.detection.thresholds import HOUR_S, Calibrated, calibrate
 from mobnet.detection.watch import LegRecording, LegSetup, LimbSetup
-from mobnet.settings.detection import Detector
+from mobnet.settings.detection import DetectorSettings
 
 NEVER = "the leg is watched in none of the swings that calibrate; some are needed in which it is"
 
@@ -87,7 +87,7 @@ class CalibratedDetector:
 
 
 def calibrate_detector(
-    setup: LegSetup, name: str, detector: Detector, place: QuietWalk, random: QuietWalk
+    setup: LegSetup, name: str, detector: DetectorSettings, place: QuietWalk, random: QuietWalk
 ) -> CalibratedDetector:
     """Calibrate a detector on the first swings of quiet walks: in place by the paper's rule [5.3], else for rates.
 
@@ -172,7 +172,7 @@ def quiet_rows(setup: LegSetup, calibrated: CalibratedDetector, walk: QuietWalk)
         yield FreeSwing(calibrated.name, setup.limb, walk.scenario, part, terrain, seed, number, *numbers)
 
 
-def check_signals(setup: LimbSetup, detector: Detector, walk: QuietWalk) -> None:
+def check_signals(setup: LimbSetup, detector: DetectorSettings, walk: QuietWalk) -> None:
     """Raise a DataError if a signal has the same number in all samples of a recording."""
     names = [f"{kind}.{joint}" for kind in detector.signals for joint in setup.joints]
     for one, signals in zip(walk.legs, walk.signals(Watched(detector)), strict=True):

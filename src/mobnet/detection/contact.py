@@ -43,7 +43,7 @@ class Contact:
 
 
 @dataclass(frozen=True)
-class ContactFinder:
+class ContactLocator:
     """Finds contacts with the bodies of a limb from torques of some joints.
 
     Attributes:
@@ -61,7 +61,7 @@ class ContactFinder:
     surface: Surface
 
     @classmethod
-    def of(cls, settings: ContactPoint, robot: RobotDescription, limb: str, joints: Sequence[str]) -> "ContactFinder":
+    def of(cls, settings: ContactPoint, robot: RobotDescription, limb: str, joints: Sequence[str]) -> "ContactLocator":
         """Return a finder of contacts with the bodies that a limb moves.
 
         Joints are those of the limb. On a floating base those of the base and of the standing leg tell much more,

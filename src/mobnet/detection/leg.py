@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mobnet.control.geometry import cross, solve
-from mobnet.control.kinematics import Pose, Tree, empty_pose, tree_of, update
+from mobnet.control.kinematics import KinematicTree, Pose, empty_pose, tree_of, update
 from mobnet.core.arrays import Array
 from mobnet.core.compilation import compiled
 from mobnet.core.errors import ConfigError, not_accepted
@@ -19,7 +19,7 @@ FORWARD, LEFT = 0, 1  # axes of a body
 class Leg(NamedTuple):
     """A leg of the nominal model, and room for its kinematics."""
 
-    tree: Tree  # bodies
+    tree: KinematicTree  # bodies
     pose: Pose  # their places; filled for each sample
     first: int  # first actuator of the leg
     foot: int  # body of the foot
@@ -137,7 +137,7 @@ def unit_torques(robot: RobotDescription, leg: Leg, q: NDArray[Any], points: Seq
     return found
 
 
-def ancestors(tree: Tree, body: int) -> set[int]:
+def ancestors(tree: KinematicTree, body: int) -> set[int]:
     """Return a body and all above it."""
     found: set[int] = set()
     while body >= 0:

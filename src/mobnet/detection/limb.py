@@ -22,7 +22,7 @@ from mobnet.detection.thresholds import Calibrated
 from mobnet.detection.watch import LegRecording, LegSetup, LimbSetup, read_estimate
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.nominal import NominalModel
-from mobnet.settings.detection import Detection, Detector, Signal
+from mobnet.settings.detection import Detection, DetectorSettings, Signal
 from mobnet.settings.lab import Lab
 
 WANTED = "wanted"  # the only rule of thresholds
@@ -95,7 +95,7 @@ class LimbCalibration:
 
 def watched_signal(signal: Signal, settings: Lab) -> Watched:
     """Return what a detector of a limb watches: one signal of an estimate."""
-    return Watched(Detector(method=settings.detection.gate.method, signals=(signal,)))
+    return Watched(DetectorSettings(method=settings.detection.gate.method, signals=(signal,)))
 
 
 def calibrate_limb(

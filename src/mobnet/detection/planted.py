@@ -30,7 +30,7 @@ PASSES = 100  # most times that recordings are gone through: they may be too sho
 
 
 @dataclass(frozen=True)
-class Pushing:
+class PushPlan:
     """Numbers of pushes: how many at least, their times and sizes, and how long [s] after one its alarm may come."""
 
     count: int
@@ -53,7 +53,7 @@ def plant(
     gain_hz: float,
     limbs: Sequence[LegRecording],
     poses: Sequence[NDArray[Any]],
-    pushing: Pushing,
+    pushing: PushPlan,
     seed: int,
 ) -> list[Planted]:
     """Draw pushes on the links of a limb in recordings, which are gone through until there are enough.
@@ -120,7 +120,7 @@ def _planted(
     limb: LegRecording,
     q: NDArray[Any],
     places: Sequence[tuple[str, tuple[float, ...]]],
-    pushing: Pushing,
+    pushing: PushPlan,
     rng: np.random.Generator,
 ) -> tuple[Array, Spans]:
     """Return what pushes do to the joints in a recording (T, n) [N m], and the rows in which an alarm counts."""

@@ -21,7 +21,7 @@ AXES = "xyz"
 
 
 @dataclass(frozen=True)
-class Felt:
+class EstimatedPush:
     """The push that explains the torques of a limb best: its point, the body of that, direction and force [N]."""
 
     point: str
@@ -64,7 +64,9 @@ def axis_forces(setup: LimbSetup, nominal: NominalModel, poses: Array, threshold
     return {row.name: np.where(own, force, np.inf) for row, own, force in zip(points, heard, most, strict=True)}
 
 
-def felt_push(nominal: NominalModel, joints: Sequence[str], q: Array, torque: Array, scale: Array) -> Felt | None:
+def felt_push(
+    nominal: NominalModel, joints: Sequence[str], q: Array, torque: Array, scale: Array
+) -> EstimatedPush | None:
     """Return which push explains torques (n,) [N m] of joints best at a position (nq,); none of a limb without points.
 
     The scale (n,) [N m] is what the torques are in free motion, such as their thresholds.
@@ -77,4 +79,4 @@ def felt_push(nominal: NominalModel, joints: Sequence[str], q: Array, torque: Ar
     found = name_push(torque, np.concatenate([units, -units]), np.diag(1.0 / scale))
     sign, place = divmod(found.candidate, len(units))
     row = points[place // len(AXES)]
-    return Felt(row.name, row.body, f"{'+-'[sign]}{AXES[place % len(AXES)]}", found.force_n)
+    return EstimatedPush(row.name, row.body, f"{'+-'[sign]}{AXES[place % len(AXES)]}", found.force_n)

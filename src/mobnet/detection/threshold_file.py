@@ -11,7 +11,7 @@ from mobnet.detection.signals import Watched
 from mobnet.detection.watch import LegSetup, LimbSetup
 from mobnet.estimation.own import OwnNetwork, Sampling, check_drives
 from mobnet.robot.description import RobotDescription
-from mobnet.settings.detection import Detection, Detector
+from mobnet.settings.detection import Detection, DetectorSettings
 from mobnet.settings.lab import load_section
 from mobnet.settings.limb_thresholds import LimbThresholds
 
@@ -45,7 +45,7 @@ def sampling_of(found: LimbThresholds) -> Sampling:
 
 def watched_of(found: LimbThresholds) -> Watched:
     """Return what a detector with these thresholds watches."""
-    return Watched(Detector(method=found.method, signals=(found.signal,)))
+    return Watched(DetectorSettings(method=found.method, signals=(found.signal,)))
 
 
 def setup_with(found: LimbThresholds, detection: Detection, robot: RobotDescription) -> LimbSetup:

@@ -10,13 +10,13 @@ import pkgutil
 from types import ModuleType
 
 from mobnet.core.errors import ConfigError, not_accepted
-from mobnet.core.estimator import Estimator
+from mobnet.core.estimator import TorqueEstimator
 from mobnet.estimation import kinds
 from mobnet.estimation.recipe import Recipe
 from mobnet.settings.methods import Method
 
 
-def build_estimator(recipe: Recipe) -> Estimator:
+def build_estimator(recipe: Recipe) -> TorqueEstimator:
     """Build the estimator of a method, one row of Table 5.
 
     Raises:

@@ -16,7 +16,7 @@ from mobnet.core.notes import Note, Text, pair_differences, read_array_note, rea
 from mobnet.core.place import command
 from mobnet.core.recording import SensedRecording, read_sensed
 from mobnet.core.store import ARRAY, NOTE, file_of, footer_hash, read_array
-from mobnet.estimation.estimate import Observed, only, run_segments
+from mobnet.estimation.estimate import ObservedRecording, only, run_segments
 from mobnet.estimation.kinds.residual import ResidualEstimator
 from mobnet.estimation.observer import MomentumObserver
 from mobnet.learning.deployed.limbs import LimbNetworks, load_limb_networks
@@ -217,5 +217,5 @@ def without_friction(logs: Sequence[OwnLog], robot: RobotDescription, gravity_m_
 
 def estimates_of(logs: Sequence[OwnLog], estimator: ResidualEstimator, joints: Sequence[str]) -> list[Estimate]:
     """Return the estimate of some joints (T, n) [N, N m] in each log, segments from a fresh state."""
-    found = run_segments(estimator, [Observed(log.recording, log.residual) for log in logs])
+    found = run_segments(estimator, [ObservedRecording(log.recording, log.residual) for log in logs])
     return [only(result, estimator.joints, joints) for result in found]

@@ -20,7 +20,7 @@ from mobnet.learning.deployed.limbs import LimbNetworks, load_limb_networks
 from mobnet.robot.description import describe
 from mobnet.settings.base import Section
 from mobnet.settings.faults import problems
-from mobnet.settings.methods import Method, Observer
+from mobnet.settings.methods import Method, ObserverSettings
 from mobnet.settings.reading import dotted
 from mobnet.settings.robot import RobotTable
 
@@ -64,7 +64,7 @@ class Recipe:
     robot: RobotTable
     mass_ratio: float
     gravity_m_s2: float
-    observing: Observer
+    observing: ObserverSettings
     rate_hz: float
     networks: Mapping[str, Path] = field(default_factory=dict)
     fitted: Path | None = None

@@ -149,7 +149,7 @@ def difference(one: Trained, path: Path) -> float:
     return float(np.max(np.abs(apart) / tensors["target.std"]))
 
 
-def told(contract: Contract, networks: Sequence[Trained], out: Path) -> Iterator[str]:
+def report_lines(contract: Contract, networks: Sequence[Trained], out: Path) -> Iterator[str]:
     """Yield what the command prints."""
     observer = contract.observer
     yield f"{contract.robot} at {contract.rate_hz:g} Hz, gain {observer.gain_hz:g} 1/s, torques: {observer.torque}"
@@ -210,7 +210,7 @@ def run(options: Namespace) -> Iterator[str]:
             refuse_lines(beyond(f"--{word}", value, bounds))
     given = Given(options.rate, options.gain, options.torque)
     contract, networks = export_folders(options.network, robot, options.thresholds, given, settings, options.out)
-    yield from told(contract, networks, options.out)
+    yield from report_lines(contract, networks, options.out)
 
 
 def main(words: list[str]) -> int:

@@ -20,7 +20,7 @@ from mobnet.core.files import atomic_path
 from mobnet.core.joints import JointLayout
 from mobnet.detection.chain import Chain
 from mobnet.detection.detector import LegGate
-from mobnet.estimation.drive import NUMBERS, Drives
+from mobnet.estimation.drive import NUMBERS, DriveParameters
 from mobnet.estimation.observer import MomentumObserver
 from mobnet.export.soles import leg_record
 from mobnet.learning.deployed.networks import WITHOUT_TORCH
@@ -195,7 +195,7 @@ def _robot(observer: MomentumObserver) -> bytes:
     return struct.pack("<4I", nominal.robot.floating, len(links), feet, 0) + _doubles(gravity) + links.tobytes()
 
 
-def _drives(drives: Drives) -> bytes:
+def _drives(drives: DriveParameters) -> bytes:
     """Return the numbers of each drive, one after another."""
     return _doubles(np.column_stack([getattr(drives, name) for name in NUMBERS]))
 

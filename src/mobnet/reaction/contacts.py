@@ -11,12 +11,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mobnet.control.geometry import cross, solve
-from mobnet.control.kinematics import Pose, Tree, empty_pose, tree_of, update
+from mobnet.control.kinematics import KinematicTree, Pose, empty_pose, tree_of, update
 from mobnet.core.arrays import Array
 from mobnet.core.compilation import compiled, vector3
 from mobnet.core.joints import N_VIRTUAL
 from mobnet.robot.description import SIDES, RobotDescription
-from mobnet.settings.reaction import Identification
+from mobnet.settings.reaction import WrenchIdentification
 
 IN_THE_AIR = 0.5  # of a flag
 
@@ -24,7 +24,7 @@ IN_THE_AIR = 0.5  # of a flag
 class Ends(NamedTuple):
     """The end-effectors of a robot's limbs and the wrenches on them."""
 
-    tree: Tree  # bodies of the nominal model
+    tree: KinematicTree  # bodies of the nominal model
     pose: Pose  # their places; filled for each sample
     body: NDArray[np.int64]  # of each end-effector (k,)
     first: NDArray[np.int64]  # first actuator of its limb (k,)
@@ -44,7 +44,7 @@ def end_effectors(robot: RobotDescription) -> dict[str, str]:
     return {robot.feet[side].limb: robot.feet[side].body for side in SIDES} | hands
 
 
-def make_ends(robot: RobotDescription, bodies: Mapping[str, str], numbers: Identification) -> Ends:
+def make_ends(robot: RobotDescription, bodies: Mapping[str, str], numbers: WrenchIdentification) -> Ends:
     """Return the end-effectors of limbs, limb -> body."""
     tree = tree_of(robot, 1.0)
     names = [body.name for body in robot.bodies]

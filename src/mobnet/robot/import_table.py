@@ -86,7 +86,7 @@ def made(options: Namespace) -> tuple[str, list[str]]:
     taken = options.torque_limit, options.speed_limit, options.armature, options.lock
     found = import_robot(options.file, check_base(options.base), *taken)
     text = table_text(found, options.file.name)
-    return text, list(told(robot_of_text(text, options.file), found, options.file))
+    return text, list(report_lines(robot_of_text(text, options.file), found, options.file))
 
 
 def read_robot(path: Path) -> RobotDescription:
@@ -118,7 +118,7 @@ def main(words: list[str]) -> int:
     return printed(log, lambda: run(options))
 
 
-def told(robot: RobotDescription, found: Imported, path: Path) -> Iterator[str]:
+def report_lines(robot: RobotDescription, found: Imported, path: Path) -> Iterator[str]:
     """Yield what the command prints.
 
     Raises:

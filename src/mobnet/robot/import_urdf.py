@@ -12,7 +12,7 @@ import pinocchio as pin
 
 from mobnet.core.arrays import Array
 from mobnet.core.errors import DataError, not_accepted
-from mobnet.robot.import_tree import FREE, HINGE, PLANAR, SLIDE, WORLD, Follows, Joint, Link, Tree
+from mobnet.robot.import_tree import FREE, HINGE, PLANAR, SLIDE, WORLD, Follows, Joint, Link, LinkTree
 
 KINDS = {"revolute": HINGE, "continuous": HINGE, "prismatic": SLIDE, "floating": FREE, "planar": PLANAR, "fixed": None}
 MOMENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
@@ -22,7 +22,7 @@ KEYWORDS = {"arg", "call", "element", "if", "include", "insert_block", "macro", 
 TURN = 0.01  # length below which an axis has no direction
 
 
-def read_urdf(root: ET.Element, path: Path) -> Tree:
+def read_urdf(root: ET.Element, path: Path) -> LinkTree:
     """Return the links of a URDF, depth-first in the order of its joints.
 
     Raises:
@@ -40,7 +40,7 @@ def read_urdf(root: ET.Element, path: Path) -> Tree:
     parents = {row.child: row.parent for row in joints}
     for link in found:
         link.parent = places.get(parents.get(link.name, ""), WORLD)
-    return Tree(root.get("name", ""), found, notes=notes)
+    return LinkTree(root.get("name", ""), found, notes=notes)
 
 
 class _Row:

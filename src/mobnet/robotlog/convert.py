@@ -16,7 +16,7 @@ from mobnet.core.joints import JointLayout
 from mobnet.core.motion import turned
 from mobnet.core.recording import ABSENT, Recording, Sensed, Truth
 from mobnet.robotlog.clocks import Rising, Segments, Timed, at, common_ticks, covered, rate_of, rising, stamp_hints
-from mobnet.robotlog.columns import Column, Columns, near_names
+from mobnet.robotlog.columns import Columns, LogColumn, near_names
 from mobnet.robotlog.hints.columns import listed
 from mobnet.robotlog.meaning import given_signals, is_truth, resolved
 from mobnet.robotlog.pieces import pieces
@@ -148,7 +148,7 @@ def _timed(
     return Timed(time_s - signal.delay_s if signal.delay_s else time_s, whole)
 
 
-def _own(path: Path, name: str, column: Column, meaning: LogMap, clock: Rising) -> tuple[Array, NDArray[Any]]:
+def _own(path: Path, name: str, column: LogColumn, meaning: LogMap, clock: Rising) -> tuple[Array, NDArray[Any]]:
     """Return the times of a column, which rise, and its numbers there."""
     time_s = column.recorded_s if meaning.clock.stamp == "recorded" else column.time_s
     values = column.values

@@ -14,7 +14,7 @@ import numpy as np
 
 from mobnet.core.errors import SHOWN, DataError
 from mobnet.robotlog.arrow import is_numeric, numbers
-from mobnet.robotlog.columns import Column, check_memory
+from mobnet.robotlog.columns import LogColumn, check_memory
 
 LOOKED_BYTES = 2**20  # of a file in which its layout is looked for
 LOOKED_ROWS = 100  # in which a decimal comma is looked for
@@ -67,7 +67,7 @@ def refuse_without_header(path: Path, names: Collection[str]) -> None:
         raise DataError(f"{path}: has no header; its first row is {SHOWN.repr(row)}; accepted: {accepted}")
 
 
-def csv_columns(path: Path, wanted: Collection[str]) -> dict[str, Column]:
+def csv_columns(path: Path, wanted: Collection[str]) -> dict[str, LogColumn]:
     """Read columns of a text with a separator; a field without a number is NaN."""
     layout = _layout(path)
     if layout is None:
@@ -176,7 +176,7 @@ def _named(fields: Sequence[str], row: Sequence[str]) -> list[str]:
     return names if is_header else []
 
 
-def _separated(path: Path, layout: Layout, asked: Sequence[str]) -> dict[str, Column]:
+def _separated(path: Path, layout: Layout, asked: Sequence[str]) -> dict[str, LogColumn]:
     """Read columns by Arrow; rows with another number of fields are left out."""
     import pyarrow as pa
     from pyarrow import csv as arrow
@@ -219,8 +219,8 @@ def _separated(path: Path, layout: Layout, asked: Sequence[str]) -> dict[str, Co
             rows += len(batch)
             others = others or {file.schema.names[k]: _such_as(batch.column(k).to_pylist()) for k in texts}
     hint = " ".join(_left_out(wrong, len(layout.names)))
-    found = {name: Column(own[:rows], hint=hint) for name, own in zip(names, values, strict=True)}
-    return found | {name: Column(np.empty(0), found=text) for name, text in others.items()}
+    found = {name: LogColumn(own[:rows], hint=hint) for name, own in zip(names, values, strict=True)}
+    return found | {name: LogColumn(np.empty(0), found=text) for name, text in others.items()}
 
 
 def _is_loose(kind: Any) -> bool:
@@ -253,7 +253,7 @@ def _such_as(values: Sequence[Any]) -> str:
     return f"text, {str(value)!r} in row {row}"
 
 
-def _spaced(path: Path, layout: Layout, asked: Sequence[str]) -> dict[str, Column]:
+def _spaced(path: Path, layout: Layout, asked: Sequence[str]) -> dict[str, LogColumn]:
     """Read columns with any number of spaces between them, which Arrow cannot."""
     import pandas as pd
 
@@ -273,12 +273,12 @@ def _spaced(path: Path, layout: Layout, asked: Sequence[str]) -> dict[str, Colum
     is_cut = len(last) != len(layout.names)
     frame = frame.iloc[:-1] if is_cut else frame
     hint = " ".join(_left_out([len(last)] if is_cut else [], len(layout.names)))
-    found = dict[str, Column]()
+    found = dict[str, LogColumn]()
     for name in asked:
         kind = frame[name].dtype.kind
         is_text = kind not in "fiub"
         values = np.empty(0) if is_text else frame[name].to_numpy(np.float64)
-        found[name] = Column(values, hint=hint, found=_such_as(list(frame[name])) if is_text else "")
+        found[name] = LogColumn(values, hint=hint, found=_such_as(list(frame[name])) if is_text else "")
     return found
 
 

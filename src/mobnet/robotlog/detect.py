@@ -17,11 +17,11 @@ from mobnet.estimation.own import ESTIMATE, OwnNetwork, check_sampling, read_net
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.given import given_robot
 from mobnet.robot.nominal import NominalModel
-from mobnet.robotlog.detected import Detected, detect_log
+from mobnet.robotlog.detected import LogDetection, detect_log
 from mobnet.robotlog.flags import COLUMNS
 from mobnet.robotlog.learning_words import detect_parser
 from mobnet.robotlog.plot_flags import plot_flags
-from mobnet.robotlog.wrenches import place_of, told_wrenches, wrenches_of, write_wrenches
+from mobnet.robotlog.wrenches import place_of, wrench_lines, wrenches_of, write_wrenches
 from mobnet.settings.lab import load_lab, load_section
 from mobnet.settings.limb_thresholds import LimbThresholds
 from mobnet.settings.robotlog import LogMap
@@ -32,7 +32,7 @@ PLOT = "flags"
 
 
 def write_detected(
-    made: Detected, robot: RobotDescription, network: OwnNetwork | None, found: LimbThresholds, out: Path
+    made: LogDetection, robot: RobotDescription, network: OwnNetwork | None, found: LimbThresholds, out: Path
 ) -> None:
     """Write flags, estimate and plot into a folder."""
     read = made.observed.converted.recording
@@ -42,7 +42,7 @@ def write_detected(
     plot_flags(made.observed.converted.time_s, read.segments, made.watched, made.flags, found, out / PLOT)
 
 
-def told(made: Detected, out: Path) -> Iterator[str]:
+def report_lines(made: LogDetection, out: Path) -> Iterator[str]:
     """Yield what the command prints."""
     read = made.observed.converted.recording
     yield f"{len(read.sensed)} samples at {read.rate_hz:g} Hz, hints on the log: {len(made.observed.hints)}"
@@ -85,8 +85,8 @@ def run(options: Namespace) -> Iterator[str]:
     wrenches = [wrenches_of(nominal, place, read.sensed.q, made.estimate, numbers) for place in places]
     write_detected(made, robot, network, found, out)
     write_wrenches(wrenches, read, found.method, out)
-    yield from told(made, out)
-    yield from told_wrenches(wrenches, numbers, out)
+    yield from report_lines(made, out)
+    yield from wrench_lines(wrenches, numbers, out)
 
 
 def main(words: list[str]) -> int:

@@ -19,25 +19,25 @@ from mobnet.estimation.own import OwnLog, OwnNetwork, estimates_of, estimator_of
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.nominal import NominalModel
 from mobnet.robotlog.flags import Flag, flags_of
-from mobnet.robotlog.observe import Observed, observe_log
-from mobnet.robotlog.pushes import Found, found_pushes
+from mobnet.robotlog.observe import ObservedLog, observe_log
+from mobnet.robotlog.pushes import PushCount, found_pushes
 from mobnet.settings.lab import Lab
 from mobnet.settings.limb_thresholds import LimbThresholds
 from mobnet.settings.robotlog import LogMap
 
 
 @dataclass(frozen=True)
-class Detected:
+class LogDetection:
     """A log, the estimate of a limb (T, n) [N m], what is watched of it behind the low-pass (T, n), and its flags.
 
     `found` counts them beside the pushes of a log that tells them.
     """
 
-    observed: Observed
+    observed: ObservedLog
     estimate: Estimate
     watched: Array
     flags: tuple[Flag, ...]
-    found: Found | None
+    found: PushCount | None
 
 
 def detect_log(
@@ -47,7 +47,7 @@ def detect_log(
     network: OwnNetwork | None,
     found: LimbThresholds,
     settings: Lab,
-) -> Detected:
+) -> LogDetection:
     """Estimate the external torque of a limb in a log, and flag what lies above its thresholds.
 
     Raises:
@@ -77,10 +77,10 @@ def detect_log(
         flags_of(alarm, observed.converted.time_s, read, low, estimate.std, found, nominal, settings.robotlog)
     )
     known = found_pushes(observed.converted, found.joints, flags, settings.robotlog.flag_gap_s)
-    return Detected(observed, estimate, setup.low_passed(signals, read.segments), flags, known)
+    return LogDetection(observed, estimate, setup.low_passed(signals, read.segments), flags, known)
 
 
-def _gate(path: Path, setup: LimbSetup, observed: Observed, estimate: Estimate, found: LimbThresholds) -> GateSignal:
+def _gate(path: Path, setup: LimbSetup, observed: ObservedLog, estimate: Estimate, found: LimbThresholds) -> GateSignal:
     """Return when the limb is watched; a DataError says that thresholds of swings do not fit the log."""
     read = observed.converted.recording
     if not isinstance(setup, LegSetup):

@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array
 from mobnet.core.recording import SensedRecording
-from mobnet.detection.detector import ALARM_RATIO, Alarm
-from mobnet.detection.points import Felt, felt_push
+from mobnet.detection.detector import ALARM_RATIO, DetectorOutput
+from mobnet.detection.points import EstimatedPush, felt_push
 from mobnet.robot.nominal import NominalModel
 from mobnet.settings.limb_thresholds import LimbThresholds
 from mobnet.settings.robotlog import RobotLog
@@ -31,7 +31,7 @@ class Flag:
     end_s: float
     joint: str
     ratio: float
-    push: Felt | None
+    push: EstimatedPush | None
 
     def row(self) -> tuple[Any, ...]:
         """Return it as a row of a CSV file."""
@@ -43,7 +43,7 @@ COLUMNS = ("start_s", "end_s", "joint", "ratio", "link", "point", "direction", "
 
 
 def flags_of(
-    alarm: Alarm,
+    alarm: DetectorOutput,
     time_s: Array,
     read: SensedRecording,
     low: Array,

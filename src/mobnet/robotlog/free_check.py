@@ -43,7 +43,7 @@ class Held:
 
 
 @dataclass(frozen=True)
-class Course:
+class ValidationSummary:
     """What a training did on its validation: which of its epochs is kept, and the loss (22) of that and of the last."""
 
     kept: int
@@ -134,14 +134,14 @@ def free_check(held: Held, data: LimbData, label: Array, cut: int, units: Sequen
     )
 
 
-def course_of(metrics: Path, kept: int) -> Course:
+def course_of(metrics: Path, kept: int) -> ValidationSummary:
     """Read the course of a training from `metrics.csv`, of whose epochs one is kept."""
     epochs, _ = read_epochs(metrics)
-    return Course(kept, len(epochs), epochs[kept - 1].validation_loss, epochs[-1].validation_loss)
+    return ValidationSummary(kept, len(epochs), epochs[kept - 1].validation_loss, epochs[-1].validation_loss)
 
 
 def lines_of(
-    found: FreeCheck, labels: str, numbers: LogLearning, course: Course, planted: PlantedCheck | None = None
+    found: FreeCheck, labels: str, numbers: LogLearning, course: ValidationSummary, planted: PlantedCheck | None = None
 ) -> Iterator[str]:
     """Yield what the command prints of a check by some labels, of a training, and of pushes planted into that part."""
     what = "free-motion check" if labels == "free" else f"check by the labels {labels!r}"
@@ -174,7 +174,7 @@ def _faults(found: FreeCheck, numbers: LogLearning) -> Iterator[str]:
         yield f"the network's error is not below the observer's at {', '.join(worse)}: keep the observer alone there"
 
 
-def _faults_of_course(found: FreeCheck, course: Course, numbers: LogLearning) -> Iterator[str]:
+def _faults_of_course(found: FreeCheck, course: ValidationSummary, numbers: LogLearning) -> Iterator[str]:
     """Yield what a training and its standard deviation say against a log."""
     if course.last > course.loss + numbers.rises:
         yield (

@@ -25,7 +25,7 @@ from mobnet.robot.table_file import head_of, write_table
 from mobnet.robotlog.identify_words import identify_parser
 from mobnet.robotlog.identifying.fit import JointFit, fit_joints
 from mobnet.robotlog.identifying.payload import Payload
-from mobnet.robotlog.identifying.regressors import Windows, columns_of, moved, together, windows_of
+from mobnet.robotlog.identifying.regressors import RegressorWindows, columns_of, moved, together, windows_of
 from mobnet.robotlog.observe import converted_log
 from mobnet.settings.base import TorqueKind
 from mobnet.settings.lab import Lab, load_lab, load_section
@@ -100,7 +100,7 @@ def _carrier(robot: RobotDescription, body: str) -> int:
     return moved_bodies.index(body)
 
 
-def split(windows: Sequence[Windows], numbers: Identification) -> tuple[Windows, Windows]:
+def split(windows: Sequence[RegressorWindows], numbers: Identification) -> tuple[RegressorWindows, RegressorWindows]:
     """Return the windows of logs before and after the time at which what is held out begins.
 
     Raises:
@@ -168,7 +168,7 @@ def _rounded(value: float) -> float:
     return float(f"{value:.{DIGITS}g}")
 
 
-def told(found: Mapping[str, JointFit], robot: RobotDescription, held_out: float) -> Iterator[str]:
+def report_lines(found: Mapping[str, JointFit], robot: RobotDescription, held_out: float) -> Iterator[str]:
     """Yield what the command prints."""
     units = {
         "coulomb": "Coulomb [N m]",
@@ -220,7 +220,7 @@ def run(options: Namespace) -> Iterator[str]:
     made_table = with_payload(made_table, options.payload, carried) if carried else made_table
     write_table(out, made_table, [*head, made])
     load_section(out, RobotTable)
-    yield from told(found, robot, settings.robotlog.identify.held_out)
+    yield from report_lines(found, robot, settings.robotlog.identify.held_out)
     if carried:
         place = ", ".join(f"{x:.3f} ± {half:.2g}" for x, half in zip(carried.com, carried.com_half, strict=True))
         mass = f"{carried.mass:.4g} ± {carried.mass_half:.2g} kg"

@@ -48,7 +48,7 @@ def write_log(recording: Recording, robot: RobotDescription, out: Path, truth: b
         WRITERS[out.suffix](pa.table(columns), temporary)
 
 
-def told(recording: Recording, robot: RobotDescription, out: Path, truth: bool) -> Iterator[str]:
+def report_lines(recording: Recording, robot: RobotDescription, out: Path, truth: bool) -> Iterator[str]:
     """Yield what the command prints."""
     held = "; the base is held in the air" if robot.floating else ""
     apart = "shapes keep apart" if robot.shapes else "the table has no shapes: nothing keeps its bodies apart"
@@ -81,7 +81,7 @@ def run(options: Namespace) -> Iterator[str]:
     recording = record_motion(robot, numbers, seconds, options.seed, options.ideal, options.pushes)
     truth = options.pushes or robot.floating
     write_log(recording, robot, options.out, truth)
-    yield from told(recording, robot, options.out, truth)
+    yield from report_lines(recording, robot, options.out, truth)
 
 
 def main(words: list[str]) -> int:

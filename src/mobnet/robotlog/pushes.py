@@ -11,7 +11,7 @@ from mobnet.robotlog.convert import Converted
 from mobnet.robotlog.flags import Flag, stretches
 
 
-class Found(NamedTuple):
+class PushCount(NamedTuple):
     """How many pushes a log has, how many of them a flag lies in, and how many flags lie in none."""
 
     pushes: int
@@ -30,7 +30,7 @@ def pushed_rows(log: Converted, joints: Sequence[str]) -> NDArray[np.bool_] | No
     return rows
 
 
-def found_pushes(log: Converted, joints: Sequence[str], flags: Sequence[Flag], late_s: float) -> Found | None:
+def found_pushes(log: Converted, joints: Sequence[str], flags: Sequence[Flag], late_s: float) -> PushCount | None:
     """Count the pushes on some joints that a flag lies in, or begins up to so long [s] after."""
     rows = pushed_rows(log, joints)
     if rows is None:
@@ -40,4 +40,4 @@ def found_pushes(log: Converted, joints: Sequence[str], flags: Sequence[Flag], l
     for start, end in spans:
         hits.append([start <= flag.end_s and flag.start_s <= end for flag in flags])
     others = sum(not any(one) for one in zip(*hits, strict=True)) if hits else len(flags)
-    return Found(len(spans), sum(map(any, hits)), others)
+    return PushCount(len(spans), sum(map(any, hits)), others)

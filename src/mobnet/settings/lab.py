@@ -16,7 +16,7 @@ from mobnet.settings.checks.robot import robot_problems
 from mobnet.settings.detection import ContactPoint, Detection
 from mobnet.settings.faults import refuse_faults, validated
 from mobnet.settings.free_motion import FreeMotion
-from mobnet.settings.methods import Observer
+from mobnet.settings.methods import ObserverSettings
 from mobnet.settings.networks import Learning, NetworkRow
 from mobnet.settings.plant import Plant, Rates
 from mobnet.settings.reading import Document, Place
@@ -41,7 +41,7 @@ class Lab(Section):
     seed: Index
     rates: Rates
     plant: Plant
-    observer: Observer
+    observer: ObserverSettings
     networks: Annotated[dict[RobotNetworkName, NetworkRow], Field(min_length=1)]
     learning: Learning
     detection: Detection

@@ -15,7 +15,7 @@ from mobnet.settings.lab import load_section
 Strategy = Literal["compliant", "rewind"]
 
 
-class Identification(Section):
+class WrenchIdentification(Section):
     """Damping of the contact Jacobian's inverse: errors of torques, and wrenches that are large."""
 
     torque_error_nm: base.Real = Field(ge=0.01, le=100)
@@ -74,7 +74,7 @@ class Case(Section):
 class Reaction(Section):
     """Numbers of the pipeline of section 7, and the walks on which it is tried."""
 
-    identification: Identification
+    identification: WrenchIdentification
     first_step: FirstStep
     compliant: Compliant
     rewind: Rewind

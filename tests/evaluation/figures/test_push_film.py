@@ -12,7 +12,7 @@ from made_swings import GROUND, RATE_HZ, swinging, unseen
 from PIL import Image
 
 from experiments.evaluation.figures.drawing.push_film import eased, lines_of, push_film, shots_of
-from experiments.evaluation.measure.estimates.felt import Felt
+from experiments.evaluation.measure.estimates.felt import PushResponse
 from experiments.evaluation.measure.push_scene import PushAlarm, read_story
 from experiments.plan.runs import Run
 from experiments.settings.pages import PushFilm, Story
@@ -118,7 +118,11 @@ def test_the_time_axis_changes_without_a_jump() -> None:
 
 
 def test_the_lines_at_the_end_have_the_numbers_of_each_method() -> None:
-    felt = {"MOB": Felt(98.0, 1.504, 2.0), "FTS-e2e": Felt(20.0, 0.3, None), "MOB-Net": Felt(43.0, 0.72, 24.7)}
+    felt = {
+        "MOB": PushResponse(98.0, 1.504, 2.0),
+        "FTS-e2e": PushResponse(20.0, 0.3, None),
+        "MOB-Net": PushResponse(43.0, 0.72, 24.7),
+    }
     heads, *lines = lines_of(felt, {"MOB": 27.8, "FTS-e2e": 5.4, "MOB-Net": 3.9})
     assert lines == [
         ("MOB-Net", "72 %", "25 ms", "4 N m"), ("FTS-e2e", "30 %", "-", "5 N m"), ("MOB", "150 %", "2 ms", "28 N m")

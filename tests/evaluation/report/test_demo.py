@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from experiments.demo import DATA, load, main
-from experiments.evaluation.measure.estimates.felt import Felt
+from experiments.evaluation.measure.estimates.felt import PushResponse
 from experiments.evaluation.measure.push_scene import PushScene
 from experiments.evaluation.measure.story import StoredPush
 from experiments.evaluation.number.rows import read_detections
@@ -94,7 +94,7 @@ def test_the_window_begins_before_the_push_as_long_as_the_story_says(stored: Sto
     assert push.flags["swing"][pushed].all()
 
 
-def felt(push: PushScene, torque: np.ndarray) -> Felt:
+def felt(push: PushScene, torque: np.ndarray) -> PushResponse:
     """Return what a torque shows of the push at the joint of the story."""
     return push.felt(torque, EVALUATION.story.joint, EVALUATION.peaks)
 

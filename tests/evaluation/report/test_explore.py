@@ -15,7 +15,7 @@ from experiments.evaluation.figures.drawing.robot import lowest
 from experiments.evaluation.measure.estimates.pushes import read_pushes
 from experiments.evaluation.report.explore import explore, joint_names, page_of
 from experiments.evaluation.report.explore_numbers import ALREADY, ASLEEP, NEVER, push_numbers
-from experiments.evaluation.report.explore_pack import Part, packed
+from experiments.evaluation.report.explore_pack import PackedArray, packed
 from experiments.evaluation.report.explore_scenes import read_scene
 from experiments.plan.products import EXPLORE, TEMPLATES
 from experiments.plan.runs import Run
@@ -75,7 +75,7 @@ def test_packed_arrays_come_back(rng):
     """Differences may exceed 16 bits and wrap around; two arrays of any width stand one after the other."""
     arrays = [rng.uniform(-300, 300, (40, 3)), rng.normal(size=(7, 1))]
     steps = [0.01, 0.001]
-    data = gzip.decompress(base64.b64decode(packed(Part("x", s, a) for s, a in zip(steps, arrays, strict=True))))
+    data = gzip.decompress(base64.b64decode(packed(PackedArray("x", s, a) for s, a in zip(steps, arrays, strict=True))))
     for array, step in zip(arrays, steps, strict=True):
         size = array.size
         planes, data = np.frombuffer(data[: 2 * size], np.uint8).reshape(2, -1).astype(np.uint16), data[2 * size :]
@@ -86,7 +86,7 @@ def test_packed_arrays_come_back(rng):
 
 def test_what_does_not_fit_is_refused():
     with pytest.raises(DataError, match=r"truth: 400 is not accepted; accepted: up to 327\.67"):
-        packed([Part("truth", 0.01, np.full((2, 1), 400.0))])
+        packed([PackedArray("truth", 0.01, np.full((2, 1), 400.0))])
 
 
 def page(robot, settings, **scenes):

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from experiments.evaluation.compare.pair import Pair, read_pair, read_std
 from experiments.evaluation.compare.rmse import rmse
 from experiments.evaluation.compare.windows import FLAG
-from experiments.evaluation.measure.estimates.felt import Felt, felt_of
+from experiments.evaluation.measure.estimates.felt import PushResponse, felt_of
 from experiments.evaluation.measure.estimates.peaks import push_rows
 from experiments.plan.runs import Run
 from experiments.settings.measures import Peaks
@@ -103,7 +103,7 @@ class PushScene:
         rises = [rise for _, rise in push_rows(self.flags["pushed"], whole, peaks, self.rate_hz)]
         return min(rises, key=lambda rise: abs(rise.start + 1 - self.start))
 
-    def felt(self, torque: NDArray[Any], joint: str, peaks: Peaks) -> Felt:
+    def felt(self, torque: NDArray[Any], joint: str, peaks: Peaks) -> PushResponse:
         """Return what a torque (T,) [N m] at a joint shows of the push."""
         k = self.joints.index(joint)
         rise = self.rise(peaks)

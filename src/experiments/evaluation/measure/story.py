@@ -23,7 +23,7 @@ from mobnet.core.arrays import Array
 from mobnet.core.columns import EXTERNAL, PUSH, PUSH_TORQUE, named
 from mobnet.core.detections import Collision, Threshold
 from mobnet.core.errors import ConfigError, DataError, not_accepted, refuse
-from mobnet.core.estimator import Estimate, Estimator
+from mobnet.core.estimator import Estimate, TorqueEstimator
 from mobnet.core.recording import SensedRecording, read_sensed
 from mobnet.core.store import check_rate, read_array
 from mobnet.detection.detector import ALARM_RATIO, LegDetector
@@ -33,7 +33,7 @@ from mobnet.estimation.low_pass import low_pass
 from mobnet.estimation.methods import build_estimator
 from mobnet.estimation.recipe import Recipe
 from mobnet.robot.description import RobotDescription, describe
-from mobnet.settings.detection import Detector
+from mobnet.settings.detection import DetectorSettings
 
 
 @dataclass(frozen=True)
@@ -109,7 +109,7 @@ class StoredPush:
             alarm=None if alarm_s is None else PushAlarm(alarm_s),
         )
 
-    def estimator(self, method: str) -> Estimator:
+    def estimator(self, method: str) -> TorqueEstimator:
         """Return a method's estimator; a ConfigError names a method whose files are not stored."""
         if method not in self.story.methods:
             raise ConfigError(not_accepted("method", method, self.story.methods))
@@ -162,7 +162,7 @@ class StoredPush:
     def _setup(self) -> LegSetup:
         return LegSetup.of(self.settings.detection, self.robot, self.collision.leg, self.recording.rate_hz)
 
-    def _thresholds(self, row: Detector) -> Array:
+    def _thresholds(self, row: DetectorSettings) -> Array:
         """Return the thresholds of a detector, (phases, signals) [N m], of a ratio [-]."""
         path = self.folder / "thresholds.csv"
         names = Watched(row).names(self.joints)

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from experiments.evaluation.measure.push_scene import PushScene, story_push
 from experiments.evaluation.report.explore_numbers import PushNumbers, push_numbers, stretches
-from experiments.evaluation.report.explore_pack import Part, packed
+from experiments.evaluation.report.explore_pack import PackedArray, packed
 from experiments.evaluation.report.explore_scenes import PagePush, read_scene
 from experiments.evaluation.report.html import rendered
 from experiments.plan.scenes import PageScene
@@ -89,7 +89,7 @@ def page_of(
     """Return the page of some scenes; `alarm` is that of the story's detector; scripts stand beside the template."""
     numbers: dict[str, list[PushNumbers]] = {}
     steps: dict[str, dict[str, PushNumbers]] = {}
-    parts: list[Part] = []
+    parts: list[PackedArray] = []
     for name, scene in shown.items():
         # The page computes with the rounded torques that it gets: the table has numbers of the same.
         stored = as_stored(scene.push, settings.step_nm)
@@ -197,19 +197,19 @@ def scene_note(
     }
 
 
-def parts_of(shown: PagePush, settings: Explore) -> Iterator[Part]:
+def parts_of(shown: PagePush, settings: Explore) -> Iterator[PackedArray]:
     """Yield the arrays of a scene, of the residual's methods what they subtract from it, which is smoother."""
     push = shown.push
     step = settings.step_nm
-    yield Part("poses", STEP_M, shown.poses)
-    yield Part("wrenches", STEP_N, shown.wrenches)
-    yield Part("force", STEP_N, shown.force)
-    yield Part("truth", step, push.truth)
-    yield Part("push", step, push.push)
+    yield PackedArray("poses", STEP_M, shown.poses)
+    yield PackedArray("wrenches", STEP_N, shown.wrenches)
+    yield PackedArray("force", STEP_N, shown.force)
+    yield PackedArray("truth", step, push.truth)
+    yield PackedArray("push", step, push.push)
     for method, estimate in push.estimates.items():
-        yield Part(method, step, estimate if is_whole(push, method) else push.estimates[OBSERVER] - estimate)
+        yield PackedArray(method, step, estimate if is_whole(push, method) else push.estimates[OBSERVER] - estimate)
     for method, std in push.stds.items():
-        yield Part(f"std {method}", step, std)
+        yield PackedArray(f"std {method}", step, std)
 
 
 def is_whole(shown: PushScene, method: str) -> bool:

@@ -19,7 +19,7 @@ LARGEST = 2**15 - 1  # of a whole number of 16 bits
 
 
 @dataclass(frozen=True)
-class Part:
+class PackedArray:
     """An array (T, n) of a page: its name, and the step of its whole numbers in its own unit."""
 
     name: str
@@ -32,7 +32,7 @@ class Part:
         return {"name": self.name, "step": self.step, "count": len(self.values), "width": self.values.shape[1]}
 
 
-def packed(parts: Iterable[Part]) -> str:
+def packed(parts: Iterable[PackedArray]) -> str:
     """Return arrays one after the other as text, the same for equal ones.
 
     Raises:
@@ -41,7 +41,7 @@ def packed(parts: Iterable[Part]) -> str:
     return base64.b64encode(gzip.compress(b"".join(map(_planes, parts)), 9, mtime=0)).decode()
 
 
-def _planes(part: Part) -> bytes:
+def _planes(part: PackedArray) -> bytes:
     """Return an array column by column as differences, first all their lower and then all their upper bytes."""
     whole = np.round(np.asarray(part.values, dtype=np.float64) / part.step).T
     if whole.size and np.abs(whole).max() > LARGEST:

@@ -57,7 +57,7 @@ class Span(Note):
         return range(self.first, self.first + self.count)
 
 
-class Walked(Note):
+class WalkedSeeds(Note):
     """What a run has walked.
 
     Attributes:
@@ -82,10 +82,10 @@ class Walked(Note):
 class History(Note):
     """The published runs, the oldest one first."""
 
-    runs: list[Walked]
+    runs: list[WalkedSeeds]
 
 
-def read_history(path: Path) -> list[Walked]:
+def read_history(path: Path) -> list[WalkedSeeds]:
     """Return the published runs, the oldest one first.
 
     Raises:
@@ -94,13 +94,13 @@ def read_history(path: Path) -> list[Walked]:
     return read_note(path, History).runs
 
 
-def write_history(path: Path, runs: Sequence[Walked]) -> None:
+def write_history(path: Path, runs: Sequence[WalkedSeeds]) -> None:
     """Write the published runs; of two of the same commit the later one is kept."""
     by_commit = {run.commit: run for run in runs}
     write_json(path, History(runs=list(by_commit.values())).model_dump())
 
 
-def walked(files: Files, commit: str) -> Walked:
+def walked(files: Files, commit: str) -> WalkedSeeds:
     """Return what a run of the chosen scale walks at a commit."""
     tests: dict[str, Span] = {}
     for owner in files.owners:
@@ -115,7 +115,7 @@ def walked(files: Files, commit: str) -> Walked:
         for case in files.settings.reaction.cases:
             first = files.settings.sizes.test.first_seed
             reactions[case] = Span(first=first, count=sizes_of(files, case).runs)
-    return Walked(commit=commit, methods=methods_hash(files.settings), tests=tests, reactions=reactions)
+    return WalkedSeeds(commit=commit, methods=methods_hash(files.settings), tests=tests, reactions=reactions)
 
 
 def methods_hash(settings: Settings) -> str:
@@ -127,7 +127,7 @@ def methods_hash(settings: Settings) -> str:
     return hashlib.sha256(text.encode()).hexdigest()[:SHORT]
 
 
-def check_seeds(run: Walked, published: Iterable[Walked]) -> None:
+def check_seeds(run: WalkedSeeds, published: Iterable[WalkedSeeds]) -> None:
     """Check that a run walks no seed of a published run whose methods were others.
 
     Raises:

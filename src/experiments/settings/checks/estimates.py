@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from itertools import chain
 
-from experiments.settings.asked import Asked
+from experiments.settings.asked import RunRequest
 from experiments.settings.catalogue import Catalogue
 from mobnet.core.errors import misfit
 from mobnet.settings.reading import Problem
@@ -16,7 +16,7 @@ def asked_problems(catalogue: Catalogue) -> Iterator[Problem]:
             yield one.place, text
 
 
-def _estimate_faults(catalogue: Catalogue, one: Asked) -> Iterator[str]:
+def _estimate_faults(catalogue: Catalogue, one: RunRequest) -> Iterator[str]:
     """Yield joints that are shown of a run and that its method does not estimate."""
     groups = catalogue.layout.groups
     held = catalogue.estimated(one.method, one.scenario, one.level)
@@ -26,7 +26,7 @@ def _estimate_faults(catalogue: Catalogue, one: Asked) -> Iterator[str]:
         yield misfit(one.method, f"methods that estimate {missing[0]} in {one.scenario}, {one.level}")
 
 
-def _fleet_faults(catalogue: Catalogue, one: Asked) -> Iterator[str]:
+def _fleet_faults(catalogue: Catalogue, one: RunRequest) -> Iterator[str]:
     """Yield data that a method learns from and that the robots of the fleet do not record, where they walk."""
     fleet = catalogue.settings.fleet
     source = catalogue.source_of(one.method)

@@ -10,13 +10,13 @@ from mobnet.core.arrays import Array
 from mobnet.robot.linkage import linkage_of
 from mobnet.robot.nominal import NominalModel
 from mobnet.robotlog.hints.fits import quotient
-from mobnet.robotlog.hints.windows import Asked, Windows, size_of
+from mobnet.robotlog.hints.windows import MotionWindows, MotorDemand, size_of
 
 PLACE_M = 0.1  # from the link's origin, at which a mass is tried
 LEAST_KG = 0.05  # mass that is none
 
 
-class Payload(NamedTuple):
+class PayloadHint(NamedTuple):
     """A mass that is carried [kg], where (3,) [m] in the frame of which body, and its torques (W, nu) [N m]."""
 
     mass: float
@@ -31,8 +31,8 @@ class Payload(NamedTuple):
 
 
 def payloads(
-    nominal: NominalModel, windows: Windows, asked: Asked, left: Array, joints: Sequence[int]
-) -> list[Payload]:
+    nominal: NominalModel, windows: MotionWindows, asked: MotorDemand, left: Array, joints: Sequence[int]
+) -> list[PayloadHint]:
     """Return the mass at the end of each limb of a robot with a fixed base that explains some joints best.
 
     `left` is the share of the joints' square torque that is not explained without it (nu,).
@@ -55,11 +55,11 @@ def payloads(
         numbers = lsq_linear(terms.reshape(-1, terms.shape[-1]), (rest * weight).ravel(), (low, np.inf)).x[:4]
         if numbers[0] > LEAST_KG:
             body = _body_of(nominal, joint)
-            found.append(Payload(float(numbers[0]), numbers[1:] / numbers[0], body, carried @ numbers))
+            found.append(PayloadHint(float(numbers[0]), numbers[1:] / numbers[0], body, carried @ numbers))
     return found
 
 
-def _torque_of_mass(nominal: NominalModel, windows: Windows, joint: int) -> Array:
+def _torque_of_mass(nominal: NominalModel, windows: MotionWindows, joint: int) -> Array:
     """Return the torques for a mass at the origin of a joint's link, and for its first moments (W, nu, 4)."""
     without = windows.needed(nominal)
     found = [windows.needed(_loaded(nominal, joint, np.zeros(3))) - without]

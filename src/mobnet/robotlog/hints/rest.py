@@ -7,13 +7,13 @@ import numpy as np
 from mobnet.robot.nominal import NominalModel
 from mobnet.robotlog.hints.fits import friction_fit, quotient
 from mobnet.robotlog.hints.payload import payloads
-from mobnet.robotlog.hints.windows import Windows, known_joints, left_of, size_of
+from mobnet.robotlog.hints.windows import MotionWindows, known_joints, left_of, size_of
 from mobnet.settings.robotlog import RobotLog
 
 HALF = 0.5  # share of a residual that must be explained for a word
 
 
-def explanation(nominal: NominalModel, windows: Windows, bounds: RobotLog) -> Iterator[str]:
+def explanation(nominal: NominalModel, windows: MotionWindows, bounds: RobotLog) -> Iterator[str]:
     """Yield what explains the residual of each joint that tells of itself, and what a mass would explain beside."""
     asked = windows.asked(nominal)
     names = nominal.robot.layout.actuated

@@ -8,10 +8,10 @@ import numpy as np
 
 from experiments.evaluation.compare.curves import TRUTH, TorqueCurve
 from experiments.evaluation.figures.drawing.motion import palette_of, save_drawing, save_still
-from experiments.evaluation.figures.drawing.push_frame import Course, Moment, draw_frame
+from experiments.evaluation.figures.drawing.push_frame import Moment, TorquePlot, draw_frame
 from experiments.evaluation.figures.drawing.pushed import standing
 from experiments.evaluation.figures.drawing.robot import projection
-from experiments.evaluation.measure.estimates.felt import Felt
+from experiments.evaluation.measure.estimates.felt import PushResponse
 from experiments.evaluation.measure.push_scene import PushScene, read_story
 from experiments.evaluation.number.files import write_csv
 from experiments.plan.detection import Detections
@@ -119,7 +119,7 @@ def eased(start: Ends, end: Ends, k: int) -> Ends:
     return low, high
 
 
-def lines_of(felt: Mapping[str, Felt], errors_nm: Mapping[str, float]) -> list[tuple[str, ...]]:
+def lines_of(felt: Mapping[str, PushResponse], errors_nm: Mapping[str, float]) -> list[tuple[str, ...]]:
     """Return the lines of the table at the end: heads of columns, then what each method shows, the last one first."""
     rows = [
         (method, f"{100.0 * own.share:.0f} %", _late(own.delay_ms), f"{errors_nm[method]:.0f} N m")
@@ -143,7 +143,7 @@ class _Stage:
         layout: JointLayout,
         hit: Collision,
         push: PushScene,
-        course: Course,
+        course: TorquePlot,
         told: Sequence[tuple[str, ...]],
     ) -> None:
         self.settings = settings
@@ -198,7 +198,7 @@ class _Stage:
         return draw_frame(self.robot, self.view, moment, self.course, drawn_s, lines)
 
 
-def course_of(settings: PushFilm, push: PushScene, joint: str) -> Course:
+def course_of(settings: PushFilm, push: PushScene, joint: str) -> TorquePlot:
     """Return the curves of a joint while they are shown [N m]."""
     k = push.joints.index(joint)
     stds = {method: std[:, k] for method, std in push.stds.items()}
@@ -208,7 +208,7 @@ def course_of(settings: PushFilm, push: PushScene, joint: str) -> Course:
     title = f"External torque of the {settings.joint} [N m]"
     drawn = [TorqueCurve(name, values, stds.get(name)) for name, values in shown.items()]
     ends = (float(low - room), float(high + room))
-    return Course(push.time_s, drawn, push.flags["swing"], title, settings.labels, ends)
+    return TorquePlot(push.time_s, drawn, push.flags["swing"], title, settings.labels, ends)
 
 
 def yaw_of(q: Array) -> float:

@@ -60,7 +60,7 @@ class Moment:
 
 
 @dataclass(frozen=True)
-class Course:
+class TorquePlot:
     """The torque of a joint: time (T,) [s], curves (T,) [N m], swing or not (T,), texts, and the axis' ends [N m]."""
 
     time_s: Array
@@ -75,7 +75,7 @@ def draw_frame(
     robot: RobotDescription,
     view: Array,
     moment: Moment,
-    course: Course,
+    course: TorquePlot,
     drawn_s: float,
     lines: Sequence[str | Sequence[str]],
 ) -> Pixels:
@@ -97,7 +97,7 @@ def draw_frame(
     return np.asarray(canvas.buffer_rgba())[..., :3].copy()
 
 
-def _draw_legend(figure: Figure, course: Course) -> None:
+def _draw_legend(figure: Figure, course: TorquePlot) -> None:
     """Draw what the lines and the shade mean, in one row."""
     handles: list[Any] = [
         Line2D([], [], **_line(curve.label), label=course.labels[curve.label]) for curve in course.curves
@@ -118,7 +118,7 @@ def _draw_legend(figure: Figure, course: Course) -> None:
     )
 
 
-def _draw_lines(figure: Figure, course: Course, lines: Sequence[str | Sequence[str]]) -> None:
+def _draw_lines(figure: Figure, course: TorquePlot, lines: Sequence[str | Sequence[str]]) -> None:
     """Write lines of text, or a table whose lines but the first have the colours of their methods."""
     for row, line in enumerate(lines):
         y = LINE_Y - row * LINE_STEP
@@ -156,7 +156,7 @@ def _draw_scene(axis: Axes, robot: RobotDescription, view: Array, moment: Moment
         )
 
 
-def _draw_torque(axis: Axes, moment: Moment, course: Course, drawn_s: float) -> None:
+def _draw_torque(axis: Axes, moment: Moment, course: TorquePlot, drawn_s: float) -> None:
     """Draw the torque until a time, with swing shaded and a mark at the present."""
     first, last = np.searchsorted(course.time_s, (moment.ends_s[0], drawn_s))
     rows = slice(max(int(first) - 1, 0), int(last) + 1)

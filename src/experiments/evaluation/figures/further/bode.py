@@ -22,7 +22,7 @@ from mobnet.core.columns import RESPONSE
 from mobnet.core.joints import JointLayout
 from mobnet.core.style import PAGE_INCH, STYLE, styled
 from mobnet.settings.data import Push
-from mobnet.settings.methods import Observer
+from mobnet.settings.methods import ObserverSettings
 from mobnet.settings.plant import Rates
 
 REFERENCE = "low-pass of (11)"  # the observer's response to what it sees without any error
@@ -48,7 +48,7 @@ def bode(
     settings: Bode,
     pushes: Mapping[str, Push],
     layout: JointLayout,
-    observer: Observer,
+    observer: ObserverSettings,
     rates: Rates,
     statistics: Statistics,
     scores: Sequence[Path],

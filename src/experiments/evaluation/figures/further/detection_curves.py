@@ -22,7 +22,7 @@ from experiments.evaluation.measure.detection.results import (
     rows_of,
     tries_of,
 )
-from experiments.evaluation.number.clusters import Place, share_in
+from experiments.evaluation.number.clusters import ClusterKey, share_in
 from experiments.evaluation.number.number import Number
 from experiments.settings.detection_tables import DetectionCurves
 from experiments.settings.runs import Statistics
@@ -123,11 +123,11 @@ def _over_rates(
         found = sum(row.found for _, row in own)
         count = sum(row.collisions for _, row in own)
         flags: list[bool] = []
-        places: list[Place] = []
+        places: list[ClusterKey] = []
         for robot, row in own:
             flags += [True] * row.found + [False] * (row.collisions - row.found)
             # A point is of all walks of a robot together: one cluster.
-            places += [Place(robot, 0)] * row.collisions
+            places += [ClusterKey(robot, 0)] * row.collisions
         rates.append(alarms_in(quiet, factor) / hours if hours else 0.0)
         shares.append(share_in(flags, places, statistics))
         late = MS * sum(row.delay_sum_s for _, row in own) / found if found else None

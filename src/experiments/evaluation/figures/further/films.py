@@ -32,7 +32,7 @@ ROOM_M = (-1.0, 1.0, -0.1, 1.85)  # right of the base, and above the ground
 
 
 @dataclass(frozen=True)
-class Curves:
+class FilmCurves:
     """What scrolls below the robot: times from the first contact on [s], and signals over them (T,).
 
     Attributes:
@@ -69,7 +69,7 @@ def films(
         save_clip(seen, settings.frames_hz, out)
 
 
-def read_curves(stem: Path, course: StoredCourse, joint: str) -> Curves:
+def read_curves(stem: Path, course: StoredCourse, joint: str) -> FilmCurves:
     """Read what is shown of a joint in a course."""
     array, note = read_array(stem, [f"{signal}.{joint}" for signal in (ESTIMATED, STD, EXTERNAL)])
     first = course.at("contact_s") or 0
@@ -78,7 +78,7 @@ def read_curves(stem: Path, course: StoredCourse, joint: str) -> Curves:
     times = (np.arange(len(array)) - first) / rate_hz
     since = None if reacted is None else (reacted - first) / rate_hz
     estimated, std, true = array.T.astype(np.float64)
-    return Curves(times, np.linalg.norm(course.force, axis=1), estimated, std, true, since)
+    return FilmCurves(times, np.linalg.norm(course.force, axis=1), estimated, std, true, since)
 
 
 @styled
@@ -87,7 +87,7 @@ def frames(
     robot: RobotDescription,
     obstacles: Mapping[str, Obstacle],
     course: StoredCourse,
-    curves: Curves,
+    curves: FilmCurves,
     case: str,
 ) -> Iterator[Pixels]:
     """Yield the frames of a film (height, width, 3)."""
@@ -111,7 +111,7 @@ def frames(
         yield np.asarray(canvas.buffer_rgba())[..., :3].copy()
 
 
-def draw_curves(axes: Sequence[Axes], curves: Curves, settings: Films, case: str, k: int) -> None:
+def draw_curves(axes: Sequence[Axes], curves: FilmCurves, settings: Films, case: str, k: int) -> None:
     """Draw the force, the torque of the joint, and contact and reaction, until sample k."""
     now = curves.time_s[k]
     shown = slice(max(0, int(np.searchsorted(curves.time_s, now - settings.history_s))), k + 1)

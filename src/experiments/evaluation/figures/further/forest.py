@@ -15,7 +15,13 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from experiments.evaluation.figures.style import save_figure
-from experiments.evaluation.measure.claims.places import BEYOND_BOUND, OVER_PAPER, Place, Statement, statements_of
+from experiments.evaluation.measure.claims.places import (
+    BEYOND_BOUND,
+    OVER_PAPER,
+    ClaimPosition,
+    StatementPosition,
+    statements_of,
+)
 from experiments.evaluation.measure.claims.verdicts import Judged
 from experiments.evaluation.number.number import Number
 from mobnet.core.claim_ranges import range_text
@@ -72,7 +78,7 @@ def forest(judged: Sequence[Judged], confidence: float, figure_dir: Path) -> Non
         save_figure(figure, figure_dir / stem, FOREST, [each.record for each in own])
 
 
-def draw_forest(statements: Sequence[Statement], axis_name: str, interval: str) -> Figure:
+def draw_forest(statements: Sequence[StatementPosition], axis_name: str, interval: str) -> Figure:
     """Draw statements below one another, section by section, on one axis; the legend calls the interval so."""
     sections = [list(own) for _, own in groupby(statements, lambda each: each.worst.judged.score)]
     rows = ROW_INCH * len(statements) + HEAD_INCH * max(1, len(sections))
@@ -113,7 +119,7 @@ def _text(axis: Axes, inch: float, row: float, text: str, **look: Any) -> None:
     axis.text(x, row, text, transform=axis.get_yaxis_transform(), va="center", fontsize=POINTS, **look)
 
 
-def _head(axis: Axes, top: float, own: Sequence[Statement], name: str) -> None:
+def _head(axis: Axes, top: float, own: Sequence[StatementPosition], name: str) -> None:
     """Write the head of a section at its top [inch]."""
     middle = top + HEAD_INCH / 2.0
     says = f"{HEADS[own[0].worst.judged.score]} ({len(own)})"
@@ -125,7 +131,7 @@ def _head(axis: Axes, top: float, own: Sequence[Statement], name: str) -> None:
     axis.plot(ends, [top + HEAD_INCH - 0.02] * 2, **line)
 
 
-def _row(axis: Axes, row: float, statement: Statement) -> None:
+def _row(axis: Axes, row: float, statement: StatementPosition) -> None:
     """Draw a statement in its row [inch]: sign, text, interval and numbers."""
     place = statement.worst
     judged = place.judged
@@ -143,14 +149,14 @@ def _row(axis: Axes, row: float, statement: Statement) -> None:
     _place(axis, row, place)
 
 
-def text_of(statement: Statement) -> str:
+def text_of(statement: StatementPosition) -> str:
     """Return what the worst claim of a statement says, with its joint, and of how many claims it is one."""
     row = statement.worst.judged.row
     joint = f", {row.joint}" if row.joint else ""
     return row.claim.says.removesuffix(".") + joint + (f" (1 of {statement.claims})" if statement.claims > 1 else "")
 
 
-def _place(axis: Axes, row: float, place: Place) -> None:
+def _place(axis: Axes, row: float, place: ClaimPosition) -> None:
     """Draw the range where a claim is reproduced, our number and its interval, arrows where they leave the axis."""
     first, last = ENDS[place.axis]
     low, high = (edge if end is None else end for end, edge in zip(place.band, (first, last), strict=True))
@@ -173,7 +179,7 @@ def _place(axis: Axes, row: float, place: Place) -> None:
         axis.plot([value], [row], marker, markersize=3.8, **look)
 
 
-def _key(figure: Figure, statements: Sequence[Statement], band: str) -> None:
+def _key(figure: Figure, statements: Sequence[StatementPosition], band: str) -> None:
     """Put what colours, signs and markers mean on top of a figure, with how many statements have each verdict."""
     counts = Counter(each.worst.judged.verdict for each in statements)
     handles: list[Any] = []

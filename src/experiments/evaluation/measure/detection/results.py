@@ -7,7 +7,7 @@ from typing import TypeVar
 
 import numpy as np
 
-from experiments.evaluation.number.clusters import Place, mean_in, share_in
+from experiments.evaluation.number.clusters import ClusterKey, mean_in, share_in
 from experiments.evaluation.number.number import Number
 from experiments.plan.detection import Detections
 from experiments.settings.detection_tables import AlarmTable
@@ -32,9 +32,9 @@ class Try:
     detected: Detected
 
     @property
-    def place(self) -> Place:
+    def place(self) -> ClusterKey:
         """The robot and the walk, which collisions have in common."""
-        return Place(self.robot, self.collision.seed)
+        return ClusterKey(self.robot, self.collision.seed)
 
     @property
     def cell(self) -> str:

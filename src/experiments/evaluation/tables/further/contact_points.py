@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
-from experiments.evaluation.measure.detection.contact_points import NAMED, NOTHING, Found, contacts_of
+from experiments.evaluation.measure.detection.contact_points import NAMED, NOTHING, ContactDeviation, contacts_of
 from experiments.evaluation.measure.detection.results import ALL, CELLS, Detections, median_of
 from experiments.evaluation.number.files import Field
 from experiments.evaluation.number.number import Number
@@ -17,7 +17,7 @@ from mobnet.core.columns import DETECTION
 from mobnet.robot.description import describe
 from mobnet.settings.data import Push
 from mobnet.settings.detection import ContactPoint
-from mobnet.settings.methods import Observer
+from mobnet.settings.methods import ObserverSettings
 from mobnet.settings.robot import RobotTable
 
 CM = 100.0
@@ -34,7 +34,7 @@ def contact_points(
     settings: ContactPoints,
     contact_point: ContactPoint,
     robot: RobotTable,
-    observer: Observer,
+    observer: ObserverSettings,
     statistics: Statistics,
     pushes: Mapping[str, Push],
     runs: Sequence[Run],
@@ -51,7 +51,9 @@ def contact_points(
     write_contacts(table_dir / "contact_points", settings, statistics, found)
 
 
-def write_contacts(stem: Path, settings: ContactPoints, statistics: Statistics, found: Sequence[Found]) -> None:
+def write_contacts(
+    stem: Path, settings: ContactPoints, statistics: Statistics, found: Sequence[ContactDeviation]
+) -> None:
     """Write the three files of the table from what each line says of each collision."""
     rows: list[Sequence[Field]] = []
     lines: list[Line] = []
@@ -82,7 +84,7 @@ def write_contacts(stem: Path, settings: ContactPoints, statistics: Statistics, 
     write_table(stem, Table(DETECTION, rows, header, lines))
 
 
-def _values(found: Sequence[Found]) -> Iterator[tuple[str, str, list[float]]]:
+def _values(found: Sequence[ContactDeviation]) -> Iterator[tuple[str, str, list[float]]]:
     """Yield name, unit and values of each quantity of some collisions."""
     yield ERROR, "cm", [CM * float(np.linalg.norm(one.error_m)) for one in found]
     for axis, name in enumerate("xyz"):

@@ -17,7 +17,7 @@ from mobnet.estimation.label import foot_label
 from mobnet.estimation.observe import read_wrenches
 from mobnet.robot.description import describe
 from mobnet.robot.nominal import NominalModel
-from mobnet.settings.methods import Observer
+from mobnet.settings.methods import ObserverSettings
 from mobnet.settings.robot import RobotTable
 
 LABELS = {"as read": False, "without the plate": True}  # label -> whether the plate's inertia is taken off
@@ -28,7 +28,7 @@ AVERAGE = "avg"
 def label_error(
     settings: LabelError,
     robot: RobotTable,
-    observer: Observer,
+    observer: ObserverSettings,
     layout: JointLayout,
     walks: Mapping[str, tuple[Path, Path]],
     table_dir: Path,
