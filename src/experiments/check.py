@@ -87,6 +87,12 @@ class LogError(UnknownKindError):
 
 
 @functools.cache
+def known_scales() -> frozenset[str]:
+    """Return the scales of the configuration, which takes a second to read."""
+    return frozenset(load_settings().scales)
+
+
+@functools.cache
 def stamped_at(scale: str) -> Stamped:
     """Return the files that the plan of a scale makes."""
     settings = load_settings(overrides={"scale": scale})
@@ -127,7 +133,7 @@ def check(path: Path, against: Against) -> str:
     if place.is_relative_to(ROOT / "results"):
         name = str(place.relative_to(ROOT))
         scale = scale_of(name)
-        if scale in load_settings().scales:
+        if scale in known_scales():
             refuse_lines(stamped_at(scale).foreign([name]))
     return kind
 
