@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from mobnet.core.estimator import Estimate
-from mobnet.robotlog.detect import told
 from mobnet.robotlog.detected import Detected
+from mobnet.robotlog.detecting import told
 from mobnet.robotlog.flags import Flag
 from mobnet.robotlog.observe import Observed, converted_log, main
 from mobnet.robotlog.pushes import Found, found_pushes, pushed_rows
