@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from mobnet.core.estimator import Estimate
-from mobnet.robotlog.detect import report_lines
 from mobnet.robotlog.detected import LogDetection
+from mobnet.robotlog.detecting import report_lines
 from mobnet.robotlog.flags import Flag
 from mobnet.robotlog.observe import ObservedLog, converted_log, main
 from mobnet.robotlog.pushes import PushCount, found_pushes, pushed_rows

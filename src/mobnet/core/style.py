@@ -33,7 +33,8 @@ def styled(function: Callable[Parameters, Value]) -> Callable[Parameters, Value]
 
     @functools.wraps(function)
     def drawn(*args: Parameters.args, **kwargs: Parameters.kwargs) -> Value:
-        import matplotlib as mpl  # here: a command refuses a wrong word before the third of a second that this takes
+        import numpy as np
+import matplotlib as mpl  # here: a command refuses a wrong word before the third of a second that this takes
 
         with mpl.rc_context(STYLE):
             return function(*args, **kwargs)
@@ -53,4 +54,5 @@ def settle(figure: "Figure") -> None:
     figure.draw_without_rendering()
     figure.set_layout_engine("none")
     for axis in figure.axes:
-        axis.set_position([round(float(edge), PLACE_DIGITS) for edge in axis.get_position(original=True).bounds])
+        left, bottom, width, height = np.round(axis.get_position(original=True).bounds, PLACE_DIGITS).tolist()
+        axis.set_position((left, bottom, width, height))
