@@ -7,8 +7,8 @@ from numpy.typing import NDArray
 
 from experiments.evaluation.measure.push_scene import PushScene
 from experiments.evaluation.report.explore_scenes import PagePush
+from experiments.plan.parts import PageScene
 from experiments.plan.runs import Run
-from experiments.plan.scenes import PageScene
 from mobnet.estimation.low_pass import low_pass
 from mobnet.robot.description import RobotDescription
 from mobnet.settings.data import Push

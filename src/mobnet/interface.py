@@ -19,8 +19,8 @@ from mobnet.core.columns import recording_columns
 from mobnet.core.errors import ConfigError, DataError, not_accepted
 from mobnet.core.errors import MobnetError as MobnetError
 from mobnet.core.estimator import Estimate
-from mobnet.core.extras import with_extra
 from mobnet.core.files import RUN
+from mobnet.core.place import with_extra
 from mobnet.core.recording import Recording, Sensed, SensedRecording, Truth, read_sensed
 from mobnet.core.recording import write_recording as write_whole
 from mobnet.detection import contact
@@ -35,8 +35,7 @@ from mobnet.export.contract import CONTRACT
 from mobnet.learning.deployed.limbs import load_limb_networks
 from mobnet.reaction.handler import Handler, Reacted
 from mobnet.reaction.watchers import LegWatcher, LimbWatcher, some
-from mobnet.robot.description import RobotDescription
-from mobnet.robot.given import given_robot
+from mobnet.robot.description import RobotDescription, given_robot
 from mobnet.robot.nominal import NominalModel
 from mobnet.settings.base import TorqueKind
 from mobnet.settings.lab import Lab, load_lab

@@ -33,7 +33,7 @@ from experiments.evaluation.compare.pair import Pair
 from experiments.evaluation.compare.scene import Scene
 from experiments.evaluation.measure.estimates import run_errors
 from experiments.evaluation.measure.estimates.scores import measured
-from experiments.evaluation.measure.registry import measure_problems
+from experiments.evaluation.measure.estimates.scores import measure_problems
 from experiments.plan.plan import make_plan
 from experiments.settings.load import load_settings
 

@@ -11,7 +11,7 @@ import pyarrow.parquet as pq
 import pytest
 
 from experiments.jobs.estimates import estimate
-from experiments.jobs.observing import observe
+from experiments.jobs.walks import observe
 from experiments.plan.parts import MethodRun
 from experiments.running.stage import Stage
 from experiments.settings.catalogue import Catalogue
@@ -19,7 +19,7 @@ from experiments.settings.load import load_settings
 from mobnet.core.columns import EXTERNAL_LP, FEET, SWING, named, recording_columns
 from mobnet.core.recording import Truth, write_recording
 from mobnet.core.store import footer_hash, read_array
-from mobnet.estimation.methods import kind_names
+from mobnet.estimation.recipe import kind_names
 
 LEVEL, SECONDS, WRONG = "all_uncertainty", 0.12, 77.0
 METHODS = list(Catalogue(load_settings()).all_methods)

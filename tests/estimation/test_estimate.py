@@ -10,7 +10,7 @@ from safetensors.numpy import save_file
 
 from experiments.jobs import estimates as estimates_module
 from experiments.jobs.estimates import estimate
-from experiments.jobs.observing import observe
+from experiments.jobs.walks import observe
 from experiments.plan.parts import MethodRun
 from experiments.running.stage import Stage
 from mobnet.core.errors import ConfigError, DataError
@@ -18,7 +18,7 @@ from mobnet.core.estimator import Estimate
 from mobnet.core.files import WEIGHTS
 from mobnet.core.store import read_array, write_array
 from mobnet.estimation.estimate import ObservedRecording, rate_of, read_observed, run_segments, table_of
-from mobnet.estimation.methods import build_estimator
+from mobnet.estimation.recipe import build_estimator
 from mobnet.learning.deployed.weights import NOTE, STD_SCALE, Z_SCORES, std_scales
 
 

@@ -6,11 +6,11 @@ import sys
 
 import pytest
 
-from experiments.jobs.method_problems import method_problems
+from experiments.jobs.estimates import method_problems
 from mobnet.core.code import SOURCE, reached, start_of
 from mobnet.core.errors import DataError
 from mobnet.estimation.kinds.residual import ResidualEstimator
-from mobnet.estimation.methods import build_estimator, kind_names
+from mobnet.estimation.recipe import build_estimator, kind_names
 from mobnet.settings.methods import Method
 from mobnet.settings.reading import dotted
 
@@ -18,7 +18,7 @@ HEAVY = {"torch", "pinocchio", "numba", "scipy.signal", "scipy.optimize"}
 FRICTION = {"terms": ["coulomb"], "smoothing_rad_s": 0.02, "stribeck_rad_s": [0.1]}
 CHECK = """
 import sys
-from experiments.jobs.method_problems import method_problems
+from experiments.jobs.estimates import method_problems
 from experiments.settings.load import load_settings
 load_settings(further=method_problems)
 print(*sys.modules)

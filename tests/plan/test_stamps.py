@@ -10,8 +10,7 @@ import pytest
 from made_notes import training_note
 
 from experiments.plan import call, steps
-from experiments.plan.plan import Plan, make_plan
-from experiments.plan.stamps import Stamped
+from experiments.plan.plan import Plan, Stamped, make_plan
 from experiments.plan.steps import Step
 from experiments.running.logs import Account
 from experiments.running.stamp import Stamps, is_note

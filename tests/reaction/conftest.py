@@ -8,7 +8,7 @@ from experiments.settings.load import load_settings
 from mobnet.detection.chain import make_chain
 from mobnet.detection.detector import LegDetector, LegGate
 from mobnet.detection.signals import Watched
-from mobnet.estimation.methods import build_estimator
+from mobnet.estimation.recipe import build_estimator
 from mobnet.reaction.handler import Handler
 from mobnet.reaction.loop import walk_with
 from mobnet.reaction.watchers import LegWatcher, LimbWatcher

@@ -34,9 +34,9 @@ from mobnet.robot.nominal import NominalModel
 from mobnet.robot.wrench import point_torque
 from mobnet.robotlog.free_check import ValidationSummary, course_of, free_check, held_out, lines_of
 from mobnet.robotlog.labels import label_of, limb_data
+from mobnet.robotlog.learn import filled, training_of
 from mobnet.robotlog.observe import main as observe
 from mobnet.robotlog.planted_check import planted_check
-from mobnet.robotlog.training import filled, training_of
 from mobnet.settings.networks import Limb
 
 GAIN_HZ, RATE_HZ = 100.0, 1000.0

@@ -9,9 +9,8 @@ import pytest
 from mobnet.core.estimator import Estimate
 from mobnet.robotlog.detected import LogDetection
 from mobnet.robotlog.detecting import report_lines
-from mobnet.robotlog.flags import Flag
+from mobnet.robotlog.flags import Flag, PushCount, found_pushes, pushed_rows
 from mobnet.robotlog.observe import ObservedLog, converted_log, main
-from mobnet.robotlog.pushes import PushCount, found_pushes, pushed_rows
 
 ROWS = 3000
 SPANS = (500, 600), (1000, 1400), (2000, 2050)

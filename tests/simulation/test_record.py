@@ -7,7 +7,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from experiments.jobs.observing import observe
+from experiments.jobs.walks import observe
 from mobnet.control.kinematics import update
 from mobnet.control.parameters import DURATION, STEP_X, STEP_Y, TURN
 from mobnet.control.walker import foot_yaw
@@ -16,7 +16,7 @@ from mobnet.core.errors import SimulationError
 from mobnet.core.recording import read_recording
 from mobnet.core.store import read_array
 from mobnet.settings.data import RecordingSettings
-from mobnet.settings.walk import WalkSettings
+from mobnet.settings.walking import WalkSettings
 from mobnet.simulation.record import collect, record
 from mobnet.simulation.self_collision import Clearance
 from mobnet.simulation.simulator import Simulator

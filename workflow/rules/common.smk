@@ -10,16 +10,16 @@ from typing import NamedTuple
 from snakemake.logging import logger as snakemake_logger
 from snakemake.settings.enums import RerunTrigger
 
-from experiments.evaluation.measure.registry import measure_problems
+from experiments.evaluation.measure.estimates.scores import measure_problems
 from experiments.evaluation.report.paper import missing_packages
-from experiments.jobs.method_problems import method_problems
+from experiments.jobs.estimates import method_problems
 from experiments.plan.disk import check_places, check_space
 from experiments.plan.places import check_scale
 from experiments.plan.plan import make_plan
 from experiments.plan.precision import record_precision, with_precision
 from experiments.plan.products import shown
-from experiments.plan.stamps import Stamped
-from experiments.plan.texts import text_problems
+from experiments.plan.plan import Stamped
+from experiments.settings.checks.claims import text_problems
 from experiments.running.cluster import LIMITED, failed_jobs, warm_cache
 from experiments.running.environment import quieten
 from experiments.running.follow import follow_trainings
@@ -27,7 +27,7 @@ from experiments.running.patches import by_kind, drop_rate_limit, quote_python, 
 from experiments.running.run import is_stopped, refuse_configfiles, start_jobs
 from experiments.settings.load import load_settings
 from mobnet.core.errors import MobnetError, refuse_lines
-from mobnet.core.gpus import gpus_seen
+from mobnet.core.machine import gpus_seen
 from mobnet.core.lock import job_prefix
 
 ROOT, STARTED_S = Path(workflow.basedir), time.time()

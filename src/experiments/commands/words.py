@@ -6,7 +6,7 @@ import re
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from experiments.commands.builds import BUILDS
+from experiments.commands.install import BUILDS
 from experiments.plan.places import scale_of
 from experiments.running.words import RESULTS, bench_parser, check_parser, cost_parser, demo_parser, results_parser
 from mobnet.commands import COMMANDS as LAB

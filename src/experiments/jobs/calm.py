@@ -27,7 +27,7 @@ from mobnet.reaction.watchers import some
 from mobnet.settings.detection import Detection
 from mobnet.settings.methods import ObserverSettings
 from mobnet.settings.reaction import Reaction
-from mobnet.settings.walk import WalkSettings
+from mobnet.settings.walking import WalkSettings
 
 FORCE = "force"  # the signal of a foot's sensor
 COLUMNS = tuple(field.name for field in fields(Threshold))

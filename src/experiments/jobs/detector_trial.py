@@ -16,8 +16,8 @@ from mobnet.core.recording import read_sensed
 from mobnet.core.store import read_array
 from mobnet.detection.calibration import CalibratedDetector, swing_ratios
 from mobnet.detection.detector import ALARM_RATIO
-from mobnet.detection.isolation import name_push
 from mobnet.detection.leg import unit_torques
+from mobnet.detection.points import name_push
 from mobnet.detection.watch import LegRecording, LegSetup
 
 

@@ -13,7 +13,7 @@ import numpy as np
 
 from experiments.plan.seeds import FIRST_TRAINING_SEED
 from experiments.running.stage import Stage
-from mobnet.core.provenance import provenance
+from mobnet.core.code import provenance
 from mobnet.core.store import files_of, write_array
 from mobnet.robot.description import describe, for_walking
 from mobnet.settings.data import Motion

@@ -11,13 +11,12 @@ from experiments.plan.parts import MethodRun
 from mobnet.core.estimator import TorqueEstimator
 from mobnet.detection.signals import Watched
 from mobnet.detection.watch import LegSetup
-from mobnet.estimation.methods import build_estimator
-from mobnet.estimation.recipe import Recipe
+from mobnet.estimation.recipe import Recipe, build_estimator
 from mobnet.robot.description import RobotDescription, describe
 from mobnet.settings.detection import Detection
 from mobnet.settings.methods import ObserverSettings
 from mobnet.settings.reaction import Reaction
-from mobnet.settings.walk import WalkSettings
+from mobnet.settings.walking import WalkSettings
 
 
 @dataclass(frozen=True)

@@ -18,8 +18,7 @@ from experiments.settings.settings import Settings
 from mobnet.core.code import code_hash
 from mobnet.core.files import RUN, WEIGHTS
 from mobnet.settings.data import Terrain
-from mobnet.settings.walk import WalkSettings
-from mobnet.settings.walking import Walking
+from mobnet.settings.walking import Walking, WalkSettings
 
 KINDS = "mobnet.estimation.kinds"  # modules that a method names as its kind
 MEASURES = "experiments.evaluation.measure.estimates"  # modules that sections of the evaluation name
@@ -91,7 +90,7 @@ class Jobs:
             "walked_s": trial.walked_s,
             "out": (out := self.files.falls),
         }
-        call = Call("experiments.evaluation.measure.data.falls:count_falls", arguments)
+        call = Call("experiments.evaluation.measure.data.random_torque:count_falls", arguments)
         return Job(call, (), (), {str(out): ()})
 
     def fit(self, method: str) -> Job:
@@ -107,7 +106,7 @@ class Jobs:
             "training": training,
             "out": (out := self.files.results / "fits" / f"{method}.json"),
         }
-        call = Call("experiments.jobs.fitting:write_fit", arguments)
+        call = Call("experiments.jobs.estimates:write_fit", arguments)
         kinds = self._kinds(method)
         return Job(call, _read(training), kinds, {str(out): code_hash(*kinds)})
 
@@ -138,7 +137,7 @@ class Jobs:
             # Without a sensor a leg knows its external torque only where it surely touches nothing (note 0029).
             swings = self.settings.evaluation.changed
             arguments |= {"margins": (swings.lift_off_s, swings.landing_s)}
-        function = "experiments.jobs.train_gray:train_gray" if fitted else "experiments.jobs.trainings:train_all"
+        function = "experiments.jobs.trainings:train_gray" if fitted else "experiments.jobs.trainings:train_all"
         own = {f"{repetition.out}/{RUN}": repetition for repetition in repetitions}
         return self._staged(name, Job(Call(function, arguments), inputs, (), own, ("networks",)))
 

@@ -9,8 +9,9 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any, TypeVar
 
-from experiments.plan.detection import Detections, all_detections
+from experiments.plan.detection import Detections, all_detections, detection_files
 from experiments.plan.files import Files, SweptSize
+from experiments.plan.parts import PageScene
 from experiments.plan.reactions import Reactions, all_reactions, courses_of
 from experiments.plan.runs import Run
 from experiments.settings.asked import tests_in
@@ -24,8 +25,6 @@ from mobnet.settings.networks import Limb, Network
 Need = Callable[[Files, Any], object]
 Named = TypeVar("Named", bound=Need)
 ByName = Mapping[str, tuple[Path, ...]]
-
-
 NEEDS: dict[str, Need] = {}  # by name
 
 
@@ -50,8 +49,6 @@ def needs_of(files: Files, row: MadeBy, section: Any) -> dict[str, object]:
 
 
 # Scores and runs of tests.
-
-
 @need
 def scores(files: Files, section: Any) -> tuple[Path, ...]:
     """Return the scores of the tests that a section, or a tuple of them, names, at the levels that it names."""
@@ -112,8 +109,6 @@ def pushes_of_test(files: Files, section: Any) -> Mapping[str, Push]:
 
 
 # Recordings and residuals.
-
-
 @need
 def training_sets(files: Files, _: Any) -> ByName:
     """Return the recordings of every training set that is recorded, those of all robots together."""
@@ -195,8 +190,6 @@ def residuals_by_robot(files: Files, _: Any) -> Mapping[str, ByName]:
 
 
 # Networks and what they learn.
-
-
 def _both_recipes(files: Files) -> tuple[Path, ...]:
     """Return the trained networks of Figure 17, those that learned by one recipe first."""
     figure = files.settings.evaluation.figure_17
@@ -279,8 +272,6 @@ def swept_values(files: Files, section: Any) -> tuple[int, ...]:
 
 
 # Detectors and reactions.
-
-
 @need
 def detections(files: Files, _: Any) -> Detections:
     """Return the files of detectors of every level."""
@@ -323,8 +314,6 @@ def courses_of_case(files: Files, section: Any) -> Mapping[str, Path]:
 
 
 # What does not come from a run.
-
-
 @need
 def printed_tables(files: Files, section: Any) -> Mapping[str, PublishedTable]:
     """Return the tables of the paper whose numbers a section shows."""
@@ -335,3 +324,32 @@ def printed_tables(files: Files, section: Any) -> Mapping[str, PublishedTable]:
 def kept_file(_: Files, section: Any) -> Path:
     """Return the file of the repository that a section shows."""
     return Path(section.data)
+
+
+def explore_needs(files: Files) -> dict[str, object]:
+    """Return the scenes of the page by name, that of the story first, and what its detector said of the collisions."""
+    evaluation = files.settings.evaluation
+    story = evaluation.story
+    page = evaluation.explore
+    methods = (*story.methods, *page.story.further)
+    runs = files.first_runs(Runs(scenario=story.scenario, level=story.level, methods=methods))
+    limb = files.settings.layout.limb_of[story.joint]
+    told = page.story
+    pushes = _pushes(files, story.scenario)
+    first = PageScene(told.push, told.plant, runs, (limb,), story.joint, told.threshold_nm, pushes, story.push)
+    scenes = {"story": first}
+    for name, row in page.scenes.items():
+        scenes[name] = PageScene(
+            row.push, row.plant, files.first_runs(row), row.limbs, row.joint, row.threshold_nm,
+            _pushes(files, row.scenario), from_s=row.from_s,
+        )  # fmt: skip
+    found = detection_files(files.robots.get(story.level, files))
+    return {
+        "scenes": scenes, "story": story, "peaks": evaluation.peaks,
+        "collisions": found["collisions"], "detected": found["detected"],
+    }  # fmt: skip
+
+
+def _pushes(files: Files, scenario: str) -> dict[str, Push]:
+    """Return the pushes of a scenario by name, in their order."""
+    return {name: files.settings.pushes[name] for name in files.settings.scenarios[scenario].pushes}

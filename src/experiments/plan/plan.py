@@ -1,20 +1,68 @@
 """The whole plan of a scale: its files, its jobs and its products."""
 
+import shutil
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 
-from experiments.plan.documentation import documentation
-from experiments.plan.files import ARRAY, Files
-from experiments.plan.films import film_products
+from experiments.plan.call import Call, Job
+from experiments.plan.detection import level_of_detectors
+from experiments.plan.files import ARRAY, Files, files_in
 from experiments.plan.places import MAIN
-from experiments.plan.products import Folders, Product, Products
+from experiments.plan.products import CAPTIONS, Folders, Product, Products
+from experiments.plan.reactions import courses_of
 from experiments.plan.steps import Step, all_steps, trial_steps
 from experiments.plan.trials import trial_products
 from experiments.plan.work import SECONDS, Work
+from experiments.running.logs import LOGS
 from experiments.settings.catalogue import Catalogue
 from experiments.settings.settings import Settings
 
+ROOT = ("README.md", "CONTRIBUTING.md", "CHANGELOG.md", "CITATION.cff", "paper/README.md")
+DOCUMENTS = "docs/**/*.*"
+# All of them: docstrings and settings are shown, which the hash of the code leaves out.
+MODULES = ("src/mobnet/**/*.py", "src/experiments/**/*.py")
 RECORDED = ("recordings", "residuals", "estimates")  # kinds of arrays whose duration says how much there is to do
+FOREIGN = "made by another configuration or code, which is not accepted; accepted:"
+
+
+def film_products(files: Files) -> Iterator[Product]:
+    """Yield the films of the first robot's walks, where robots have detectors."""
+    if not any(level_of_detectors(own) for own in files.owners):
+        return
+    settings = files.settings
+    section = settings.evaluation.films
+    ending = "mp4" if shutil.which("ffmpeg") else "webp"
+    outs = {case: files.results / "films" / f"{case}.{ending}" for case in section.joints}
+    courses = courses_of(files, section.joints)
+    arguments = {
+        "settings": section, "robot": settings.robot, "looks": settings.robot.looks, "obstacles": settings.obstacles,
+        "courses": courses, "outs": outs,
+    }  # fmt: skip
+    inputs = tuple(map(str, files_in(courses)))
+    job = Job(Call("experiments.evaluation.figures.further.films:films", arguments), inputs)
+    yield Product("films", job, tuple(map(str, outs.values())))
+
+
+def documentation(files: Files) -> Iterator[Product]:
+    """Yield the pages of the documentation, the same at every scale."""
+    modules: list[Path] = []
+    for pattern in MODULES:
+        modules += _found(pattern)
+    given = {
+        "documents": [*map(Path, ROOT), *_found(DOCUMENTS)],
+        "captions": [*_found(f"{CAPTIONS}/figures/*.rst"), *_found(f"{CAPTIONS}/tables/*.rst")],
+        "modules": modules,
+    }
+    out = files.results / "docs"
+    call = Call("experiments.evaluation.report.docs:docs", {**given, "claims": files.settings.claims, "out": out})
+    yield Product("docs", Job(call, tuple(map(str, files_in(given)))), (str(out),))
+
+
+def _found(pattern: str) -> list[Path]:
+    """Return the files of the project's folder that match a pattern."""
+    return sorted(Path().glob(pattern))
 
 
 @dataclass(frozen=True)
@@ -73,3 +121,42 @@ def make_plan(settings: Settings, *, with_pdf: bool) -> Plan:
     docs = tuple(documentation(files))
     products = Products(settings, files, folders, with_pdf, tuple(name for step in steps for name in step.outputs))
     return Plan(settings, folders, files, steps, tuple(products.all()), tuple(trial_steps(files)), trials, films, docs)
+
+
+@dataclass(frozen=True)
+class Stamped:
+    """The files of a plan that have stamps, below the folder of the project."""
+
+    plan: Plan
+    root: Path = Path()
+
+    @cached_property
+    def steps(self) -> Mapping[str, Step]:
+        """File -> the step that makes it."""
+        found: dict[str, Step] = {}
+        for step in (*self.plan.trial_steps, *self.plan.steps):
+            found |= dict.fromkeys(step.outputs, step)
+        return found
+
+    @cached_property
+    def folders(self) -> frozenset[str]:
+        """Folders of results in which every file has a step."""
+        return frozenset(map(self._folder, self.steps))
+
+    def foreign(self, names: Iterable[str]) -> Iterator[str]:
+        """Yield a line for each file, by its name below the project, that is not what its step makes.
+
+        Tables, figures and what else products make have no stamps, and are left out.
+        """
+        for name in names:
+            step = self.steps.get(name)
+            if step is None and self._folder(name) in self.folders:
+                yield f"{name}: {FOREIGN} a file that a job of this configuration makes"
+            elif step and not step.job.stamps.fit(self.root, self._account(step), name):
+                yield f"{name}: {FOREIGN} what `./reproduce {name} --force` makes"
+
+    def _folder(self, name: str) -> str:
+        return self.plan.files.owner_of(Path(name))[1][0]
+
+    def _account(self, step: Step) -> str:
+        return f"{self.plan.folders.results}/{LOGS}/{step.work.job}.json"

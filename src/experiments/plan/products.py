@@ -10,8 +10,7 @@ from experiments.plan.call import Job, call_of, parameters
 from experiments.plan.demo import FOLDER, demo_needs, demo_outputs
 from experiments.plan.detection import all_detections
 from experiments.plan.files import Files, files_in
-from experiments.plan.needs import needs_of
-from experiments.plan.pages import explore_needs
+from experiments.plan.needs import explore_needs, needs_of
 from experiments.settings.claims import numbers_of
 from experiments.settings.evaluation import ENTRIES, PRODUCTS, Evaluation, row_of
 from experiments.settings.products import MadeBy

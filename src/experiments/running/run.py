@@ -21,11 +21,10 @@ import psutil
 
 from experiments.running.environment import LONGEST_TEMPORARY
 from experiments.running.patches import python, refuse_code
-from mobnet.core.code import ROOT
+from mobnet.core.code import ROOT, UNKNOWN, commit
 from mobnet.core.errors import ConfigError, MobnetError, misfit
 from mobnet.core.files import check_room
 from mobnet.core.lock import begin_run, scratch, sweep
-from mobnet.core.provenance import UNKNOWN, commit
 
 WRITTEN = (".snakemake", ".cache")  # below the project, by Snakemake itself and by packages
 CONFIGFILE = re.compile("--configf(?:i(?:l(?:es?)?)?)?(?:=(.+))?", re.DOTALL)

@@ -11,7 +11,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from experiments.running.accounts import read_account
+from experiments.running.logs import read_account
 from mobnet.core.code import SHORT
 from mobnet.core.errors import DataError
 from mobnet.core.files import METRICS, RUN, WEIGHTS, read_json, write_json

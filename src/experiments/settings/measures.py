@@ -10,7 +10,7 @@ from experiments.settings.runs import HeldRuns, LearnedRuns, LegRuns, LimbRuns, 
 from mobnet.core.errors import misfit, not_accepted
 from mobnet.settings import base
 from mobnet.settings.base import Section
-from mobnet.settings.checks.limits import at_most
+from mobnet.settings.faults import at_most
 from mobnet.settings.reading import Place, Problem
 
 if TYPE_CHECKING:  # which knows all sections

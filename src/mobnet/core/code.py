@@ -18,6 +18,7 @@ import functools
 import hashlib
 import importlib.metadata
 import re
+import subprocess
 import sys
 from collections.abc import Iterable
 from dataclasses import dataclass, field
@@ -35,7 +36,7 @@ PACKAGES = ("mobnet", "experiments")
 # check the configuration and compute nothing: what a job takes of their values is a parameter of its rule, so that a
 # changed value reruns the job, and a changed check of it reruns nothing.
 NOT_FOLLOWED = (
-    "mobnet.core.provenance",
+    "mobnet.core.code",
     "experiments.running.logs",
     "mobnet.settings",
     "experiments.settings",
@@ -51,6 +52,8 @@ DISTRIBUTIONS = {  # import name -> name in the lock, where they differ; asking 
 LOGGERS = frozenset({"log", "logging", "warnings"})
 LEVELS = frozenset({"debug", "info", "warning", "warn", "error", "exception", "critical", "log"})
 SHORT = 16  # characters of a hash that are kept
+UNKNOWN = "unknown"
+CHANGED = "-changed"
 
 
 class SourceFile(NamedTuple):
@@ -225,3 +228,34 @@ def required(package: str) -> tuple[str, ...]:
 def lock_name(name: str) -> str:
     """Return a package's name as the lock writes it."""
     return re.sub(r"[-_.]+", "-", name).lower()
+
+
+def provenance() -> dict[str, str]:
+    """Return `commit` and `lock` of a result; `unknown` where git or environment.lock is not there."""
+    return {"commit": commit(), "lock": lock_hash()}
+
+
+@functools.cache
+def commit() -> str:
+    """Return the commit of this checkout, `-changed` added where tracked files differ from it.
+
+    A copy that lies in a repository of something else has none.
+    """
+    name = _git("rev-parse", "HEAD")
+    if name is None or not _git("ls-files", LOCK.name):
+        return UNKNOWN
+    return f"{name}{CHANGED}" if _git("status", "--porcelain", "--untracked-files=no") else name
+
+
+def _git(*words: str) -> str | None:
+    """Return what git says about this checkout, or None without git."""
+    try:
+        done = subprocess.run(["git", "-C", str(ROOT), *words], capture_output=True, text=True, check=True)
+    except (OSError, subprocess.CalledProcessError):
+        return None
+    return done.stdout.strip()
+
+
+def lock_hash() -> str:
+    """Return a short hash of environment.lock, or `unknown` without it."""
+    return hashlib.sha256(LOCK.read_bytes()).hexdigest()[:SHORT] if LOCK.exists() else UNKNOWN

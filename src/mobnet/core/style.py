@@ -33,8 +33,7 @@ def styled(function: Callable[Parameters, Value]) -> Callable[Parameters, Value]
 
     @functools.wraps(function)
     def drawn(*args: Parameters.args, **kwargs: Parameters.kwargs) -> Value:
-        import numpy as np
-import matplotlib as mpl  # here: a command refuses a wrong word before the third of a second that this takes
+        import matplotlib as mpl  # here: a command refuses a wrong word before the third of a second that this takes
 
         with mpl.rc_context(STYLE):
             return function(*args, **kwargs)
@@ -54,5 +53,10 @@ def settle(figure: "Figure") -> None:
     figure.draw_without_rendering()
     figure.set_layout_engine("none")
     for axis in figure.axes:
-        left, bottom, width, height = np.round(axis.get_position(original=True).bounds, PLACE_DIGITS).tolist()
-        axis.set_position((left, bottom, width, height))
+        left, bottom, width, height = axis.get_position(original=True).bounds
+        edges = (_placed(left), _placed(bottom), _placed(width), _placed(height))
+        axis.set_position(edges)
+
+
+def _placed(edge: float) -> float:
+    return round(float(edge), PLACE_DIGITS)

@@ -18,9 +18,9 @@ from mobnet.core.errors import DataError
 from mobnet.core.estimator import Estimate
 from mobnet.core.recording import SensedRecording
 from mobnet.detection.detector import GateSignal
+from mobnet.detection.gate import Spans, largest
 from mobnet.detection.leg import LEG_JOINTS
 from mobnet.detection.signals import Watched
-from mobnet.detection.swings import Spans, largest
 from mobnet.detection.watch import UNKNOWN, LegRecording, LegSetup, LimbSetup
 from mobnet.robot.description import RobotDescription
 from mobnet.settings.detection import Detection

@@ -15,6 +15,7 @@ from pathlib import Path
 
 from mobnet.core.errors import DataError, not_accepted, refuse_lines
 from mobnet.core.files import check_place, sweep
+from mobnet.core.options import SIGNALS, calibrate_parser
 from mobnet.core.place import command
 from mobnet.core.printed import printed
 from mobnet.detection.choice import ALONE, BARE, NETWORK, DetectorCandidate, best_of, lines_of, tried_on_pushes
@@ -22,7 +23,6 @@ from mobnet.detection.limb import OwnRecording, calibrate_limb
 from mobnet.detection.limb_report import beside, report, thresholds_of
 from mobnet.detection.signals import MEAN, RATIO, STD
 from mobnet.detection.threshold_file import write_thresholds
-from mobnet.detection.words import SIGNALS, calibrate_parser
 from mobnet.estimation import observer
 from mobnet.estimation.own import (
     OwnLog,
@@ -37,8 +37,7 @@ from mobnet.estimation.own import (
     refuse_twice,
     without_friction,
 )
-from mobnet.robot.description import RobotDescription
-from mobnet.robot.given import given_robot
+from mobnet.robot.description import RobotDescription, given_robot
 from mobnet.settings.detection import Signal
 from mobnet.settings.lab import Lab, load_lab
 

@@ -12,8 +12,8 @@ from mobnet.core.detections import CALIBRATION, COLLISION, HELD_OUT, LARGEST, Fr
 from mobnet.core.errors import DataError
 from mobnet.core.estimator import Estimate
 from mobnet.detection.chain import Chain
+from mobnet.detection.gate import Spans, episodes_of, largest
 from mobnet.detection.signals import MEAN, STD, Watched, slopes_of, whitening_of
-from mobnet.detection.swings import Spans, episodes_of, largest
 from mobnet.detection.thresholds import HOUR_S, Calibrated, calibrate
 from mobnet.detection.watch import LegRecording, LegSetup, LimbSetup
 from mobnet.settings.detection import DetectorSettings

@@ -15,10 +15,9 @@ from mobnet.core.columns import FEET
 from mobnet.core.estimator import Estimate
 from mobnet.core.recording import Sensed, SensedRecording
 from mobnet.detection.chain import Chain, ChainState, advance_chain, chain_state, run_chain
-from mobnet.detection.gate import Gate, advance_gate, gate_state, make_gate, run_gate
+from mobnet.detection.gate import Gate, Spans, advance_gate, gate_state, make_gate, run_gate
 from mobnet.detection.leg import Leg, make_leg
 from mobnet.detection.signals import Watched
-from mobnet.detection.swings import Spans
 from mobnet.robot.description import RobotDescription
 from mobnet.settings import detection as settings
 

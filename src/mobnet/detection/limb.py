@@ -15,8 +15,7 @@ from mobnet.core.recording import SensedRecording, read_sensed
 from mobnet.core.store import NOTE, check_finite, file_of
 from mobnet.detection.always import AlwaysWatched, always_watched, setup_of
 from mobnet.detection.calibration import QuietWalk, check_signals, rate_scales
-from mobnet.detection.points import axis_forces
-from mobnet.detection.sensitivity import found_forces
+from mobnet.detection.points import axis_forces, found_forces
 from mobnet.detection.signals import RATIO, STD, Watched
 from mobnet.detection.thresholds import Calibrated
 from mobnet.detection.watch import LegRecording, LegSetup, LimbSetup, read_estimate

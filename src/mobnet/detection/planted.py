@@ -15,9 +15,9 @@ from numpy.typing import NDArray
 from mobnet.core.arrays import Array
 from mobnet.core.estimator import Estimate
 from mobnet.detection.detector import ALARM_RATIO
+from mobnet.detection.gate import Spans
 from mobnet.detection.points import points_of
 from mobnet.detection.signals import Watched
-from mobnet.detection.swings import Spans
 from mobnet.detection.watch import LegRecording, LimbSetup
 from mobnet.estimation.low_pass import low_pass
 from mobnet.robot.nominal import NominalModel

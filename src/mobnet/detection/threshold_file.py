@@ -4,13 +4,13 @@ from pathlib import Path
 
 from mobnet.core.errors import ConfigError, DataError, not_accepted, refuse
 from mobnet.core.files import write_text
-from mobnet.core.flow import flow
 from mobnet.core.place import command
 from mobnet.detection.always import setup_of
 from mobnet.detection.signals import Watched
 from mobnet.detection.watch import LegSetup, LimbSetup
 from mobnet.estimation.own import OwnNetwork, Sampling, check_drives
 from mobnet.robot.description import RobotDescription
+from mobnet.robot.table_file import flow
 from mobnet.settings.detection import Detection, DetectorSettings
 from mobnet.settings.lab import load_section
 from mobnet.settings.limb_thresholds import LimbThresholds

@@ -16,7 +16,7 @@ from mobnet.core.recording import SensedRecording, read_sensed
 from mobnet.core.store import NOTE, file_of, read_array
 from mobnet.detection.chain import Chain, low_passed, make_chain
 from mobnet.detection.detector import DetectorOutput, GateSignal, LegGate, run_segments
-from mobnet.detection.swings import Spans, segment_of, swings_of
+from mobnet.detection.gate import Spans, segment_of, swings_of
 from mobnet.robot.description import RobotDescription
 from mobnet.settings.detection import Detection
 

@@ -11,13 +11,13 @@ from pathlib import Path
 from mobnet.core.child import in_child
 from mobnet.core.errors import ConfigError, DataError, refusal
 from mobnet.core.files import check_place, write_text
-from mobnet.core.flow import flow
+from mobnet.core.options import import_parser
 from mobnet.core.place import command
 from mobnet.core.printed import printed
 from mobnet.robot.description import RobotDescription, describe
 from mobnet.robot.import_checks import differences
-from mobnet.robot.import_words import import_parser
 from mobnet.robot.importing import BASE_LIMB, VIRTUAL, Imported, check_base, import_robot
+from mobnet.robot.table_file import flow
 from mobnet.settings.lab import load_section
 from mobnet.settings.robot import RobotTable
 

@@ -1,7 +1,7 @@
 """From the columns of a log to the recording that the observer takes: units, order, one clock, gaps."""
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import chain
 from pathlib import Path
 from typing import Any
@@ -10,17 +10,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array
-from mobnet.core.columns import FEET, recording_columns
+from mobnet.core.columns import EXTERNAL, FEET, recording_columns
 from mobnet.core.errors import DataError, not_accepted
 from mobnet.core.joints import JointLayout
 from mobnet.core.motion import turned
 from mobnet.core.recording import ABSENT, Recording, Sensed, Truth
+from mobnet.robot.frames import rotation
+from mobnet.robot.nominal import NominalModel
+from mobnet.robot.wrench import point_torque
 from mobnet.robotlog.clocks import Rising, Segments, Timed, at, common_ticks, covered, rate_of, rising, stamp_hints
 from mobnet.robotlog.columns import Columns, LogColumn, near_names
 from mobnet.robotlog.hints.columns import listed
 from mobnet.robotlog.meaning import given_signals, is_truth, resolved
 from mobnet.robotlog.pieces import pieces
-from mobnet.settings.robotlog import LogMap, RobotLog, Signal
+from mobnet.settings.robotlog import LogMap, RobotLog, Signal, Tool
 
 SI = {  # unit -> in SI units
     "deg": np.pi / 180,
@@ -277,3 +280,19 @@ def _recording(
     )
     meta = {"scenario": "log", "level": "robot", "seed": 0, ABSENT: list(absent)}
     return Recording(sensed, segments, rate_hz, meta, truth), absent
+
+
+def with_tool(found: Converted, nominal: NominalModel, tool: Tool) -> Converted:
+    """Return a log whose recording has the external torque by the sensor of a tool (T, nv) [N] and [N m].
+
+    Raises:
+        ConfigError: the robot has no such body.
+    """
+    if found.tool is None:
+        return found
+    read = found.recording
+    axes = rotation(np.array(tool.quat))
+    torque = point_torque(nominal, tool.body, tool.pos, axes, read.sensed.q, found.tool)
+    absent = tuple(name for name in found.absent if name != EXTERNAL)
+    known = replace(read, truth=replace(read.truth, tau_ext=torque), meta={**read.meta, ABSENT: list(absent)})
+    return replace(found, recording=known, absent=absent)

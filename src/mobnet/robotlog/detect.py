@@ -5,8 +5,8 @@ import sys
 from argparse import Namespace
 from collections.abc import Iterator
 
+from mobnet.core.options import detect_parser
 from mobnet.core.printed import printed
-from mobnet.robotlog.learning_words import detect_parser
 from mobnet.settings.lab import load_lab
 
 log = logging.getLogger(__name__)

@@ -18,9 +18,8 @@ from mobnet.detection.watch import LegSetup, LimbSetup
 from mobnet.estimation.own import OwnLog, OwnNetwork, estimates_of, estimator_of
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.nominal import NominalModel
-from mobnet.robotlog.flags import Flag, flags_of
+from mobnet.robotlog.flags import Flag, PushCount, flags_of, found_pushes
 from mobnet.robotlog.observe import ObservedLog, observe_log
-from mobnet.robotlog.pushes import PushCount, found_pushes
 from mobnet.settings.lab import Lab
 from mobnet.settings.limb_thresholds import LimbThresholds
 from mobnet.settings.robotlog import LogMap

@@ -10,12 +10,11 @@ from mobnet.core.rows import csv_text
 from mobnet.detection.threshold_file import check_thresholds, read_thresholds, sampling_of
 from mobnet.estimation.estimate import write_estimate
 from mobnet.estimation.own import ESTIMATE, OwnNetwork, check_sampling, read_network_folder
-from mobnet.robot.description import RobotDescription
-from mobnet.robot.given import given_robot
+from mobnet.robot.description import RobotDescription, given_robot
 from mobnet.robot.nominal import NominalModel
 from mobnet.robotlog.detected import LogDetection, detect_log
 from mobnet.robotlog.flags import COLUMNS
-from mobnet.robotlog.plot_flags import plot_flags
+from mobnet.robotlog.plot import plot_flags
 from mobnet.robotlog.wrenches import place_of, wrench_lines, wrenches_of, write_wrenches
 from mobnet.settings.lab import Lab, load_section
 from mobnet.settings.limb_thresholds import LimbThresholds

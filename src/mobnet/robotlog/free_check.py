@@ -15,9 +15,9 @@ from numpy.typing import NDArray
 from mobnet.core.arrays import Array
 from mobnet.core.epochs import read_epochs
 from mobnet.core.estimator import Estimate
+from mobnet.learning.calibration import coverage
 from mobnet.learning.dataset import LimbData
 from mobnet.learning.deployed.networks import Runnable
-from mobnet.learning.gaussian import coverage
 from mobnet.learning.streams import Span
 from mobnet.robotlog.planted_check import PlantedCheck
 from mobnet.settings.robotlog import LogLearning

@@ -14,15 +14,14 @@ from pathlib import Path
 
 from mobnet.core.errors import ConfigError, DataError, not_accepted
 from mobnet.core.files import check_place
+from mobnet.core.options import identify_parser
 from mobnet.core.place import command
 from mobnet.core.printed import printed
 from mobnet.core.recording import SensedRecording
 from mobnet.estimation import observer
 from mobnet.estimation.own import RECORDING, read_log_folder
-from mobnet.robot.description import RobotDescription, describe
-from mobnet.robot.given import given_table
+from mobnet.robot.description import RobotDescription, describe, given_table
 from mobnet.robot.table_file import head_of, write_table
-from mobnet.robotlog.identify_words import identify_parser
 from mobnet.robotlog.identifying.fit import JointFit, fit_joints
 from mobnet.robotlog.identifying.payload import Payload
 from mobnet.robotlog.identifying.regressors import RegressorWindows, columns_of, moved, together, windows_of

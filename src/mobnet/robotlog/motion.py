@@ -14,11 +14,10 @@ from pyarrow import csv, parquet
 from mobnet.core.columns import EXTERNAL, PUSHED, recording_columns
 from mobnet.core.errors import DataError, not_accepted
 from mobnet.core.files import atomic_path, check_place, sweep
+from mobnet.core.options import motion_parser
 from mobnet.core.printed import printed
 from mobnet.core.recording import Recording
-from mobnet.robot.description import RobotDescription
-from mobnet.robot.given import given_robot
-from mobnet.robotlog.motion_words import motion_parser
+from mobnet.robot.description import RobotDescription, given_robot
 from mobnet.settings.lab import load_lab
 from mobnet.simulation.free_run import Numbers, record_motion
 

@@ -21,17 +21,18 @@ from mobnet.core.estimator import Estimate
 from mobnet.core.files import check_place, sweep
 from mobnet.core.joints import JointLayout
 from mobnet.core.notes import read_array_note
+from mobnet.core.options import observe_parser
 from mobnet.core.printed import printed
 from mobnet.core.recording import Recording
 from mobnet.core.store import NOTE, array_writer, file_of, write_array
 from mobnet.estimation import observer
 from mobnet.estimation.own import DRIVES, ESTIMATE, OBSERVER, RECORDING
-from mobnet.robot.description import RobotDescription
-from mobnet.robot.given import given_robot
+from mobnet.robot.description import RobotDescription, given_robot
 from mobnet.robot.nominal import NominalModel
 from mobnet.robotlog.clocks import rate_of
-from mobnet.robotlog.convert import Converted, convert
+from mobnet.robotlog.convert import Converted, convert, with_tool
 from mobnet.robotlog.delimited import refuse_without_header
+from mobnet.robotlog.flags import pushed_rows
 from mobnet.robotlog.formats import column_names, read_log
 from mobnet.robotlog.hints.base import base_hints, weight_hints
 from mobnet.robotlog.hints.columns import (
@@ -43,15 +44,12 @@ from mobnet.robotlog.hints.columns import (
 )
 from mobnet.robotlog.hints.delay import speed_delay_hints, torque_delay
 from mobnet.robotlog.hints.motion import jump_hints, motion_hints
-from mobnet.robotlog.hints.rest import explanation
+from mobnet.robotlog.hints.payload import explanation
 from mobnet.robotlog.hints.torque import torque_hints
 from mobnet.robotlog.hints.windows import known_joints, windows_of
 from mobnet.robotlog.meaning import default_map, resolved, wanted_columns
 from mobnet.robotlog.pieces import pieces, root_mean_square
 from mobnet.robotlog.plot import plot_residual
-from mobnet.robotlog.pushes import pushed_rows
-from mobnet.robotlog.tool import with_tool
-from mobnet.robotlog.words import observe_parser
 from mobnet.robotlog.wrenches import Wrenches, WrenchPoint, place_of, wrench_lines, wrenches_of, write_wrenches
 from mobnet.settings.base import GAIN_HZ, TorqueKind
 from mobnet.settings.lab import load_lab, load_section

@@ -12,12 +12,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mobnet.control.upper_body import UpperBody
+from mobnet.core.code import provenance
 from mobnet.core.columns import recording_columns
 from mobnet.core.errors import SimulationError
-from mobnet.core.provenance import provenance
 from mobnet.core.store import array_writer, read_array
 from mobnet.settings.data import RecordingSettings
-from mobnet.settings.walk import WalkSettings
+from mobnet.settings.walking import WalkSettings
 from mobnet.simulation.self_collision import Clearance
 from mobnet.simulation.simulator import Simulator
 

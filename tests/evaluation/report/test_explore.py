@@ -13,13 +13,12 @@ from made_scenes import GAIN_HZ, LEAD, RATE_HZ, ROWS, START, pushed_scene
 
 from experiments.evaluation.figures.drawing.robot import lowest
 from experiments.evaluation.measure.estimates.pushes import read_pushes
-from experiments.evaluation.report.explore import explore, joint_names, page_of
+from experiments.evaluation.report.explore import PackedArray, explore, joint_names, packed, page_of
 from experiments.evaluation.report.explore_numbers import ALREADY, ASLEEP, NEVER, push_numbers
-from experiments.evaluation.report.explore_pack import PackedArray, packed
 from experiments.evaluation.report.explore_scenes import read_scene
+from experiments.plan.parts import PageScene
 from experiments.plan.products import EXPLORE, TEMPLATES
 from experiments.plan.runs import Run
-from experiments.plan.scenes import PageScene
 from mobnet.core.columns import residual_columns, torque_columns
 from mobnet.core.errors import DataError
 from mobnet.core.recording import Recording, write_recording

@@ -6,10 +6,10 @@ from pathlib import Path
 import pytest
 from asked_numbers import asked_names
 
-from experiments.evaluation.number.files import read_numbers
-from experiments.evaluation.report.cells import cells_of
-from experiments.evaluation.report.guards import defined_texts
+from experiments.evaluation.number.rows import read_numbers
+from experiments.evaluation.report.main_tables import cells_of
 from experiments.evaluation.report.numbers import cell_texts, further_texts, numbers, size_texts
+from experiments.evaluation.report.paper import defined_texts
 from experiments.plan.products import quoted
 from experiments.settings.settings import Settings
 from mobnet.core.columns import VERDICTS

@@ -19,9 +19,15 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 from experiments.evaluation.report.deviations import deviations
-from experiments.evaluation.report.guards import defined_texts
 from experiments.evaluation.report.numbers import LOOKUP, numbers
-from experiments.evaluation.report.paper import PACKAGES, PaperError, copy_sources, missing_packages, paper
+from experiments.evaluation.report.paper import (
+    PACKAGES,
+    PaperError,
+    copy_sources,
+    defined_texts,
+    missing_packages,
+    paper,
+)
 from experiments.evaluation.tables.further import claims_table, methods
 from experiments.evaluation.tables.further.uncertainty import text_of
 from experiments.evaluation.tables.layout import PART, long_table, note_tex, text_table

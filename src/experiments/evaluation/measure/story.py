@@ -30,8 +30,7 @@ from mobnet.detection.detector import ALARM_RATIO, LegDetector
 from mobnet.detection.signals import Watched
 from mobnet.detection.watch import LegSetup
 from mobnet.estimation.low_pass import low_pass
-from mobnet.estimation.methods import build_estimator
-from mobnet.estimation.recipe import Recipe
+from mobnet.estimation.recipe import Recipe, build_estimator
 from mobnet.robot.description import RobotDescription, describe
 from mobnet.settings.detection import DetectorSettings
 

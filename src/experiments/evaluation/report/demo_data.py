@@ -14,13 +14,13 @@ from experiments.evaluation.number.rows import read_detections
 from experiments.evaluation.report.manifest import file_hash
 from experiments.plan.demo import RECORDING, SOURCES, estimate_place
 from experiments.settings.pages import Story
+from mobnet.core.code import provenance
 from mobnet.core.columns import EXTERNAL, PUSH, PUSH_TORQUE, STD, named, recording_columns, torque_columns
 from mobnet.core.detections import COLLISION, Collision, columns_of
 from mobnet.core.errors import DataError, not_accepted
 from mobnet.core.files import atomic_path, read_json, write_json, write_text
 from mobnet.core.joints import JointLayout
 from mobnet.core.notes import read_array_note
-from mobnet.core.provenance import provenance
 from mobnet.core.recording import Sensed
 from mobnet.core.rows import csv_text
 from mobnet.core.store import ARRAY, NOTE, file_of, read_array, spans_and_rate, write_array

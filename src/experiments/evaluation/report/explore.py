@@ -4,11 +4,13 @@ It has what `explore_scenes` reads, packed as `explore_pack` says, and the numbe
 of which a browser shows that cannot unpack the data. The address holds what is shown.
 """
 
+import base64
+import gzip
 import json
 import logging
 import re
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -17,22 +19,21 @@ from numpy.typing import NDArray
 
 from experiments.evaluation.measure.push_scene import PushScene, story_push
 from experiments.evaluation.report.explore_numbers import PushNumbers, push_numbers, stretches
-from experiments.evaluation.report.explore_pack import PackedArray, packed
 from experiments.evaluation.report.explore_scenes import PagePush, read_scene
 from experiments.evaluation.report.html import rendered
-from experiments.plan.scenes import PageScene
+from experiments.plan.parts import PageScene
 from experiments.settings.measures import Peaks
 from experiments.settings.pages import Explore, Story
 from mobnet.core.detections import COLLISION
 from mobnet.core.errors import DataError
 from mobnet.core.files import write_text
 from mobnet.core.joints import JointLayout
-from mobnet.robot.description import RobotDescription, describe
-from mobnet.robot.looks import dressed
+from mobnet.robot.description import RobotDescription, describe, dressed
 from mobnet.settings.detection import Detection
 from mobnet.settings.parts import Looks
 from mobnet.settings.robot import RobotTable
 
+LARGEST = 2**15 - 1  # of a whole number of 16 bits
 OBSERVER = "MOB"
 STORY = "story"
 ROLES = {OBSERVER: "observer", "MOB-Net": "network", "FTS-e2e": "direct"}  # method -> its colour; others are formulas
@@ -40,6 +41,42 @@ SIDES = {"L": ("left",), "R": ("right",)}  # first letter of a joint's name in t
 FLAGS = ("swing", "watched", "pushed")
 STEP_M, STEP_N = 1e-4, 0.1  # of positions [m, rad, -] and forces [N]
 log = logging.getLogger(__name__)
+
+
+# A page unpacks them with the `DecompressionStream` that browsers have. Differences of neighbouring samples are small,
+# so that their upper bytes are nearly all alike, and are packed together.
+@dataclass(frozen=True)
+class PackedArray:
+    """An array (T, n) of a page: its name, and the step of its whole numbers in its own unit."""
+
+    name: str
+    step: float
+    values: NDArray[Any]
+
+    @property
+    def place(self) -> dict[str, Any]:
+        """What a page must know to unpack it."""
+        return {"name": self.name, "step": self.step, "count": len(self.values), "width": self.values.shape[1]}
+
+
+def packed(parts: Iterable[PackedArray]) -> str:
+    """Return arrays one after the other as text, the same for equal ones.
+
+    Raises:
+        DataError: a value is more than 32767 steps.
+    """
+    return base64.b64encode(gzip.compress(b"".join(map(_planes, parts)), 9, mtime=0)).decode()
+
+
+def _planes(part: PackedArray) -> bytes:
+    """Return an array column by column as differences, first all their lower and then all their upper bytes."""
+    whole = np.round(np.asarray(part.values, dtype=np.float64) / part.step).T
+    if whole.size and np.abs(whole).max() > LARGEST:
+        largest = float(np.abs(part.values).max())
+        raise DataError(f"{part.name}: {largest:g} is not accepted; accepted: up to {LARGEST * part.step:g}")
+    # A difference may exceed 16 bits; it wraps around, and so does its sum.
+    steps = np.diff(whole.astype(np.int64), axis=1, prepend=0).astype("<u2", casting="unsafe")
+    return np.ascontiguousarray(steps).view(np.uint8).reshape(-1, 2).T.tobytes()
 
 
 def explore(

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from experiments.evaluation.compare.pair import read_pair
 from experiments.evaluation.compare.windows import FLAG, flagged_spans
 from experiments.evaluation.measure.push_scene import PushRows, PushScene, read_push
-from experiments.plan.scenes import PageScene
+from experiments.plan.parts import PageScene
 from experiments.settings.pages import Explore, Story
 from mobnet.control.kinematics import empty_pose, tree_of, update
 from mobnet.core.arrays import Array

@@ -3,13 +3,18 @@
 from collections.abc import Mapping, Sequence
 from itertools import product
 from pathlib import Path
+from typing import Literal
 
 from experiments.evaluation.number.number import Number
-from experiments.evaluation.report.cells import cell_text, cells_of
 from experiments.evaluation.tables.layout import Line, Table, write_table
 from experiments.settings.detection_tables import AlarmTable
 from experiments.settings.tables import LegsTable, LimbsTable, MainTables
+from mobnet.core.errors import refuse_lines
+from mobnet.core.rows import parse_field, read_texts
 
+COUNTS = ("hours", "count", "events")  # they stand before a number, but are no name of it
+FINE = ("N m", "-")  # units of numbers that are written with two digits
+LARGE = 100.0
 COLUMNS = ("row", "quantity", "value", "low", "high", "unit", "published")
 NONE = Number(None)
 ZERO, ABOVE = "zero", "*"  # the method that estimates nothing, and what stands behind an error larger than its
@@ -34,9 +39,38 @@ HEADS = {  # head -> quantity of a column; heads of the right half say so
     "at 1/h: delay [ms]": "delay at rate",
     "at 1/h: false [1/h]": "alarms at rate",
 }
-
 Cells = Mapping[str, Number]
 Fields = Sequence[str | float | None]
+
+
+def cells_of(path: Path) -> dict[str, Number]:
+    """Read the numbers of a table: `<table>@<column>@<column>...` -> number.
+
+    Raises:
+        DataError: the file or a column is missing, or a field is not a number where one is due.
+    """
+    faults = list[str]()
+    found = dict[str, Number]()
+    for line, row in enumerate(read_texts(path, ["value", "unit"]), start=2):
+        before = list(row)[: list(row).index("value")]
+        name = "@".join([path.stem, *(row[column] for column in before if column not in COUNTS)])
+        numbers = {
+            column: parse_field(row[column], float | None, f"{path}:{line}: {column}", faults)
+            for column in ("value", "low", "high", "published")
+            if column in row
+        }
+        found[name] = Number(**numbers, unit=row["unit"])
+    refuse_lines(faults)
+    return found
+
+
+def cell_text(number: Number, part: Literal["number", "interval", "published"] = "number") -> str:
+    """Return a number, its interval or the paper's as text; what is no torque or ratio has one digit, or none."""
+    size = abs((number.published if part == "published" else number.value) or 0.0)
+    digits = 2 if number.unit in FINE else int(size < LARGE)
+    if part == "interval":
+        return number.interval(digits)
+    return Number(number.published).text(digits) if part == "published" else number.text(digits)
 
 
 def main_tables(settings: MainTables, sources: Sequence[Path], out: Path) -> None:

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from experiments.evaluation.figures.further.sigma_courses import sigma_figure
-from experiments.evaluation.number.lookup import read_lookup
+from experiments.evaluation.number.grid import read_lookup
 from experiments.evaluation.tables.further.sigma_table import sigma_table
 from experiments.settings.measures import Sigma
 from experiments.settings.runs import Statistics

@@ -6,7 +6,7 @@ from dataclasses import astuple
 from pathlib import Path
 
 from experiments.evaluation.measure.reaction.results import read_trials
-from experiments.evaluation.number.files import Field
+from experiments.evaluation.number.rows import Field
 from experiments.plan.detection import Detections
 from experiments.plan.reactions import Reactions
 from mobnet.core.detections import Collision, Detected

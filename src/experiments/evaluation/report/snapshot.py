@@ -25,14 +25,13 @@ from experiments.plan.demo import FOLDER
 from experiments.plan.detection import all_detections
 from experiments.plan.plan import make_plan
 from experiments.plan.reactions import all_reactions
-from experiments.running.accounts import read_account
-from experiments.running.logs import LOGS
+from experiments.running.logs import LOGS, read_account
 from experiments.running.words import results_parser
 from experiments.settings.load import load_settings
 from experiments.settings.settings import Settings
+from mobnet.core.code import CHANGED, UNKNOWN, commit, provenance
 from mobnet.core.errors import DataError, MobnetError
 from mobnet.core.files import atomic_path, read_json, read_text, write_json, write_text
-from mobnet.core.provenance import CHANGED, UNKNOWN, commit, provenance
 from mobnet.core.rows import read_texts
 
 log = logging.getLogger(__name__)

@@ -9,8 +9,8 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from experiments.evaluation.number.files import Field, write_csv
 from experiments.evaluation.number.number import Number
+from experiments.evaluation.number.rows import Field, write_csv
 from mobnet.core.files import write_text
 
 log = logging.getLogger(__name__)

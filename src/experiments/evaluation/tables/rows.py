@@ -4,10 +4,9 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from experiments.evaluation.number.files import Field
-from experiments.evaluation.number.grid import Wanted
-from experiments.evaluation.number.lookup import AVERAGE, Lookup
+from experiments.evaluation.number.grid import AVERAGE, Lookup, Wanted
 from experiments.evaluation.number.number import Number
+from experiments.evaluation.number.rows import Field
 from experiments.evaluation.tables.layout import Line, Table, in_blocks, percent, write_table
 from experiments.settings.runs import LimbRuns
 from mobnet.core.columns import METHODS, SPREAD

@@ -7,9 +7,8 @@ from collections.abc import Iterator
 
 from experiments.settings.catalogue import Catalogue
 from experiments.settings.checks.claims import claim_problems
-from experiments.settings.checks.detection import detection_problems
+from experiments.settings.checks.detection import detection_problems, reaction_problems
 from experiments.settings.checks.estimates import asked_problems
-from experiments.settings.checks.reaction import reaction_problems
 from experiments.settings.checks.results import Results
 from experiments.settings.products import problems_in
 from mobnet.settings.reading import Problem

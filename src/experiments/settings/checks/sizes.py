@@ -10,7 +10,7 @@ from experiments.settings.fleet import FIRST_SEED
 from experiments.settings.scales import Scale
 from experiments.settings.settings import Settings
 from mobnet.core.errors import misfit, not_accepted
-from mobnet.settings.checks.limits import at_most, below
+from mobnet.settings.faults import at_most, below
 from mobnet.settings.reading import Place, Problem
 
 RESULTS_MAX = 50_000  # of one scale: its files are twice as many, and each has a place in Snakemake's plan

@@ -9,7 +9,7 @@ import numpy as np
 
 from mobnet.core.errors import misfit, not_accepted
 from mobnet.core.joints import LEG_AXES, N_VIRTUAL, right_of, with_image
-from mobnet.settings.checks.limits import as_many, within
+from mobnet.settings.faults import as_many, within
 from mobnet.settings.names import unknown, uses
 from mobnet.settings.parts import PointRow, ShapeRow
 from mobnet.settings.reading import Place, Problem

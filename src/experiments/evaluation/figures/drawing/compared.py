@@ -10,13 +10,12 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from experiments.evaluation.compare.curves import Panel, TorqueCurve
-from experiments.evaluation.compare.errors import Compared
+from experiments.evaluation.compare.curves import Compared, Panel, TorqueCurve
 from experiments.evaluation.figures.drawing.curves import FROM_LIFT_OFF, draw_panel, table_of
 from experiments.evaluation.figures.drawing.named_bars import BAR_INCH, NamedBar, draw_named_bars
 from experiments.evaluation.figures.style import entitle, legend, looks, save_figure
-from experiments.evaluation.number.files import Field, write_csv
 from experiments.evaluation.number.number import Number
+from experiments.evaluation.number.rows import Field, write_csv
 from mobnet.core.columns import JOINT_ERRORS
 from mobnet.core.style import COLUMN_INCH, PAGE_INCH, styled
 

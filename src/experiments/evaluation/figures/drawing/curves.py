@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from experiments.evaluation.compare.curves import Panel
 from experiments.evaluation.figures.style import looks
-from experiments.evaluation.number.files import Field
+from experiments.evaluation.number.rows import Field
 
 Mark = tuple[float, Mapping[str, Any]]  # of a flag: its lower edge [of the height], its look
 FLAGS: Mapping[str, Mark] = {"swing": (0.0, {"color": "#009E73", "alpha": 0.15})}

@@ -17,8 +17,7 @@ from experiments.settings.pages import Drawings
 from mobnet.core.arrays import Array
 from mobnet.core.joints import JointLayout
 from mobnet.core.style import COLUMN_INCH, PAGE_INCH, styled
-from mobnet.robot.description import RobotDescription, describe
-from mobnet.robot.looks import dressed
+from mobnet.robot.description import RobotDescription, describe, dressed
 from mobnet.settings.data import Push
 from mobnet.settings.parts import Looks
 from mobnet.settings.robot import RobotTable

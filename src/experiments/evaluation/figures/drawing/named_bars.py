@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
-from experiments.evaluation.compare.errors import ZERO
+from experiments.evaluation.compare.curves import ZERO
 from experiments.evaluation.figures.style import looks
 from experiments.evaluation.number.number import Number
 

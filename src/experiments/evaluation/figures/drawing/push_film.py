@@ -5,34 +5,70 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from PIL import Image
 
 from experiments.evaluation.compare.curves import TRUTH, TorqueCurve
-from experiments.evaluation.figures.drawing.motion import palette_of, save_drawing, save_still
 from experiments.evaluation.figures.drawing.push_frame import Moment, TorquePlot, draw_frame
 from experiments.evaluation.figures.drawing.pushed import standing
 from experiments.evaluation.figures.drawing.robot import projection
 from experiments.evaluation.measure.estimates.felt import PushResponse
 from experiments.evaluation.measure.push_scene import PushScene, read_story
-from experiments.evaluation.number.files import write_csv
+from experiments.evaluation.number.rows import write_csv
 from experiments.plan.detection import Detections
 from experiments.plan.runs import Run
 from experiments.settings.measures import Peaks
 from experiments.settings.pages import PushFilm, Story
 from mobnet.core.arrays import Array
 from mobnet.core.detections import Collision
+from mobnet.core.files import atomic_path
 from mobnet.core.joints import JointLayout
-from mobnet.robot.description import RobotDescription, describe
-from mobnet.robot.looks import dressed
+from mobnet.robot.description import RobotDescription, describe, dressed
 from mobnet.settings.parts import Looks
 from mobnet.settings.robot import RobotTable
 from mobnet.simulation.render import Pixels
 
+NEAR_WHITE = 251  # of 255
+EFFORT = {"quality": 50, "method": 3}  # of WebP without loss: more takes longer and saves nothing
 COLUMNS = ("method", "joint", "peak_share", "delay_ms", "rmse_nm")
 HEADS = ("", "share of the peak", "delay", "RMSE")
 EASED = 8  # frames in which the time axis takes another width
 ROOM = 0.06  # above and below the curves, share of their range
 MS = 1000.0
 Ends = tuple[float, float]
+
+
+def save_still(frame: Pixels, path: Path) -> None:
+    """Write one frame (height, width, 3) as a PNG, as a whole or not at all."""
+    with atomic_path(path) as temporary:
+        Image.fromarray(frame).save(temporary, "png", optimize=True)
+
+
+def palette_of(frame: Pixels, colours: int) -> Image.Image:
+    """Return an image with a palette of the main colours of a frame (height, width, 3); almost white is white."""
+    image = Image.fromarray(frame).quantize(colours)
+    palette = np.reshape(image.getpalette() or [], (-1, 3))
+    palette[palette.min(axis=1) >= NEAR_WHITE] = 255
+    image.putpalette(palette.ravel().tolist())
+    return image
+
+
+def save_drawing(frames: Sequence[Pixels], seen_s: Sequence[float], palette: Image.Image, out: Path) -> None:
+    """Write frames (height, width, 3), each seen for a time [s], as a WebP and a GIF that repeat.
+
+    Drawings have few colours: with those of a palette, WebP without loss is smaller than with it, and text is sharp.
+    """
+    flat = [Image.fromarray(frame).quantize(palette=palette, dither=Image.Dither.NONE) for frame in frames]
+    duration = [round(MS * time_s) for time_s in seen_s]
+    _save([image.convert("RGB") for image in flat], out.with_suffix(".webp"), duration, lossless=True, **EFFORT)
+    _save(flat, out.with_suffix(".gif"), duration)
+
+
+def _save(images: Sequence[Image.Image], path: Path, duration: Sequence[int], **options: int) -> None:
+    """Write images with their durations [ms] in the format of the path's ending."""
+    with atomic_path(path) as temporary:
+        first, *others = images
+        kind = path.suffix.removeprefix(".")
+        first.save(temporary, kind, save_all=True, append_images=others, duration=list(duration), loop=0, **options)
 
 
 @dataclass(frozen=True)

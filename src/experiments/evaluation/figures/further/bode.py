@@ -12,10 +12,9 @@ from matplotlib.figure import Figure
 
 from experiments.evaluation.figures.style import LETTERS, Look, legend, looks, save_figure
 from experiments.evaluation.measure.estimates.bode import GAIN, PHASE, observer_response
-from experiments.evaluation.number.files import Field
-from experiments.evaluation.number.grid import Wanted
-from experiments.evaluation.number.lookup import Lookup, read_lookup
+from experiments.evaluation.number.grid import Lookup, Wanted, read_lookup
 from experiments.evaluation.number.number import Number
+from experiments.evaluation.number.rows import Field
 from experiments.settings.measures import Bode
 from experiments.settings.runs import Statistics
 from mobnet.core.columns import RESPONSE

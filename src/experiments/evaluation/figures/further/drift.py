@@ -7,9 +7,9 @@ from experiments.evaluation.compare.scene import STANCE, SWINGING
 from experiments.evaluation.figures.drawing.lines import Line, LinePanel, draw_lines
 from experiments.evaluation.figures.style import save_figure
 from experiments.evaluation.measure.estimates.drift import HELD_STEP
-from experiments.evaluation.number.files import Field
-from experiments.evaluation.number.lookup import Lookup, read_lookup
+from experiments.evaluation.number.grid import Lookup, read_lookup
 from experiments.evaluation.number.number import Number
+from experiments.evaluation.number.rows import Field
 from experiments.settings.measures import Drift
 from experiments.settings.runs import Runs, Statistics
 from mobnet.core.columns import DRIFT

@@ -9,16 +9,14 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from experiments.evaluation.figures.drawing.robot import projection
-from experiments.evaluation.figures.drawing.scene import FORCE, draw_scene
+from experiments.evaluation.figures.drawing.robot import FORCE, draw_scene, projection
 from experiments.settings.reaction_tables import Films
 from mobnet.core.arrays import Array
 from mobnet.core.columns import ESTIMATED, EXTERNAL, STD
 from mobnet.core.course import StoredCourse, read_course
 from mobnet.core.store import read_array
 from mobnet.core.style import styled
-from mobnet.robot.description import RobotDescription, describe
-from mobnet.robot.looks import dressed
+from mobnet.robot.description import RobotDescription, describe, dressed
 from mobnet.settings.data import Obstacle
 from mobnet.settings.parts import Looks
 from mobnet.settings.robot import RobotTable

@@ -13,9 +13,9 @@ from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter, StrMethodF
 
 from experiments.evaluation.figures.style import Look, entitle, legend, looks, save_figure
 from experiments.evaluation.measure.estimates.sigma import COVER, MEMORY, STD
-from experiments.evaluation.number.files import Field
-from experiments.evaluation.number.lookup import Lookup
+from experiments.evaluation.number.grid import Lookup
 from experiments.evaluation.number.number import Number
+from experiments.evaluation.number.rows import Field
 from experiments.settings.measures import Sigma
 from experiments.settings.runs import LimbRuns
 from mobnet.core.columns import SIGMA

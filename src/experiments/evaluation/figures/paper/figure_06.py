@@ -3,13 +3,13 @@
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from experiments.evaluation.compare.errors import compared, without_zero
+from experiments.evaluation.compare.curves import compared, without_zero
 from experiments.evaluation.compare.rmse import PUSHED
 from experiments.evaluation.figures.drawing.compared import bars_of, save_compared
 from experiments.evaluation.figures.drawing.pushes import draw_step
-from experiments.evaluation.measure.estimates.joint_errors import error_rows, joint_errors
 from experiments.evaluation.measure.estimates.pushes import read_pushes
-from experiments.evaluation.number.lookup import read_lookup
+from experiments.evaluation.measure.estimates.run_errors import error_rows, joint_errors
+from experiments.evaluation.number.grid import read_lookup
 from experiments.plan.runs import Run
 from experiments.settings.figures import Figure06
 from experiments.settings.published import PublishedTable

@@ -4,11 +4,10 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from experiments.evaluation.compare.curves import read_cycle
-from experiments.evaluation.compare.errors import Compared, compared
+from experiments.evaluation.compare.curves import Compared, compared, read_cycle
 from experiments.evaluation.figures.drawing.compared import draw_leg, save_compared
-from experiments.evaluation.measure.estimates.joint_errors import error_rows, joint_errors
-from experiments.evaluation.number.lookup import read_lookup
+from experiments.evaluation.measure.estimates.run_errors import error_rows, joint_errors
+from experiments.evaluation.number.grid import read_lookup
 from experiments.evaluation.number.number import Number
 from experiments.plan.runs import Run
 from experiments.settings.figures import Figure08

@@ -3,13 +3,12 @@
 from collections.abc import Sequence
 from pathlib import Path
 
-from experiments.evaluation.compare.curves import read_cycle
-from experiments.evaluation.compare.errors import compared, without_zero
+from experiments.evaluation.compare.curves import compared, read_cycle, without_zero
 from experiments.evaluation.figures.drawing.compared import bars_of, draw_columns, save_compared
 from experiments.evaluation.figures.drawing.curves import FROM_LIFT_OFF
 from experiments.evaluation.figures.drawing.named_bars import PAPER_LABEL
-from experiments.evaluation.measure.estimates.joint_errors import error_rows, joint_errors
-from experiments.evaluation.number.lookup import read_lookup
+from experiments.evaluation.measure.estimates.run_errors import error_rows, joint_errors
+from experiments.evaluation.number.grid import read_lookup
 from experiments.plan.runs import Run
 from experiments.settings.figures import Figure09
 from experiments.settings.published import PublishedTable

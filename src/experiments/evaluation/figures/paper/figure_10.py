@@ -20,9 +20,9 @@ from experiments.evaluation.measure.estimates.pushes import (
     responses_of,
 )
 from experiments.evaluation.measure.estimates.run_errors import ERROR
-from experiments.evaluation.number.files import Field, write_csv
-from experiments.evaluation.number.lookup import read_lookup
+from experiments.evaluation.number.grid import read_lookup
 from experiments.evaluation.number.number import Number
+from experiments.evaluation.number.rows import Field, write_csv
 from experiments.plan.runs import Run
 from experiments.settings.figures import Figure10
 from experiments.settings.published import PublishedTable

@@ -16,8 +16,7 @@ from mobnet.core.errors import DataError, not_accepted
 from mobnet.core.recording import read_sensed
 from mobnet.core.store import read_array
 from mobnet.core.style import styled
-from mobnet.robot.description import RobotDescription, describe
-from mobnet.robot.looks import dressed
+from mobnet.robot.description import RobotDescription, describe, dressed
 from mobnet.settings.detection import Detection
 from mobnet.settings.parts import Looks
 from mobnet.settings.robot import RobotTable

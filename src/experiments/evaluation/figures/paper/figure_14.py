@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 
 from experiments.evaluation.figures.style import Look, beside, entitle, legend, looks, save_figure
 from experiments.evaluation.measure.detection.results import MS, Detections, owners, rows_of
-from experiments.evaluation.number.files import Field
+from experiments.evaluation.number.rows import Field
 from experiments.settings.detection_tables import Figure14
 from mobnet.core.detections import Collision
 from mobnet.core.style import styled

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from experiments.evaluation.figures.drawing.curves import mark_flag
 from experiments.evaluation.figures.style import beside, entitle, legend, looks, save_figure
 from experiments.evaluation.measure.detection.results import Detections, rows_of
-from experiments.evaluation.number.files import Field
+from experiments.evaluation.number.rows import Field
 from experiments.settings.detection_tables import Figure15
 from mobnet.core.columns import PUSH, STD, SWING, foot_of, named
 from mobnet.core.detections import Collision, Threshold

@@ -18,8 +18,8 @@ from experiments.evaluation.measure.reaction.results import (
     read_trials,
     trials_of,
 )
-from experiments.evaluation.number.files import Field
 from experiments.evaluation.number.number import Number
+from experiments.evaluation.number.rows import Field
 from experiments.plan.reactions import Reactions
 from experiments.settings.published import PublishedContacts
 from experiments.settings.reaction_tables import Figure16

@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Polygon
 
-from experiments.evaluation.figures.drawing.scene import PAD, draw_arrow, solid_of
+from experiments.evaluation.figures.drawing.robot import PAD, draw_arrow, solid_of
 from experiments.evaluation.figures.drawing.solids import outline_of
 from experiments.evaluation.figures.style import legend, save_figure
 from experiments.settings.reaction_tables import Figure21

@@ -5,15 +5,13 @@ from pathlib import Path
 
 from matplotlib.figure import Figure
 
-from experiments.evaluation.figures.drawing.robot import projection
-from experiments.evaluation.figures.drawing.scene import draw_scene
+from experiments.evaluation.figures.drawing.robot import draw_scene, projection
 from experiments.evaluation.figures.style import entitle, save_figure
-from experiments.evaluation.number.files import Field
+from experiments.evaluation.number.rows import Field
 from experiments.settings.reaction_tables import Figure22
 from mobnet.core.course import StoredCourse, read_course
 from mobnet.core.style import PAGE_INCH, styled
-from mobnet.robot.description import describe
-from mobnet.robot.looks import dressed
+from mobnet.robot.description import describe, dressed
 from mobnet.settings.data import Obstacle
 from mobnet.settings.parts import Looks
 from mobnet.settings.robot import RobotTable

@@ -3,9 +3,8 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from experiments.evaluation.compare.pair import Pair
+from experiments.evaluation.compare.pair import Measured, Measures, Pair
 from experiments.evaluation.compare.scene import Scene, shown_pushes
-from experiments.evaluation.compare.values import Measured, Measures
 from experiments.evaluation.compare.windows import flagged_spans
 from experiments.settings.measures import Bode
 from mobnet.core.arrays import Array

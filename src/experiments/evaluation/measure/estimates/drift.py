@@ -5,10 +5,9 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from experiments.evaluation.compare.pair import Pair
+from experiments.evaluation.compare.pair import Measured, Measures, Pair
 from experiments.evaluation.compare.rmse import Spans
 from experiments.evaluation.compare.scene import STANCE, SWINGING, Scene, shown_pushes
-from experiments.evaluation.compare.values import Measured, Measures
 from experiments.evaluation.compare.windows import flagged_spans, rows_in
 from experiments.settings.measures import Drift
 

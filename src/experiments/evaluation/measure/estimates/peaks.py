@@ -6,10 +6,9 @@ import numpy as np
 import scipy  # pyright: ignore[reportMissingTypeStubs]  # its parts are imported where they are used first
 from numpy.typing import NDArray
 
-from experiments.evaluation.compare.pair import Pair
+from experiments.evaluation.compare.pair import Measured, Measures, Pair
 from experiments.evaluation.compare.rmse import Spans
 from experiments.evaluation.compare.scene import Scene, ShownPushes, shown_pushes
-from experiments.evaluation.compare.values import Measured, Measures
 from experiments.evaluation.compare.windows import flagged_spans
 from experiments.settings.measures import Peaks
 from mobnet.core.arrays import Array

@@ -3,9 +3,8 @@
 import numpy as np
 
 from experiments.evaluation.compare.masks import masked_mean, parts_of
-from experiments.evaluation.compare.pair import Pair
+from experiments.evaluation.compare.pair import Measured, Measures, Pair
 from experiments.evaluation.compare.scene import Scene
-from experiments.evaluation.compare.values import Measured, Measures
 from experiments.settings.measures import Phases
 
 

@@ -6,14 +6,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from experiments.evaluation.compare.masks import Masks, masked_mean, parts_of, push_parts
-from experiments.evaluation.compare.pair import Pair, read_std
+from experiments.evaluation.compare.pair import Measured, Measures, Pair, read_std
 from experiments.evaluation.compare.rmse import Spans, parts
 from experiments.evaluation.compare.scene import Scene
-from experiments.evaluation.compare.values import Measured, Measures
 from experiments.evaluation.compare.windows import rows_in
 from experiments.settings.measures import Sigma
 from mobnet.core.arrays import Array
-from mobnet.learning.gaussian import half_width
+from mobnet.learning.calibration import half_width
 
 STD, COVER = "std", "cover"  # mean standard deviation [N m], V1..V3 [N], and share of errors in their interval [-]
 EXCURSION = "excursion"

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from experiments.evaluation.measure.estimates.changed import FLAGGED, FREE, KNOWN
-from experiments.evaluation.number.lookup import read_lookup
+from experiments.evaluation.number.grid import read_lookup
 from experiments.evaluation.tables.rows import Column, average, by_limb, measured, share_percent
 from experiments.settings.measures import Changed
 from experiments.settings.runs import Statistics

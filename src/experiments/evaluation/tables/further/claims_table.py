@@ -4,8 +4,8 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from experiments.evaluation.measure.claims.verdicts import Judged
-from experiments.evaluation.number.files import Field
 from experiments.evaluation.number.number import number_text
+from experiments.evaluation.number.rows import Field
 from experiments.evaluation.tables.layout import GAP, Line, Table, long_table, tex_escape, write_table
 from mobnet.core.claim_ranges import ANY, range_text
 from mobnet.core.columns import CLAIMS

@@ -11,9 +11,9 @@ from experiments.evaluation.measure.detection.results import (
     owners,
     rows_of,
 )
-from experiments.evaluation.number.files import Field
+from experiments.evaluation.number.intervals import rate_of
 from experiments.evaluation.number.number import Number
-from experiments.evaluation.number.single import rate_of
+from experiments.evaluation.number.rows import Field
 from experiments.evaluation.tables.rows import Column, Row, Rows, View
 from experiments.settings.detection_tables import AlarmTable
 from experiments.settings.runs import Statistics

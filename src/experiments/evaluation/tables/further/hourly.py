@@ -4,9 +4,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
 from experiments.evaluation.measure.estimates.changed import FLAGS, HOUR_S, WATCHED
-from experiments.evaluation.number.grid import Wanted
-from experiments.evaluation.number.lookup import AVERAGE, Lookup, read_lookup
-from experiments.evaluation.number.single import rate_of
+from experiments.evaluation.number.grid import AVERAGE, Lookup, Wanted, read_lookup
+from experiments.evaluation.number.intervals import rate_of
 from experiments.evaluation.tables.rows import Column, Rows, View, field_text
 from experiments.settings.measures import Changed
 from experiments.settings.runs import LegRuns, Statistics

@@ -15,9 +15,9 @@ from experiments.evaluation.measure.learning.trainings import (
     read_trainings,
     sound,
 )
-from experiments.evaluation.number.files import Field
 from experiments.evaluation.number.intervals import RunGrid, summarise
 from experiments.evaluation.number.number import Number, number_text
+from experiments.evaluation.number.rows import Field
 from experiments.evaluation.tables.layout import GAP, RULE, Line, Table, with_intervals, write_table
 from experiments.settings.figures import Figure17
 from experiments.settings.published import PublishedKinds

@@ -5,11 +5,10 @@ from dataclasses import replace
 from pathlib import Path
 
 from experiments.evaluation.compare.rmse import RAW
-from experiments.evaluation.number.files import Field
-from experiments.evaluation.number.grid import Wanted
-from experiments.evaluation.number.lookup import AVERAGE, Lookup, read_lookup
+from experiments.evaluation.number.grid import AVERAGE, Lookup, Wanted, read_lookup
 from experiments.evaluation.number.number import Number
 from experiments.evaluation.number.quantities import CUT
+from experiments.evaluation.number.rows import Field
 from experiments.evaluation.tables.layout import Line, Table, in_blocks, long_table, write_table
 from experiments.settings.runs import Statistics
 from experiments.settings.tables import MethodsRow

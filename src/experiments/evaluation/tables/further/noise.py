@@ -8,8 +8,7 @@ import math
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from experiments.evaluation.number.averages import Column, columns_of
-from experiments.evaluation.number.grid import Wanted, number_of
+from experiments.evaluation.number.grid import Column, Wanted, columns_of, number_of
 from experiments.evaluation.number.number import Number, number_text, published_row
 from experiments.evaluation.number.rows import read_scores
 from experiments.evaluation.tables.layout import RULE, Line, Table, write_table

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from experiments.evaluation.measure.estimates.peaks import DELAY, OBSERVER, SHARE
-from experiments.evaluation.number.lookup import Lookup, read_lookup
+from experiments.evaluation.number.grid import Lookup, read_lookup
 from experiments.evaluation.number.number import Number
 from experiments.evaluation.tables.layout import Table, in_blocks, write_table
 from experiments.evaluation.tables.rows import measured

@@ -5,7 +5,7 @@ from pathlib import Path
 
 from experiments.evaluation.compare.masks import MOVING, STUCK
 from experiments.evaluation.compare.scene import STANCE, SWINGING, TOUCH_DOWN
-from experiments.evaluation.number.lookup import read_lookup
+from experiments.evaluation.number.grid import read_lookup
 from experiments.evaluation.tables.rows import Column, average, by_limb, measured
 from experiments.settings.measures import Phases
 from experiments.settings.runs import Statistics

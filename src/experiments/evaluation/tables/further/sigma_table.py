@@ -5,9 +5,8 @@ from pathlib import Path
 from experiments.evaluation.compare.masks import MOVING, PUSHED, STUCK
 from experiments.evaluation.compare.scene import STANCE, SWINGING, TOUCH_DOWN
 from experiments.evaluation.measure.estimates.sigma import COVER, EXCURSION, STD
-from experiments.evaluation.number.grid import Wanted
+from experiments.evaluation.number.grid import AVERAGE, Lookup, Wanted
 from experiments.evaluation.number.intervals import RATIO
-from experiments.evaluation.number.lookup import AVERAGE, Lookup
 from experiments.evaluation.number.number import Number
 from experiments.evaluation.tables.rows import Column, Row, average, by_limb, measured, share_percent
 from experiments.settings.measures import Sigma

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from experiments.evaluation.measure.detection.results import CELLS, Detections, Try, shown_tries
-from experiments.evaluation.measure.detection.smallest_force import smallest_force as force_of
+from experiments.evaluation.measure.detection.results import smallest_force as force_of
 from experiments.evaluation.number.number import Number
 from experiments.evaluation.tables.rows import Column, Row, Rows, View
 from experiments.settings.detection_tables import SmallestForce

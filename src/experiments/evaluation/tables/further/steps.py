@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 
 from experiments.evaluation.measure.data.steps import UNITS, Array, WalkedSteps, bin_edges, bin_of, read_steps
-from experiments.evaluation.number.files import Field
 from experiments.evaluation.number.number import number_text
+from experiments.evaluation.number.rows import Field
 from experiments.evaluation.tables.layout import Table, in_blocks, write_table
 from experiments.settings.tables import Steps as StepsTable
 from mobnet.core.columns import COMMAND, STEPS

@@ -7,11 +7,9 @@ from pathlib import Path
 
 from experiments.evaluation.compare.rmse import RAW
 from experiments.evaluation.measure.estimates.scores import AVERAGE
-from experiments.evaluation.number.averages import Column, columns_of
-from experiments.evaluation.number.files import Field
-from experiments.evaluation.number.grid import Wanted, number_of
+from experiments.evaluation.number.grid import Column, Wanted, columns_of, number_of
 from experiments.evaluation.number.number import Number, number_text, published_row
-from experiments.evaluation.number.rows import read_scores
+from experiments.evaluation.number.rows import Field, read_scores
 from experiments.evaluation.tables.layout import PART, Line, Table, in_blocks, text_table, write_table
 from experiments.settings.published import Floor, PublishedTable
 from experiments.settings.runs import Statistics

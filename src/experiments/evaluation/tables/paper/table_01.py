@@ -4,7 +4,7 @@ import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from experiments.evaluation.number.files import Field
+from experiments.evaluation.number.rows import Field
 from experiments.evaluation.tables.layout import Table, tex_escape, tex_table, write_table
 from experiments.settings.published import PublishedNetwork, PublishedNetworks
 from mobnet.core.columns import TABLE_01

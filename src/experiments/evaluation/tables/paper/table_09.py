@@ -14,8 +14,8 @@ from experiments.evaluation.measure.detection.results import (
     mean_of,
     shown_tries,
 )
-from experiments.evaluation.number.files import Field
 from experiments.evaluation.number.number import number_text, published_row
+from experiments.evaluation.number.rows import Field
 from experiments.evaluation.tables.layout import PART, RULE, Line, Table, text_table, write_table
 from experiments.settings.detection_tables import DetectorTable
 from experiments.settings.published import PublishedTable
