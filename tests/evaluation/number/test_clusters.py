@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from experiments.evaluation.number.clusters import ClusterKey, mean_in, rate_in, share_in
-from experiments.evaluation.number.intervals import rate_of
 from experiments.evaluation.number.number import Number
+from experiments.evaluation.number.single import rate_of
 from experiments.settings.runs import Statistics
 
 STATISTICS = Statistics(confidence=0.95)

@@ -9,9 +9,10 @@ import pytest
 from numpy.typing import NDArray
 from scipy.stats import t as student
 
-from experiments.evaluation.number.intervals import MEAN, RATIO, Formula, RunGrid, share, summarise, trend
+from experiments.evaluation.number.intervals import MEAN, RATIO, Formula, RunGrid, summarise
 from experiments.evaluation.number.number import Number
 from experiments.evaluation.number.quantities import BELOW, CUT, GAP_RATIO
+from experiments.evaluation.number.single import share, trend
 from experiments.settings.runs import Statistics
 
 STATISTICS = Statistics(confidence=0.95)

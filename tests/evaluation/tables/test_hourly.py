@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 from csv_files import check_golden, read_table
 
-from experiments.evaluation.number.intervals import rate_of
+from experiments.evaluation.number.single import rate_of
 from experiments.evaluation.tables.further.hourly import ALL, FALL, FLAG
 from experiments.settings.evaluation import Evaluation
 from experiments.settings.runs import LegRuns, Statistics

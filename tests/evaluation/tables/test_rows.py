@@ -4,7 +4,7 @@ from pathlib import Path
 
 from experiments.evaluation.number.number import Number
 from experiments.evaluation.tables.layout import RULE
-from experiments.evaluation.tables.rows import Column, Rows, View, field_text
+from experiments.evaluation.tables.rows import Rows, View, ViewColumn, field_text
 
 LABELS = {"level": "Level", "method": "Method"}
 
@@ -21,7 +21,7 @@ def made() -> Rows:
 
 
 def test_the_file_has_the_rows_and_the_text_what_columns_pick(tmp_path: Path) -> None:
-    columns = [Column("whole", {"part": "whole"}, ends="95%"), Column("swing", {"part": "swing"}, digits=0)]
+    columns = [ViewColumn("whole", {"part": "whole"}, ends="95%"), ViewColumn("swing", {"part": "swing"}, digits=0)]
     made().write(tmp_path / "t", View(LABELS, columns, blocks=("level",)))
     lines = (tmp_path / "t.csv").read_text().splitlines()
     assert lines[1] == "no_noise,A_1,whole,1,0.5,1.5,3,N m"
@@ -37,14 +37,14 @@ def test_the_file_has_the_rows_and_the_text_what_columns_pick(tmp_path: Path) ->
 
 
 def test_rules_stand_between_blocks_and_fields_may_be_shown() -> None:
-    view = View(LABELS, [Column("walks", {"part": "whole"}, text=field_text("count"))], blocks=("level",))
+    view = View(LABELS, [ViewColumn("walks", {"part": "whole"}, text=field_text("count"))], blocks=("level",))
     assert made().lines(view)[1:4] == [["", "B", "3"], RULE, ["all", "A_1", "3"]]
 
 
 def test_a_row_without_a_label_is_in_no_line() -> None:
     rows = made()
     rows.add(Number(2.0), level="all", part="whole", count=0)
-    view = View(LABELS, [Column("whole", {"part": "whole"})])
+    view = View(LABELS, [ViewColumn("whole", {"part": "whole"})])
     assert rows.lines(view) == made().lines(view)
     assert rows.number(level="all", part="swing").value == 7.0
     assert rows.number(level="none").value is None

@@ -16,10 +16,9 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-import scipy  # pyright: ignore[reportMissingTypeStubs]  # its parts are imported where they are used first  # pyright: ignore[reportMissingTypeStubs]  # its parts are imported where they are used first
+import scipy  # pyright: ignore[reportMissingTypeStubs]  # its parts are imported where they are used first
 from numpy.typing import NDArray
 
-from experiments.evaluation.number.clusters import garwood
 from experiments.evaluation.number.number import Number
 from experiments.settings.runs import Statistics
 
@@ -170,41 +169,3 @@ def shown_range(formula: Formula, parts: Array, reach: Array, on_logs: bool) -> 
     # A number that folds at zero, such as the size of a gap, is least there and not at an end.
     shown = np.stack([formula.shown(each) for each in (low, high, np.clip(0.0, low, high))])
     return np.stack([shown.min(axis=0), shown.max(axis=0)])
-
-
-def trend(grids: Sequence[RunGrid], statistics: Statistics, unit: str = "-") -> Number:
-    """Return the slope of the means of K grids over their order [unit], with the interval of a least-squares line.
-
-    It needs a single run of each: how the means scatter around the line stands for all that varies.
-    """
-    line = scipy.stats.linregress(np.arange(len(grids)), [grid.mean for grid in grids])
-    value = float(line.slope)
-    reach = quantile_of(len(grids) - 2, statistics.confidence) * float(line.stderr)
-    networks = tuple(len(grid.values) for grid in grids)
-    return Number(value, value - reach, value + reach, unit=unit, networks=networks, walks=(1,))
-
-
-def share(grids: Sequence[RunGrid], statistics: Statistics, unit: str = "-") -> Number:
-    """Return the share of the runs of a grid that are 1 and not 0 [-], with Wilson's interval (1927)."""
-    (grid,) = grids
-    networks, walks = grid.values.shape
-    found = scipy.stats.binomtest(round(float(grid.values.sum())), networks * walks)
-    ends = found.proportion_ci(statistics.confidence, method="wilson")
-    return Number(grid.mean, float(ends.low), float(ends.high), unit=unit, networks=(networks,), walks=(walks,))
-
-
-def rate_of(count: int, hours: float, statistics: Statistics) -> Number:
-    """Return how many events there are in an hour [1/h], with the interval of a Poisson count (Garwood 1936).
-
-    Events are taken as independent of each other. In no time there is no rate.
-    """
-    if hours <= 0.0:
-        return Number(None, unit="1/h")
-    low, high = garwood(count, statistics)
-    return Number(count / hours, low / hours, high / hours, unit="1/h")
-
-
-def extremes(values: Array) -> list[Number]:
-    """Return n numbers, each the mean of some runs with the lowest and the highest one, of values (runs, n)."""
-    ends = np.stack([values.mean(axis=0), values.min(axis=0), values.max(axis=0)], axis=1)
-    return [Number(mean, low, high, networks=(len(values),), walks=(1,)) for mean, low, high in ends.tolist()]

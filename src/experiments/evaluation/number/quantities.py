@@ -7,8 +7,9 @@ from itertools import chain
 
 import numpy as np
 
-from experiments.evaluation.number.intervals import MEAN, RATIO, Array, Formula, RunGrid, share, summarise, trend
+from experiments.evaluation.number.intervals import MEAN, RATIO, Array, Formula, RunGrid, summarise
 from experiments.evaluation.number.number import Number
+from experiments.evaluation.number.single import share, trend
 from experiments.settings.runs import Statistics
 
 Cell = Sequence[RunGrid]  # runs of some joints or metrics, of which the mean is meant

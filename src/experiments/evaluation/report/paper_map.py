@@ -53,7 +53,7 @@ class System(Section):
     tests: str
 
 
-class Known(Section):
+class MapNotes(Section):
     """What only a person knows.
 
     Attributes:
@@ -77,17 +77,17 @@ def main() -> None:
     write_text(MAP, paper_map(plan, read_known(SOURCE)))
 
 
-def read_known(path: Path) -> Known:
+def read_known(path: Path) -> MapNotes:
     """Read what only a person knows.
 
     Raises:
         ConfigError: a key or a value is not accepted; one line for each of them.
     """
     document = Document(path)
-    return validated(Known, document.values, document.values, document.told)
+    return validated(MapNotes, document.values, document.values, document.told)
 
 
-def paper_map(plan: Plan, known: Known) -> str:
+def paper_map(plan: Plan, known: MapNotes) -> str:
     """Return the map of a plan as Markdown.
 
     Raises:
@@ -175,7 +175,7 @@ def _function(product: Product) -> str:
     return product.job.call.function.rpartition(":")[2]
 
 
-def _check_names(known: Known, products: Iterable[Product]) -> None:
+def _check_names(known: MapNotes, products: Iterable[Product]) -> None:
     """Refuse what is known of products that do not exist."""
     names: list[str] = []
     for product in products:

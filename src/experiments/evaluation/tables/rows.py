@@ -17,7 +17,7 @@ KEYS = ("scenario", "level", "robot", "set", "data")  # fields with names of the
 
 
 @dataclass(frozen=True)
-class Row:
+class NumberRow:
     """A number at a place.
 
     Attributes:
@@ -46,7 +46,7 @@ class Row:
 
 
 @dataclass(frozen=True)
-class Column:
+class ViewColumn:
     """A column that a reader sees: of each line it shows the first row whose place has the fields `of`.
 
     Attributes:
@@ -61,20 +61,20 @@ class Column:
     of: Mapping[str, Field] = field(default_factory=dict[str, Field])
     digits: int = 2
     ends: str = ""
-    text: Callable[[Row], str] | None = None
+    text: Callable[[NumberRow], str] | None = None
 
     @property
     def heads(self) -> list[str]:
         """The heads of the column and, where it has one, of that of its interval."""
         return [self.head, self.ends] if self.ends else [self.head]
 
-    def shows(self, row: Row) -> bool:
+    def shows(self, row: NumberRow) -> bool:
         """Return whether its place has the fields of the column."""
         return row.holds(self.of)
 
-    def texts(self, rows: Sequence[Row]) -> list[str]:
+    def texts(self, rows: Sequence[NumberRow]) -> list[str]:
         """Return its cells in a line of some rows."""
-        shown = next((row for row in rows if self.shows(row)), Row({}))
+        shown = next((row for row in rows if self.shows(row)), NumberRow({}))
         text = self.text(shown) if self.text else shown.number.text(self.digits)
         return [text, shown.number.interval(self.digits)] if self.ends else [text]
 
@@ -95,7 +95,7 @@ class View:
     """
 
     labels: Mapping[str, str]
-    columns: Sequence[Column]
+    columns: Sequence[ViewColumn]
     blocks: Sequence[str] = ()
     nested: bool = False
     left: int | None = None
@@ -114,11 +114,11 @@ class View:
             header += column.heads
         return header
 
-    def shows(self, rows: Sequence[Row]) -> bool:
+    def shows(self, rows: Sequence[NumberRow]) -> bool:
         """Return whether a column shows one of some rows."""
         return any(column.shows(row) for column in self.columns for row in rows)
 
-    def cells(self, rows: Sequence[Row]) -> list[str]:
+    def cells(self, rows: Sequence[NumberRow]) -> list[str]:
         """Return the cells of a line of some rows, without those of its block."""
         cells = rows[0].labels([name for name in self.labels if name not in self.blocks])
         for column in self.columns:
@@ -131,15 +131,15 @@ class Rows:
     """The rows of a table, and the names of the columns of its CSV file."""
 
     columns: Sequence[str]
-    held: list[Row] = field(default_factory=list[Row])
+    held: list[NumberRow] = field(default_factory=list[NumberRow])
 
     def add(self, number: Number = NONE, /, **place: Field) -> None:
         """Add a row."""
-        self.held.append(Row(place, number))
+        self.held.append(NumberRow(place, number))
 
     def show(self, number: Number = NONE, /, **place: Field) -> None:
         """Add a row that is shown only."""
-        self.held.append(Row(place, number, is_filed=False))
+        self.held.append(NumberRow(place, number, is_filed=False))
 
     @property
     def records(self) -> list[list[Field]]:
@@ -161,7 +161,7 @@ class Rows:
 
     def lines(self, view: View) -> list[Line]:
         """Return the lines of a view."""
-        blocks: dict[tuple[Field, ...], dict[tuple[Field, ...], list[Row]]] = {}
+        blocks: dict[tuple[Field, ...], dict[tuple[Field, ...], list[NumberRow]]] = {}
         for row in self.held:
             if row.place.keys() >= view.labels.keys():
                 block = tuple(row.place[name] for name in view.blocks)
@@ -175,7 +175,7 @@ class Rows:
                 titled.append((first.labels(view.titles), lines))
         return in_blocks(titled, nested=view.nested)
 
-    def _record(self, row: Row) -> list[Field]:
+    def _record(self, row: NumberRow) -> list[Field]:
         """Return the fields of a row in the CSV file."""
         number = row.number
         spread = dict(zip(SPREAD, number.spread, strict=True))
@@ -185,17 +185,17 @@ class Rows:
         return [held[name] for name in self.columns]
 
 
-def field_text(name: str, layout: str = "") -> Callable[[Row], str]:
+def field_text(name: str, layout: str = "") -> Callable[[NumberRow], str]:
     """Return the text of a field of a row's place, in a format such as `.2f`."""
     return lambda row: format(row.place.get(name, "-"), layout)
 
 
-def interval(row: Row) -> str:
+def interval(row: NumberRow) -> str:
     """Return the interval of the number of a row."""
     return row.number.interval()
 
 
-def share_percent(row: Row) -> str:
+def share_percent(row: NumberRow) -> str:
     """Return the number of a row, a share [-], in %."""
     return percent(row.number)
 
@@ -220,7 +220,7 @@ def measured(
     return rows
 
 
-def by_limb(title: str, columns: Sequence[Column]) -> View:
+def by_limb(title: str, columns: Sequence[ViewColumn]) -> View:
     """Return a view of what is measured with a line for each method, blocks by limb, under a head of the titles."""
     return View({"title": title, "limb": "Limb", "method": "Method"}, columns, blocks=("title", "limb"))
 

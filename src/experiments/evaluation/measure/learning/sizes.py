@@ -6,8 +6,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from experiments.evaluation.measure.learning.trainings import TrainedNetwork, read_trainings, sound
-from experiments.evaluation.number.intervals import RATIO, RunGrid, extremes, summarise
+from experiments.evaluation.number.intervals import RATIO, RunGrid, summarise
 from experiments.evaluation.number.number import Number
+from experiments.evaluation.number.single import extremes
 from experiments.plan.runs import SweptSize
 from experiments.settings.runs import Statistics
 

@@ -5,7 +5,7 @@ from pathlib import Path
 
 from experiments.evaluation.measure.estimates.changed import FLAGGED, FREE, KNOWN
 from experiments.evaluation.number.grid import read_lookup
-from experiments.evaluation.tables.rows import Column, average, by_limb, measured, share_percent
+from experiments.evaluation.tables.rows import ViewColumn, average, by_limb, measured, share_percent
 from experiments.settings.measures import Changed
 from experiments.settings.runs import Statistics
 from mobnet.core.joints import JointLayout
@@ -28,9 +28,9 @@ def changed(
     rows = measured(lookup, layout, list(settings.tests.items()), [ERROR, KNOWN, FREE, FLAGGED])
     below = f"windows below {settings.least_share:.0%} [%]"
     columns = [
-        Column("RMSE [N m]", average(ERROR)),
-        Column(f"errors in {interval} [%]", average(KNOWN), text=share_percent),
-        Column(f"free swings in {interval} [%]", average(FREE), text=share_percent),
-        Column(below, average(FLAGGED), text=share_percent),
+        ViewColumn("RMSE [N m]", average(ERROR)),
+        ViewColumn(f"errors in {interval} [%]", average(KNOWN), text=share_percent),
+        ViewColumn(f"free swings in {interval} [%]", average(FREE), text=share_percent),
+        ViewColumn(below, average(FLAGGED), text=share_percent),
     ]
     rows.write(table_dir / "changed", by_limb("Robot", columns))

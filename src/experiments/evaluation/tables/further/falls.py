@@ -5,8 +5,8 @@ from dataclasses import astuple
 from pathlib import Path
 from statistics import median_low
 
-from experiments.evaluation.number.intervals import rate_of
 from experiments.evaluation.number.rows import Field
+from experiments.evaluation.number.single import rate_of
 from experiments.evaluation.tables.layout import Table, write_table
 from experiments.settings.runs import Statistics
 from mobnet.core.columns import FALLEN, Falls

@@ -11,10 +11,10 @@ from experiments.evaluation.measure.detection.results import (
     owners,
     rows_of,
 )
-from experiments.evaluation.number.intervals import rate_of
 from experiments.evaluation.number.number import Number
 from experiments.evaluation.number.rows import Field
-from experiments.evaluation.tables.rows import Column, Row, Rows, View
+from experiments.evaluation.number.single import rate_of
+from experiments.evaluation.tables.rows import NumberRow, Rows, View, ViewColumn
 from experiments.settings.detection_tables import AlarmTable
 from experiments.settings.runs import Statistics
 from mobnet.core.columns import DETECTION
@@ -53,13 +53,13 @@ def false_alarms(
                 _add_rates(rows, place, own, cells, statistics)
     share = f"{statistics.confidence:.0%}"
     columns = [
-        Column("promised", _of(COLLISION, ALL, PROMISED), 1, ends=share),
-        Column("counted", _of(COLLISION, COUNTED), 1, ends=share),
-        Column("within", _of(COLLISION, COUNTED, WITHIN), text=_yes_or_no),
-        Column(BETWEEN, _of(COLLISION, BETWEEN), 1),
-        Column("paper's rule: in place", _of(LARGEST, PLACE), 0),
-        Column("random walking", _of(LARGEST, RANDOM), 0),
-        Column(BETWEEN, _of(LARGEST, BETWEEN), 0),
+        ViewColumn("promised", _of(COLLISION, ALL, PROMISED), 1, ends=share),
+        ViewColumn("counted", _of(COLLISION, COUNTED), 1, ends=share),
+        ViewColumn("within", _of(COLLISION, COUNTED, WITHIN), text=_yes_or_no),
+        ViewColumn(BETWEEN, _of(COLLISION, BETWEEN), 1),
+        ViewColumn("paper's rule: in place", _of(LARGEST, PLACE), 0),
+        ViewColumn("random walking", _of(LARGEST, RANDOM), 0),
+        ViewColumn(BETWEEN, _of(LARGEST, BETWEEN), 0),
     ]
     # the level stands in every line, and a rule between levels
     view = View({"title": "Level", "detector": "Detector"}, columns, blocks=("level",))
@@ -71,7 +71,7 @@ def _of(kind: str, cell: str, quantity: str = MEASURED) -> dict[str, Field]:
     return {"kind": kind, "cell": cell, "quantity": quantity}
 
 
-def _yes_or_no(row: Row) -> str:
+def _yes_or_no(row: NumberRow) -> str:
     """Return whether what was measured is within what was promised."""
     return "yes" if row.number.value else "no"
 

@@ -13,7 +13,7 @@ from experiments.evaluation.measure.detection.results import (
 )
 from experiments.evaluation.number.number import Number
 from experiments.evaluation.tables.layout import percent
-from experiments.evaluation.tables.rows import Column, Rows, View
+from experiments.evaluation.tables.rows import Rows, View, ViewColumn
 from experiments.settings.detection_tables import FoundByRate
 from experiments.settings.runs import Statistics
 from mobnet.core.columns import DETECTION
@@ -52,10 +52,10 @@ def found_by_rate(
             gain = gain_text([rate for _, rate in rates], shares, settings.beside)
             sentences.append(f"{level.replace('_', ' ').capitalize()}: {gain}")
     share = f"{statistics.confidence:.0%}"
-    columns: list[Column] = []
+    columns: list[ViewColumn] = []
     for kind, rate in rates:
-        columns.append(Column(f"found at {rate:g}/h", {"kind": kind, "quantity": FOUND}, ends=share))
-        columns.append(Column("delay [ms]", {"kind": kind, "quantity": DELAY}, digits=1))
+        columns.append(ViewColumn(f"found at {rate:g}/h", {"kind": kind, "quantity": FOUND}, ends=share))
+        columns.append(ViewColumn("delay [ms]", {"kind": kind, "quantity": DELAY}, digits=1))
     labels = {"level": "Level", "detector": "Detector"}
     view = View(labels, columns, blocks=("level",), note=" ".join(sentences))
     rows.write(table_dir / "found_by_rate", view)

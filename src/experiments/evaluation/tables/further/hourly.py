@@ -5,8 +5,8 @@ from pathlib import Path
 
 from experiments.evaluation.measure.estimates.changed import FLAGS, HOUR_S, WATCHED
 from experiments.evaluation.number.grid import AVERAGE, Lookup, Wanted, read_lookup
-from experiments.evaluation.number.intervals import rate_of
-from experiments.evaluation.tables.rows import Column, Rows, View, field_text
+from experiments.evaluation.number.single import rate_of
+from experiments.evaluation.tables.rows import Rows, View, ViewColumn, field_text
 from experiments.settings.measures import Changed
 from experiments.settings.runs import LegRuns, Statistics
 from experiments.settings.tables import Hourly
@@ -35,9 +35,9 @@ def hourly(
         found = rate_of(count, hours, statistics)
         rows.add(found, event=event, walks=walked, method=method, hours=hours, count=count)
     columns = [
-        Column("Hours", text=field_text("hours", ".2f")),
-        Column("Events", text=field_text("count")),
-        Column("In an hour", ends=f"{statistics.confidence:.0%}"),
+        ViewColumn("Hours", text=field_text("hours", ".2f")),
+        ViewColumn("Events", text=field_text("count")),
+        ViewColumn("In an hour", ends=f"{statistics.confidence:.0%}"),
     ]
     labels = {"event": "Event", "walks": "Walks", "method": "Method"}
     rows.write(table_dir / "hourly", View(labels, columns))

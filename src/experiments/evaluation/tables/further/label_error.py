@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from experiments.evaluation.number.number import Number
-from experiments.evaluation.tables.rows import Column, Rows, View
+from experiments.evaluation.tables.rows import Rows, View, ViewColumn
 from experiments.settings.tables import LabelError
 from mobnet.core.arrays import Array
 from mobnet.core.columns import EXTERNAL_LP, FEET, LABEL_ERROR, foot_of, named
@@ -56,8 +56,8 @@ def label_error(
     for (owner, label, phase), values in found.items():
         for joint, value in with_mean(joints, values):
             rows.add(Number(value, unit="N m"), robot=owner, label=label, phase=phase, joint=joint)
-    columns = [Column(joint, {"phase": WALK, "joint": joint}) for joint in (*joints, AVERAGE)]
-    columns += [Column(f"{AVERAGE}, {phase}", {"phase": phase, "joint": AVERAGE}) for phase in (SWING, GROUND)]
+    columns = [ViewColumn(joint, {"phase": WALK, "joint": joint}) for joint in (*joints, AVERAGE)]
+    columns += [ViewColumn(f"{AVERAGE}, {phase}", {"phase": phase, "joint": AVERAGE}) for phase in (SWING, GROUND)]
     view = View({"robot": "Robot", "label": "Label"}, columns, blocks=("robot",))
     rows.write(table_dir / "label_error", view)
 

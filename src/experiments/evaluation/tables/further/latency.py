@@ -10,7 +10,8 @@ from pathlib import Path
 
 import numpy as np
 
-from experiments.evaluation.number.intervals import RunGrid, share
+from experiments.evaluation.number.intervals import RunGrid
+from experiments.evaluation.number.single import share
 from experiments.evaluation.tables.layout import Table, write_table
 from experiments.settings.runs import Statistics
 from experiments.settings.tables import Latency

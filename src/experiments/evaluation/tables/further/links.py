@@ -4,7 +4,7 @@ from pathlib import Path
 
 from experiments.evaluation.measure.detection.results import ALL, CELLS, Detections, share_of, shown_tries
 from experiments.evaluation.number.number import Number
-from experiments.evaluation.tables.rows import Column, Rows, View, interval
+from experiments.evaluation.tables.rows import Rows, View, ViewColumn, interval
 from experiments.settings.detection_tables import Links
 from experiments.settings.runs import Statistics
 from mobnet.core.columns import DETECTION
@@ -35,13 +35,13 @@ def links(
                 both = share_of(own, lambda one: one.named == one.cell, statistics)
                 rows.add(link, **place, quantity=RIGHT_LINK, count=len(own))
                 rows.add(both, **place, quantity=RIGHT_CELL, count=len(own))
-    counts = [Column(cell, {"quantity": f"{NAMED} {cell}"}, digits=0) for cell in CELLS]
+    counts = [ViewColumn(cell, {"quantity": f"{NAMED} {cell}"}, digits=0) for cell in CELLS]
     link = {"quantity": RIGHT_LINK}
     share = f"{statistics.confidence:.0%} (link)"
     shares = [
-        Column("link", link),
-        Column("link and side", {"quantity": RIGHT_CELL}),
-        Column(share, link, text=interval),
+        ViewColumn("link", link),
+        ViewColumn("link and side", {"quantity": RIGHT_CELL}),
+        ViewColumn(share, link, text=interval),
     ]
     labels = {"level": "Level", "detector": "Detector", "cell": "Hit"}
     rows.write(table_dir / "links", View(labels, [*counts, *shares], blocks=("level", "detector")))

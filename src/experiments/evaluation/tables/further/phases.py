@@ -6,7 +6,7 @@ from pathlib import Path
 from experiments.evaluation.compare.masks import MOVING, STUCK
 from experiments.evaluation.compare.scene import STANCE, SWINGING, TOUCH_DOWN
 from experiments.evaluation.number.grid import read_lookup
-from experiments.evaluation.tables.rows import Column, average, by_limb, measured
+from experiments.evaluation.tables.rows import ViewColumn, average, by_limb, measured
 from experiments.settings.measures import Phases
 from experiments.settings.runs import Statistics
 from mobnet.core.joints import JointLayout
@@ -23,5 +23,5 @@ def phases(
     tests = [(test.scenario.replace("_", " "), test) for test in settings.tests]
     shown = {WHOLE: "all", **{f"{WHOLE}_{part}": head for part, head in PARTS.items()}}
     rows = measured(lookup, layout, tests, list(shown))
-    columns = [Column(head, average(metric)) for metric, head in shown.items()]
+    columns = [ViewColumn(head, average(metric)) for metric, head in shown.items()]
     rows.write(table_dir / "phases", by_limb("Test", columns))

@@ -19,7 +19,7 @@ from experiments.evaluation.measure.reaction.results import (
     printed_of,
     read_trials,
 )
-from experiments.evaluation.tables.rows import Column, Rows, View, field_text
+from experiments.evaluation.tables.rows import Rows, View, ViewColumn, field_text
 from experiments.plan.reactions import Reactions
 from experiments.settings.published import PublishedContacts
 from experiments.settings.reaction_tables import Safety
@@ -55,17 +55,17 @@ def safety(
             rows.add(number, **place, hit=hit, measure=measure, published=printed)
     share = f"{statistics.confidence:.0%}"
     columns = [
-        Column("touched", text=field_text("hit")),
-        Column("falls", {"measure": FALLS}, ends=share),
-        Column("first peak [N]", {"measure": PEAK}, 0, ends=share),
-        Column("its impulse [N s]", {"measure": FIRST}, 1),
-        Column("all contacts [N s]", {"measure": IMPULSE}, 1, ends=share),
-        Column("median", {"measure": MEDIAN}, 1),
-        Column(f"above {settings.heavy_ns:g} N s", {"measure": HEAVY}),
-        Column("alarm [ms]", {"measure": ALARM}, 0),
-        Column(f"within {settings.within_deg:g} deg", {"measure": WITHIN}),
-        Column("by (24)", {"measure": BASE_WITHIN}),
-        Column("before contact", {"measure": EARLY}),
+        ViewColumn("touched", text=field_text("hit")),
+        ViewColumn("falls", {"measure": FALLS}, ends=share),
+        ViewColumn("first peak [N]", {"measure": PEAK}, 0, ends=share),
+        ViewColumn("its impulse [N s]", {"measure": FIRST}, 1),
+        ViewColumn("all contacts [N s]", {"measure": IMPULSE}, 1, ends=share),
+        ViewColumn("median", {"measure": MEDIAN}, 1),
+        ViewColumn(f"above {settings.heavy_ns:g} N s", {"measure": HEAVY}),
+        ViewColumn("alarm [ms]", {"measure": ALARM}, 0),
+        ViewColumn(f"within {settings.within_deg:g} deg", {"measure": WITHIN}),
+        ViewColumn("by (24)", {"measure": BASE_WITHIN}),
+        ViewColumn("before contact", {"measure": EARLY}),
     ]
     labels = {"case": "Case", "line": "Detector", "thresholds": "thresholds"}
     rows.write(table_dir / "safety", View(labels, columns, blocks=("case",)))

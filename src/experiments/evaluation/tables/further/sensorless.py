@@ -12,7 +12,7 @@ from experiments.evaluation.measure.reaction.results import (
     read_trials,
     walked_of,
 )
-from experiments.evaluation.tables.rows import Column, Row, Rows, View, field_text
+from experiments.evaluation.tables.rows import NumberRow, Rows, View, ViewColumn, field_text
 from experiments.plan.reactions import Reactions
 from experiments.settings.reaction_tables import Sensorless
 from experiments.settings.runs import Statistics
@@ -46,19 +46,19 @@ def sensorless(settings: Sensorless, statistics: Statistics, reactions: Reaction
             rows.add(mean, **place, event=name, events=None)
     share = f"{statistics.confidence:.0%}"
     columns = [
-        Column("minutes", text=_minutes),
-        Column("falls", {"event": FALLEN}, text=field_text("events")),
-        Column("in an hour", {"event": FALLEN}, 1, ends=share),
-        Column("reactions", {"event": REACTED}, text=field_text("events")),
-        Column("in an hour", {"event": REACTED}, 1, ends=share),
-        Column("base's velocity [mm/s]", {"event": VELOCITY}, 1),
-        Column("swing leg [mrad]", {"event": TRACKING}, 1),
-        Column("power [W]", {"event": POWER}, 1),
+        ViewColumn("minutes", text=_minutes),
+        ViewColumn("falls", {"event": FALLEN}, text=field_text("events")),
+        ViewColumn("in an hour", {"event": FALLEN}, 1, ends=share),
+        ViewColumn("reactions", {"event": REACTED}, text=field_text("events")),
+        ViewColumn("in an hour", {"event": REACTED}, 1, ends=share),
+        ViewColumn("base's velocity [mm/s]", {"event": VELOCITY}, 1),
+        ViewColumn("swing leg [mrad]", {"event": TRACKING}, 1),
+        ViewColumn("power [W]", {"event": POWER}, 1),
     ]
     labels = {"wrench": "Feet's wrench", "detector": "Detector", "thresholds": "thresholds", "feed_forward": "fed"}
     rows.write(table_dir / "sensorless", View(labels, columns, left=3))
 
 
-def _minutes(row: Row) -> str:
+def _minutes(row: NumberRow) -> str:
     """Return for how long the robots of a row walked [min]."""
     return f"{MINUTES * float(row.place['hours'] or 0.0):.1f}"

@@ -8,7 +8,7 @@ from experiments.evaluation.measure.estimates.sigma import COVER, EXCURSION, STD
 from experiments.evaluation.number.grid import AVERAGE, Lookup, Wanted
 from experiments.evaluation.number.intervals import RATIO
 from experiments.evaluation.number.number import Number
-from experiments.evaluation.tables.rows import Column, Row, average, by_limb, measured, share_percent
+from experiments.evaluation.tables.rows import NumberRow, ViewColumn, average, by_limb, measured, share_percent
 from experiments.settings.measures import Sigma
 from experiments.settings.runs import Runs
 from mobnet.core.joints import JointLayout
@@ -48,15 +48,15 @@ def sigma_table(settings: Sigma, layout: JointLayout, lookup: Lookup, share: flo
                     rises = rises_of(settings, lookup, title, method, limb)
                     for metric, number in zip(RISES, rises, strict=True):
                         rows.show(number, title=title, limb=limb, method=method, metric=metric)
-    columns: list[Column] = []
+    columns: list[ViewColumn] = []
     for part, head in PARTS.items():
-        columns.append(Column(head if part else f"{share:.0%} {head}", average(COVER + part), text=share_percent))
-    columns.append(Column("excursion [ms]", average(EXCURSION), digits=0))
-    columns += [Column(head, {"metric": head}, text=_rise_text) for head in RISES]
+        columns.append(ViewColumn(head if part else f"{share:.0%} {head}", average(COVER + part), text=share_percent))
+    columns.append(ViewColumn("excursion [ms]", average(EXCURSION), digits=0))
+    columns += [ViewColumn(head, {"metric": head}, text=_rise_text) for head in RISES]
     rows.write(table_dir / "sigma", by_limb("Test", columns))
 
 
-def _rise_text(row: Row) -> str:
+def _rise_text(row: NumberRow) -> str:
     """Return a factor as text, nothing in a test that is compared with no other."""
     return row.number.text() if row.place else ""
 
