@@ -81,6 +81,7 @@ def demo_data(
     read |= {f"{name}.csv": path for name, path in detections.items()}
     sources = {name: _source(path) for name, path in read.items()}
     cut = {"from_row": rows.start, "to_row": rows.stop, **provenance()}
+    # The description comes last: whoever finds it finds every file that it lists.
     write_json(out, {"scale": scale, "sources": sources, "cut": cut})
     log.info("%s: %s, %d rows", out, settings.push, rows.stop - rows.start)
 

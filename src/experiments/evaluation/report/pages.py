@@ -39,6 +39,7 @@ def pages(
     Raises:
         DataError: a file is missing or damaged.
     """
+    # Only pages with a plain table are listed by title: the first page shows the claims themselves.
     claims_csv = table_dir / f"{CLAIMS}.csv"
     titles = dict[str, str]()
     for table, caption in zip(tables, captions, strict=True):

@@ -135,6 +135,7 @@ def paper(
     """
     pdf = out.with_name(f"{main.stem}.pdf")
     missing = missing_packages()
+    # A PDF of an earlier run must not pass for one of these tables where TeX fails.
     pdf.unlink(missing_ok=True)
     if missing:
         log.warning("%s: no PDF, TeX is not complete; install: apt-get install %s", pdf, " ".join(PACKAGES))

@@ -270,6 +270,7 @@ def store(manifest: Path) -> None:
             seeds, or a file is missing or damaged.
     """
     settings = load_settings()
+    # Everything is checked before the first file is replaced: a refused snapshot leaves the old one whole.
     check_run(RESULTS, manifest)
     check_fingerprints("all")
     plan = make_plan(settings, with_pdf=not missing_packages())
@@ -285,6 +286,7 @@ def store(manifest: Path) -> None:
     write_history(SEEDS, [*published, run])
     jobs = map(read_account, sorted((RESULTS / LOGS).rglob("*.json")))
     write_json(RATES, measured(plan, jobs).model_dump())
+    # The README quotes the tables that were just stored, so it comes last.
     tell_readme(SNAPSHOT)
 
 

@@ -69,6 +69,7 @@ def begin(scratch: Path, name: str, method: str, limb: str, settings: Mapping[st
     os.environ |= dict.fromkeys(WANDB_PLACES, str(scratch)) | {"WANDB_ERROR_REPORTING": "false"}
     import wandb  # reads its environment when imported
 
+    # Nothing of this machine goes into a run: two runs of the same results have the same files.
     quiet = wandb.Settings(
         x_disable_stats=True,
         x_disable_meta=True,

@@ -93,6 +93,7 @@ def draw_columns(
         draw_named_bars(below, own, unit, source=source)
         if k:
             below.tick_params(labelleft=False)
+    # Joints of one unit share its label; where units differ each title has its own.
     one = f" [{units[0]}]" if len(set(units)) == 1 else ""
     grid[0, 0].set_ylabel(f"torque{one}" if one else "torque or force")
     grid[1, 0].set_ylabel(f"error{one}")

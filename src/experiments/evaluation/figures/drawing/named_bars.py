@@ -85,6 +85,7 @@ def draw_named_dots(axis: Axes, rows: Sequence[NamedBar], x_label: str, at: floa
     axis.set_axisbelow(True)
     axis.tick_params(axis="y", length=0.0)
     axis.set(ylim=(len(rows) - 0.4, -0.6), xlabel=x_label)
+    # Without a number there is nothing to make room for.
     if not np.isfinite(value).any():
         return
     for place, row in enumerate(rows):
@@ -106,6 +107,7 @@ def draw_named_dots(axis: Axes, rows: Sequence[NamedBar], x_label: str, at: floa
                 zorder=4,
             )
             _number(axis, row, place, high[place])
+    # Room for the text of the number whose interval ends farthest to the right.
     left, right = axis.get_xlim()
     axis.set_xlim(left, right + NUMBER_ROOM / 2 * (right - left))
 

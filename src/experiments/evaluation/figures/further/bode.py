@@ -104,6 +104,7 @@ def draw_bode(
     blocks = -(-len(joints) // across)
     figure = Figure(figsize=(PAGE_INCH, row_inch * 2 * blocks + LEGEND_INCH), layout="constrained")
     axes = figure.subplots(2 * blocks, across, sharex=True, squeeze=False)
+    # The last block may have fewer joints than panels.
     for axis in axes.flat:
         axis.set_visible(False)
     for k, joint in enumerate(joints):

@@ -60,6 +60,7 @@ def commands(
         counts = {
             name: np.bincount(bin_of(values[:, column], edges), minlength=len(ends)) for name, values in found.items()
         }
+        # Percent of the steps, as sets have different numbers of them.
         first = next(iter(counts.values()))
         panels.append(Bars(label, edges, 100.0 * first / first.sum(), named_values(commands, column)))
         for name, own in counts.items():

@@ -97,10 +97,12 @@ def frames(
     step = 1.0 / (settings.frames_hz * settings.slower)
     for time_s in np.arange(*settings.shown_s, step):
         k = int(np.searchsorted(curves.time_s, time_s))
+        # The course may end before the time that a film shows.
         if k >= len(course.q):
             return
         for axis in axes:
             axis.clear()
+        # The picture goes along with the robot.
         centre = float((view @ course.q[k][:3])[0])
         draw_scene(axes[0], robot, obstacles, course, k, view)
         axes[0].set(xlim=(centre + ROOM_M[0], centre + ROOM_M[1]), ylim=ROOM_M[2:])
@@ -123,6 +125,7 @@ def draw_curves(axes: Sequence[Axes], curves: FilmCurves, settings: Films, case:
     torque.fill_between(times, estimated - std, estimated + std, color="#0072B2", alpha=0.25, linewidth=0)
     torque.plot(times, estimated, color="#0072B2", label="estimate, one sigma")
     torque.plot(times, curves.true[shown], color="black", linewidth=0.7, label="truth")
+    # Scales are those of the whole walk: they must not jump while curves scroll.
     both = np.concatenate([curves.estimated, curves.true])
     torque.set(ylabel=f"{settings.joints[case]} [N m]", ylim=(both.min() - 1.0, both.max() + 1.0))
     torque.legend(loc="upper left", ncols=2, frameon=False)

@@ -115,10 +115,12 @@ def draw_courses(courses: Sequence[CollisionCourse], joint: str) -> Figure:
         mark_flag(axis, "swing", course.time, course.swing)
         behind = axis.twinx()
         behind.fill_between(course.time, course.force, color="0.75", linewidth=0.0, zorder=0, label="force")
+        # The force takes the lower half of each panel, by one scale in all of them.
         behind.set_ylim(0.0, 2.0 * max(float(one.force.max()) for one in courses))
         behind.spines["right"].set_visible(True)
         behind.set_ylabel("force [N]" if axis is axes[-1] else "")
         behind.tick_params(labelright=axis is axes[-1])
+        # An axis that is made later is drawn above: curves must lie before the force.
         axis.set_zorder(behind.get_zorder() + 1)
         axis.patch.set_visible(False)
         low, high = (float(course.time[end]) for end in (0, -1))

@@ -125,6 +125,7 @@ def _draw(axis: Axes, panel: LimbPanel) -> None:
                 va="bottom",
                 fontsize=NUMBER_POINTS,
             )
+        # Room for the number above the highest interval of all methods.
         axis.set_ylim(0.0, max(axis.get_ylim()[1], ROOM * float(high.max(initial=0.0))))
     axis.set_xticks(places, panel.groups)
     axis.tick_params(axis="x", length=0.0)

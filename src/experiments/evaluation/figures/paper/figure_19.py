@@ -67,6 +67,7 @@ def draw_planes(planes: Sequence[Plane], outlined: float) -> Figure:
     """
     figure = Figure(figsize=(PAGE_INCH, 2 * ROW_INCH + LEGEND_INCH), layout="constrained")
     axes = figure.subplots(2, len(planes), squeeze=False)
+    # One scale of colours in all planes; a few extreme bins must not wash out the others.
     most = max(float(np.quantile(np.abs(plane.difference), SHOWN)) for plane in planes) or 1.0
     for k, (plane, above, below) in enumerate(zip(planes, *axes, strict=True)):
         drawn = _plane(above, plane, most)

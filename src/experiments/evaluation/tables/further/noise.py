@@ -40,6 +40,7 @@ def noise(
     read = read_scores(*scores)
     columns = columns_of(layout, settings.joints)
     readings = {}
+    # A reading of the noise is a level of its own, with one method.
     records = []
     for test in settings.tests:
         run = test.scenario, test.level, test.methods[0]

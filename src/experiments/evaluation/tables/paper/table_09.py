@@ -136,6 +136,7 @@ def _rows(
             number = mean_of([one for one in own if one.is_found], delay, statistics)
             paper = printed[DELAY_MS].get(cell) if quantity == DELAY and cell != ALL else None
             yield (*place, quantity, *number.with_ends, len(values), "ms", paper)
+    # The paper's average is that of its four cells, however many collisions each of them found.
     cells = [mean for own in _in_cells(tries).values() if (mean := _mean(_delays(own)))]
     average = sum(cells) / len(cells) if cells else None
     yield (
