@@ -18,7 +18,7 @@ from experiments.evaluation.measure.estimates.scores import measure_problems
 from experiments.evaluation.measure.learning.trainings import TrainingNote, read_training, read_training_note
 from experiments.evaluation.measure.reaction.results import read_file
 from experiments.evaluation.number.rows import read_detections, read_scores
-from experiments.jobs.estimates import method_problems
+from experiments.jobs.method_problems import method_problems
 from experiments.plan.places import scale_of
 from experiments.plan.plan import Stamped, make_plan
 from experiments.plan.precision import with_precision

@@ -7,7 +7,7 @@ import torch
 from made_notes import network_note
 from safetensors.torch import save_file
 
-from experiments.jobs.estimates import write_fit
+from experiments.jobs.fitting import write_fit
 from experiments.settings.catalogue import Catalogue
 from mobnet.core.files import WEIGHTS
 from mobnet.estimation.recipe import build_estimator

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import yaml
 
-from experiments.jobs.estimates import method_problems
+from experiments.jobs.method_problems import method_problems
 from experiments.settings.catalogue import Catalogue
 from experiments.settings.load import load_settings
 from mobnet.estimation import kinds

@@ -11,7 +11,7 @@ import pyarrow.parquet as pq
 import pytest
 
 from experiments.jobs.estimates import estimate
-from experiments.jobs.walks import observe
+from experiments.jobs.observing import observe
 from experiments.plan.parts import MethodRun
 from experiments.running.stage import Stage
 from experiments.settings.catalogue import Catalogue

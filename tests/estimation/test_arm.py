@@ -6,7 +6,7 @@ import mujoco
 import numpy as np
 import pytest
 
-from experiments.jobs.walks import observe
+from experiments.jobs.observing import observe
 from mobnet.core.columns import recording_columns
 from mobnet.core.errors import ConfigError
 from mobnet.core.recording import Recording, Sensed, Truth, read_recording, read_sensed, write_recording

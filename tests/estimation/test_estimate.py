@@ -10,7 +10,7 @@ from safetensors.numpy import save_file
 
 from experiments.jobs import estimates as estimates_module
 from experiments.jobs.estimates import estimate
-from experiments.jobs.walks import observe
+from experiments.jobs.observing import observe
 from experiments.plan.parts import MethodRun
 from experiments.running.stage import Stage
 from mobnet.core.errors import ConfigError, DataError

@@ -2,7 +2,7 @@
 
 import pytest
 
-from experiments.jobs.estimates import write_fit
+from experiments.jobs.fitting import write_fit
 from experiments.settings.catalogue import Catalogue
 from mobnet.core.errors import ConfigError
 from mobnet.core.files import read_json

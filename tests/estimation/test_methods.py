@@ -6,7 +6,7 @@ import sys
 
 import pytest
 
-from experiments.jobs.estimates import method_problems
+from experiments.jobs.method_problems import method_problems
 from mobnet.core.code import SOURCE, reached, start_of
 from mobnet.core.errors import DataError
 from mobnet.estimation.kinds.residual import ResidualEstimator
@@ -18,7 +18,7 @@ HEAVY = {"torch", "pinocchio", "numba", "scipy.signal", "scipy.optimize"}
 FRICTION = {"terms": ["coulomb"], "smoothing_rad_s": 0.02, "stribeck_rad_s": [0.1]}
 CHECK = """
 import sys
-from experiments.jobs.estimates import method_problems
+from experiments.jobs.method_problems import method_problems
 from experiments.settings.load import load_settings
 load_settings(further=method_problems)
 print(*sys.modules)

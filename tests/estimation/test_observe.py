@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from made_swings import unseen
 
-from experiments.jobs.walks import observe
+from experiments.jobs.observing import observe
 from mobnet.core.columns import residual_columns
 from mobnet.core.recording import Recording, write_recording
 from mobnet.core.store import read_array

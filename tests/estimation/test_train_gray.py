@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from made_steps import maker
 
-from experiments.jobs.estimates import write_fit
-from experiments.jobs.trainings import filtered_friction, train_gray
+from experiments.jobs.fitting import write_fit
+from experiments.jobs.train_gray import filtered_friction, train_gray
 from experiments.plan.parts import Repetition
 from experiments.plan.plan import make_plan
 from experiments.running.stage import Stage
@@ -83,7 +83,7 @@ def test_a_training_reads_the_fit_that_it_builds_upon_and_no_other_does(settings
     )
     assert [name for name in gray.inputs if "/fits/" in name] == ["results/smoke/fits/MOB-fric-load.json"]
     assert not [name for name in plain.inputs if "/fits/" in name]
-    assert (gray.call.module, plain.call.module) == ("experiments.jobs.trainings", "experiments.jobs.trainings")
+    assert (gray.call.module, plain.call.module) == ("experiments.jobs.train_gray", "experiments.jobs.trainings")
     estimate = maker(plan, "estimates", METHOD, "n0/hip_pitch_step/all_uncertainty/s101.parquet").job
     assert "results/smoke/fits/MOB-fric-load.json" in estimate.inputs
     assert "results/smoke/networks/MOB-Net-gray-LL-s0/weights.safetensors" in estimate.inputs

@@ -12,7 +12,7 @@ import pytest
 from made_notes import training_note
 
 from experiments.check import Against, check
-from experiments.jobs.walks import observe
+from experiments.jobs.observing import observe
 from mobnet.core.columns import Epoch, Score, torque_columns
 from mobnet.core.errors import MobnetError
 from mobnet.core.recording import write_recording

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from experiments.jobs.estimates import method_problems
+from experiments.jobs.method_problems import method_problems
 from experiments.settings import load
 from experiments.settings.load import load_settings
 from mobnet.settings.reading import Document

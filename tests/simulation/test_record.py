@@ -7,7 +7,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from experiments.jobs.walks import observe
+from experiments.jobs.observing import observe
 from mobnet.control.kinematics import update
 from mobnet.control.parameters import DURATION, STEP_X, STEP_Y, TURN
 from mobnet.control.walker import foot_yaw

@@ -12,7 +12,7 @@ from snakemake.settings.enums import RerunTrigger
 
 from experiments.evaluation.measure.estimates.scores import measure_problems
 from experiments.evaluation.report.paper import missing_packages
-from experiments.jobs.estimates import method_problems
+from experiments.jobs.method_problems import method_problems
 from experiments.plan.disk import check_places, check_space
 from experiments.plan.places import check_scale
 from experiments.plan.plan import make_plan

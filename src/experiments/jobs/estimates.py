@@ -1,34 +1,21 @@
 """The rule `estimate`: it runs methods on recordings, several side by side, and writes the external torque of each."""
 
-import logging
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
-
-from pydantic import ValidationError
 
 from experiments.plan.parts import MethodRun
 from experiments.plan.work import TOGETHER_S
 from experiments.running.stage import Stage
-from experiments.settings.catalogue import Catalogue
-from experiments.settings.settings import Settings
-from mobnet.core.errors import ConfigError, not_accepted
-from mobnet.core.files import WEIGHTS, write_json
-from mobnet.core.joints import JointLayout
+from mobnet.core.files import WEIGHTS
 from mobnet.core.notes import read_array_note
 from mobnet.core.store import NOTE, file_of, files_of
 from mobnet.estimation.estimate import ObservedRecording, only, rate_of, read_observed, run_segments, write_estimate
-from mobnet.estimation.recipe import Recipe, build_estimator, kind_names, kind_of, options_of
+from mobnet.estimation.recipe import Recipe, build_estimator
 from mobnet.learning.deployed.weights import std_scales
 from mobnet.robot.description import describe
-from mobnet.settings.base import Section
-from mobnet.settings.faults import problems
-from mobnet.settings.methods import Method, ObserverSettings
-from mobnet.settings.networks import Network
-from mobnet.settings.reading import Place
+from mobnet.settings.methods import ObserverSettings
 from mobnet.settings.robot import RobotTable
 from mobnet.settings.surrogate import Level
-
-log = logging.getLogger(__name__)
 
 
 def estimate(
@@ -103,53 +90,3 @@ def batches(recordings: Sequence[Path]) -> Iterator[slice]:
             held_s = 0.0
         held_s += duration_s
     yield slice(start, len(recordings))
-
-
-def method_problems(settings: Settings) -> Iterator[tuple[Place, str]]:
-    """Yield the place and the text of every kind, option or key of a method that its kind does not accept."""
-    tried = Catalogue(settings).tried
-    for name, method in {**settings.methods, **tried}.items():
-        place: Place = ("trials",) if name in tried else ("methods", name)
-        if method.kind not in kind_names():
-            yield (*place, "kind"), not_accepted("kind", method.kind, kind_names())
-            continue
-        kind = kind_of(name, method)
-        section = getattr(kind, "Options", Section)
-        try:
-            options = section.model_validate(method.options)
-        except ValidationError as error:
-            found = problems(error, section, method.options)
-            yield from (((*place, "options", *inner), text) for inner, text in found)
-        else:
-            check = getattr(kind, "check", None)
-            found = check(method, options, settings.rates.data_hz) if check else ()
-            yield from (((*place, *inner), text) for inner, text in found)
-
-
-def write_fit(
-    layout: JointLayout,
-    observer: ObserverSettings,
-    method: Method,
-    networks: Mapping[str, Network],
-    training: Mapping[str, Sequence[tuple[Path, Path]]],
-    out: Path,
-) -> None:
-    """Fit a method to training sets and write what `build` of its kind reads, as JSON; section 5.2 fits MOB-fric.
-
-    For each of the method's `fitted` limbs there are its network of Table 1, whose joints are fitted, and the stems of
-    the recordings and residuals of its training set.
-
-    Raises:
-        ConfigError: the method's kind is not one that is fitted, or the limbs are not those that the method names.
-        DataError: a recording is damaged.
-    """
-    kind = kind_of(out.stem, method)
-    if not hasattr(kind, "fit") or not method.fitted:
-        raise ConfigError(
-            f"{out}: method of kind {method.kind!r} with `fitted` {list(method.fitted)} is not fitted; "
-            "accepted: a kind with a function `fit`, and one or more limbs"
-        )
-    if set(method.fitted) != set(training):
-        raise ConfigError(not_accepted(f"{out}: limbs to fit", sorted(training), [sorted(method.fitted)]))
-    write_json(out, kind.fit(layout, observer, options_of(out.stem, method, kind.Options), networks, training))
-    log.info("%s: %s", out, ", ".join(method.fitted))

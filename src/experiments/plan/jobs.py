@@ -106,7 +106,7 @@ class Jobs:
             "training": training,
             "out": (out := self.files.results / "fits" / f"{method}.json"),
         }
-        call = Call("experiments.jobs.estimates:write_fit", arguments)
+        call = Call("experiments.jobs.fitting:write_fit", arguments)
         kinds = self._kinds(method)
         return Job(call, _read(training), kinds, {str(out): code_hash(*kinds)})
 
@@ -137,7 +137,7 @@ class Jobs:
             # Without a sensor a leg knows its external torque only where it surely touches nothing (note 0029).
             swings = self.settings.evaluation.changed
             arguments |= {"margins": (swings.lift_off_s, swings.landing_s)}
-        function = "experiments.jobs.trainings:train_gray" if fitted else "experiments.jobs.trainings:train_all"
+        function = "experiments.jobs.train_gray:train_gray" if fitted else "experiments.jobs.trainings:train_all"
         own = {f"{repetition.out}/{RUN}": repetition for repetition in repetitions}
         return self._staged(name, Job(Call(function, arguments), inputs, (), own, ("networks",)))
 
