@@ -7,10 +7,10 @@ from experiments.plan.jobs import walk_settings
 from experiments.warm import warm
 from mobnet.core.columns import COMMAND, FEET, recording_width
 from mobnet.core.recording import Sensed
-from mobnet.estimation.drive import follow
 from mobnet.estimation.first_order import decay
 from mobnet.estimation.kinds.dahl import bent
 from mobnet.estimation.observe import observer_of
+from mobnet.estimation.presliding import follow
 from mobnet.robot.description import describe
 from mobnet.robot.momentum import sweep
 from mobnet.simulation import engine

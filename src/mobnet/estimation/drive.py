@@ -19,24 +19,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array
-from mobnet.core.compilation import compiled
 from mobnet.settings.parts import FrictionRow
 
 NUMBERS = ("coulomb", "viscous", "load", "offset", "scale", "smoothing", "breakaway")  # in the order of the C library
-
-
-@compiled
-def follow(bend: Array, velocity: Array, angle: Array, dt: float, out: Array) -> None:
-    """Advance bends (n,), from -1 to 1, over samples of velocity (T, n) [rad/s], dt [s] apart; write each, (T, n).
-
-    The joints break away over an angle (n,) [rad].
-    """
-    for k in range(len(velocity)):
-        for j in range(len(bend)):
-            # (O19), exact for a velocity that is constant over the sample: stable for any angle and any velocity.
-            sign = 1.0 if velocity[k, j] > 0.0 else -1.0
-            bend[j] = sign + (bend[j] - sign) * np.exp(-abs(velocity[k, j]) * dt / angle[j])
-            out[k, j] = bend[j]
 
 
 @dataclass(frozen=True)
@@ -79,6 +64,8 @@ class DriveParameters:
 
 def bent(bend: Array, velocity: NDArray[Any], breakaway: Array, rate_hz: float) -> Array:
     """Advance bends (n,) over samples of velocity (T, n) [rad/s]; return them after each, (T, n)."""
+    from mobnet.estimation.presliding import follow  # numba: the workflow imports kinds before it starts
+
     out = np.empty(velocity.shape)
     follow(bend, np.ascontiguousarray(velocity, dtype=np.float64), breakaway, 1.0 / rate_hz, out)
     return out
