@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mobnet.core.errors import DataError
-from mobnet.robotlog.arrow import is_numeric, numbers
 from mobnet.robotlog.columns import MOST, LogColumn, check_memory, module_of
+from mobnet.robotlog.delimited import is_numeric, numbers
 
 
 class TableColumn(NamedTuple):
