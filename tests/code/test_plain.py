@@ -15,7 +15,7 @@ SOURCE = Path(__file__).parents[2] / "src"
 MOST_SKIPPED = 19  # places that the formatter leaves alone
 MOST_NESTED = 1.5  # nested comprehensions in 1000 lines
 MOST_AT_ONCE = 6.5  # assignments of several values at once in 1000 lines
-SMALL_LINES, MOST_SMALL = 60, 60  # lines of a small module, and how many of them there are
+SMALL_LINES, MOST_SMALL = 60, 61  # lines of a small module, and how many of them there are
 LONG_LINES, LEAST_COMMENTS = 12, 15.0  # lines of a long function; comments in 1000 lines of long functions
 # Name of a class -> why several modules have it.
 PROTOCOLS = {"Options": "the numbers of a kind or of a measure; the loader finds it by this name in each module"}

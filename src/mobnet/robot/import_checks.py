@@ -17,65 +17,23 @@ import pinocchio as pin
 from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array
-from mobnet.core.errors import DataError, not_accepted
-from mobnet.core.files import check_regular
+from mobnet.core.errors import DataError
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.dynamics import bias, mass_matrix
+from mobnet.robot.import_file import read_root
 from mobnet.robot.import_inertia import balanced
 from mobnet.robot.import_mjcf import GRAVITY, compiled, spec_of
 from mobnet.robot.import_tree import FREE
-from mobnet.robot.import_urdf import MOMENTS, expanding
+from mobnet.robot.import_urdf import MOMENTS
 from mobnet.robot.importing import Imported
 from mobnet.robot.nominal import NominalModel
 
-MOST_BYTES = 64 * 2**20  # of a file; the largest of public robots has 1 MB
-MOST_LEVELS = 500  # of elements in elements; MJCF nests bodies
-KINDS = {"robot": "URDF", "mujoco": "MJCF"}  # first element of a file
 POSES, SEED, SPEED = 5, 1, 2.0  # at which models are compared, and their largest velocity [m/s], [rad/s]
 LEAST_RAD_S2 = 1.0  # where no torque is larger, that of this acceleration is what a bias is a share of
 TURNING = (int(mujoco.mjtJoint.mjJNT_HINGE), int(mujoco.mjtJoint.mjJNT_SLIDE))
 BASE = 6  # velocities of a floating base
 Terms = Callable[[Array, Array], tuple[Array, Array]]  # (q, v) of a table -> its mass matrix, its bias
 FAULTS = (DataError, ValueError, RuntimeError, KeyError, IndexError, mujoco.FatalError)
-
-
-def read_root(path: Path) -> ET.Element:
-    """Return the first element of a robot's file, in the encoding that it declares.
-
-    Raises:
-        DataError: it is missing, cannot be read, is no XML, or no robot.
-    """
-    check_regular(path)
-    try:
-        with path.open("rb") as file:
-            content = file.read(MOST_BYTES + 1)
-    except OSError as error:
-        raise DataError(f"{path}: cannot be read: {error.strerror}; accepted: a URDF or MJCF file") from None
-    if len(content) > MOST_BYTES:
-        raise DataError(f"{path}: more than {MOST_BYTES // 2**20} MiB are not accepted; accepted: a URDF or MJCF file")
-    try:
-        root = _parsed(content)
-    except (ValueError, LookupError, ET.ParseError) as error:
-        made = f"a URDF, made by: {expanding(path)}" if b"<xacro:" in content else "a URDF or MJCF file"
-        raise DataError(f"{path}: {error}; accepted: {made}") from None
-    if root.tag not in KINDS:
-        accepted = [f"{kind} ({tag})" for tag, kind in KINDS.items()]
-        raise DataError(not_accepted(f"{path}: first element", root.tag, accepted))
-    return root
-
-
-def _parsed(content: bytes) -> ET.Element:
-    """Return the first element; a file that nests elements without end would end the process elsewhere."""
-    parser = ET.XMLPullParser(("start", "end"))
-    depth = 0
-    for start in range(0, len(content), 2**16):
-        parser.feed(content[start : start + 2**16])
-        for event in parser.read_events():
-            depth += 1 if event[0] == "start" else -1
-            if depth > MOST_LEVELS:
-                raise ValueError(f"more than {MOST_LEVELS} elements in each other are not accepted")
-    parser.close()
-    return ET.fromstring(content)
 
 
 def differences(

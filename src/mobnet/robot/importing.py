@@ -14,7 +14,7 @@ import numpy as np
 from mobnet.core.errors import DataError, not_accepted
 from mobnet.core.joints import N_VIRTUAL
 from mobnet.robot.import_base import RobotSelection, robot_of
-from mobnet.robot.import_checks import KINDS, read_root
+from mobnet.robot.import_file import KINDS, read_root
 from mobnet.robot.import_inertia import TOKEN_MASS, Mass, mass_of
 from mobnet.robot.import_mjcf import read_mjcf
 from mobnet.robot.import_names import limbs, title_of
