@@ -104,8 +104,10 @@ class Products:
 
     def _has_data(self, name: str) -> bool:
         """Return whether the file of the repository that a figure shows is there, if it shows one."""
-        needs = needs_of(self.files, row_of(self.settings.evaluation, name), self._section(name))
-        kept = needs.get(KEPT)
+        row = row_of(self.settings.evaluation, name)
+        if KEPT not in row.needs:
+            return True
+        kept = needs_of(self.files, row, self._section(name))[KEPT]
         return not isinstance(kept, Path) or kept.is_file()
 
     @property

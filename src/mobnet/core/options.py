@@ -23,7 +23,7 @@ def observe_parser() -> argparse.ArgumentParser:
         "`ros2 bag` wrote (docs/robots.md).",
     )
     parser.add_argument("log", type=Path, metavar="LOG", help="log of a robot")
-    parser.add_argument("--robot", type=Path, help="table of the robot (default: that of configs)")
+    add_robot(parser)
     parser.add_argument("--map", type=Path, help="what its columns mean (default: columns named as in docs/data.md)")
     parser.add_argument(
         "--torque",
@@ -34,6 +34,11 @@ def observe_parser() -> argparse.ArgumentParser:
     add_wrench(parser)
     parser.add_argument("--out", type=Path, help="folder of what is made (default: LOG's name with _observed, here)")
     return parser
+
+
+def add_robot(parser: argparse.ArgumentParser) -> None:
+    """Add the option that names the table of a robot."""
+    parser.add_argument("--robot", type=Path, help="table of the robot (default: that of configs)")
 
 
 def add_wrench(parser: argparse.ArgumentParser) -> None:
@@ -57,7 +62,7 @@ def learn_parser() -> argparse.ArgumentParser:
         epilog=f"labels, what is known of the external torque: {'; '.join(f'{k}: {v}' for k, v in LABELS.items())}.",
     )
     parser.add_argument("folders", type=Path, nargs="+", metavar="FOLDER", help=f"what `{command('observe')}` wrote")
-    parser.add_argument("--robot", type=Path, help="table of the robot (default: that of configs)")
+    add_robot(parser)
     parser.add_argument("--limb", help="limb of the robot (default: its only one)")
     parser.add_argument("--labels", default="free", help=f"{', '.join(LABELS)} (default: %(default)s)")
     parser.add_argument("--epochs", type=int, metavar="N", help="how long it learns (default: that of configs)")
@@ -74,7 +79,7 @@ def detect_parser() -> argparse.ArgumentParser:
         "the estimate with its standard deviation, and a plot of torque, thresholds and flags.",
     )
     parser.add_argument("log", type=Path, metavar="LOG", help=f"log of a robot, as `{command('observe')}` reads it")
-    parser.add_argument("--robot", type=Path, help="table of the robot (default: that of configs)")
+    add_robot(parser)
     parser.add_argument("--map", type=Path, help="what its columns mean (default: columns named as in docs/data.md)")
     parser.add_argument("--network", type=Path, metavar="NET", help="what `learn` wrote (default: the observer alone)")
     parser.add_argument("--thresholds", type=Path, required=True, metavar="FILE", help="what `calibrate --out` wrote")
@@ -98,7 +103,7 @@ def identify_parser() -> argparse.ArgumentParser:
         metavar="FOLDER",
         help=f"what `{command('observe')}` wrote, or a log as it reads it",
     )
-    parser.add_argument("--robot", type=Path, help="table of the robot (default: that of configs)")
+    add_robot(parser)
     parser.add_argument("--map", type=Path, help="what the columns of logs mean, where logs are given")
     parser.add_argument(
         "--scale", action="store_true", help="also find the factor of each motor's torque, such as a torque constant"
@@ -124,7 +129,7 @@ def motion_parser() -> argparse.ArgumentParser:
         description="Simulate a robot of a table whose joints move at random while it does not walk, and write its log "
         f"with the columns that {command('observe')} takes without a map (docs/robots.md).",
     )
-    parser.add_argument("--robot", type=Path, help="table of the robot (default: that of configs)")
+    add_robot(parser)
     parser.add_argument("--minutes", type=float, default=1.0, help="how long it moves (default: %(default)s)")
     parser.add_argument("--seed", type=int, default=1, help="of motion, pushes and noise (default: %(default)s)")
     parser.add_argument(
@@ -199,7 +204,7 @@ def calibrate_parser() -> argparse.ArgumentParser:
     parser.add_argument("--estimate", type=Path, action="append", default=[], help="its estimate by any method")
     parser.add_argument("--limb", "--leg", help="limb of the robot (default: the network's, the only one, or a leg)")
     parser.add_argument("--rate", type=float, default=1.0, help="wanted false alarms in an hour (default: %(default)s)")
-    parser.add_argument("--robot", type=Path, help="table of the robot (default: that of configs)")
+    add_robot(parser)
     parser.add_argument("--out", type=Path, metavar="FILE", help="write the thresholds there, YAML (default: nowhere)")
     return parser
 
@@ -214,7 +219,7 @@ def export_parser() -> argparse.ArgumentParser:
         epilog="docs/runtime.md says how these files are used from Python, C and ROS 2.",
     )
     parser.add_argument("network", type=Path, nargs="+", metavar="NET", help="folder of a trained network")
-    parser.add_argument("--robot", type=Path, help="table of the robot (default: that of configs)")
+    add_robot(parser)
     parser.add_argument(
         "--thresholds",
         type=Path,
