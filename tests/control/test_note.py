@@ -12,7 +12,7 @@ SOURCE = ROOT / "src"
 
 @pytest.mark.parametrize(("note", "letter", "code"), [
     ("0019-walking-controller", "W", ["mobnet/control/*.py", "mobnet/simulation/start.py"]),
-    ("0034-observer", "O", ["mobnet/estimation/**/*.py", "experiments/jobs/walks.py"]),
+    ("0034-observer", "O", ["mobnet/estimation/**/*.py", "experiments/jobs/observing.py"]),
     ("0035-networks", "N", ["mobnet/learning/**/*.py"]),
     ("0036-detection", "D", ["mobnet/detection/**/*.py", "experiments/jobs/*.py", "experiments/evaluation/**/*.py"]),
 ])  # fmt: skip
