@@ -12,7 +12,7 @@ from pathlib import Path
 
 from experiments.running.words import bench_parser
 from mobnet.core.files import atomic_path
-from mobnet.core.threads import one_thread
+from mobnet.core.machine import one_thread
 
 NAMES = (
     "collect_speed",

@@ -20,7 +20,7 @@ from experiments.plan.jobs import walk_settings
 from experiments.plan.seeds import FIRST_TRAINING_SEED
 from experiments.settings.load import load_settings
 from mobnet.core.compilation import compiled
-from mobnet.settings.walk import WalkSettings
+from mobnet.settings.walking import WalkSettings
 from mobnet.simulation.engine import LivePlant
 from mobnet.simulation.native import call_step
 from mobnet.simulation.record import collect

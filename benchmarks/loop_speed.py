@@ -12,7 +12,7 @@ from benchmarks.step_latency import six_networks
 from experiments.plan.jobs import walk_settings
 from experiments.settings.load import load_settings
 from experiments.settings.settings import Settings
-from mobnet.core.threads import one_thread
+from mobnet.core.machine import one_thread
 from mobnet.detection.chain import make_chain
 from mobnet.detection.detector import LegDetector, LegGate
 from mobnet.detection.signals import Watched

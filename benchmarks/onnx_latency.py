@@ -10,7 +10,7 @@ from benchmarks.step_latency import Row, model_of, row_of, six_networks, six_tra
 
 from experiments.settings.load import load_settings
 from experiments.settings.settings import Settings
-from mobnet.core.threads import one_thread
+from mobnet.core.machine import one_thread
 from mobnet.estimation.own import LearnedNote
 from mobnet.export.contract import ObserverContract
 from mobnet.export.export import RunTime, export

@@ -16,8 +16,8 @@ from experiments.settings.load import load_settings
 from experiments.settings.settings import Settings
 from mobnet.core.columns import COMMAND, FEET
 from mobnet.core.joints import NQ_BASE, JointLayout
+from mobnet.core.machine import one_thread
 from mobnet.core.recording import Sensed
-from mobnet.core.threads import one_thread
 from mobnet.estimation.kinds.residual import ResidualEstimator
 from mobnet.estimation.observe import observer_of
 from mobnet.learning.deployed.limbs import LimbNetworks

@@ -13,10 +13,10 @@ from typing import Any
 
 from benchmarks.__main__ import Row, misses, table
 
-from experiments.evaluation.measure.data.falls import falls_with
+from experiments.evaluation.measure.data.random_torque import falls_with
 from experiments.plan.jobs import walk_settings
 from experiments.settings.load import load_settings
-from mobnet.settings.walk import WalkSettings
+from mobnet.settings.walking import WalkSettings
 
 AMPLITUDES_NM, SECONDS, SEED = (25.0, 50.0, 75.0, 100.0), 900.0, 531
 TERRAINS = ("checks", "plates", "slope", "flat")

@@ -19,7 +19,7 @@ from torch.utils.data import DataLoader, TensorDataset
 from experiments.plan.precision import with_precision
 from experiments.settings.catalogue import Catalogue
 from experiments.settings.load import load_settings
-from mobnet.core.threads import one_thread
+from mobnet.core.machine import one_thread
 from mobnet.learning.features import limb_inputs
 from mobnet.learning.job import PRECISIONS, TrainingJob
 from mobnet.learning.losses import gaussian_loss

@@ -1,7 +1,6 @@
 """Made-up recordings: smooth random joint motion and an uncertainty torque that the inputs explain."""
 
 import logging
-import signal
 from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
@@ -12,6 +11,7 @@ from browser import BROWSER, Browser
 from made_swings import unseen
 from numpy.typing import NDArray
 from once import once
+from patience import hear_ctrl_c
 
 from experiments.evaluation.report.docs import docs
 from experiments.plan.plan import make_plan
@@ -37,12 +37,8 @@ Array = NDArray[np.float64]
 
 
 def pytest_configure() -> None:
-    """Let Ctrl-C reach what tests start, also where the tests run in the background.
-
-    A shell lets its background processes ignore it, and with them all that they start.
-    """
-    if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
-        signal.signal(signal.SIGINT, signal.default_int_handler)
+    """Let Ctrl-C reach what tests start, also where the tests run in the background."""
+    hear_ctrl_c()
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:

@@ -12,7 +12,7 @@ from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
-from experiments.evaluation.number.files import write_csv
+from experiments.evaluation.number.rows import write_csv
 from mobnet.core.columns import Score
 
 GOLDEN = Path(__file__).parent / "golden"

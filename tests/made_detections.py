@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from experiments.evaluation.measure.detection.results import CELLS
-from experiments.evaluation.number.files import write_csv
+from experiments.evaluation.number.rows import write_csv
 from experiments.settings.settings import Settings
 from mobnet.core.detections import (
     CALIBRATION,

@@ -5,9 +5,10 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from experiments.evaluation.report.explore_scenes import Shown
+from experiments.evaluation.measure.push_scene import PushScene
+from experiments.evaluation.report.explore_scenes import PagePush
+from experiments.plan.parts import PageScene
 from experiments.plan.runs import Run
-from experiments.plan.scenes import PageScene
 from mobnet.estimation.low_pass import low_pass
 from mobnet.robot.description import RobotDescription
 from mobnet.settings.data import Push
@@ -18,7 +19,7 @@ SWINGS = ((700, 1250), (2100, 2650), (3500, 4050))
 METHODS = ("MOB", "MOB-fric-dahl", "MOB-Net", "FTS-e2e")
 
 
-def pushed_scene(robot: RobotDescription, seed: int = 0, push: str = "Knee, in the air", plant: str = "a") -> Shown:
+def pushed_scene(robot: RobotDescription, seed: int = 0, push: str = "Knee, in the air", plant: str = "a") -> PagePush:
     """Return a scene in which the left knee is hit in the second of three swings; friction errs by 40 N m."""
     rng, joints, rows = np.random.default_rng(seed), robot.layout.limb("LL"), np.arange(ROWS)
     shape = np.where((rows >= START) & (rows < START + LENGTH), np.sin(np.pi * (rows - START) / LENGTH), 0.0)
@@ -36,12 +37,24 @@ def pushed_scene(robot: RobotDescription, seed: int = 0, push: str = "Knee, in t
     row = Push(point="left_knee_front", duration_s=(0.08, 0.08), force_n=(100.0, 100.0), shape="half_sine")
     scene = PageScene(push, plant, (run,), ("LL",), "LL3", 20.0, {"collision_left_knee_front": row})
     force = np.outer(shape[:: round(RATE_HZ / POSE_HZ)], [-150.0, 0.0, 80.0])
-    return Shown(
-        scene, joints, RATE_HZ, GAIN_HZ, 0, LEAD, START, START + LENGTH, "collision_left_knee_front",
-        truth, hit, estimates, {"MOB-Net": np.full(truth.shape, 3.0)},
-        {"swing": swing, "watched": watched, "pushed": flagged([(START, START + LENGTH)])},
-        poses(robot), np.tile([0.0, 0.0, 500.0], (450, 2)), force,
-    )  # fmt: skip
+    shown = PushScene(
+        joints=joints,
+        rate_hz=RATE_HZ,
+        gain_hz=GAIN_HZ,
+        first=0,
+        settled=LEAD,
+        start=START,
+        end=START + LENGTH,
+        truth=truth,
+        push=hit,
+        estimates=estimates,
+        stds={"MOB-Net": np.full(truth.shape, 3.0)},
+        flags={"swing": swing, "watched": watched, "pushed": flagged([(START, START + LENGTH)])},
+        q=np.zeros((ROWS, robot.layout.nq)),
+        force=np.outer(shape, [-150.0, 0.0, 80.0]),
+    )
+    wrenches = np.tile([0.0, 0.0, 500.0], (450, 2))
+    return PagePush(scene, "collision_left_knee_front", shown, poses(robot), wrenches, force)
 
 
 def flagged(spans: object) -> NDArray[np.bool_]:

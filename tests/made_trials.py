@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from experiments.evaluation.number.files import write_csv
+from experiments.evaluation.number.rows import write_csv
 from mobnet.core.course import course_columns
 from mobnet.core.joints import JointLayout
 from mobnet.core.reactions import NONE, TRIALS, Trial

@@ -1,5 +1,6 @@
 """How long tests wait, and how they tell what is quick: other programs may take most of the machine meanwhile."""
 
+import signal
 import subprocess
 import sys
 import time
@@ -22,3 +23,12 @@ def start_s() -> float:
     before = time.monotonic()
     subprocess.run([sys.executable, "-m", "snakemake", "--version"], check=True, capture_output=True)
     return time.monotonic() - before
+
+
+def hear_ctrl_c() -> None:
+    """Let Ctrl-C reach this process and all that it starts.
+
+    A shell lets its background processes ignore it, as `nohup` does, and with them all that they start.
+    """
+    if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+        signal.signal(signal.SIGINT, signal.default_int_handler)

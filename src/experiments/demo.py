@@ -15,7 +15,7 @@ from experiments.running.words import demo_parser
 from experiments.settings.load import load_settings
 from mobnet.core.code import ROOT
 from mobnet.core.errors import MobnetError, not_accepted
-from mobnet.core.estimator import Estimator
+from mobnet.core.estimator import TorqueEstimator
 from mobnet.core.recording import Sensed
 
 DATA = ROOT / "docs" / "demo"
@@ -24,7 +24,7 @@ ENDINGS = (".png", ".pdf", ".svg")
 log = logging.getLogger(__name__)
 
 
-def load(method: str = "MOB-Net", folder: Path = DATA) -> tuple[Estimator, Sensed]:
+def load(method: str = "MOB-Net", folder: Path = DATA) -> tuple[TorqueEstimator, Sensed]:
     """Return the estimator of a method, and samples of a walking robot that is pushed, to step through one by one.
 
     The estimator has `joints` (n,), `init()` and `step(state, sample)`, which returns the next state and an `Estimate`
@@ -57,17 +57,17 @@ def main(words: Sequence[str]) -> int:
     return 0
 
 
-def show(push: StoredPush, out: Path) -> None:
+def show(stored: StoredPush, out: Path) -> None:
     """Print what each method shows of a stored push, and write the picture.
 
     Raises:
         DataError: a file is missing or damaged, or the picture cannot be written.
     """
-    log.info("%s", title_of(push))
-    estimates = {method: push.estimate(method) for method in push.story.methods}
-    for line in lines_of(push, estimates):
+    log.info("%s", title_of(stored))
+    push = stored.scene({method: stored.estimate(method) for method in stored.story.methods})
+    for line in lines_of(stored, push):
         log.info("%s", line)
-    draw(push, estimates, out)
+    draw(stored, push, out)
     log.info("%s", out)
 
 

@@ -21,8 +21,7 @@ from experiments.settings.settings import Settings
 from mobnet.control.upper_body import UpperBody
 from mobnet.core.code import ROOT
 from mobnet.core.errors import ConfigError, DrawingError, MobnetError, not_accepted
-from mobnet.robot.description import WalkingRobot
-from mobnet.robot.looks import dressed
+from mobnet.robot.description import WalkingRobot, dressed
 from mobnet.settings.lab import CONFIGS
 from mobnet.simulation.clip import check_ending, save_clip
 from mobnet.simulation.record import REPORT_WALL_S, read_motion

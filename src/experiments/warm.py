@@ -23,7 +23,7 @@ from mobnet.robot.description import WalkingRobot
 from mobnet.robot.nominal import NominalModel
 from mobnet.robot.wrench import feet_torque
 from mobnet.settings.detection import Detection
-from mobnet.settings.walk import WalkSettings
+from mobnet.settings.walking import WalkSettings
 from mobnet.simulation.simulator import Simulator
 
 SAMPLES = 9  # more than the observer takes side by side

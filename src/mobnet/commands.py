@@ -5,21 +5,22 @@ is not installed is named in one line.
 """
 
 import argparse
-import difflib
 import sys
 from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
-from mobnet.core.errors import ConfigError, not_accepted
-from mobnet.core.extras import with_extra
-from mobnet.core.place import PROGRAM, version
-from mobnet.detection.words import calibrate_parser
-from mobnet.export.words import export_parser
-from mobnet.robot.import_words import import_parser
-from mobnet.robotlog.identify_words import identify_parser
-from mobnet.robotlog.learning_words import detect_parser, learn_parser
-from mobnet.robotlog.motion_words import motion_parser
-from mobnet.robotlog.words import observe_parser
+from mobnet.core.errors import ConfigError, unknown_command
+from mobnet.core.options import (
+    calibrate_parser,
+    detect_parser,
+    export_parser,
+    identify_parser,
+    import_parser,
+    learn_parser,
+    motion_parser,
+    observe_parser,
+)
+from mobnet.core.place import PROGRAM, version, with_extra
 
 
 class Command(NamedTuple):
@@ -83,9 +84,7 @@ def main(words: Sequence[str] | None = None) -> int:
     if first.startswith("-"):
         overview(commands).parse_args([first])
     if first not in commands:
-        near = difflib.get_close_matches(first, commands, 1)
-        hint = f"; did you mean {near[0]}?" if near else ""
-        overview(commands).error(not_accepted("command", first, commands) + hint)
+        overview(commands).error(unknown_command(first, commands))
     if {"-h", "--help"} & set(others):
         commands[first].parser().parse_args(["--help"])
     try:

@@ -19,8 +19,8 @@ from mobnet.core.columns import recording_columns
 from mobnet.core.errors import ConfigError, DataError, not_accepted
 from mobnet.core.errors import MobnetError as MobnetError
 from mobnet.core.estimator import Estimate
-from mobnet.core.extras import with_extra
 from mobnet.core.files import RUN
+from mobnet.core.place import with_extra
 from mobnet.core.recording import Recording, Sensed, SensedRecording, Truth, read_sensed
 from mobnet.core.recording import write_recording as write_whole
 from mobnet.detection import contact
@@ -35,8 +35,7 @@ from mobnet.export.contract import CONTRACT
 from mobnet.learning.deployed.limbs import load_limb_networks
 from mobnet.reaction.handler import Handler, Reacted
 from mobnet.reaction.watchers import LegWatcher, LimbWatcher, some
-from mobnet.robot.description import RobotDescription
-from mobnet.robot.given import given_robot
+from mobnet.robot.description import RobotDescription, given_robot
 from mobnet.robot.nominal import NominalModel
 from mobnet.settings.base import TorqueKind
 from mobnet.settings.lab import Lab, load_lab
@@ -87,10 +86,16 @@ class Robot:
         return cls(with_extra("mobnet.robot.import_table").read_robot(path))
 
     def sample(
-        self, q: ArrayLike, v: ArrayLike, tau_motor: ArrayLike, tau_des: ArrayLike | None = None,
-        acc: ArrayLike | None = None, swing: ArrayLike | None = None, landing: ArrayLike | None = None,
+        self,
+        q: ArrayLike,
+        v: ArrayLike,
+        tau_motor: ArrayLike,
+        tau_des: ArrayLike | None = None,
+        acc: ArrayLike | None = None,
+        swing: ArrayLike | None = None,
+        landing: ArrayLike | None = None,
         command: ArrayLike | None = None,
-    ) -> Sensed:  # fmt: skip
+    ) -> Sensed:
         """Return what the robot senses at one tick (1-D arrays), or at T ticks (2-D); what is not given is zero.
 
         Args:
@@ -107,9 +112,15 @@ class Robot:
             DataError: an array has another shape, or a number is not finite.
         """
         given = {
-            "q": q, "v": v, "tau_motor": tau_motor, "tau_des": tau_motor if tau_des is None else tau_des, "acc": acc,
-            "swing": swing, "landing": landing, "command": command,
-        }  # fmt: skip
+            "q": q,
+            "v": v,
+            "tau_motor": tau_motor,
+            "tau_des": tau_motor if tau_des is None else tau_des,
+            "acc": acc,
+            "swing": swing,
+            "landing": landing,
+            "command": command,
+        }
         values = {}
         for name, array in given.items():
             field = FIELDS.get(name, name)
@@ -202,10 +213,8 @@ class Estimator:
                 raise DataError(f"{one.folder}: {text}")
             of_limbs[one.limb] = one.folder
         together = load_limb_networks(of_limbs, layout)
-        nominal = NominalModel(robot.description, gravity_m_s2=numbers.plant.gravity_m_s2)
-        sampling = first.sampling
-        observer = MomentumObserver(nominal, sampling.gain_hz, sampling.rate_hz, sampling.torque)
-        return cls(ResidualEstimator(observer, layout, together), sampling.rate_hz)
+        gravity_m_s2 = numbers.plant.gravity_m_s2
+        return cls(estimator_of(robot.description, gravity_m_s2, first.sampling, together), first.sampling.rate_hz)
 
     def init(self) -> Any:
         """Return the state before the first sample."""
@@ -255,9 +264,7 @@ class Detector:
         self.reset()
 
     @classmethod
-    def from_files(
-        cls, robot: Robot, network: str | Path | None, thresholds: str | Path
-    ) -> "Detector":  # fmt: skip
+    def from_files(cls, robot: Robot, network: str | Path | None, thresholds: str | Path) -> "Detector":
         """Read the network of `mobnet learn`, None for the observer alone, and the thresholds of `mobnet calibrate`.
 
         Thresholds that are those of the observer alone leave the network out, as `mobnet detect` does.
@@ -275,7 +282,8 @@ class Detector:
         sampling = sampling_of(found)
         if own:
             check_sampling(path, sampling, own.sampling, own.folder)
-        return cls(description, estimator_of(description, numbers.plant.gravity_m_s2, sampling, own), found)
+        estimator = estimator_of(description, numbers.plant.gravity_m_s2, sampling, own and own.networks)
+        return cls(description, estimator, found)
 
     def reset(self) -> None:
         """Begin anew, as after a gap in the samples."""
@@ -306,12 +314,12 @@ class ContactFinder:
             ConfigError: limb or joints are unknown, or the limb has no shapes.
         """
         own = robot.description.layout.limb(limb) if joints is None else tuple(joints)
-        self._finder = contact.ContactFinder.of(lab().contact_point, robot.description, limb, own)
+        self._finder = contact.ContactLocator.of(lab().contact_point, robot.description, limb, own)
         self.joints = self._finder.joints
 
     def locate(
         self, q: NDArray[Any], tau: NDArray[Any], std: NDArray[Any], standing: Sequence[str] = ()
-    ) -> Contact | None:  # fmt: skip
+    ) -> Contact | None:
         """Return the contact that explains external torques; None where no force that presses does.
 
         Args:
@@ -335,9 +343,13 @@ class ReactionHandler:
     """The pipeline of section 7 in a walking controller: which steps answer a push, sample by sample."""
 
     def __init__(
-        self, robot: Robot, estimator: Estimator, detectors: Sequence[Detector], foot_spacing_m: float,
+        self,
+        robot: Robot,
+        estimator: Estimator,
+        detectors: Sequence[Detector],
+        foot_spacing_m: float,
         strategy: Strategy = "compliant",
-    ) -> None:  # fmt: skip
+    ) -> None:
         """Make a handler.
 
         Args:
@@ -413,9 +425,13 @@ def read_recording(path: str | Path, robot: Robot) -> SensedRecording:
 
 
 def write_recording(
-    path: str | Path, robot: Robot, samples: Sensed, rate_hz: float,
-    segments: Sequence[tuple[int, int]] | None = None, tau_ext: NDArray[Any] | None = None,
-) -> None:  # fmt: skip
+    path: str | Path,
+    robot: Robot,
+    samples: Sensed,
+    rate_hz: float,
+    segments: Sequence[tuple[int, int]] | None = None,
+    tau_ext: NDArray[Any] | None = None,
+) -> None:
     """Write NAME.parquet and NAME.json, which `mobnet learn`, `calibrate` and `read_recording` take.
 
     Args:
@@ -441,7 +457,7 @@ def write_recording(
 
 def export_networks(
     folders: Sequence[str | Path], robot: Robot, out: str | Path, thresholds: Sequence[str | Path] = ()
-) -> Path:  # fmt: skip
+) -> Path:
     """Write networks as ONNX files, the model of the C library, and their contract, as `mobnet export` does.
 
     Args:

@@ -10,7 +10,7 @@ import pytest
 
 from experiments.commands import install
 from experiments.commands import tools as tooling
-from experiments.commands.builds import wanted_build
+from experiments.commands.install import wanted_build
 from experiments.commands.setup import LOCKS
 from experiments.commands.tell import is_unreachable
 from mobnet.core.errors import CommandError

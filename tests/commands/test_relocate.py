@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from experiments.commands.relocate import ACTIVATED, HEADER, relocate
+from experiments.commands.install import ACTIVATED, HEADER, relocate
 
 BODY = "# -*- coding: utf-8 -*-\nprint('never run')\n"
 HEADERS = {

@@ -129,7 +129,7 @@ def test_a_repair_keeps_the_build(project, stubs):
 
 
 def test_too_little_disk_is_told_before_anything_is_loaded(project, monkeypatch):
-    from experiments.commands.builds import check_disk
+    from experiments.commands.install import check_disk
 
     monkeypatch.setattr("shutil.disk_usage", lambda _: type("Usage", (), {"free": 1.2e9})())
     with pytest.raises(CommandError, match=r"1\.2 GB free, 3\.6 GB needed"):

@@ -10,7 +10,7 @@ from safetensors.torch import save_file
 from experiments.jobs.fitting import write_fit
 from experiments.settings.catalogue import Catalogue
 from mobnet.core.files import WEIGHTS
-from mobnet.estimation.methods import build_estimator
+from mobnet.estimation.recipe import build_estimator
 from mobnet.learning.deployed.weights import NOTE
 from mobnet.learning.features import limb_inputs
 from mobnet.learning.model import build_network

@@ -33,7 +33,7 @@ from experiments.evaluation.compare.pair import Pair
 from experiments.evaluation.compare.scene import Scene
 from experiments.evaluation.measure.estimates import run_errors
 from experiments.evaluation.measure.estimates.scores import measured
-from experiments.evaluation.measure.registry import measure_problems
+from experiments.evaluation.measure.estimates.scores import measure_problems
 from experiments.plan.plan import make_plan
 from experiments.settings.load import load_settings
 
@@ -150,7 +150,8 @@ def told(copy):
 def test_each_task_of_the_guide_touches_few_files():
     assert [block.file for block in SCENARIO] == [DATA, DATA]
     assert [[*yaml.safe_load(b.text)] for b in (*SCENARIO, *ERRORS)] == [["plates_walk"], ["plates"], ["roughness"]]
-    assert [block.file for block in (*ERRORS, MEASURE[1])] == [EVALUATION] * 2
+    assert [block.file for block in (*ERRORS, MEASURE[2])] == [EVALUATION] * 2
+    assert MEASURE[1].file == "src/experiments/settings/metrics.py"
     assert Path(MEASURE[0].file).parent == Path("src/experiments/evaluation/measure/estimates")
     assert len({block.file for block in FIGURE if not block.file.startswith("tests/")}) == 3
 

@@ -147,7 +147,7 @@ def test_code_that_does_not_exist_is_named(root: Path, name: str) -> None:
 
 def test_notes_of_provenance_do_not_count() -> None:
     assert [file.name for file in module_files("mobnet.core.files")] == ["__init__.py", "__init__.py", "files.py"]
-    assert not module_files("mobnet.core.provenance.provenance")
+    assert not module_files("mobnet.core.code.provenance")
 
 
 def test_without_a_lock_no_package_counts(root: Path) -> None:

@@ -7,7 +7,7 @@ import yaml
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mobnet.core.flow import flow
+from mobnet.robot.table_file import flow
 from mobnet.settings.reading import read_yaml
 
 TEXTS = [

@@ -1,5 +1,7 @@
 """The layout of the generalized velocity is that of Figure 4, and unknown names are refused."""
 
+from itertools import chain
+
 import numpy as np
 import pytest
 
@@ -17,6 +19,11 @@ def test_groups_partition_the_joints_and_columns_are_the_inverse_of_names(layout
     assert sorted(members) == sorted(layout.names)
     order = np.random.default_rng(0).permutation(layout.nv)
     np.testing.assert_array_equal(layout.columns([layout.names[i] for i in order]), order)
+
+
+def test_each_joint_has_the_limb_that_holds_it(layout: JointLayout) -> None:
+    assert tuple(layout.limb_of) == tuple(chain.from_iterable(layout.groups.values()))
+    assert all(joint in layout.limb(limb) for joint, limb in layout.limb_of.items())
 
 
 def test_unknown_limb_and_joint_are_named(layout: JointLayout) -> None:

@@ -11,11 +11,11 @@ from mobnet.detection.always import alike, always_on, always_watched, setup_of, 
 from mobnet.detection.calibration import QuietWalk, rate_scales
 from mobnet.detection.signals import Watched
 from mobnet.detection.watch import LegSetup
-from mobnet.settings.detection import Detector
+from mobnet.settings.detection import DetectorSettings
 
 RATE_HZ, SECONDS = 10.0, 1800
 RECORDINGS, RESAMPLES = 40, 60
-WATCHED = Watched(Detector(method="MOB", signals=("mean",)))
+WATCHED = Watched(DetectorSettings(method="MOB", signals=("mean",)))
 
 
 def slow(rng, rows, lasts_s, spread=0.25):
@@ -86,7 +86,7 @@ def test_numbers_that_rise_and_fall_are_alike_and_independent_ones_are_not():
 
 def test_too_short_a_recording_is_one_line_that_says_how_long_it_must_be(recorded, arm_setup):
     read, estimate = recorded(slow(np.random.default_rng(0), round(100 * RATE_HZ), 0.02))
-    message = "seconds of free motion, in windows of 1 s: 99.0 is not accepted; accepted: 200 or more"
+    message = "99 s of free motion, in windows of 1 s; 200 s or more are needed"
     with pytest.raises(DataError, match=message):
         always_watched(arm_setup, WATCHED, [None], [read], [estimate], 1.0, 0.5)
 

@@ -7,7 +7,7 @@ import pytest
 from made_contacts import pushed
 
 from mobnet.core.errors import ConfigError, DataError
-from mobnet.detection.contact import ContactFinder
+from mobnet.detection.contact import ContactLocator
 from mobnet.detection.surface import carried_by, surface_of
 from mobnet.robot.wrench import feet_torque
 from mobnet.settings.parts import ShapeRow
@@ -28,7 +28,7 @@ def q(robot):
 
 @pytest.fixture(scope="module")
 def finder(settings, robot):
-    return ContactFinder.of(settings.contact_point, robot, "LL", robot.layout.limbs(["LL", "RL", "V"]))
+    return ContactLocator.of(settings.contact_point, robot, "LL", robot.layout.limbs(["LL", "RL", "V"]))
 
 
 def hit(robot, q, name, size=FORCE_N):
@@ -70,7 +70,7 @@ def test_the_wrench_of_the_ground_on_the_other_foot_changes_nothing(robot, finde
 
 
 def test_the_torques_of_the_leg_alone_tell_less(settings, robot, finder, q):
-    alone = ContactFinder.of(settings.contact_point, robot, "LL", robot.layout.limb("LL"))
+    alone = ContactLocator.of(settings.contact_point, robot, "LL", robot.layout.limb("LL"))
     for name in ("left_knee_side", "left_ankle_side"):
         torque, _ = hit(robot, q, name)
         assert located(alone, q, torque).spread_m > 1.2 * located(finder, q, torque).spread_m
@@ -113,7 +113,7 @@ def test_an_arm_on_a_wall_feels_where_it_is_pressed(settings, arm):
     ends = {"upper": [0.0, 0.0, 0.0, 0.45, 0.0, 0.0], "lower": [0.0, 0.0, 0.0, 0.4, 0.0, 0.0]}
     rows = [{"name": name, "body": name, "segment": segment, **common} for name, segment in ends.items()]
     robot = replace(arm, shapes=tuple(map(ShapeRow.model_validate, rows)))
-    finder = ContactFinder.of(settings.contact_point, robot, "A", robot.layout.limb("A"))
+    finder = ContactLocator.of(settings.contact_point, robot, "A", robot.layout.limb("A"))
     q = np.array([0.3, 0.8])
     torque = pushed(robot, q, "lower", [0.3, 0.0, 0.03], np.array([0.0, 0.0, -60.0]))
     contact = finder.locate(q, torque, np.full(2, 0.1))
@@ -143,9 +143,9 @@ def test_a_body_without_a_joint_is_carried_by_the_one_above(robot):
 
 def test_what_is_not_there_is_refused(settings, robot, finder, arm, q):
     with pytest.raises(ConfigError, match="no `shapes` of limb A"):
-        ContactFinder.of(settings.contact_point, arm, "A", arm.layout.limb("A"))
+        ContactLocator.of(settings.contact_point, arm, "A", arm.layout.limb("A"))
     with pytest.raises(ConfigError, match="joint: 'LL7'"):
-        ContactFinder.of(settings.contact_point, robot, "LL", ["LL7"])
+        ContactLocator.of(settings.contact_point, robot, "LL", ["LL7"])
     with pytest.raises(DataError, match=r"shapes \(18,\)"):
         finder.locate(q, np.zeros(6), np.ones(6))
     with pytest.raises(ConfigError, match="the base is not accepted"):

@@ -13,7 +13,7 @@ from mobnet.core.errors import DataError
 from mobnet.core.recording import Recording, write_recording
 from mobnet.core.store import write_array
 from mobnet.detection.leg import make_leg, unit_torques
-from mobnet.settings.detection import Detector
+from mobnet.settings.detection import DetectorSettings
 
 POINTS = ("left_foot_front", "left_foot_side", "left_ankle_front", "left_knee_side")
 PEAK, LENGTH, LATE = 150.0, 78, 150  # of a hit [N], in samples, and samples after lift-off
@@ -26,12 +26,12 @@ def section(settings):
     """Detectors of an estimate without and with standard deviations, and of one that sees nothing."""
     numbers = settings.detection.thresholds.model_copy(update={"least_swings": 10, "resamples": 50})
     detectors = {
-        "mean": Detector(method="MOB-Net", signals=("mean",)),
-        "OR": Detector(method="MOB-Net", signals=("mean", "std")),
-        "norm": Detector(method="MOB-Net", signals=("mean",), norm=True),
-        "phases": Detector(method="MOB-Net", signals=("mean",), phases=4),
-        "command": Detector(method="MOB-Net", signals=("mean",), commanded=True),
-        "blind": Detector(method="MOB", signals=("mean",)),
+        "mean": DetectorSettings(method="MOB-Net", signals=("mean",)),
+        "OR": DetectorSettings(method="MOB-Net", signals=("mean", "std")),
+        "norm": DetectorSettings(method="MOB-Net", signals=("mean",), norm=True),
+        "phases": DetectorSettings(method="MOB-Net", signals=("mean",), phases=4),
+        "command": DetectorSettings(method="MOB-Net", signals=("mean",), commanded=True),
+        "blind": DetectorSettings(method="MOB", signals=("mean",)),
     }
     return settings.detection.model_copy(update={"thresholds": numbers, "detectors": detectors})
 
@@ -160,7 +160,7 @@ def test_a_signal_that_never_changes_is_told(section, settings, walks, tmp_path,
     rows = len(swinging(settings.layout, SWINGS))
     still = {**long.estimates, "MOB": (write_still(tmp_path / "still", rows),)}
     spoilt = {**walks, "long_walk": Walk(long.recordings, long.residuals, still, {})}
-    with pytest.raises(DataError, match=r"signal mean\.LL4: every number: 2.0 is not accepted; accepted: numbers that"):
+    with pytest.raises(DataError, match=r"signal mean\.LL4 is always 2\.0; numbers that change are needed"):
         detect(section.model_copy(update={"legs": ("LL",)}), settings.robot, RATE_HZ, spoilt, tmp_path)
 
 
@@ -184,4 +184,4 @@ def test_detectors_of_a_leg_that_is_never_watched_are_left_out(section, settings
     detect(left, settings.robot, RATE_HZ, walks, tmp_path)
     assert read_table(tmp_path / "thresholds.csv") == []
     assert len(read_table(tmp_path / "collisions.csv")) == len(POINTS)
-    assert "LL, mean is left out: swings in which the leg is watched: 'none' is not accepted" in caplog.text
+    assert "LL, mean is left out: the leg is watched in none of the swings that calibrate" in caplog.text

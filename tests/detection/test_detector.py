@@ -10,16 +10,16 @@ from mobnet.core.estimator import Estimate
 from mobnet.detection.chain import make_chain
 from mobnet.detection.detector import ALARM_RATIO, LegDetector
 from mobnet.detection.signals import Watched, whitening_of
-from mobnet.settings.detection import Detector
+from mobnet.settings.detection import DetectorSettings
 
 STEP_S = 50e-6  # a step may take
 ROWS = {
-    "mean": Detector(method="MOB", signals=("mean",)),
-    "OR": Detector(method="MOB-Net", signals=("mean", "std")),
-    "ratio": Detector(method="MOB-Net", signals=("ratio",)),
-    "norm": Detector(method="MOB-Net", signals=("mean",), norm=True),
-    "phases": Detector(method="MOB-Net", signals=("mean", "std"), phases=8),
-    "command": Detector(method="MOB-Net", signals=("mean",), commanded=True),
+    "mean": DetectorSettings(method="MOB", signals=("mean",)),
+    "OR": DetectorSettings(method="MOB-Net", signals=("mean", "std")),
+    "ratio": DetectorSettings(method="MOB-Net", signals=("ratio",)),
+    "norm": DetectorSettings(method="MOB-Net", signals=("mean",), norm=True),
+    "phases": DetectorSettings(method="MOB-Net", signals=("mean", "std"), phases=8),
+    "command": DetectorSettings(method="MOB-Net", signals=("mean",), commanded=True),
 }
 
 

@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 
-from mobnet.detection.isolation import name_push
-from mobnet.detection.sensitivity import smallest_forces
+from mobnet.detection.points import name_push, smallest_forces
 
 UNITS = np.array([[0.5, 0.0, 0.7, 0.0, 0.0, 0.0], [0.4, 0.0, 0.6, 0.3, 0.0, 0.0], [0.0, 0.8, 0.0, 0.0, 0.0, 0.1]])
 

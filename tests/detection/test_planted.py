@@ -8,12 +8,22 @@ import pytest
 
 from mobnet.core.estimator import Estimate
 from mobnet.core.recording import Sensed, SensedRecording
-from mobnet.detection.choice import ALONE, BARE, NETWORK, SEED, Tried, best_of, lines_of, pushing_of, tried_on_pushes
+from mobnet.detection.choice import (
+    ALONE,
+    BARE,
+    NETWORK,
+    SEED,
+    DetectorCandidate,
+    best_of,
+    lines_of,
+    pushing_of,
+    tried_on_pushes,
+)
 from mobnet.detection.limb import OwnRecording, calibrate_limb
 from mobnet.detection.planted import found_pushes, plant
 from mobnet.detection.signals import Watched
 from mobnet.robot.nominal import NominalModel
-from mobnet.settings.detection import Detector
+from mobnet.settings.detection import DetectorSettings
 
 SECONDS, RATE_HZ, GAIN_HZ, RATE_PER_H = 240, 100.0, 100.0, 60.0
 ROWS = round(SECONDS * RATE_HZ)
@@ -37,7 +47,7 @@ def tried(arm, quick):
 
     def make(size, name=ALONE, **options):
         own = [OwnRecording(Path("log"), read, Estimate(size * noise, np.ones((ROWS, 2))))]
-        return Tried(name, calibrate_limb(own, arm, "A", "mean", RATE_PER_H, quick), own, **options)
+        return DetectorCandidate(name, calibrate_limb(own, arm, "A", "mean", RATE_PER_H, quick), own, **options)
 
     return make
 
@@ -64,7 +74,7 @@ def test_an_estimate_without_error_finds_every_push_and_a_high_threshold_none(tr
     one = tried(1.0)
     poses = [own.read.sensed.q for own in one.own]
     planted = plant(one.found.setup, NominalModel(arm), GAIN_HZ, one.found.limbs, poses, pushing_of(quick), SEED)
-    watched, perfect = Watched(Detector(method="MOB", signals=("mean",))), [Estimate(np.zeros((ROWS, 2)))]
+    watched, perfect = Watched(DetectorSettings(method="MOB", signals=("mean",))), [Estimate(np.zeros((ROWS, 2)))]
     for threshold, share in ((1e-3, 1.0), (1e6, 0.0)):
         thresholds = np.full(2, threshold)
         hits = found_pushes(one.found.setup, watched, thresholds, one.found.limbs, perfect, planted)

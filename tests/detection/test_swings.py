@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mobnet.detection.swings import episodes_of, largest, segment_of, swings_of
+from mobnet.detection.gate import episodes_of, largest, segment_of, swings_of
 
 
 def test_only_whole_swings_count():

@@ -21,7 +21,7 @@ def test_what_is_written_is_read(network, tmp_path):
 
 
 @pytest.mark.parametrize(("line", "message"), [
-    (("thresholds: [3.25, 1.0e-07]", "thresholds: [3.25]"), "thresholds: number: 1 is not accepted; accepted: 2, one"),
+    (("thresholds: [3.25, 1.0e-07]", "thresholds: [3.25]"), "1 thresholds for 2 joints; each joint needs one"),
     (("signal: ratio", "signal: rato"), "signal: 'rato' is not accepted; accepted: .*ratio"),
     (("hold_s: 0.005", "hold: 0.005"), "hold"),
 ])  # fmt: skip

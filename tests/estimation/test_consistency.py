@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from mobnet.estimation.consistency import shares_inside
+from mobnet.learning.calibration import shares_inside
 
 SHARE = 0.68
 SPANS = [(0, 20_000), (20_000, 30_000)]

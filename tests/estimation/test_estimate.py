@@ -16,8 +16,8 @@ from mobnet.core.errors import ConfigError, DataError
 from mobnet.core.estimator import Estimate
 from mobnet.core.files import WEIGHTS
 from mobnet.core.store import read_array, write_array
-from mobnet.estimation.estimate import Observed, rate_of, read_observed, run_segments, table_of
-from mobnet.estimation.methods import build_estimator
+from mobnet.estimation.estimate import ObservedRecording, rate_of, read_observed, run_segments, table_of
+from mobnet.estimation.recipe import build_estimator
 from mobnet.learning.deployed.weights import NOTE, STD_SCALE, Z_SCORES, std_scales
 
 
@@ -73,7 +73,7 @@ def test_std_columns_follow_if_there_are_any(layout):
 def test_an_observer_that_ran_already_is_not_run_again(recipe_of, made_up):
     recording = made_up(0, 0.1)
     given = np.random.default_rng(0).normal(size=recording.sensed.v.shape).astype(np.float32)
-    (result,) = run_segments(build_estimator(recipe_of("MOB")), [Observed(recording, given)])
+    (result,) = run_segments(build_estimator(recipe_of("MOB")), [ObservedRecording(recording, given)])
     np.testing.assert_array_equal(result.tau_ext, given)
 
 
@@ -113,7 +113,7 @@ def test_a_residual_of_another_recording_is_refused(settings, tmp_path, made_up,
 
 
 def test_recordings_of_several_rates_are_not_run_together(made_up):
-    read = [Observed(replace(made_up(1, 0.1), rate_hz=rate)) for rate in (500.0, 1000.0)]
+    read = [ObservedRecording(replace(made_up(1, 0.1), rate_hz=rate)) for rate in (500.0, 1000.0)]
     with pytest.raises(DataError, match=r"recordings at \[500.0, 1000.0\] Hz cannot be run together"):
         rate_of(read)
 

@@ -10,7 +10,7 @@ from experiments.jobs.method_problems import method_problems
 from mobnet.core.code import SOURCE, reached, start_of
 from mobnet.core.errors import DataError
 from mobnet.estimation.kinds.residual import ResidualEstimator
-from mobnet.estimation.methods import build_estimator, kind_names
+from mobnet.estimation.recipe import build_estimator, kind_names
 from mobnet.settings.methods import Method
 from mobnet.settings.reading import dotted
 

@@ -12,7 +12,7 @@ from experiments.jobs.train_gray import filtered_friction, train_gray
 from experiments.plan.plan import make_plan
 from experiments.settings.catalogue import Catalogue
 from mobnet.estimation.kinds.friction import read_friction
-from mobnet.estimation.methods import build_estimator
+from mobnet.estimation.recipe import build_estimator
 from mobnet.learning.dataset import load_limb_data
 
 METHOD, LIMB = "MOB-Net-gray", "LL"

@@ -24,7 +24,7 @@ from made_scores import (
 )
 
 from experiments.plan.call import call_of
-from experiments.plan.products import ERRORS, functions
+from experiments.plan.products import function_of
 from experiments.plan.runs import Run
 from experiments.settings.claims import Claim
 from experiments.settings.evaluation import Evaluation
@@ -91,7 +91,7 @@ def make_table(tmp_path: Path, settings: Settings, evaluation: Evaluation) -> Ca
     """Write a table as its rule does: make_table(name, folder=tmp_path, **needs and other settings) -> its CSV."""
 
     def make(name: str, folder: Path = tmp_path, **changes: Any) -> Path:
-        function = ERRORS if name in evaluation.tables else functions()[name]
+        function = function_of(evaluation, name)
         printed = settings.published.tables.get(name) or getattr(settings.published, name, None)
         section = evaluation.tables.get(name) or getattr(evaluation, name, None)
         own = {"name": name, "settings": section, "published": printed, "layout": settings.layout, "table_dir": folder}

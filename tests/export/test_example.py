@@ -22,7 +22,7 @@ from mobnet.detection.signals import Watched
 from mobnet.export.export import export
 from mobnet.export.trained import read_trained
 from mobnet.learning.deployed.limbs import load_limb_networks
-from mobnet.settings.detection import Detector
+from mobnet.settings.detection import DetectorSettings
 
 EXAMPLE = Path(__file__).parents[2] / "docs" / "examples" / "run_onnx.py"
 NETWORK = DATA / "networks" / "MOB-Net-LL"
@@ -44,7 +44,9 @@ def estimates(layout):
 
 def edges(estimate, signal, limits, settle):
     """Return when alarms of the project's own chain begin and end [s], which watches after the first samples."""
-    signals = Watched(Detector(method="MOB-Net", signals=(signal,))).of(estimate, np.zeros((len(estimate.tau_ext), 5)))
+    signals = Watched(DetectorSettings(method="MOB-Net", signals=(signal,))).of(
+        estimate, np.zeros((len(estimate.tau_ext), 5))
+    )
     gate = GateSignal(np.arange(len(signals)) >= settle, np.zeros(len(signals)))
     chain = make_chain(15.0, 0.005, 1000.0, np.array([limits], dtype=float))
     above = run_over(chain, signals, gate).ratio > ALARM_RATIO

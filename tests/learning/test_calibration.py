@@ -9,9 +9,8 @@ from safetensors import safe_open
 from scipy.special import ndtr
 
 from mobnet.core.files import RUN, WEIGHTS
-from mobnet.learning.calibration import calibrate, predict, scale_for
+from mobnet.learning.calibration import calibrate, coverage, half_width, predict, scale_for
 from mobnet.learning.deployed.weights import STD_SCALE
-from mobnet.learning.gaussian import coverage, half_width
 from mobnet.learning.optimisation import Samples
 from mobnet.learning.streams import deal
 

@@ -5,7 +5,7 @@ import pytest
 from scipy.integrate import quad
 from scipy.stats import norm
 
-from mobnet.learning.gaussian import coverage, fit_of, half_width, likelihood, ranked_score
+from mobnet.learning.calibration import coverage, fit_of, half_width, likelihood, ranked_score
 
 SHARES = [0.5, 0.68, 0.9, 0.95]
 

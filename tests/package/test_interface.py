@@ -150,7 +150,7 @@ def test_a_detector_finds_the_push_of_the_demo_and_begins_anew_after_a_reset(hum
 
 
 def test_thresholds_of_another_robot_are_refused(humanoid, thresholds):
-    with pytest.raises(mobnet.MobnetError, match="robot: 'other' is not accepted; accepted: "):
+    with pytest.raises(mobnet.MobnetError, match="made for robot 'other', and '"):
         mobnet.Detector.from_files(humanoid, None, thresholds(robot="other"))
 
 

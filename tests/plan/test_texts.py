@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from experiments.plan.texts import text_problems
+from experiments.settings.checks.claims import text_problems
 from experiments.settings.settings import Settings
 
 PAPER = Path(__file__).parents[2] / "paper" / "main.tex"

@@ -8,11 +8,11 @@ from experiments.settings.load import load_settings
 from mobnet.detection.chain import make_chain
 from mobnet.detection.detector import LegDetector, LegGate
 from mobnet.detection.signals import Watched
-from mobnet.estimation.methods import build_estimator
+from mobnet.estimation.recipe import build_estimator
 from mobnet.reaction.handler import Handler
 from mobnet.reaction.loop import walk_with
 from mobnet.reaction.watchers import LegWatcher, LimbWatcher
-from mobnet.settings.detection import Detector
+from mobnet.settings.detection import DetectorSettings
 from mobnet.simulation.simulator import Simulator
 
 RATE_HZ = 1000.0
@@ -27,7 +27,7 @@ def leg_watchers(settings, robot):
         detection = settings.detection
         chain = make_chain(detection.low_pass_hz, detection.hold_s, RATE_HZ, np.full((1, 6), THRESHOLD_NM))
         gate = LegGate.of(detection.gate, robot, limb, RATE_HZ)
-        detector = LegDetector(Watched(Detector(method="MOB", signals=("mean",))), gate, chain)
+        detector = LegDetector(Watched(DetectorSettings(method="MOB", signals=("mean",))), gate, chain)
         return LegWatcher(detector, robot.layout.columns(robot.layout.limb(limb)))
 
     return {limb: watcher(limb) for limb in ("LL", "RL")}
@@ -40,7 +40,7 @@ def limb_watcher(settings, robot):
     def watcher(limb):
         joints, detection = robot.layout.limb(limb), settings.detection
         chain = make_chain(detection.low_pass_hz, detection.hold_s, RATE_HZ, np.full((1, len(joints)), THRESHOLD_NM))
-        watched = Watched(Detector(method="MOB", signals=("mean",)))
+        watched = Watched(DetectorSettings(method="MOB", signals=("mean",)))
         return LimbWatcher(watched, chain, robot.layout.columns(joints))
 
     return watcher

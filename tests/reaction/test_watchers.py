@@ -8,7 +8,7 @@ from mobnet.core.recording import Sensed
 from mobnet.detection.chain import make_chain
 from mobnet.detection.signals import Watched
 from mobnet.reaction.watchers import LimbWatcher
-from mobnet.settings.detection import Detector
+from mobnet.settings.detection import DetectorSettings
 
 THRESHOLD, TORQUE_NM = 3.0, 12.0
 
@@ -17,7 +17,7 @@ THRESHOLD, TORQUE_NM = 3.0, 12.0
 def test_a_limb_is_watched_by_its_torque_over_the_standard_deviation(std_nm, ratio):
     """A network that is less sure of itself, as in a hard step, raises no alarm by the same torque."""
     columns = np.array([4, 5])
-    watched = Watched(Detector(method="MOB-Net", signals=("ratio",)))
+    watched = Watched(DetectorSettings(method="MOB-Net", signals=("ratio",)))
     watcher = LimbWatcher(watched, make_chain(15.0, 0.005, 1000.0, np.full((1, 2), THRESHOLD)), columns)
     sample = Sensed(*(np.zeros(5) for _ in Sensed.__dataclass_fields__))
     tau = np.zeros(6)

@@ -5,8 +5,7 @@ import pytest
 
 from experiments.evaluation.figures.drawing.robot import lowest
 from experiments.settings.settings import Settings
-from mobnet.robot.description import WalkingRobot, describe
-from mobnet.robot.looks import dressed
+from mobnet.robot.description import WalkingRobot, describe, dressed
 from mobnet.robot.plant import robot_spec
 
 PHYSICS = (

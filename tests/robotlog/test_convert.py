@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from mobnet.core.errors import ConfigError, DataError
-from mobnet.robotlog.columns import Column, near_names
+from mobnet.robotlog.columns import LogColumn, near_names
 from mobnet.robotlog.convert import convert
 from mobnet.robotlog.formats import read_log
 from mobnet.robotlog.meaning import default_map
@@ -17,7 +17,7 @@ TIME = np.arange(ROWS) / RATE_HZ
 
 
 def columns_of(table, time_s=None):
-    return {name: Column(np.asarray(values, dtype=np.float64), time_s) for name, values in table.items()}
+    return {name: LogColumn(np.asarray(values, dtype=np.float64), time_s) for name, values in table.items()}
 
 
 @pytest.fixture

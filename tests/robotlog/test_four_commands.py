@@ -251,7 +251,7 @@ def test_the_same_words_train_nothing_anew_and_others_are_refused(made, monkeypa
     assert "arm_net: already trained from these logs in this way" in caplog.text
     assert weights.stat().st_mtime_ns == before
     assert run("learn", "train", *OWN, "--epochs", "5", "--out", "arm_net") == 1
-    assert "arm_net: a network with the fingerprint: " in caplog.messages[-1]
+    assert "arm_net holds another network" in caplog.messages[-1]
     assert "--force" in caplog.messages[-1]
 
 
@@ -262,17 +262,17 @@ def test_the_same_words_train_nothing_anew_and_others_are_refused(made, monkeypa
     (("learn", "train", "--limb", "B"), "--limb: 'B' is not accepted; accepted: A"),
     (("learn", "train", "--epochs", "0"), "--epochs: 0 is not accepted; accepted: a whole number from 1"),
     (("learn", "nowhere"), "nowhere: recording.json is missing; accepted: a folder that `./reproduce observe` wrote"),
-    (("calibrate", "train"), "seconds of free motion, in windows of 1 s: 99.0 is not accepted; accepted: 200 or more"),
-    (("learn", "train", "../{here}/train"), "FOLDER: '.*/train' is not accepted; accepted: each log once"),
-    (("calibrate", "free", "../{here}/free"), "FOLDER: '.*/free' is not accepted; accepted: each log once"),
+    (("calibrate", "train"), "99 s of free motion, in windows of 1 s; 200 s or more are needed"),
+    (("learn", "train", "../{here}/train"), "/train is the same log as train; give each log once"),
+    (("calibrate", "free", "../{here}/free"), "/free is the same log as free; give each log once"),
     (("calibrate", "free", "train", "--network", "arm_net"), "train: the network learned from it, where its error is"),
     (("calibrate", "free", "--network", "x"), "x: run.json is missing; accepted: a folder that `./reproduce learn` w"),
     (("detect", "train", "--network", "arm_net", "--thresholds", "arm_thresholds.yaml"), "a folder without metadata"),
-    (("calibrate", "free", "--signal", "ratio"), "--signal: 'ratio' is not accepted; accepted: mean"),
+    (("calibrate", "free", "--signal", "ratio"), "--signal ratio: it needs --network"),
     (("calibrate", "free", "--signal", "x"), "--signal: 'x' is not accepted; accepted: mean, ratio, std"),
-    (("calibrate",), "what calibrates: 'nothing' is not accepted"),
+    (("calibrate",), "nothing to calibrate from is given; either folders that"),
     (("calibrate", "free", "--rate", "0"), "--rate: 0.0 is not accepted"),
-    (("detect", "new.csv", "--thresholds", "arm_thresholds.yaml"), "network: .* accepted: none, given here"),
+    (("detect", "new.csv", "--thresholds", "arm_thresholds.yaml"), "made for network '.*', and 'none' is given here"),
     (("detect", "new.csv", "--thresholds", "none.yaml"), "none.yaml: file is missing"),
 ], ids=lambda value: value if isinstance(value, str) else " ".join(value))  # fmt: skip
 def test_what_is_wrong_is_one_line(words, message, made, monkeypatch, caplog):
@@ -289,7 +289,7 @@ def test_a_log_that_the_network_learned_from_is_known_wherever_it_stands(made, m
     assert run("calibrate", "free", "moved", *OWN, "--network", "arm_net") == 1
     assert caplog.messages[-1].startswith("moved: the network learned from it, where its error is smaller; accepted:")
     assert run("learn", "train", "moved", *OWN, *SHORT, "--out", "twice_net") == 1
-    assert caplog.messages[-1].startswith("FOLDER: 'moved' is not accepted; accepted: each log once")
+    assert caplog.messages[-1].startswith("moved is the same log as train; give each log once")
     assert not Path("twice_net").exists()
 
 
@@ -309,7 +309,7 @@ def test_a_log_at_another_rate_is_resampled_by_a_map_and_refused_without_one(mad
     Path("half.csv").write_text("\n".join(lines[:1] + lines[1::2]) + "\n")
     words = ("detect", "half.csv", *OWN, "--network", "arm_net", "--thresholds", "arm_thresholds.yaml")
     assert run(*words) == 1
-    assert "half.csv: rate: 100.0 is not accepted; accepted: 200, that of the thresholds" in caplog.text
+    assert "half.csv: its rate is 100.0 Hz, and the thresholds were made at 200 Hz" in caplog.text
     assert run(*words, "--map", "map.yaml") == 0
     assert read_array(Path("half_detected/estimate"))[1]["rate_hz"] == RATE_HZ
 
@@ -319,7 +319,7 @@ def test_a_map_whose_torques_are_others_than_those_of_the_thresholds_is_refused(
     Path("mean.yaml").write_text(Path("map.yaml").read_text() + "torque: mean\n")
     words = ("--network", "arm_net", "--thresholds", "arm_thresholds.yaml", "--map", "mean.yaml")
     assert run("detect", "new.csv", *OWN, *words) == 1
-    assert "mean.yaml: torque: 'mean' is not accepted; accepted: sample, that of arm_thresholds.yaml" in caplog.text
+    assert "mean.yaml: torque is 'mean', but arm_thresholds.yaml was made with 'sample'" in caplog.text
 
 
 def test_pushes_are_planted_and_the_detector_that_finds_most_is_kept_and_named(made, monkeypatch, caplog):
@@ -369,6 +369,4 @@ def test_thresholds_of_another_robot_are_refused(made, monkeypatch, caplog):
         "arm_thresholds.yaml",
     )
     assert run(*words) == 1
-    assert (
-        "arm_thresholds.yaml: robot: 'two-link arm' is not accepted; accepted: another arm, given here" in caplog.text
-    )
+    assert "arm_thresholds.yaml: made for robot 'two-link arm', and 'another arm' is given here" in caplog.text

@@ -167,7 +167,7 @@ def test_a_payload_that_the_table_lacks_is_found(bare, moved, settings):
 
 
 def test_too_short_a_log_is_refused(bare, moved, settings):
-    with pytest.raises(DataError, match=r"seconds of free motion: 20.0 is not accepted; accepted: 53.3333 or more"):
+    with pytest.raises(DataError, match=r"20 s of free motion; 53\.3333 s or more are needed"):
         identify(bare, [recorded(moved(5, seconds=21.0))], TERMS, settings)
 
 
@@ -237,9 +237,9 @@ def test_pushes_are_told_from_friction_that_was_identified(chain):
 def test_what_was_made_with_another_table_is_refused(chain, monkeypatch, caplog):
     monkeypatch.chdir(chain)
     assert calibrate(["free_arm", "--robot", "known.yaml"]) == 1
-    assert "free_arm: drives (friction and armature): 'none' is not accepted; accepted: " in caplog.messages[-1]
+    assert "free_arm: made with friction and armature none, and the table of --robot has " in caplog.messages[-1]
     assert detect(["new.csv", "--robot", "arm.yaml", "--thresholds", "known_thresholds.yaml"]) == 1
-    assert "known_thresholds.yaml: drives (friction and armature)" in caplog.messages[-1]
+    assert "known_thresholds.yaml: made with friction and armature " in caplog.messages[-1]
 
 
 @pytest.mark.slow

@@ -32,11 +32,11 @@ from mobnet.learning.dataset import LimbData
 from mobnet.learning.deployed.networks import Prediction
 from mobnet.robot.nominal import NominalModel
 from mobnet.robot.wrench import point_torque
-from mobnet.robotlog.free_check import Course, course_of, free_check, held_out, lines_of
+from mobnet.robotlog.free_check import ValidationSummary, course_of, free_check, held_out, lines_of
 from mobnet.robotlog.labels import label_of, limb_data
+from mobnet.robotlog.learn import filled, training_of
 from mobnet.robotlog.observe import main as observe
 from mobnet.robotlog.planted_check import planted_check
-from mobnet.robotlog.training import filled, training_of
 from mobnet.settings.networks import Limb
 
 GAIN_HZ, RATE_HZ = 100.0, 1000.0
@@ -161,7 +161,7 @@ def made_check(settings, size=1.0, network=None):
     return free_check(held, data, 0.2 * np.ones((1000, 1)), 800, ["N m"], numbers.margin)
 
 
-FALLS = Course(kept=40, epochs=40, loss=-1.5, last=-1.5)
+FALLS = ValidationSummary(kept=40, epochs=40, loss=-1.5, last=-1.5)
 
 
 @pytest.mark.parametrize(("size", "told"), [

@@ -10,7 +10,7 @@ from mobnet.robot.nominal import NominalModel
 from mobnet.robotlog.hints.changes import Seen, _needed_by_angle, _waves
 from mobnet.robotlog.hints.columns import _clipped, held_share
 from mobnet.robotlog.hints.motion import turns
-from mobnet.robotlog.hints.windows import Windows
+from mobnet.robotlog.hints.windows import MotionWindows
 from mobnet.robotlog.pieces import PIECE_ROWS, pieces, ranges, root_mean_square
 from mobnet.settings.lab import load_section
 from mobnet.settings.robot import RobotTable
@@ -59,11 +59,11 @@ def test_five_angles_of_a_joint_tell_all_others(table, joint, settings):
     q, v = rng.normal(size=(4, 11, layout.nq)), rng.normal(size=(4, 11, layout.nv))
     none = np.zeros((4, layout.nu))
     loads = {side: rng.normal(size=(4, 11, 6)) for side in robot.feet}
-    windows = Windows(q, v, none, none, loads, 0.1)
+    windows = MotionWindows(q, v, none, none, loads, 0.1)
     seen = Seen(nominal, settings.robotlog, windows, windows.asked(nominal), none[0], (), (), ())
     by_angle = _needed_by_angle(seen, windows, joint)
     for shift in (-2.0, 0.0, 0.3):
         turned = q.copy()
         turned[..., joint - layout.nu] += shift
-        needed = Windows(turned, v, none, none, loads, 0.1).needed(nominal)[:, joint]
+        needed = MotionWindows(turned, v, none, none, loads, 0.1).needed(nominal)[:, joint]
         np.testing.assert_allclose((_waves(np.array([shift])) @ by_angle)[0], needed, atol=1e-9)

@@ -7,11 +7,10 @@ import numpy as np
 import pytest
 
 from mobnet.core.estimator import Estimate
-from mobnet.robotlog.detect import told
-from mobnet.robotlog.detected import Detected
-from mobnet.robotlog.flags import Flag
-from mobnet.robotlog.observe import Observed, converted_log, main
-from mobnet.robotlog.pushes import Found, found_pushes, pushed_rows
+from mobnet.robotlog.detected import LogDetection
+from mobnet.robotlog.detecting import report_lines
+from mobnet.robotlog.flags import Flag, PushCount, found_pushes, pushed_rows
+from mobnet.robotlog.observe import ObservedLog, converted_log, main
 
 ROWS = 3000
 SPANS = (500, 600), (1000, 1400), (2000, 2050)
@@ -42,13 +41,16 @@ def test_flags_are_counted_beside_the_pushes_of_the_limb(pushed, arm, settings):
 
 @pytest.mark.parametrize(
     ("counted", "line"),
-    [(Found(23, 17, 1), "17 of 23 pushes found, 1 other flag"), (Found(2, 2, 0), "2 of 2 pushes found, 0 other flags")],
+    [
+        (PushCount(23, 17, 1), "17 of 23 pushes found, 1 other flag"),
+        (PushCount(2, 2, 0), "2 of 2 pushes found, 0 other flags"),
+    ],
 )
 def test_detect_tells_how_many_pushes_it_found(counted, line, pushed, arm, settings, tmp_path):
-    observed = Observed(converted_log(pushed, arm.layout, None, settings.robotlog), np.empty((0, 2)), ())
-    made = Detected(observed, Estimate(np.empty((0, 2))), np.empty((0, 2)), (), counted)
-    assert list(told(made, tmp_path))[-2] == line
-    assert not any("found" in one for one in told(replace(made, found=None), tmp_path))
+    observed = ObservedLog(converted_log(pushed, arm.layout, None, settings.robotlog), np.empty((0, 2)), ())
+    made = LogDetection(observed, Estimate(np.empty((0, 2))), np.empty((0, 2)), (), counted)
+    assert list(report_lines(made, tmp_path))[-2] == line
+    assert not any("found" in one for one in report_lines(replace(made, found=None), tmp_path))
 
 
 def test_a_log_without_the_truth_counts_nothing(clean, stored, arm, settings):

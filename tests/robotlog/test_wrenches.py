@@ -16,7 +16,7 @@ from mobnet.robot.nominal import NominalModel
 from mobnet.robot.point_jacobian import point_jacobian
 from mobnet.robot.wrench import carrier_of
 from mobnet.robotlog.observe import main as observe
-from mobnet.robotlog.wrenches import place_of, told_wrenches, wrenches_of
+from mobnet.robotlog.wrenches import place_of, wrench_lines, wrenches_of
 from mobnet.settings.lab import load_section
 from mobnet.settings.robot import RobotTable
 
@@ -103,7 +103,7 @@ def test_near_a_singular_pose_a_wrench_is_bounded_and_said_not_to_be_told(panda,
     assert np.abs(errors @ plain.T).max() > 1e4  # what least squares without damping make of errors alone
     assert np.abs(found.mean[:, :3]).max() < 2 * numbers.force_n
     assert found.told.min() < 0.5
-    lines = list(told_wrenches([found], numbers, Path("out")))
+    lines = list(wrench_lines([found], numbers, Path("out")))
     assert any("the joints never tell" in line for line in lines), lines
 
 
@@ -133,7 +133,7 @@ def test_of_a_planar_arm_only_the_force_in_its_plane_is_told(planar, numbers):
     assert found.mean.shape == (ROWS, 3)
     assert (np.abs(found.mean[:, [0, 2]] - true[:, [0, 2]]) < 0.5).all()
     assert np.abs(found.mean[:, 1]).max() < 1e-6
-    lines = list(told_wrenches([found], numbers, Path("out")))
+    lines = list(wrench_lines([found], numbers, Path("out")))
     assert "  2 joints of the limb move it: a moment there is taken as none" in lines
     assert "  the joints never tell force_y: what is written of it is as good as nothing" in lines
 

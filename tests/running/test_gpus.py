@@ -5,8 +5,8 @@ import os
 
 import pytest
 
-from mobnet.core.gpus import claimed, gpus_seen
 from mobnet.core.lock import opened, taken
+from mobnet.core.machine import claimed, gpus_seen
 
 CUDA, CPU = "2.13.0", "2.13.0+cpu"
 

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from mobnet.core.provenance import commit, provenance
+from mobnet.core.code import commit, provenance
 
 
 def test_provenance_names_commit_and_lock():
@@ -12,7 +12,7 @@ def test_provenance_names_commit_and_lock():
 
 def test_outside_of_git_and_without_a_lock_both_are_unknown(tmp_path, monkeypatch):
     commit.cache_clear()
-    monkeypatch.setattr("mobnet.core.provenance.ROOT", Path("/"))
-    monkeypatch.setattr("mobnet.core.provenance.LOCK", tmp_path / "environment.lock")
+    monkeypatch.setattr("mobnet.core.code.ROOT", Path("/"))
+    monkeypatch.setattr("mobnet.core.code.LOCK", tmp_path / "environment.lock")
     assert provenance()["commit"] == provenance()["lock"] == "unknown"
     commit.cache_clear()

@@ -16,7 +16,7 @@ from mobnet.learning.deployed.limbs import LimbNetworks
 from mobnet.learning.deployed.networks import deployed
 from mobnet.reaction.watchers import LimbWatcher
 from mobnet.robot.nominal import NominalModel
-from mobnet.settings.detection import Detector
+from mobnet.settings.detection import DetectorSettings
 from mobnet.settings.parts import FrictionRow
 
 from .conftest import GAIN_HZ, GRAVITY, RATE_HZ, chain_of, changed, moving, network_of
@@ -112,7 +112,10 @@ def test_gate_of_both_legs_on_a_walk(runtime, push, settings, foot):
         sensed = changed(sensed, swing=told, landing=0.14 * told)
     residual, found = observer.residual(sensed), []
     gates = {limb: LegGate.of(settings.detection.gate, push.robot, limb, RATE_HZ) for limb in ("LL", "RL")}
-    row, chain = Detector(method="MOB", signals=("mean",), phases=4), chain_of(np.linspace(9.0, 40.0, 24).reshape(4, 6))
+    row, chain = (
+        DetectorSettings(method="MOB", signals=("mean",), phases=4),
+        chain_of(np.linspace(9.0, 40.0, 24).reshape(4, 6)),
+    )
     for limb, gate in gates.items():
         own = residual[:, push.robot.layout.columns(push.robot.layout.limb(limb))]
         estimate = Estimate(own, np.ones_like(own))
@@ -140,7 +143,7 @@ def test_networks_and_watched_limbs(runtime, observer_of, machine, cell, estimat
         moving(layout, 300),
         layout.limb(limb),
     )
-    row = Detector(method="MOB-Net", signals=("std", "ratio", "mean"))
+    row = DetectorSettings(method="MOB-Net", signals=("std", "ratio", "mean"))
     chain = chain_of(np.full((1, 3 * len(columns)), 2.0))
     watching = RuntimeDetector(limb, columns, row.signals, chain)
     _, mean, std, tau, alarms = run(runtime(observer, [network], [watching]), sensed)

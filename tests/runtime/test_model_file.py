@@ -19,10 +19,8 @@ from mobnet.detection.leg import make_leg
 from mobnet.estimation.observer import MomentumObserver
 from mobnet.export import model_file
 from mobnet.export.contract import ObserverContract
-from mobnet.export.export import main
-from mobnet.export.model_file import RuntimeDetector, write_model_file
-from mobnet.export.runtime import MODEL, model_of
-from mobnet.export.soles import leg_record
+from mobnet.export.export import MODEL, main, model_of
+from mobnet.export.model_file import RuntimeDetector, leg_record, write_model_file
 from mobnet.export.trained import contract_of, read_trained
 from mobnet.robot.description import describe
 from mobnet.robot.nominal import NominalModel

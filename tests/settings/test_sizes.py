@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 from csv_files import read_table
 
-from experiments.evaluation.number.clusters import Place, rate_in, share_in
+from experiments.evaluation.number.clusters import ClusterKey, rate_in, share_in
 from experiments.plan.files import Files
 from experiments.plan.reactions import sizes_of
 from experiments.settings.catalogue import Catalogue
@@ -26,9 +26,9 @@ def paper() -> Settings:
     return load_settings(overrides={"scale": "paper"})
 
 
-def places_of(robots: int, walks: int) -> list[Place]:
+def places_of(robots: int, walks: int) -> list[ClusterKey]:
     """Return the places of walks of several robots, which share the seeds."""
-    return [Place(f"robot_{robot}", seed) for robot in range(robots) for seed in range(walks)]
+    return [ClusterKey(f"robot_{robot}", seed) for robot in range(robots) for seed in range(walks)]
 
 
 def test_robots_that_never_fall_can_show_a_small_share_of_falls(paper: Settings) -> None:

@@ -16,7 +16,7 @@ from mobnet.core.errors import SimulationError
 from mobnet.core.recording import read_recording
 from mobnet.core.store import read_array
 from mobnet.settings.data import RecordingSettings
-from mobnet.settings.walk import WalkSettings
+from mobnet.settings.walking import WalkSettings
 from mobnet.simulation.record import collect, record
 from mobnet.simulation.self_collision import Clearance
 from mobnet.simulation.simulator import Simulator

@@ -21,7 +21,7 @@ SlurmctldHost={node}
 SlurmUser=root
 SlurmdUser=root
 AuthType=auth/munge
-AuthInfo=socket={folder}/munge/socket
+AuthInfo=socket={folder}/munge/socket,cred_expire=20
 SlurmctldPort={ports[0]}
 SlurmdPort={ports[1]}
 StateSaveLocation={folder}/state
@@ -82,7 +82,10 @@ class Cluster:
 
 @contextmanager
 def cluster_in(folder: Path) -> Iterator[Cluster]:
-    """Start a cluster, and end it with all that it runs."""
+    """Start a cluster, and end it with all that it runs.
+
+    A job that its node lost waits until its credential ends, `cred_expire` [s], before it goes into the queue again.
+    """
     missing = [name for name in PROGRAMS if shutil.which(name) is None]
     if missing or os.geteuid() != 0:
         pytest.skip(f"a cluster needs root and Debian's slurm-wlm and munge; missing: {', '.join(missing) or 'root'}")

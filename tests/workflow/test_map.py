@@ -1,16 +1,17 @@
-"""Table N of the paper = product = configuration = file = test = a row of docs/map.md; nothing is an orphan."""
+"""docs/map.md is what its command makes; table N of the paper = product = configuration; nothing is an orphan."""
 
 import re
 from functools import reduce
 from pathlib import Path
-from typing import NamedTuple
 
 import pytest
 
+from experiments.evaluation.report.paper_map import MAP, SOURCE, files_of, paper_map, read_known
 from experiments.plan.plan import make_plan
 from experiments.plan.products import CAPTIONS
 from experiments.settings.load import load_settings
 from mobnet.core.code import start_of
+from mobnet.core.errors import ConfigError
 
 from .conftest import ROOT
 
@@ -21,81 +22,75 @@ NUMBERED = re.compile(r"(?:table|figure)_\d\d")
 MAIN = load_settings(overrides={"scale": "default"})
 
 
-class Item(NamedTuple):
-    """A row of the map's first table."""
-
-    paper: str
-    shows: str
-    rule: str
-    made_by: str
-    file: str
-    test: str
-    state: str
-
-
-class System(NamedTuple):
-    """A row of the map's second table."""
-
-    paper: str
-    here: str
-    test: str
-    state: str
-
-
-def rows(part):
-    lines = [line for line in (ROOT / "docs/map.md").read_text().split("\n## ")[part].splitlines() if line[:1] == "|"]
-    return [[cell.strip() for cell in line.strip("|").split("|")] for line in lines[2:]]
-
-
-ITEMS = [Item(*(cell.strip("`") for cell in row)) for row in rows(0)]
-SYSTEMS = [System(*row) for row in rows(1)]
-MADE = [item for item in ITEMS if item.rule != "-"]
+KNOWN = read_known(ROOT / SOURCE)
 
 
 @pytest.fixture(scope="module")
-def products():
-    return list(make_plan(MAIN, with_pdf=True).products)
+def plan():
+    with pytest.MonkeyPatch.context() as patch:
+        patch.chdir(ROOT)
+        yield make_plan(MAIN, with_pdf=True)
 
 
 @pytest.fixture(scope="module")
-def outputs(products):
-    return {name: product.name for product in products for name in product.outputs}
+def outputs(plan):
+    return {name: product.name for product in plan.products for name in product.outputs}
 
 
-def test_the_map_names_the_function_that_a_rule_calls(products):
-    """So two files lead from Table 7 to its code: the map and the module."""
-    made = {product.name: product.job.call.function for product in products}
-    assert [(item.rule, item.made_by) for item in MADE if item.made_by != made[item.rule]] == []
-
-
-def numbered(names):
-    return {found for name in names for found in NUMBERED.findall(name)}
+def test_the_map_is_current(plan):
+    remedy = "python -m experiments.evaluation.report.paper_map writes it"
+    assert (ROOT / MAP).read_text() == paper_map(plan, KNOWN), remedy
 
 
 def test_everything_the_paper_numbers_is_on_the_map_once():
-    named = [item.paper for item in ITEMS]
-    assert [name for name in (*TABLES, *FIGURES, *SECTIONS) if named.count(name) != 1] == []
+    rows = re.findall(r"^\| ([^|]*) \|", (ROOT / MAP).read_text().split("\n## ")[1], re.MULTILINE)
+    named = ", ".join(rows).split(", ")
+    assert [name for name in (*TABLES, *FIGURES, *SECTIONS) if name not in named] == []
+    assert len(set(rows)) == len(rows)
 
 
-@pytest.mark.parametrize("item", ITEMS, ids=[item.paper for item in ITEMS])
-def test_an_item_is_made_or_an_input_or_to_do(item, outputs):
-    if item.state == "done":
-        assert outputs[item.file] == item.rule
-        assert (ROOT / item.test).is_file()
-    elif item.state.startswith("input: "):
-        assert found(item.state.removeprefix("input: `"))
-        assert (ROOT / item.file).is_file()
-    else:
-        assert item[2:] == ("-", "-", "-", "-", "to do")
+def test_tests_and_inputs_of_the_map_exist():
+    """That the others exist, which have the names of products, is known when the map is made."""
+    for row in KNOWN.inputs.values():
+        assert found(row.key)
+        assert (ROOT / row.file).is_file()
+    assert [test for test in KNOWN.tests if not (ROOT / test).is_file()] == []
 
 
-@pytest.mark.parametrize("system", SYSTEMS, ids=[system.paper for system in SYSTEMS])
-def test_a_system_exists_or_is_to_do(system):
-    if system.state == "done":
-        assert [name for name in re.findall(r"`([^`]+)`", f"{system.here} {system.test}") if not found(name)] == []
-        assert system.test != "-"
-    else:
-        assert system[1:] == ("-", "-", "to do")
+def with_known(section, **values):
+    return KNOWN.model_copy(update={section: {**getattr(KNOWN, section), **values}})
+
+
+def without_known(section, name):
+    rows = {key: value for key, value in getattr(KNOWN, section).items() if key != name}
+    return KNOWN.model_copy(update={section: rows})
+
+
+@pytest.mark.parametrize(
+    ("known", "problem"),
+    [
+        (with_known("paper", tabel_09="Section 5"), "paper: 'tabel_09' is not accepted; .*table_09"),
+        (with_known("tests", **{"tests/a.py": ("nothing",)}), "tests: 'nothing' is not accepted"),
+        (without_known("shows", "manifest"), "shows: 'manifest' is missing; accepted: a text here, or a caption"),
+        (without_known("tests", "tests/evaluation/tables/test_falls.py"), "tests: 'random_torque' is missing"),
+    ],
+)
+def test_what_the_map_lacks_or_no_product_has_is_refused(plan, known, problem, monkeypatch):
+    monkeypatch.chdir(ROOT)
+    with pytest.raises(ConfigError, match=problem):
+        paper_map(plan, known)
+
+
+def test_files_that_differ_in_their_endings_stand_together():
+    assert files_of(["tables/a.csv", "tables/a.md", "results/b"]) == "`tables/a.csv`, .md; `results/b`"
+    assert files_of([f"{name}.png" for name in "abcde"]) == "`a.png`; `b.png`; `c.png`; 2 more"
+
+
+@pytest.mark.parametrize("system", KNOWN.systems, ids=[system.paper for system in KNOWN.systems])
+def test_a_system_exists(system):
+    names = re.findall(r"`([^`]+)`", f"{system.here} {system.tests}")
+    assert names
+    assert [name for name in names if not found(name)] == []
 
 
 def found(name):
@@ -111,10 +106,14 @@ def found(name):
     return reduce(below, name.split("."), MAIN) is not None
 
 
+def numbered(names):
+    return {found for name in names for found in NUMBERED.findall(name)}
+
+
 def test_no_numbered_table_or_figure_is_an_orphan(outputs):
     evaluation = MAIN.evaluation
     configured = numbered((*type(evaluation).model_fields, *evaluation.tables))
-    assert numbered(item.file for item in MADE) == numbered(outputs) == configured
+    assert numbered(outputs) == configured
     text = (ROOT / "paper/main.tex").read_text()
     assert [name for name in configured if name not in text] == []
 

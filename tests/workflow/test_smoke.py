@@ -18,7 +18,7 @@ from experiments.evaluation.report.cost import costs
 from experiments.evaluation.report.rates import measured
 from experiments.plan.plan import make_plan
 from experiments.plan.work import works_of
-from experiments.running.accounts import read_account
+from experiments.running.logs import read_account
 from experiments.settings.load import load_settings
 
 from .clicks import choose, explain, show, text_of_frame
@@ -178,15 +178,18 @@ def test_report_is_made_by_one_command(unbroken):
     assert (unbroken / "report.html").stat().st_size > 1_000_000
 
 
+def pages_below(folder):
+    """Return the content of all files of a folder but the one that Snakemake adds."""
+    files = [path for path in folder.rglob("*") if path.is_file() and path.name != ".snakemake_timestamp"]
+    return {str(path.relative_to(folder)): path.read_bytes() for path in files}
+
+
 def test_documentation_is_made_by_one_command_and_verify_does_not_mind(unbroken, site):
     """It is that of another process in another folder, to the byte."""
     assert reproduce(unbroken, command="docs").wait() == 0, told(unbroken)
     made = unbroken / "results" / "smoke" / "docs"
     assert "MOB-Net, reproduced" in (made / "index.html").read_text()
-    pages, again = (
-        {str(path.relative_to(folder)): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
-        for folder in (site, made)
-    )
+    pages, again = pages_below(site), pages_below(made)
     assert pages.keys() == again.keys()
     assert [name for name, content in pages.items() if again[name] != content] == []
     words = ["verify", "--manifest", "results/smoke/MANIFEST.sha256"]

@@ -9,7 +9,7 @@ from importlib.metadata import version
 
 from snakemake.cli import get_argument_parser
 
-from experiments.evaluation.measure.registry import measure_problems
+from experiments.evaluation.measure.estimates.scores import measure_problems
 from experiments.evaluation.report.paper import missing_packages
 from experiments.jobs.method_problems import method_problems
 from experiments.plan.files import made_by_jobs
@@ -18,7 +18,7 @@ from experiments.plan.products import shown as report_of
 from experiments.plan.precision import record_precision, with_precision
 from experiments.plan.room import Sizes, check_room
 from experiments.plan.targets import in_set, nearest, one_of, scale_of_targets
-from experiments.plan.texts import text_problems
+from experiments.settings.checks.claims import text_problems
 from experiments.running.cluster import LIMITED, failed_jobs, warm_cache
 from experiments.running.environment import fault_of_process, quieten
 from experiments.running.follow import follow_trainings
@@ -27,7 +27,7 @@ from experiments.settings.load import load_settings
 from mobnet.core.code import code_hash
 from mobnet.core.detections import FILES
 from mobnet.core.errors import MobnetError
-from mobnet.core.gpus import gpus_seen
+from mobnet.core.machine import gpus_seen
 
 ROOT = Path(workflow.current_basedir).parent.parent
 STARTED_S = time.time()

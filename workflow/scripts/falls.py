@@ -1,6 +1,6 @@
 from pathlib import Path
 
-from experiments.evaluation.measure.data.falls import count_falls
+from experiments.evaluation.measure.data.random_torque import count_falls
 from experiments.running.logs import job
 
 with job(snakemake.log[0]):

@@ -1,10 +1,11 @@
 """Remove what the workflow makes, after a list and a question."""
 
+import os
+import shutil
 import sys
 from collections.abc import Iterator
 from pathlib import Path
 
-from experiments.commands.disk import remove, sizes_of
 from experiments.commands.tell import in_gb, say
 from mobnet.core.errors import CommandError
 
@@ -16,6 +17,45 @@ PRODUCTS = {  # folder -> endings of what it holds besides products
 WHOLE = ("results", ".snakemake", "report.html", "MUJOCO_LOG.TXT")
 UNLOCK = "if none is going on, `./reproduce all --unlock` takes its locks away"
 ENVIRONMENT = (".venv", ".cache", ".pytest_cache", ".ruff_cache", ".hypothesis")
+
+
+def sizes_of(*places: Path) -> list[int]:
+    """Return the bytes that files and folders take; what has several names counts where it is met first."""
+    seen: set[tuple[int, int]] = set()
+    sizes = [0] * len(places)
+    for number, place in enumerate(places):
+        for stat in stats(place):
+            if (stat.st_dev, stat.st_ino) not in seen:
+                sizes[number] += stat.st_blocks * 512
+                seen.add((stat.st_dev, stat.st_ino))
+    return sizes
+
+
+def stats(place: Path) -> Iterator[os.stat_result]:
+    """Yield what the system knows of a file, or of a folder and all below it."""
+    yield place.lstat()
+    if place.is_dir() and not place.is_symlink():
+        for entry in os.scandir(place):
+            if entry.is_dir(follow_symlinks=False):
+                yield from stats(Path(entry.path))
+            else:
+                yield entry.stat(follow_symlinks=False)
+
+
+def remove(place: Path) -> None:
+    """Remove a file, a link or a folder, if there is one.
+
+    Raises:
+        CommandError: it cannot be removed.
+    """
+    try:
+        if place.is_dir() and not place.is_symlink():
+            shutil.rmtree(place)
+        else:
+            place.unlink(missing_ok=True)
+    except OSError as problem:
+        reason = f"{problem.strerror} ({problem.filename})"
+        raise CommandError(f"{place}: cannot be removed: {reason}; accepted: what you may remove") from problem
 
 
 def clean(root: Path, *, everything: bool, is_dry: bool, is_sure: bool) -> int:

@@ -16,7 +16,8 @@ from mobnet.commands import COMMANDS as LAB
 from mobnet.core.errors import CommandError, MobnetError
 
 MODULES = {  # command -> the module that `python -m` runs, with words that come first
-    "test": ("pytest", "-n", "2", "--dist", "loadfile", "--no-loadscope-reorder", "--max-worker-restart", "0"),
+    # For two cores one process more than these: some tests wait for minutes, such as those of a cluster.
+    "test": ("pytest", "-n", "3", "--dist", "loadfile", "--no-loadscope-reorder", "--max-worker-restart", "0"),
     "bench": ("benchmarks",),
     "check": ("experiments.check",),
     **{name: (command.module,) for name, command in LAB.items()},

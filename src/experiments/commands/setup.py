@@ -11,9 +11,8 @@ import os
 from collections.abc import Iterator
 from pathlib import Path
 
-from experiments.commands.builds import costs, wanted_build
-from experiments.commands.disk import remove, sizes_of
-from experiments.commands.install import CONSTRAINTS, install, make_venv
+from experiments.commands.clean import remove, sizes_of
+from experiments.commands.install import CONSTRAINTS, costs, install, make_venv, wanted_build
 from experiments.commands.tell import in_gb, say
 from experiments.commands.tools import LOG, Tools
 from mobnet.core.lock import taken

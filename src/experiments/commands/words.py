@@ -1,17 +1,16 @@
 """The words of `./reproduce`: its commands, or targets and options of snakemake."""
 
 import argparse
-import difflib
 import functools
 import re
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from experiments.commands.builds import BUILDS
+from experiments.commands.install import BUILDS
 from experiments.plan.targets import MAIN
 from experiments.running.words import RESULTS, bench_parser, check_parser, cost_parser, demo_parser, results_parser
 from mobnet.commands import COMMANDS as LAB
-from mobnet.core.errors import CommandError, not_accepted
+from mobnet.core.errors import CommandError, unknown_command
 
 COMMANDS = {
     "all": "make every table, figure and the paper (snakemake --cores 2 all); further options go to snakemake",
@@ -73,8 +72,7 @@ def parse(words: Sequence[str]) -> Words:
     if re.search(r"^-|[/.]", first):
         return Words("all", argparse.Namespace(), in_order(words))
     if first not in COMMANDS:
-        near = difflib.get_close_matches(first, COMMANDS, 1)
-        overview().error(not_accepted("command", first, COMMANDS) + "".join(f"; did you mean {n}?" for n in near))
+        overview().error(unknown_command(first, COMMANDS))
     options = parser_of(first)
     if first in OWN:
         return Words(first, options.parse_args(words[1:]), [])

@@ -11,11 +11,11 @@ from pathlib import Path
 
 import numpy as np
 
-from experiments.jobs.reacting_robot import Robot
+from experiments.jobs.reacting_robot import ReactingRobot
 from experiments.plan.parts import MethodRun
 from mobnet.core.arrays import Array
 from mobnet.core.detections import LARGEST, Threshold
-from mobnet.core.estimator import Estimator, Stretch, estimate_all
+from mobnet.core.estimator import Stretch, TorqueEstimator, estimate_all
 from mobnet.core.files import write_text
 from mobnet.core.reactions import FORCE_SENSORS
 from mobnet.core.recording import Recording, read_recording
@@ -25,18 +25,23 @@ from mobnet.detection.thresholds import calibrate
 from mobnet.detection.watch import LegSetup
 from mobnet.reaction.watchers import some
 from mobnet.settings.detection import Detection
-from mobnet.settings.methods import Observer
+from mobnet.settings.methods import ObserverSettings
 from mobnet.settings.reaction import Reaction
-from mobnet.settings.walk import WalkSettings
+from mobnet.settings.walking import WalkSettings
 
 FORCE = "force"  # the signal of a foot's sensor
 COLUMNS = tuple(field.name for field in fields(Threshold))
 
 
 def watch(
-    settings: WalkSettings, reaction: Reaction, detection: Detection, observer: Observer, runs: Mapping[str, MethodRun],
-    quiet: Sequence[Path], out: Path,
-) -> None:  # fmt: skip
+    settings: WalkSettings,
+    reaction: Reaction,
+    detection: Detection,
+    observer: ObserverSettings,
+    runs: Mapping[str, MethodRun],
+    quiet: Sequence[Path],
+    out: Path,
+) -> None:
     """Write the thresholds of `reaction.watched` and of the feet's sensors, rows of `Threshold`.
 
     Args:
@@ -51,7 +56,7 @@ def watch(
     Raises:
         DataError: a recording is missing or damaged, or they are too short.
     """
-    robot = Robot(settings, reaction, detection, observer, runs)
+    robot = ReactingRobot(settings, reaction, detection, observer, runs)
     estimator = robot.estimator(reaction.estimator, reaction.watched)
     limbs = {limb: list[Array]() for limb in reaction.watched}
     forces = list[list[float]]()
@@ -63,7 +68,7 @@ def watch(
     write_text(out, csv_text(COLUMNS, [astuple(row) for row in rows]))
 
 
-def calm_parts(robot: Robot, quiet: Sequence[Path]) -> Iterator[Recording]:
+def calm_parts(robot: ReactingRobot, quiet: Sequence[Path]) -> Iterator[Recording]:
     """Yield recordings, of the last one its first part, until `reaction.calm_s` are full."""
     left = round(robot.reaction.calm_s * robot.rate_hz)
     for path in quiet:
@@ -73,7 +78,7 @@ def calm_parts(robot: Robot, quiet: Sequence[Path]) -> Iterator[Recording]:
             yield walk
 
 
-def _signals(robot: Robot, estimator: Estimator, calm: Recording) -> Iterator[tuple[str, Array]]:
+def _signals(robot: ReactingRobot, estimator: TorqueEstimator, calm: Recording) -> Iterator[tuple[str, Array]]:
     """Yield limb and signals (T, n) of our detector in each segment of a walk, behind the low-pass."""
     spans = list(calm.spans())
     estimates = estimate_all(estimator, [Stretch(calm.sensed[span]) for span in spans])
@@ -84,7 +89,7 @@ def _signals(robot: Robot, estimator: Estimator, calm: Recording) -> Iterator[tu
             yield limb, robot.setups[0].low_passed(signals, ((0, len(signals)),))
 
 
-def _limbs(robot: Robot, limbs: Mapping[str, Sequence[Array]]) -> Iterator[Threshold]:
+def _limbs(robot: ReactingRobot, limbs: Mapping[str, Sequence[Array]]) -> Iterator[Threshold]:
     """Yield the thresholds of limbs for the rate of our detector, from its signals (T, n) in segments."""
     ours = robot.reaction.ours
     for limb, signals in limbs.items():
@@ -93,7 +98,7 @@ def _limbs(robot: Robot, limbs: Mapping[str, Sequence[Array]]) -> Iterator[Thres
             yield Threshold(ours.detector, limb, ours.rule, name, 1, float(value), unit_of(name))
 
 
-def limb_thresholds(robot: Robot, signals: Sequence[Array]) -> Array:
+def limb_thresholds(robot: ReactingRobot, signals: Sequence[Array]) -> Array:
     """Return the thresholds of a limb's signals (n,) from these (T, n) in segments, behind the low-pass."""
     numbers = robot.detection.thresholds
     window = round(robot.detection.window_s * robot.rate_hz)
@@ -107,7 +112,7 @@ def limb_thresholds(robot: Robot, signals: Sequence[Array]) -> Array:
     return found.factor * scale
 
 
-def _feet(robot: Robot, forces: Array) -> Iterator[Threshold]:
+def _feet(robot: ReactingRobot, forces: Array) -> Iterator[Threshold]:
     """Yield the thresholds of the feet's sensors by the paper's rule, from the largest forces in swings (k,) [N]."""
     for setup, force in zip(robot.setups, forces, strict=True):
         value = robot.detection.thresholds.margin * float(force)

@@ -38,9 +38,7 @@ log = logging.getLogger(__name__)
 Rows = dict[str, list[Any]]  # name of a file -> its rows
 
 
-def detect(
-    detection: Detection, robot: RobotTable, rate_hz: float, walks: Mapping[str, Walk], out: Path
-) -> None:  # fmt: skip
+def detect(detection: Detection, robot: RobotTable, rate_hz: float, walks: Mapping[str, Walk], out: Path) -> None:
     """Calibrate and try the detectors of a robot, and write the files of `mobnet.core.detections` into a folder.
 
     Args:
@@ -97,9 +95,14 @@ def _try_leg(setup: LegSetup, walks: Mapping[str, Walk], rows: Rows) -> None:
 
 
 def _try_walk(
-    setup: LegSetup, scenario: str, calibrated: CalibratedDetector, walk: Sequence[LegHits],
-    estimates: Sequence[Estimate], points: Sequence[str], rows: Rows,
-) -> None:  # fmt: skip
+    setup: LegSetup,
+    scenario: str,
+    calibrated: CalibratedDetector,
+    walk: Sequence[LegHits],
+    estimates: Sequence[Estimate],
+    points: Sequence[str],
+    rows: Rows,
+) -> None:
     """Add what a detector makes of a walk with collisions; nothing where its method does not estimate the leg there."""
     if not estimates:
         return

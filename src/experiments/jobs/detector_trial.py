@@ -16,8 +16,8 @@ from mobnet.core.recording import read_sensed
 from mobnet.core.store import read_array
 from mobnet.detection.calibration import CalibratedDetector, swing_ratios
 from mobnet.detection.detector import ALARM_RATIO
-from mobnet.detection.isolation import name_push
 from mobnet.detection.leg import unit_torques
+from mobnet.detection.points import name_push
 from mobnet.detection.watch import LegRecording, LegSetup
 
 
@@ -75,16 +75,30 @@ def collision_rows(setup: LegSetup, scenario: str, walk: Sequence[LegHits]) -> I
             start = hit.rows.start
             above = np.flatnonzero(hit.force > setup.detection.onset_n)
             yield Collision(
-                scenario, one.leg.seed, number, hit.name, hit.leg, hit.link, hit.direction, start * period,
-                (start + int(above[0])) * period if len(above) else None, hit.rows.stop * period,
-                float(hit.force.max()), float(hit.force.sum()) * period, float(one.leg.gate.phase[start]),
-            )  # fmt: skip
+                scenario=scenario,
+                seed=one.leg.seed,
+                number=number,
+                push=hit.name,
+                leg=hit.leg,
+                link=hit.link,
+                direction=hit.direction,
+                start_s=start * period,
+                onset_s=(start + int(above[0])) * period if len(above) else None,
+                end_s=hit.rows.stop * period,
+                force_n=float(hit.force.max()),
+                impulse_ns=float(hit.force.sum()) * period,
+                swing_share=float(one.leg.gate.phase[start]),
+            )
 
 
 def detected_rows(
-    setup: LegSetup, scenario: str, calibrated: CalibratedDetector, walk: Sequence[LegHits],
-    estimates: Sequence[Estimate], points: Sequence[str],
-) -> Iterator[Detected]:  # fmt: skip
+    setup: LegSetup,
+    scenario: str,
+    calibrated: CalibratedDetector,
+    walk: Sequence[LegHits],
+    estimates: Sequence[Estimate],
+    points: Sequence[str],
+) -> Iterator[Detected]:
     """Yield what a detector says of each collision of a leg, by each rule of thresholds."""
     for one, estimate in zip(walk, estimates, strict=True):
         signals = calibrated.watched.of(estimate, one.leg.command)
@@ -108,14 +122,25 @@ def detected_rows(
                     force = isolated.force_n
                 ratio = float(alarm.ratio[window_of(setup, hit)].max(initial=0.0))
                 yield Detected(
-                    scenario, one.leg.seed, setup.limb, number, calibrated.name, kind, ratio, delay(setup, hit, row),
-                    delay(setup, hit, best), signal, link, direction, force,
-                )  # fmt: skip
+                    scenario=scenario,
+                    seed=one.leg.seed,
+                    leg=setup.limb,
+                    number=number,
+                    detector=calibrated.name,
+                    kind=kind,
+                    ratio=ratio,
+                    delay_s=delay(setup, hit, row),
+                    perfect_s=delay(setup, hit, best),
+                    signal=signal,
+                    link=link,
+                    direction=direction,
+                    named_n=force,
+                )
 
 
 def curve_rows(
     setup: LegSetup, calibrated: CalibratedDetector, walk: Sequence[LegHits], estimates: Sequence[Estimate]
-) -> Iterator[CurvePoint]:  # fmt: skip
+) -> Iterator[CurvePoint]:
     """Yield how many collisions a detector finds, and how late, at multiples of its thresholds."""
     curve = setup.detection.curve
     chain = calibrated.chains[COLLISION]
@@ -132,9 +157,12 @@ def curve_rows(
 
 
 def unpushed_rows(
-    setup: LegSetup, scenario: str, calibrated: CalibratedDetector, walk: Sequence[LegHits],
+    setup: LegSetup,
+    scenario: str,
+    calibrated: CalibratedDetector,
+    walk: Sequence[LegHits],
     estimates: Sequence[Estimate],
-) -> Iterator[FreeSwing]:  # fmt: skip
+) -> Iterator[FreeSwing]:
     """Yield the swings of a walk with collisions in which nothing pushes: most follow a push and recover from it."""
     for one, estimate in zip(walk, estimates, strict=True):
         legs = [one.leg]

@@ -7,12 +7,11 @@ from experiments.plan.parts import TOGETHER_S, MethodRun
 from mobnet.core.files import WEIGHTS
 from mobnet.core.notes import read_array_note
 from mobnet.core.store import NOTE, file_of
-from mobnet.estimation.estimate import Observed, only, rate_of, read_observed, run_segments, write_estimate
-from mobnet.estimation.methods import build_estimator
-from mobnet.estimation.recipe import Recipe
+from mobnet.estimation.estimate import ObservedRecording, only, rate_of, read_observed, run_segments, write_estimate
+from mobnet.estimation.recipe import Recipe, build_estimator
 from mobnet.learning.deployed.weights import std_scales
 from mobnet.robot.description import describe
-from mobnet.settings.methods import Observer
+from mobnet.settings.methods import ObserverSettings
 from mobnet.settings.robot import RobotTable
 from mobnet.settings.surrogate import Level
 
@@ -21,7 +20,7 @@ def estimate(
     robot: RobotTable,
     level: Level,
     gravity_m_s2: float,
-    observer: Observer,
+    observer: ObserverSettings,
     runs: Sequence[MethodRun],
     recordings: Sequence[Path],
     residuals: Sequence[Path],
@@ -51,7 +50,9 @@ def estimate(
             _estimate(recipe, read, [folder / recording.name for recording in recordings[some]], run.joints)
 
 
-def _estimate(recipe: Recipe, read: Sequence[Observed], outs: Sequence[Path], joints: Sequence[str] | None) -> None:
+def _estimate(
+    recipe: Recipe, read: Sequence[ObservedRecording], outs: Sequence[Path], joints: Sequence[str] | None
+) -> None:
     """Write what a method estimates of the joints, or of all that it estimates, in recordings."""
     estimator = build_estimator(recipe)
     shown = joints or estimator.joints

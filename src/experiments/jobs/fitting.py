@@ -7,9 +7,8 @@ from pathlib import Path
 from mobnet.core.errors import ConfigError, not_accepted
 from mobnet.core.files import write_json
 from mobnet.core.joints import JointLayout
-from mobnet.estimation.methods import kind_of
-from mobnet.estimation.recipe import options_of
-from mobnet.settings.methods import Method, Observer
+from mobnet.estimation.recipe import kind_of, options_of
+from mobnet.settings.methods import Method, ObserverSettings
 from mobnet.settings.networks import Network
 
 log = logging.getLogger(__name__)
@@ -17,7 +16,7 @@ log = logging.getLogger(__name__)
 
 def write_fit(
     layout: JointLayout,
-    observer: Observer,
+    observer: ObserverSettings,
     method: Method,
     networks: Mapping[str, Network],
     training: Mapping[str, Sequence[tuple[Path, Path]]],

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from experiments.plan.seeds import FIRST_TRAINING_SEED
-from mobnet.core.provenance import provenance
+from mobnet.core.code import provenance
 from mobnet.core.store import write_array
 from mobnet.robot.description import describe, for_walking
 from mobnet.settings.data import Motion

@@ -12,7 +12,7 @@ from mobnet.core.store import check_rate, read_array, write_array
 from mobnet.estimation.label import foot_label
 from mobnet.estimation.observe import CARRIED, observer_of, read_wrenches, residual_and_truth
 from mobnet.robot.description import describe
-from mobnet.settings.methods import Observer
+from mobnet.settings.methods import ObserverSettings
 from mobnet.settings.robot import RobotTable
 from mobnet.settings.surrogate import Level
 
@@ -23,7 +23,7 @@ def observe_walks(
     robot: RobotTable,
     level: Level,
     gravity_m_s2: float,
-    observer: Observer,
+    observer: ObserverSettings,
     rate_hz: float,
     recordings: Sequence[Path],
     out: Path,
@@ -41,7 +41,7 @@ def observe(
     robot: RobotTable,
     level: Level,
     gravity_m_s2: float,
-    observer: Observer,
+    observer: ObserverSettings,
     recording: Path,
     out: Path,
     rate_hz: float | None = None,

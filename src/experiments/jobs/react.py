@@ -8,13 +8,13 @@ from pathlib import Path
 import numpy as np
 
 from experiments.jobs.calm import FORCE
-from experiments.jobs.reacting_robot import Robot
+from experiments.jobs.reacting_robot import ReactingRobot
 from experiments.jobs.reaction_trial import trial_of
 from experiments.plan.parts import CaseWalks, MethodRun
 from mobnet.core.arrays import Array
 from mobnet.core.course import course_columns
 from mobnet.core.detections import Threshold
-from mobnet.core.estimator import Estimator
+from mobnet.core.estimator import TorqueEstimator
 from mobnet.core.files import write_text
 from mobnet.core.reactions import FORCE_SENSORS, NONE, TRIALS, Trial
 from mobnet.core.rows import csv_text, read_rows
@@ -26,7 +26,7 @@ from mobnet.reaction.handler import Handler, Watcher
 from mobnet.reaction.loop import Course, walk_with
 from mobnet.reaction.watchers import FootWatcher, LegWatcher, LimbWatcher, OwnLegWatcher
 from mobnet.settings.detection import Detection
-from mobnet.settings.methods import Observer
+from mobnet.settings.methods import ObserverSettings
 from mobnet.settings.reaction import Reaction, Watch, watches_of
 from mobnet.simulation.simulator import Simulator
 
@@ -36,7 +36,7 @@ log = logging.getLogger(__name__)
 def react(
     reaction: Reaction,
     detection: Detection,
-    observer: Observer,
+    observer: ObserverSettings,
     runs: Mapping[str, MethodRun],
     thresholds: Sequence[Path],
     walks: CaseWalks,
@@ -59,7 +59,7 @@ def react(
     rows: list[Threshold] = []
     for path in thresholds:
         rows += read_rows(path, Threshold)
-    robot_walks = Walks(Robot(walks.settings, reaction, detection, observer, runs), rows)
+    robot_walks = CaseWalker(ReactingRobot(walks.settings, reaction, detection, observer, runs), rows)
     trials = list[Trial]()
     ours, *others = watches_of(reaction, walks.case)
     for watch, seeds in [(ours, walks.seeds), *((other, walks.seeds[: walks.sizes.compared]) for other in others)]:
@@ -73,12 +73,12 @@ def react(
 
 
 @dataclass(frozen=True)
-class Walks:
+class CaseWalker:
     """A robot with its thresholds that walks cases; `estimators` are those of the methods that it needed so far."""
 
-    robot: Robot
+    robot: ReactingRobot
     thresholds: Sequence[Threshold]
-    estimators: dict[str, Estimator] = field(default_factory=dict)
+    estimators: dict[str, TorqueEstimator] = field(default_factory=dict)
 
     def walk(self, one: CaseWalks, watch: Watch, seed: int) -> tuple[Trial, Course]:
         """Walk a case; return what came of it, and the course."""
@@ -102,7 +102,7 @@ class Walks:
         place = one.case, settings.level_name, seed
         return trial_of(numbers, place, watch, course, settle, robot.rate_hz, bool(simulator.state.standing)), course
 
-    def estimator(self, method: str) -> Estimator:
+    def estimator(self, method: str) -> TorqueEstimator:
         """Return the estimator of a method; its networks are read once, its state is that of a walk."""
         if method not in self.estimators:
             self.estimators[method] = self.robot.estimator(method)
@@ -161,7 +161,7 @@ class Walks:
         return {(row.phase, row.signal): row.value for row in rows}
 
 
-def write_course(course: Course, trial: Trial, walks: Walks, out: Path) -> None:
+def write_course(course: Course, trial: Trial, walks: CaseWalker, out: Path) -> None:
     """Write a course, with the times of its trial in the note and the places of the obstacles."""
     robot = walks.robot
     joints = walks.estimator(walks.robot.reaction.estimator).joints

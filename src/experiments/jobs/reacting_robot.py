@@ -8,20 +8,19 @@ from typing import Any
 from numpy.typing import NDArray
 
 from experiments.plan.parts import MethodRun
-from mobnet.core.estimator import Estimator
+from mobnet.core.estimator import TorqueEstimator
 from mobnet.detection.signals import Watched
 from mobnet.detection.watch import LegSetup
-from mobnet.estimation.methods import build_estimator
-from mobnet.estimation.recipe import Recipe
+from mobnet.estimation.recipe import Recipe, build_estimator
 from mobnet.robot.description import RobotDescription, describe
 from mobnet.settings.detection import Detection
-from mobnet.settings.methods import Observer
+from mobnet.settings.methods import ObserverSettings
 from mobnet.settings.reaction import Reaction
-from mobnet.settings.walk import WalkSettings
+from mobnet.settings.walking import WalkSettings
 
 
 @dataclass(frozen=True)
-class Robot:
+class ReactingRobot:
     """A robot that walks, with the networks and fits of methods.
 
     Attributes:
@@ -35,7 +34,7 @@ class Robot:
     settings: WalkSettings
     reaction: Reaction
     detection: Detection
-    observer: Observer
+    observer: ObserverSettings
     runs: Mapping[str, MethodRun]
 
     @cached_property
@@ -58,7 +57,7 @@ class Robot:
         """What our detector watches."""
         return Watched(self.detection.detectors[self.reaction.ours.detector])
 
-    def estimator(self, method: str, limbs: Collection[str] = ()) -> Estimator:
+    def estimator(self, method: str, limbs: Collection[str] = ()) -> TorqueEstimator:
         """Return the estimator of a method with this robot's networks, of some limbs alone if asked, and its fit."""
         run = self.runs[method]
         settings = self.settings

@@ -21,9 +21,14 @@ def contacts_of(force: NDArray[np.float32], touch_n: float, gap: int) -> list[sl
 
 
 def trial_of(
-    numbers: Reaction, place: tuple[str, str, int], watch: Watch, course: Course, begin: int, rate_hz: float,
+    numbers: Reaction,
+    place: tuple[str, str, int],
+    watch: Watch,
+    course: Course,
+    begin: int,
+    rate_hz: float,
     stopped: bool,
-) -> Trial:  # fmt: skip
+) -> Trial:
     """Return what came of a walk of a case with a robot and a seed; nothing is an alarm before sample `begin`."""
     contacts = contacts_of(course.force, numbers.touch_n, round(numbers.gap_s * rate_hz))
     first = contacts[0] if contacts else None

@@ -12,14 +12,14 @@ from mobnet.core.joints import JointLayout
 from mobnet.core.store import read_array, spans_and_rate
 from mobnet.estimation.kinds.friction import FittedFriction, read_friction
 from mobnet.estimation.low_pass import low_pass
-from mobnet.settings.methods import Observer
+from mobnet.settings.methods import ObserverSettings
 from mobnet.settings.networks import Training
 
 
 def train_gray(
     root_seed: int,
     layout: JointLayout,
-    observer: Observer,
+    observer: ObserverSettings,
     training: Training,
     seed: int,
     recordings: Sequence[Path],

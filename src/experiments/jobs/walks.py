@@ -4,7 +4,7 @@ import logging
 from collections.abc import Mapping
 from pathlib import Path
 
-from mobnet.settings.walk import WalkSettings
+from mobnet.settings.walking import WalkSettings
 from mobnet.simulation.record import collect
 
 log = logging.getLogger(__name__)

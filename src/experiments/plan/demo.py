@@ -37,7 +37,7 @@ def demo_needs(files: Files) -> Mapping[str, Any]:
     own = files.robots.get(story.level, files)
     layout = settings.layout
     copied = dict[str, Path]()
-    limb = next(name for name, joints in layout.groups.items() if story.joint in joints)
+    limb = layout.limb_of[story.joint]
     runs = {method: own.runs(story.scenario, story.level, [method])[0] for method in story.methods}
     for method in story.methods:
         source = own.catalogue.network_source_of(method)

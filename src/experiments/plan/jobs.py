@@ -19,8 +19,7 @@ from experiments.settings.measures import Scoring
 from experiments.settings.settings import Settings
 from mobnet.settings.data import Terrain
 from mobnet.settings.methods import Method
-from mobnet.settings.walk import WalkSettings
-from mobnet.settings.walking import Walking
+from mobnet.settings.walking import Walking, WalkSettings
 
 KINDS = "mobnet.estimation.kinds"  # modules that a method names as its kind
 MEASURES = "experiments.evaluation.measure.estimates"  # modules that sections of the evaluation name

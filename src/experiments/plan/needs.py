@@ -1,44 +1,116 @@
-"""What each table and figure is made from: scores, runs, recordings or trainings.
+"""What tables and figures are made from: scores, runs, recordings or trainings.
 
-A parameter of a product's function says by its name what it gets (`USUAL`), where the product has no need of its own.
+Each function returns what one parameter of a product's function gets. The row of the product names it
+(`experiments.settings.products.MadeBy.needs`); a section is that of the product.
 """
 
 from collections import defaultdict
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
-from experiments.plan.detection import all_detections
-from experiments.plan.files import Files
-from experiments.plan.reactions import all_reactions, courses_of
+from experiments.plan.detection import Detections, all_detections, detection_files
+from experiments.plan.files import Files, SweptSize
+from experiments.plan.parts import PageScene
+from experiments.plan.reactions import Reactions, all_reactions, courses_of
 from experiments.plan.runs import Run
 from experiments.settings.asked import tests_in
+from experiments.settings.products import MadeBy
+from experiments.settings.published import PublishedTable
 from experiments.settings.runs import Runs
-from mobnet.core.errors import ConfigError
+from mobnet.core.errors import ConfigError, not_accepted
+from mobnet.settings.data import Push
+from mobnet.settings.networks import Limb, Network
 
-Needs = Mapping[str, object]
+Need = Callable[[Files, Any], object]
+Named = TypeVar("Named", bound=Need)
+ByName = Mapping[str, tuple[Path, ...]]
+NEEDS: dict[str, Need] = {}  # by name
 
 
-def needs_of(files: Files, name: str, section: Any, parameters: Iterable[str]) -> Needs:
-    """Return what a product is made from, by parameter: its own entry of `NEEDS`, and what others usually mean.
+def need(function: Named) -> Named:
+    """Let rows of products name a function."""
+    NEEDS[function.__name__] = function
+    return function
+
+
+def needs_of(files: Files, row: MadeBy, section: Any) -> dict[str, object]:
+    """Return what a product is made from, by parameter of its function.
 
     Raises:
-        ConfigError: a parameter has its usual meaning, and the section lacks what this needs.
+        ConfigError: the row names a need that there is not.
     """
-    own: Needs = NEEDS[name](files, section) if name in NEEDS else {}
-    usual = [parameter for parameter in parameters if parameter in USUAL and parameter not in own]
-    try:
-        return {**{parameter: USUAL[parameter](files, section) for parameter in usual}, **own}
-    except AttributeError as error:
-        raise ConfigError(f"{name}: its section lacks what a function of it asks for: {error}") from None
+    found: dict[str, object] = {}
+    for parameter, name in row.needs.items():
+        if name not in NEEDS:
+            raise ConfigError(not_accepted(f"need of {row.function}", name, NEEDS))
+        found[parameter] = NEEDS[name](files, section)
+    return found
 
 
-def _scores(files: Files, section: Any) -> tuple[Path, ...]:
+# Scores and runs of tests.
+@need
+def scores(files: Files, section: Any) -> tuple[Path, ...]:
     """Return the scores of the tests that a section, or a tuple of them, names, at the levels that it names."""
     return files.scores(tests_in(files.settings, section))
 
 
-def _sets(files: Files, _: Any) -> Mapping[str, tuple[Path, ...]]:
+@need
+def scores_of_known_robots(files: Files, section: Any) -> tuple[Path, ...]:
+    """Return the scores of the tests of robots that networks know, in which their check should flag nothing."""
+    tests = files.settings.evaluation.changed.tests
+    return scores(files, tuple(tests[title] for title in section.known))
+
+
+@need
+def claimed_scores(files: Files, _: Any) -> tuple[Path, ...]:
+    """Return the scores that claims name."""
+    return scores(files, files.settings.claims)
+
+
+@need
+def first_runs(files: Files, section: Any) -> tuple[Run, ...]:
+    """Return the first run of each method of a section."""
+    return files.first_runs(section)
+
+
+@need
+def first_runs_of_panels(files: Files, section: Any) -> tuple[Run, ...]:
+    """Return the first runs at each level of which a section has a panel."""
+    runs: list[Run] = []
+    for level, methods in section.panels.items():
+        runs += files.first_runs(Runs(scenario=section.scenario, level=level, methods=methods))
+    return tuple(runs)
+
+
+@need
+def first_runs_by_title(files: Files, section: Any) -> Mapping[str, tuple[Run, ...]]:
+    """Return the first runs of each test of a section, by its title."""
+    return {title: files.first_runs(test) for title, test in section.tests.items()}
+
+
+@need
+def all_runs(files: Files, section: Any) -> tuple[Run, ...]:
+    """Return every run of the methods of a section."""
+    return files.runs(section.scenario, section.level, section.methods)
+
+
+@need
+def runs_by_test(files: Files, section: Any) -> tuple[tuple[Run, ...], ...]:
+    """Return every run of the methods of each test of a section."""
+    return tuple(files.runs(test.scenario, test.level, test.methods) for test in section.tests)
+
+
+@need
+def pushes_of_test(files: Files, section: Any) -> Mapping[str, Push]:
+    """Return the pushes of the test of a section."""
+    settings = files.settings
+    return {name: settings.pushes[name] for name in settings.scenarios[section.scenario].pushes}
+
+
+# Recordings and residuals.
+@need
+def training_sets(files: Files, _: Any) -> ByName:
     """Return the recordings of every training set that is recorded, those of all robots together."""
     walked: set[str] = set()
     for own in files.robots.values():
@@ -47,12 +119,173 @@ def _sets(files: Files, _: Any) -> Mapping[str, tuple[Path, ...]]:
     return {name: files.training("recordings", name) for name in (*files.recorded_sets, *fleet)}
 
 
-def _struck(files: Files, section: Any) -> tuple[Path, ...]:
+@need
+def named_sets(files: Files, section: Any) -> ByName:
+    """Return the recordings of the training sets that a section names."""
+    return {name: files.training("recordings", name) for name in section.sets}
+
+
+@need
+def walking_set(files: Files, _: Any) -> ByName:
+    """Return the recordings of random walking from which networks learn."""
+    return {"walk": files.training("recordings", "walk")}
+
+
+@need
+def sets_with_and_without_rte(files: Files, _: Any) -> ByName:
+    """Return the first robot's recordings of random walking, with random torques and without."""
+    own = next(iter(files.robots.values()))
+    sets = {"with RTE": "walk", "without RTE": "walk_plain"}
+    return {label: own.training("recordings", name) for label, name in sets.items()}
+
+
+@need
+def first_robot_tests(files: Files, _: Any) -> tuple[tuple[Path, ...], ...]:
+    """Return the first robot's recordings of the tests that its training data are compared with."""
+    robot, own = next(iter(files.robots.items()))
+    return tuple(own.tests(test.scenario, robot) for test in files.settings.evaluation.coverage.tests)
+
+
+@need
+def walks_by_kind(files: Files, _: Any) -> Mapping[str, list[Path]]:
+    """Return all recordings by what is walked: falls are counted by what disturbs a walk (note 0042)."""
+    walks = defaultdict[str, list[Path]](list)
+    for own in files.owners:
+        for scenario, level, seed in own.recorded():
+            row = files.settings.scenarios[scenario]
+            kind = "with random torque" if row.random_torque else "pushed" if row.pushes else "undisturbed"
+            title = f"{'surrogate robots' if own.robot else 'plant of section 5.1'}, {kind}"
+            walks[title].append(own.array("recordings", scenario, level, seed))
+    return dict(walks)
+
+
+@need
+def first_walks(files: Files, _: Any) -> Mapping[str, tuple[Path, Path]]:
+    """Return the first recording of each robot from which its legs learn, with its residual."""
+    walks: dict[str, tuple[Path, Path]] = {}
+    for robot, own in files.robots.items():
+        walks[robot] = own.training("recordings", "walk")[0], own.training("residuals", "walk")[0]
+    return walks
+
+
+def _learned_from(files: Files) -> list[str]:
+    """Return the training sets that networks learn from."""
+    return list(dict.fromkeys(row.data for row in files.settings.networks.values()))
+
+
+@need
+def residuals_by_set(files: Files, _: Any) -> ByName:
+    """Return the residuals of the training sets that networks learn from."""
+    return {name: files.training("residuals", name) for name in _learned_from(files)}
+
+
+@need
+def residuals_by_robot(files: Files, _: Any) -> Mapping[str, ByName]:
+    """Return the residuals of the training sets that networks of each robot learn from."""
+    names = _learned_from(files)
+    robots: dict[str, dict[str, tuple[Path, ...]]] = {}
+    for robot, own in files.robots.items():
+        robots[robot] = {name: own.training("residuals", name) for name in own.learned_sets if name in names}
+    return robots
+
+
+# Networks and what they learn.
+def _both_recipes(files: Files) -> tuple[Path, ...]:
+    """Return the trained networks of Figure 17, those that learned by one recipe first."""
+    figure = files.settings.evaluation.figure_17
+    return (
+        *files.network_folders(figure.methods, figure.limb, figure.level),
+        *files.network_folders(figure.best, figure.limb, figure.best_level),
+    )
+
+
+@need
+def networks_of_both_recipes(files: Files, _: Any) -> tuple[Path, ...]:
+    """Return the trained networks of Figure 17."""
+    return _both_recipes(files)
+
+
+@need
+def networks_of_all_kinds(files: Files, section: Any) -> tuple[Path, ...]:
+    """Return the trained networks of Figure 17, then those of the variants that a section shows."""
+    figure = files.settings.evaluation.figure_17
+    return *_both_recipes(files), *files.network_folders(section.variants, figure.limb, section.level)
+
+
+@need
+def claimed_networks(files: Files, _: Any) -> tuple[Path, ...]:
+    """Return the trainings that claims may ask about: all kinds, and all sizes, of the left leg's networks."""
+    folders = [*networks_of_all_kinds(files, files.settings.evaluation.kinds)]
+    for size in files.swept_sizes():
+        folders += size.folders
+    return tuple(dict.fromkeys(folders))
+
+
+@need
+def networks_by_level(files: Files, _: Any) -> ByName:
+    """Return every network by the level that it learned at."""
+    robots: list[Path] = []
+    for own in files.robots.values():
+        robots += own.all_networks()
+    plant = tuple(folder for folder in files.all_networks() if folder not in robots)
+    first = next(iter(files.settings.training_sets.values()))
+    return {first.level: plant, files.settings.fleet.name: tuple(robots)}
+
+
+@need
+def first_networks(files: Files, section: Any) -> Mapping[str, Path]:
+    """Return the first trained network of each limb of the method of a section."""
+    method = section.method
+    limbs = files.catalogue.method(method).limbs
+    return {limb: files.network(method, limb, files.network_seeds(method)[0]) for limb in limbs}
+
+
+@need
+def printed_networks(files: Files, section: Any) -> Mapping[str, Network]:
+    """Return the networks of the rows of Table 1, with the changes of the method of a section."""
+    limbs = files.settings.published.table_01.rows
+    return {limb: files.catalogue.network(section.method, limb) for limb in limbs}
+
+
+@need
+def learned_target(files: Files, section: Any) -> object:
+    """Return what the networks of the method of a section learn."""
+    return files.catalogue.method(section.method).target
+
+
+@need
+def ports(files: Files, section: Any) -> Limb:
+    """Return what the network of the limb of a section sees, and what it predicts."""
+    return files.settings.robot.networks[section.limb]
+
+
+@need
+def swept_sizes(files: Files, _: Any) -> tuple[SweptSize, ...]:
+    """Return the networks of each size and of each share of the data."""
+    return files.swept_sizes()
+
+
+@need
+def swept_values(files: Files, section: Any) -> tuple[int, ...]:
+    """Return the values of the sweep of a section."""
+    return files.settings.sweeps[section.sweep].values
+
+
+# Detectors and reactions.
+@need
+def detections(files: Files, _: Any) -> Detections:
+    """Return the files of detectors of every level."""
+    return all_detections(files)
+
+
+@need
+def struck(files: Files, section: Any) -> tuple[Path, ...]:
     """Return the recordings with collisions of the robot of a section."""
     return files.robots.get(section.level, files).tests(files.settings.detection.collisions, section.level)
 
 
-def _estimates(files: Files, section: Any) -> Mapping[str, tuple[Path, ...]]:
+@need
+def estimates_of_struck(files: Files, section: Any) -> ByName:
     """Return the estimates of the same recordings, by the methods of a section's detectors."""
     own = files.robots.get(section.level, files)
     test = (files.settings.detection.collisions, section.level)
@@ -62,149 +295,61 @@ def _estimates(files: Files, section: Any) -> Mapping[str, tuple[Path, ...]]:
     return found
 
 
-def _uncertainty(files: Files, _: Any) -> Needs:
-    """Return the residuals of the training sets that networks learn from."""
-    names = dict.fromkeys(row.data for row in files.settings.networks.values())
-    robots: dict[str, dict[str, tuple[Path, ...]]] = {}
-    for robot, own in files.robots.items():
-        robots[robot] = {name: own.training("residuals", name) for name in own.learned_sets if name in names}
-    return {"sets": {name: files.training("residuals", name) for name in names}, "robots": robots}
+@need
+def reactions(files: Files, _: Any) -> Reactions:
+    """Return the files of reactions of every robot."""
+    return all_reactions(files)
 
 
-def _label_error(files: Files, _: Any) -> Needs:
-    """Return the first recording of each robot from which its legs learn, with its residual."""
-    walks: dict[str, tuple[Path, Path]] = {}
-    for robot, own in files.robots.items():
-        walks[robot] = own.training("recordings", "walk")[0], own.training("residuals", "walk")[0]
-    return {"walks": walks}
+@need
+def courses(files: Files, section: Any) -> Mapping[str, Path]:
+    """Return the first walk of each case of a section."""
+    return courses_of(files, section.cases)
 
 
-def _coverage(files: Files, _: Any) -> Needs:
-    """Return the first robot's training sets with random torques and without, its tests, and what the network sees."""
-    sets = {"with RTE": "walk", "without RTE": "walk_plain"}
-    settings = files.settings.evaluation.coverage
-    (robot, own) = next(iter(files.robots.items()))
+@need
+def courses_of_case(files: Files, section: Any) -> Mapping[str, Path]:
+    """Return the first walk of the case of a section."""
+    return courses_of(files, [section.case])
+
+
+# What does not come from a run.
+@need
+def printed_tables(files: Files, section: Any) -> Mapping[str, PublishedTable]:
+    """Return the tables of the paper whose numbers a section shows."""
+    return {name: files.settings.published.tables[name] for name in section.paper}
+
+
+@need
+def kept_file(_: Files, section: Any) -> Path:
+    """Return the file of the repository that a section shows."""
+    return Path(section.data)
+
+
+def explore_needs(files: Files) -> dict[str, object]:
+    """Return the scenes of the page by name, that of the story first, and what its detector said of the collisions."""
+    evaluation = files.settings.evaluation
+    story = evaluation.story
+    page = evaluation.explore
+    methods = (*story.methods, *page.story.further)
+    runs = files.first_runs(Runs(scenario=story.scenario, level=story.level, methods=methods))
+    limb = files.settings.layout.limb_of[story.joint]
+    told = page.story
+    pushes = _pushes(files, story.scenario)
+    first = PageScene(told.push, told.plant, runs, (limb,), story.joint, told.threshold_nm, pushes, story.push)
+    scenes = {"story": first}
+    for name, row in page.scenes.items():
+        scenes[name] = PageScene(
+            row.push, row.plant, files.first_runs(row), row.limbs, row.joint, row.threshold_nm,
+            _pushes(files, row.scenario), from_s=row.from_s,
+        )  # fmt: skip
+    found = detection_files(files.robots.get(story.level, files))
     return {
-        "training": {label: own.training("recordings", name) for label, name in sets.items()},
-        "tests": tuple(own.tests(test.scenario, robot) for test in settings.tests),
-        "ports": files.settings.robot.networks[settings.limb],
-    }
+        "scenes": scenes, "story": story, "peaks": evaluation.peaks,
+        "collisions": found["collisions"], "detected": found["detected"],
+    }  # fmt: skip
 
 
-def _folders_of_figure_17(files: Files) -> tuple[Path, ...]:
-    """Return the trained networks of Figure 17, those that learned by one recipe first."""
-    figure = files.settings.evaluation.figure_17
-    return (
-        *files.network_folders(figure.methods, figure.limb, figure.level),
-        *files.network_folders(figure.best, figure.limb, figure.best_level),
-    )
-
-
-def _folders_of_kinds(files: Files) -> tuple[Path, ...]:
-    """Return the trained networks of Figure 17, then those of the variants that the table of kinds shows."""
-    figure = files.settings.evaluation.figure_17
-    table = files.settings.evaluation.kinds
-    return *_folders_of_figure_17(files), *files.network_folders(table.variants, figure.limb, table.level)
-
-
-def _claims(files: Files, _: Any) -> Needs:
-    """Return the scores that claims name, and the trainings of the kinds and sizes of the left leg's networks."""
-    folders = [*_folders_of_kinds(files)]
-    for size in files.swept_sizes():
-        folders += size.folders
-    return {"scores": _scores(files, files.settings.claims), "folders": tuple(dict.fromkeys(folders))}
-
-
-def _hourly(files: Files, section: Any) -> Needs:
-    """Return all recordings by what is walked, and the scores of the tests in which the check should flag nothing."""
-    # Falls are counted by what disturbs a walk (note 0042).
-    walks = defaultdict[str, list[Path]](list)
-    for own in files.owners:
-        for scenario, level, seed in own.recorded():
-            row = files.settings.scenarios[scenario]
-            kind = "with random torque" if row.random_torque else "pushed" if row.pushes else "undisturbed"
-            title = f"{'surrogate robots' if own.robot else 'plant of section 5.1'}, {kind}"
-            walks[title].append(own.array("recordings", scenario, level, seed))
-    changed = files.settings.evaluation.changed
-    known = tuple(changed.tests[title] for title in section.known)
-    return {"walks": dict(walks), "changed": changed, "scores": _scores(files, known)}
-
-
-def _latency(files: Files, section: Any) -> Needs:
-    """Return the first trained network of each limb of the method whose time is looked at."""
-    method = section.method
-    limbs = files.catalogue.method(section.method).limbs
-    return {"networks": {limb: files.network(method, limb, files.network_seeds(method)[0]) for limb in limbs}}
-
-
-def _table_01(files: Files, section: Any) -> Needs:
-    """Return the networks of the method of Table 1, with its changes, and what they learn."""
-    limbs = files.settings.published.table_01.rows
-    networks = {limb: files.catalogue.network(section.method, limb) for limb in limbs}
-    return {"networks": networks, "target": files.catalogue.method(section.method).target}
-
-
-def _calibration(files: Files, section: Any) -> Needs:
-    """Return every network by the level that it learned at, and the runs of each test of the standard deviations."""
-    robots: list[Path] = []
-    for own in files.robots.values():
-        robots += own.all_networks()
-    plant = tuple(folder for folder in files.all_networks() if folder not in robots)
-    first = next(iter(files.settings.training_sets.values()))
-    return {
-        "folders": {first.level: plant, files.settings.fleet.name: tuple(robots)},
-        "runs": tuple(files.runs(test.scenario, test.level, test.methods) for test in section.tests),
-    }
-
-
-def _contact_points(files: Files, section: Any) -> Needs:
-    """Return all runs of a section, and the pushes of its test."""
-    settings = files.settings
-    pushes = {name: settings.pushes[name] for name in settings.scenarios[section.scenario].pushes}
-    return {"runs": files.runs(section.scenario, section.level, section.methods), "pushes": pushes}
-
-
-def _figure_05(files: Files, section: Any) -> Needs:
-    """Return the first runs at each level of Figure 5."""
-    runs: list[Run] = []
-    for level, methods in section.panels.items():
-        runs += files.first_runs(Runs(scenario=section.scenario, level=level, methods=methods))
-    return {"runs": tuple(runs)}
-
-
-USUAL: Mapping[str, Callable[[Files, Any], object]] = {  # parameter -> what it gets
-    "scores": _scores,
-    "runs": Files.first_runs,
-    "folders": lambda files, section: files.network_folders(section.methods, section.limb, section.level),
-    "sets": _sets,
-    "detections": lambda files, _: all_detections(files),
-    "reactions": lambda files, _: all_reactions(files),
-    "courses": lambda files, section: courses_of(files, section.cases),
-    "recordings": _struck,
-    "estimates": _estimates,
-    "printed": lambda files, section: {name: files.settings.published.tables[name] for name in section.paper},
-    "seconds": lambda files, section: files.settings.sweeps[section.sweep].values,
-    "sizes_of_networks": lambda files, _: files.swept_sizes(),
-    "kept": lambda _, section: Path(section.data),
-}
-NEEDS: Mapping[str, Callable[[Files, Any], Needs]] = {  # products in which parameters mean something else
-    "table_01": _table_01,
-    "claims": _claims,
-    "hourly": _hourly,
-    "latency": _latency,
-    "commands": lambda files, own: {"sets": {name: files.training("recordings", name) for name in own.sets}},
-    "steps": lambda files, _: {"sets": {"walk": files.training("recordings", "walk")}},
-    "contact_points": _contact_points,
-    "coverage": _coverage,
-    "uncertainty": _uncertainty,
-    "label_error": _label_error,
-    "figure_17": lambda files, _: {"folders": _folders_of_figure_17(files)},
-    "kinds": lambda files, _: {"folders": _folders_of_kinds(files), "figure_17": files.settings.evaluation.figure_17},
-    "calibration": _calibration,
-    "safety": lambda files, _: {"published": files.settings.published.section_5_4},
-    "figure_16": lambda files, _: {"published": files.settings.published.section_5_4},
-    "figure_21": lambda files, own: {"courses": courses_of(files, [own.case])},
-    "figure_05": _figure_05,
-    "figure_10": lambda files, own: {"runs": {title: files.first_runs(test) for title, test in own.tests.items()}},
-    "figure_19": _coverage,
-}
+def _pushes(files: Files, scenario: str) -> dict[str, Push]:
+    """Return the pushes of a scenario by name, in their order."""
+    return {name: files.settings.pushes[name] for name in files.settings.scenarios[scenario].pushes}

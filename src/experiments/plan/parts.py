@@ -4,9 +4,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from experiments.plan.runs import Run
 from experiments.settings.scales import ReactionSizes
+from mobnet.settings.data import Push
 from mobnet.settings.methods import Method
-from mobnet.settings.walk import WalkSettings
+from mobnet.settings.walking import WalkSettings
 
 TOGETHER_S = 960.0  # recordings of so long are held in memory and run side by side [s]: 1.3 GB
 
@@ -49,3 +51,30 @@ class CaseWalks:
     seeds: Sequence[int]
     sizes: ReactionSizes
     is_pushed: bool
+
+
+@dataclass(frozen=True)
+class PageScene:
+    """A scene of the page: its texts, one run of each method, the limbs shown, and which of the pushes it shows.
+
+    Attributes:
+        push: text of the button of its push.
+        plant: text of the button of its plant.
+        runs: one run of each method on one recording.
+        limbs: those whose joints are shown.
+        joint: the one that is shown first.
+        threshold_nm: where the slider of the threshold begins [N m].
+        pushes: those of the scenario, in their order.
+        name: name of the push that is shown, the first of it; None where any push counts.
+        from_s: time from which on the push may begin [s].
+    """
+
+    push: str
+    plant: str
+    runs: tuple[Run, ...]
+    limbs: tuple[str, ...]
+    joint: str
+    threshold_nm: float
+    pushes: Mapping[str, Push]
+    name: str | None = None
+    from_s: float = 0.0

@@ -1,20 +1,64 @@
 """The whole plan of a scale: its files, what its jobs get, and its products."""
 
+import shutil
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
-from experiments.plan.documentation import documentation
-from experiments.plan.files import PLANT, Files
-from experiments.plan.films import film_products
+from experiments.plan.call import Call
+from experiments.plan.detection import level_of_detectors
+from experiments.plan.files import PLANT, Files, made_by_jobs
 from experiments.plan.jobs import Jobs
 from experiments.plan.products import CAPTIONS, Folders, Product, Products
-from experiments.plan.reactions import is_pushed
+from experiments.plan.reactions import courses_of, is_pushed
 from experiments.plan.targets import MAIN
 from experiments.plan.trials import trial_products
 from experiments.settings.catalogue import Catalogue
 from experiments.settings.settings import Settings
 from mobnet.core.errors import ConfigError, not_accepted
+
+ROOT = ("README.md", "CONTRIBUTING.md", "CHANGELOG.md", "CITATION.cff", "paper/README.md")
+DOCUMENTS = "docs/**/*.*"
+# All of them: docstrings and settings are shown, which the hash of the code leaves out.
+MODULES = ("src/mobnet/**/*.py", "src/experiments/**/*.py")
+
+
+def film_products(files: Files) -> Iterator[Product]:
+    """Yield the films of the first robot's walks, where robots have detectors."""
+    if not any(level_of_detectors(own) for own in files.owners):
+        return
+    settings = files.settings
+    section = settings.evaluation.films
+    ending = "mp4" if shutil.which("ffmpeg") else "webp"
+    outs = {case: files.shared / "films" / f"{case}.{ending}" for case in section.joints}
+    courses = courses_of(files, section.joints)
+    arguments = {
+        "settings": section, "robot": settings.robot, "looks": settings.robot.looks, "obstacles": settings.obstacles,
+        "courses": courses, "outs": outs,
+    }  # fmt: skip
+    call = Call("experiments.evaluation.figures.further.films:films", arguments)
+    yield Product("films", call, tuple(made_by_jobs(courses)), tuple(map(str, outs.values())))
+
+
+def documentation(files: Files) -> Iterator[Product]:
+    """Yield the pages of the documentation, the same at every scale."""
+    modules: list[Path] = []
+    for pattern in MODULES:
+        modules += _found(pattern)
+    given = {
+        "documents": [*map(Path, ROOT), *_found(DOCUMENTS)],
+        "captions": [*_found(f"{CAPTIONS}/figures/*.rst"), *_found(f"{CAPTIONS}/tables/*.rst")],
+        "modules": modules,
+    }
+    out = files.shared / "docs"
+    call = Call("experiments.evaluation.report.docs:docs", {**given, "claims": files.settings.claims, "out": out})
+    yield Product("docs", call, tuple(made_by_jobs(given)), (str(out),))
+
+
+def _found(pattern: str) -> list[Path]:
+    """Return the files of the project's folder that match a pattern."""
+    return sorted(Path().glob(pattern))
 
 
 @dataclass(frozen=True)

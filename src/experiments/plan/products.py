@@ -11,18 +11,16 @@ from experiments.plan.call import Call, call_of, parameters
 from experiments.plan.demo import FOLDER, demo_needs, demo_outputs
 from experiments.plan.detection import all_detections
 from experiments.plan.files import Files, made_by_jobs
-from experiments.plan.needs import needs_of
-from experiments.plan.pages import explore_needs
+from experiments.plan.needs import explore_needs, needs_of
 from experiments.settings.claims import numbers_of
-from experiments.settings.evaluation import Evaluation
+from experiments.settings.evaluation import ENTRIES, PRODUCTS, Evaluation, row_of
+from experiments.settings.products import MadeBy
 from experiments.settings.runs import Runs
 from experiments.settings.settings import Settings
-from mobnet.core.code import code_hash, start_of
+from mobnet.core.code import code_hash
 
 EVALUATION = "experiments.evaluation"
-PLACES = ("tables.paper", "tables.further", "figures.paper", "figures.further", "report")
-ERRORS = f"{EVALUATION}.tables.paper.error_table:error_table"  # makes every entry of `tables`
-HANDS = ("figure_07", "figure_12")  # figures that `hand_figure` makes
+PAPER = "tables.paper"  # modules of the tables that the paper has
 TEMPLATES = Path("src/experiments/evaluation/report/templates")  # inputs of rules: the code hash reads Python only
 EXPLORE = tuple(
     TEMPLATES / name
@@ -37,18 +35,8 @@ TESTS = (  # scenario and level of those whose errors the page of trainings show
     "forward_walk/all_uncertainty", "motion_test/all_uncertainty", "walk_test/robots", "hand_wrench/robots",
     "changed_walk/*",
 )  # fmt: skip
-CLAIMED = ("claims", "claims_summary")  # made from the claims, which are no section of `evaluation`
-FURTHER: Mapping[str, tuple[str, ...]] = {"bode": ("bode_all",), "claims": ("claims_own",)}  # more figures of a product
 MAIN_TABLES = ("legs", "limbs", "detectors")  # of the paper's main text, made with its numbers
-SOURCES = (  # tables that these are made from
-    "table_05", "table_06", "table_07", "table_08", "table_09", "table_13", "methods", "peaks", "false_alarms",
-    "found_by_rate",
-)  # fmt: skip
-QUOTED = (  # tables that the paper's text takes numbers from, beside those of errors
-    "methods", "peaks", "phases", "noise", "error_budget", "label_error", "changed", "hourly", "kinds", "table_09",
-    "false_alarms", "found_by_rate", "smallest_force", "links", "contact_points", "safety", "sensorless",
-)  # fmt: skip
-BARS = tuple(f"figure_{k:02}" for k in (5, 6, 7, 8, 9, 10, 12))  # figures whose bars have a CSV of their own
+KEPT = "kept"  # parameter of a figure that shows a file of the repository
 TIMES = "TIMES.sha256"  # beside the manifest: the list of files that hold times, and so differ between equal runs
 CAPTIONS = Path("workflow/report")
 HEADINGS = {
@@ -57,7 +45,6 @@ HEADINGS = {
 }  # fmt: skip
 CATEGORIES = {"start": "0 Read me first"}  # the page on which the report opens; the report sorts its categories
 HEADLINE = ("table_05", "table_07", "table_08")  # tables of its errors of five methods
-PICTURED = ("figure_06", "figure_10", "figure_21", "claims")  # its figures
 
 
 @dataclass(frozen=True)
@@ -159,14 +146,22 @@ class Products:
     @property
     def table_names(self) -> list[str]:
         """Names of all tables."""
-        return [*self.settings.evaluation.tables, *_made_with("table_dir"), *MAIN_TABLES]
+        own = [name for name, row in _rows().items() if row.table]
+        return [*self.settings.evaluation.tables, *own, *MAIN_TABLES]
 
     @property
     def figure_names(self) -> list[str]:
         """Names of all figures, without those whose source data do not exist yet."""
-        kept = {"learning_curve": Path(self.settings.evaluation.learning_curve.data)}
-        made = [*_made_with("figure_dir"), *self.settings.evaluation.figures]
-        return [name for name in made if name not in kept or kept[name].is_file()]
+        own = [name for name, row in _rows().items() if row.figure]
+        return [name for name in (*own, *self.settings.evaluation.figures) if self._has_data(name)]
+
+    def _has_data(self, name: str) -> bool:
+        """Return whether the file of the repository that a figure shows is there, if it shows one."""
+        row = row_of(self.settings.evaluation, name)
+        if KEPT not in row.needs:
+            return True
+        kept = needs_of(self.files, row, self._section(name))[KEPT]
+        return not isinstance(kept, Path) or kept.is_file()
 
     @property
     def _drawn(self) -> list[str]:
@@ -186,14 +181,17 @@ class Products:
         figures = self.figure_names
         tables = [name for name in self.table_names if name not in MAIN_TABLES]
         for name in dict.fromkeys([*tables, *figures]):
+            row = row_of(self.settings.evaluation, name)
             drawn = pictures(name) if name in figures else ()
             outputs = _files(self.folders.figures, drawn, FIGURE)
-            outputs += [self.folders.figures / f"{name}_bars.csv"] if name in BARS else []
+            outputs += [self.folders.figures / f"{name}_bars.csv"] if row.bars else []
             outputs += [self.folders.tables / f"{name}.{ending}" for ending in TABLE if name in tables]
-            function = ERRORS if name in self.settings.evaluation.tables else functions()[name]
+            function = function_of(self.settings.evaluation, name)
             required, optional = parameters(function)
-            needs = needs_of(self.files, name, self._own(name).get("settings"), (*required, *optional))
-            yield self._product(name, function, {**needs, **self._tables_of(name)}, outputs)
+            needs = needs_of(self.files, row, self._section(name))
+            # The row of a field of entries says what any of them may take.
+            taken = {key: value for key, value in needs.items() if key in (*required, *optional)}
+            yield self._product(name, function, {**taken, **self._tables_of(name)}, outputs)
 
     def _pictures(self) -> Product:
         """Return the drawings of method and robot, and the film of a push where there is a robot with detectors."""
@@ -211,7 +209,7 @@ class Products:
         }
         outputs = _files(figures, DRAWN, FIGURE)
         outputs += [figures / f"push.{ending}" for ending in FILM] if is_told else []
-        return self._product("pictures", functions()["pictures"], needs, outputs)
+        return self._product("pictures", f"{EVALUATION}.figures.further.pictures:pictures", needs, outputs)
 
     def _tables_of(self, name: str) -> Mapping[str, object]:
         """Return the tables from which another table or figure is made."""
@@ -235,10 +233,10 @@ class Products:
         numbers = {
             "train": self.files.training_size("walk"),
             "table_csvs": csvs,
-            "further_csvs": [tables / f"{name}.csv" for name in QUOTED],
+            "further_csvs": [tables / f"{name}.csv" for name in quoted()],
             "captions": self._captions(),
             "compared": self.settings.evaluation.main_tables,
-            "sources": [tables / f"{name}.csv" for name in SOURCES],
+            "sources": [tables / f"{name}.csv" for name in sources(self.settings.evaluation)],
             "claims_csv": tables / "claims.csv",
             "summary_csv": tables / "claims_summary.csv",
         }
@@ -287,7 +285,9 @@ class Products:
         parts = [TEMPLATES / name for name in names]
         return {
             "pictures": [
-                (self.folders.figures / f"{name}.png", CAPTIONS / "figures" / f"{name}.rst") for name in PICTURED
+                (self.folders.figures / f"{name}.png", CAPTIONS / "figures" / f"{name}.rst")
+                for name in self.figure_names
+                if row_of(self.settings.evaluation, name).pictured
             ],
             "first": CAPTIONS / "start" / "index.rst",
             "templates": {name: TEMPLATES / f"{name}.html" for name in ("table", "claims", "index")},
@@ -316,7 +316,7 @@ class Products:
         evaluation = self.settings.evaluation
         return {
             **{name: getattr(self.settings, name) for name in type(self.settings).model_fields if name != "evaluation"},
-            **{name: getattr(evaluation, name) for name in ("statistics", "windows", "coverage")},
+            **{name: getattr(evaluation, name) for name in ("statistics", "windows")},
             "layout": self.settings.layout,
             "looks": self.settings.robot.looks,
             "sizes": self.settings.sizes,
@@ -332,17 +332,26 @@ class Products:
         """
         evaluation = self.settings.evaluation
         published = self.settings.published
-        section = {**evaluation.tables, **evaluation.figures}.get(name) or getattr(evaluation, name, None)
-        printed = published.tables.get(getattr(section, "table", name)) or getattr(published, name, None)
+        section = self._section(name)
+        row = PRODUCTS.get(name, MadeBy(""))
+        printed = published.tables.get(getattr(section, "table", name))
+        printed = printed or getattr(published, row.published or name, None)
         shortened = self.settings.sizes.figure_start_s
         start_s = getattr(section, "start_s", None) if shortened is None else shortened
         own = {"name": name, "settings": section, "start_s": start_s}
-        return {**{key: value for key, value in own.items() if value is not None}, "published": printed}
+        own = {key: value for key, value in own.items() if value is not None}
+        others = {other: getattr(evaluation, other) for other in row.sections}
+        return {**own, **others, "published": printed}
+
+    def _section(self, name: str) -> object:
+        """Return the section of a product, None if it has none."""
+        evaluation = self.settings.evaluation
+        return {**evaluation.tables, **evaluation.figures}.get(name) or getattr(evaluation, name, None)
 
 
 def pictures(name: str) -> tuple[str, ...]:
     """Return the names of the files of a figure: its own, and those of what else it draws."""
-    return name, *FURTHER.get(name, ())
+    return name, *(PRODUCTS[name].further if name in PRODUCTS else ())
 
 
 def _files(folder: Path, names: Iterable[str], endings: Iterable[str]) -> list[Path]:
@@ -365,22 +374,26 @@ def shown(file: str) -> Shown | None:
     return Shown(heading, caption.read_text(encoding="utf-8").splitlines()[0], caption)
 
 
-def _made_with(folder: str) -> list[str]:
-    """Return the sections of the configuration whose function of their name writes into `table_dir` or `figure_dir`."""
-    found: list[str] = []
-    for name in (*Evaluation.model_fields, *CLAIMED):
-        if name in functions():
-            required, optional = parameters(functions()[name])
-            found += [name] if folder in (*required, *optional) else []
-    return found
+def function_of(evaluation: Evaluation, name: str) -> str:
+    """Return the function `module:name` that makes a table or a figure."""
+    return f"{EVALUATION}.{row_of(evaluation, name).function}"
 
 
-@functools.cache
-def functions() -> dict[str, str]:
-    """Return the function `module:name` of each module of tables, of figures and of what is both."""
-    found: dict[str, str] = {}
-    for place in PLACES:
-        folder = f"{EVALUATION}.{place}"
-        found |= {path.stem: folder for path in start_of(folder).parent.glob("[a-z]*.py")}
-    made = {name: f"{folder}.{name}:{name}" for name, folder in found.items()}
-    return made | dict.fromkeys(HANDS, made["hand_figure"])
+def quoted() -> list[str]:
+    """Return the tables that the paper's text takes numbers from, beside those of errors."""
+    names = [name for name, row in PRODUCTS.items() if row.quoted]
+    return sorted(names, key=lambda name: PRODUCTS[name].quoted)
+
+
+def sources(evaluation: Evaluation) -> list[str]:
+    """Return the tables that those of the paper's main text are made from, those that the paper has first."""
+    named = {plant.printed for plant in evaluation.main_tables.legs.plants}
+    named.update(line.test.partition("@")[0] for line in evaluation.main_tables.by_limb.lines)
+    errors = [name for name in evaluation.tables if name in named]
+    own = [name for name, row in PRODUCTS.items() if row.source]
+    return [*errors, *sorted(own, key=lambda name: not PRODUCTS[name].function.startswith(PAPER))]
+
+
+def _rows() -> dict[str, MadeBy]:
+    """Return the rows of products, without those that stand for many entries."""
+    return {name: row for name, row in PRODUCTS.items() if name not in ENTRIES}

@@ -9,7 +9,7 @@ from experiments.plan.files import Files, made_by_jobs
 from experiments.plan.jobs import KINDS
 from experiments.plan.products import TABLE, Product
 from experiments.plan.runs import Tried, TriedTask
-from experiments.settings.trials import Trial, compared, references, tuned
+from experiments.settings.trials import MethodVariant, compared, references, tuned
 
 
 def trial_products(files: Files) -> Iterator[Product]:
@@ -35,10 +35,10 @@ def trial_products(files: Files) -> Iterator[Product]:
     yield _table(out, call, made_by_jobs(counted))
 
 
-def _product(files: Files, out: Path, trials: Sequence[Trial]) -> Product:
+def _product(files: Files, out: Path, trials: Sequence[MethodVariant]) -> Product:
     """Return the table of some trials, which runs all their networks on the walks of their tasks."""
     settings = files.settings
-    by_task = defaultdict[str, list[Trial]](list)
+    by_task = defaultdict[str, list[MethodVariant]](list)
     for trial in trials:
         by_task[trial.task].append(trial)
     tasks = {name: _task(files, name, own) for name, own in by_task.items()}
@@ -63,7 +63,7 @@ def _table(out: Path, call: Call, inputs: Iterable[str], modules: Iterable[str] 
     return Product(out.name, call, tuple(inputs), tuple(f"{out}.{ending}" for ending in TABLE), tuple(modules))
 
 
-def _task(files: Files, name: str, trials: Iterable[Trial]) -> TriedTask:
+def _task(files: Files, name: str, trials: Iterable[MethodVariant]) -> TriedTask:
     """Return what is tried at a task, with all networks and walks of its plant."""
     task = files.settings.development[name]
     own = next(owner for owner in files.owners if owner.has(task.level))
@@ -75,7 +75,7 @@ def _task(files: Files, name: str, trials: Iterable[Trial]) -> TriedTask:
     return TriedTask(own.settings.levels[task.level], joints, tuple(tried), *walks)
 
 
-def _tried(files: Files, trial: Trial) -> Iterator[Tried]:
+def _tried(files: Files, trial: MethodVariant) -> Iterator[Tried]:
     """Yield a trial with each of its networks, or without any."""
     source = files.catalogue.source_of(trial.name)
     methods = {source: files.catalogue.method(source), trial.name: trial.method}

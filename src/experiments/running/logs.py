@@ -15,13 +15,14 @@ from collections.abc import Iterator
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
-from mobnet.core.code import PACKAGES
-from mobnet.core.errors import DataError, MobnetError
+from pydantic import ConfigDict
+
+from mobnet.core.code import PACKAGES, UNKNOWN, commit
+from mobnet.core.errors import DataError, MobnetError, not_accepted, refuse
 from mobnet.core.files import REFUSALS, refusal, write_json
-from mobnet.core.provenance import UNKNOWN, commit
+from mobnet.core.notes import Note, NotNegative, Text, read_note
 
 log = logging.getLogger(__name__)
-
 FORMAT = "%(asctime)s %(levelname)s %(message)s"
 LOGS = "logs"  # folder of the jobs' logs, in which each rule with several jobs has a folder of its own
 STATUS = Path("/proc/self/status")
@@ -170,3 +171,30 @@ def peak_mib() -> float:
     held = re.search(r"^VmHWM:\s*(\d+) kB", STATUS.read_text() if STATUS.exists() else "", re.MULTILINE)
     peaks.append(int(held[1]) * 1024 if held else resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * unit)
     return max(peaks) / MIB
+
+
+class AccountNote(Note):
+    """The file of an `Account`."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    job: Text
+    start_s: NotNegative
+    end_s: NotNegative
+    wall_s: NotNegative
+    cpu_s: NotNegative
+    peak_mib: NotNegative
+    succeeded: bool
+    commit: Text = UNKNOWN
+
+
+def read_account(path: Path) -> Account:
+    """Read what one job took.
+
+    Raises:
+        DataError: the file is missing or damaged, or a key or a value is not accepted; one line for each.
+    """
+    note = read_note(path, AccountNote)
+    if note.end_s < note.start_s:
+        refuse(path, [not_accepted("end_s", note.end_s, [f"{note.start_s} or more, the start"])])
+    return Account(**dict(note))

@@ -42,13 +42,19 @@ def cost_parser() -> argparse.ArgumentParser:
         description="Print the jobs, core-hours, memory and disk of a run, priced by the rates of the published one.",
     )
     parser.add_argument(
-        "targets", nargs="*", metavar="TARGET",
+        "targets",
+        nargs="*",
+        metavar="TARGET",
         help="`all`, or files: price what a run of them would start now (default: a run from nothing)",
-    )  # fmt: skip
+    )
     parser.add_argument(
-        "--config", "-C", nargs="+", default=[], metavar="KEY=VALUE",
+        "--config",
+        "-C",
+        nargs="+",
+        default=[],
+        metavar="KEY=VALUE",
         help="keys of the configuration, such as scale=quick, as ./reproduce all takes them",
-    )  # fmt: skip
+    )
     return parser
 
 
@@ -68,8 +74,10 @@ def bench_parser() -> argparse.ArgumentParser:
         prog="./reproduce bench", description="Run benchmarks and print one table, in which each number has its bound."
     )
     parser.add_argument(
-        "names", nargs="*", metavar="NAME",
+        "names",
+        nargs="*",
+        metavar="NAME",
         help="modules of benchmarks, such as collect_hour (default: those that compare speed)",
-    )  # fmt: skip
+    )
     parser.add_argument("--out", type=Path, default=Path("results/bench.csv"), help="CSV (default: %(default)s)")
     return parser

@@ -4,14 +4,15 @@ A section asks for the runs that stand in it: a test, a level, methods; what it 
 joints that it names, or that a section around it does. A test is a scenario that is asked for.
 """
 
-from collections.abc import Iterator, Mapping
-from typing import Any, NamedTuple, cast
+from collections.abc import Iterator
+from typing import NamedTuple, cast
 
 from pydantic import BaseModel
 
 from experiments.settings.claims import Cell
 from experiments.settings.figures import Figure05, Figure18, FineTuning
 from experiments.settings.measures import CalibrationTest
+from experiments.settings.products import items_of
 from experiments.settings.runs import Mean, Runs
 from experiments.settings.settings import Settings
 from experiments.settings.tables import ErrorRow
@@ -22,7 +23,7 @@ from mobnet.settings.reading import Place
 SHOWN = ("limbs", "limb", "columns", "joints", "joint")  # keys that say what is shown, the first one that is there
 
 
-class Asked(NamedTuple):
+class RunRequest(NamedTuple):
     """A run of a method on a test at a level, asked for at a place, and the limbs or joints that are shown of it.
 
     With `partly`, it is enough that the method estimates some of them.
@@ -36,7 +37,7 @@ class Asked(NamedTuple):
     partly: bool = False
 
 
-def asked_by(settings: Settings) -> Iterator[Asked]:
+def asked_by(settings: Settings) -> Iterator[RunRequest]:
     """Yield every run that the configuration asks for."""
     yield from asked_in(settings, settings.evaluation, ("evaluation",))
     yield from _of_detection(settings)
@@ -48,19 +49,14 @@ def tests_in(settings: Settings, section: object) -> tuple[tuple[str, str], ...]
     return tuple(dict.fromkeys((one.scenario, one.level) for one in asked_in(settings, section, ())))
 
 
-def asked_in(settings: Settings, section: object, place: Place, shown: tuple[str, ...] = ()) -> Iterator[Asked]:
+def asked_in(settings: Settings, section: object, place: Place, shown: tuple[str, ...] = ()) -> Iterator[RunRequest]:
     """Yield the runs that a section asks for, and those of the sections in it."""
     if isinstance(section, BaseModel):
         shown = _shown_by(section) or shown
         for key, scenario, level, method in _own(settings, section):
             partly = isinstance(section, CalibrationTest)
-            yield Asked((*place, *key), scenario, level, method, shown, partly)
-        items: Mapping[Any, object] = {key: getattr(section, key) for key in type(section).model_fields}
-    elif isinstance(section, dict):
-        items = cast("Mapping[Any, object]", section)
-    else:
-        items = dict(enumerate(cast("tuple[object, ...]", section))) if isinstance(section, tuple) else {}
-    for key, item in items.items():
+            yield RunRequest((*place, *key), scenario, level, method, shown, partly)
+    for key, item in items_of(section).items():
         yield from asked_in(settings, item, (*place, key), shown)
 
 
@@ -95,7 +91,7 @@ def _of_fine_tuning(settings: Settings, section: FineTuning) -> Iterator[tuple[P
         yield from ((("tests", title, "known"), test.scenario, test.known, name) for name in test.methods)
 
 
-def _of_detection(settings: Settings) -> Iterator[Asked]:
+def _of_detection(settings: Settings) -> Iterator[RunRequest]:
     """Yield the runs of the gate's and the detectors' methods on the walks, of the legs that are hit, or all."""
     detection: Detection = settings.detection
     methods: dict[Place, str] = {("gate", "method"): detection.gate.method}
@@ -112,7 +108,7 @@ def _of_detection(settings: Settings) -> Iterator[Asked]:
         shown = tuple(leg for leg in detection.legs if leg in hit or not pushes)
         for level in detection.levels:
             for place, method in methods.items():
-                yield Asked(("detection", *place), scenario, level, method, shown, partly=True)
+                yield RunRequest(("detection", *place), scenario, level, method, shown, partly=True)
 
 
 def _shown_by(section: BaseModel) -> tuple[str, ...]:

@@ -6,10 +6,10 @@ from dataclasses import dataclass
 from functools import cached_property
 from itertools import product
 
-from experiments.settings.asked import Asked, asked_by
+from experiments.settings.asked import RunRequest, asked_by
 from experiments.settings.scales import Experiment
 from experiments.settings.settings import Settings
-from experiments.settings.trials import Trial, compared, tuned
+from experiments.settings.trials import MethodVariant, compared, tuned
 from mobnet.core.errors import ConfigError, not_accepted
 from mobnet.core.joints import JointLayout
 from mobnet.settings.methods import Method, Sweep, swept_name
@@ -32,7 +32,7 @@ class Catalogue:
         return self.settings.layout
 
     @cached_property
-    def asked(self) -> tuple[Asked, ...]:
+    def asked(self) -> tuple[RunRequest, ...]:
         """Every run that the configuration asks for."""
         return tuple(asked_by(self.settings))
 
@@ -100,7 +100,7 @@ class Catalogue:
         return {**methods, **swept}
 
     @cached_property
-    def trials(self) -> tuple[Trial, ...]:
+    def trials(self) -> tuple[MethodVariant, ...]:
         """Every variant that is tried."""
         given = self.settings.trials, self.settings.methods, self.settings.development
         return (*tuned(*given), *compared(*given))

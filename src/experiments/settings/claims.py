@@ -29,13 +29,33 @@ from mobnet.settings.reading import Place, mapping
 
 SHORT_CELL = ("level", "method", "joint")
 Quantity = Literal[
-    "value", "ratio", "cut", "square cut", "difference", "gap ratio", "gap difference", "below", "above", "least ratio",
-    "trend", "share",
-]  # fmt: skip
+    "value",
+    "ratio",
+    "cut",
+    "square cut",
+    "difference",
+    "gap ratio",
+    "gap difference",
+    "below",
+    "above",
+    "least ratio",
+    "trend",
+    "share",
+]
 TAKES: Mapping[Quantity, tuple[int, int]] = {  # how many cells: at least, and in steps of; a step of 0 is exactly
-    "value": (1, 0), "ratio": (2, 0), "cut": (2, 0), "square cut": (2, 0), "difference": (2, 0), "gap ratio": (4, 0),
-    "gap difference": (4, 0), "below": (2, 1), "above": (2, 1), "least ratio": (2, 2), "trend": (3, 1), "share": (1, 0),
-}  # fmt: skip
+    "value": (1, 0),
+    "ratio": (2, 0),
+    "cut": (2, 0),
+    "square cut": (2, 0),
+    "difference": (2, 0),
+    "gap ratio": (4, 0),
+    "gap difference": (4, 0),
+    "below": (2, 1),
+    "above": (2, 1),
+    "least ratio": (2, 2),
+    "trend": (3, 1),
+    "share": (1, 0),
+}
 Rule = Literal["about", "at most", "larger", "similar", "little", "share", "bar", "sign"]
 WITHOUT_NUMBER: tuple[Rule, ...] = ("similar", "bar", "sign")  # rules of claims for which the paper prints no number
 TrainingMetric = Literal[

@@ -25,7 +25,14 @@ PARTS: Mapping[str, tuple[str, ...]] = {  # file -> the sections that stand in i
     "surrogate": ("surrogate", "fleet"),
     "walking": ("walking",),
     "data": (
-        "terrain", "commands", "random_torque", "motions", "pushes", "obstacles", "scenarios", "training_sets",
+        "terrain",
+        "commands",
+        "random_torque",
+        "motions",
+        "pushes",
+        "obstacles",
+        "scenarios",
+        "training_sets",
         "recording",
     ),
     "networks": ("networks", "learning"),
@@ -37,7 +44,7 @@ PARTS: Mapping[str, tuple[str, ...]] = {  # file -> the sections that stand in i
     "motion": ("free_motion",),
     "evaluation": ("evaluation",),
     "scales": ("scales",),
-}  # fmt: skip
+}
 NAMED_FILES = ("robot", "published", "claims")  # sections that stand in files which config.yaml names
 WITH_NULLS = ("published", "claims")  # null: the paper prints no number; a range has no bound
 Check = Callable[[Settings], Iterable[Problem]]

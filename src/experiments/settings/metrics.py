@@ -1,35 +1,29 @@
-"""The metrics of scores, each declared beside the code that measures it and nowhere else.
+"""The metrics of scores, each with its unit and its range, declared here and nowhere else.
 
-A module of `experiments.evaluation.measure.estimates` has the name of its section of the evaluation and declares
-`METRICS`; those of `run_errors` are measured on every test. Here they are read, not imported: the configuration accepts
-these names before anything is computed, a score gets its unit from here, and files of scores are compared with both.
+Modules of `experiments.evaluation.measure.estimates` measure them. The configuration accepts these names before
+anything is computed, a score gets its unit from here, and files of scores are compared with both.
 """
 
-import ast
 import re
-from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cache
-from pathlib import Path
 
 from mobnet.core.errors import ConfigError, not_accepted
 
-MEASURES = Path(__file__).parents[1] / "evaluation" / "measure" / "estimates"
-ALWAYS = "run_errors"  # the module whose metrics are measured on every test
 JOINT_UNITS = ("N", "N m")  # of the torques of joints: V1..V3, and all others
 
 
 @dataclass(frozen=True)
 class Metric:
-    """Metrics that are measured alike; their declaration holds literals alone.
+    """Metrics that are measured alike.
 
     Attributes:
         names: pattern of their names.
         unit: their unit; braces stand for that of the joint.
         low: smallest value that there can be [unit]; None: no bound.
         high: largest value that there can be [unit]; None: no bound.
-        section: section of the evaluation on whose tests alone they are measured, which is the name of their module;
-            empty: on every test.
+        section: section of the evaluation on whose tests alone they are measured, and name of the module that measures
+            them; empty: on every test, by `run_errors`.
     """
 
     names: str
@@ -44,24 +38,28 @@ class Metric:
         return tuple(dict.fromkeys(map(self.unit.format, JOINT_UNITS)))
 
 
-def declared() -> Iterator[Metric]:
-    """Yield the metrics of all modules of measures."""
-    for path in sorted(MEASURES.glob("*.py")):
-        for node in ast.parse(path.read_text(encoding="utf-8")).body:
-            if isinstance(node, ast.Assign) and ast.unparse(node.targets[0]) == "METRICS":
-                section = "" if path.stem == ALWAYS else path.stem
-                yield from (replace(metric, section=section) for metric in _metrics(node.value))
-
-
-def _metrics(value: ast.expr) -> Iterator[Metric]:
-    """Yield the metrics of a tuple of declarations."""
-    calls = value.elts if isinstance(value, ast.Tuple) else ()
-    for call in (call for call in calls if isinstance(call, ast.Call)):
-        named = {word.arg: ast.literal_eval(word.value) for word in call.keywords if word.arg}
-        yield Metric(*map(ast.literal_eval, call.args), **named)
-
-
-METRICS = tuple(declared())
+METRICS = (
+    Metric(r"gain_[0-9]+(\.[0-9]+)?hz", "-", section="bode"),
+    Metric(r"phase_[0-9]+(\.[0-9]+)?hz", "deg", low=-180.0, high=180.0, section="bode"),
+    Metric("(known|free|flagged)_share", "-", high=1.0, section="changed"),
+    Metric("flags", "-", section="changed"),
+    Metric("watched", "h", section="changed"),
+    Metric("held_(swing|stance)(_[1-9][0-9]*)?", "-", low=None, section="drift"),
+    Metric("push_share", "-", low=None, section="peaks"),
+    Metric("rise_delay(_observer)?", "ms", low=None, section="peaks"),
+    Metric("rmse_(swing|touch_down|stance|stuck|moving)", section="phases"),
+    Metric("rmse(_raw|_label)?"),
+    Metric("r_rmse", "%"),
+    Metric("roughness", "{}/s"),
+    Metric("rmse_(pushed|push_[1-9][0-9]*)(_raw)?"),
+    Metric("rmse_part_[1-9][0-9]*", section="sigma"),
+    Metric("std(_(swing|touch_down|stance|stuck|moving|pushed|calm|part_[1-9][0-9]*))?", section="sigma"),
+    Metric(
+        "cover(_(swing|touch_down|stance|stuck|moving|pushed|calm|part_[1-9][0-9]*))?", "-", high=1.0, section="sigma"
+    ),
+    Metric("excursion", "ms", section="sigma"),
+    Metric("acf_[1-9][0-9]*ms", "-", low=-1.0, high=1.0, section="sigma"),
+)
 METRIC = "|".join(f"({metric.names})" for metric in METRICS)  # pattern of every name
 SECTIONS = tuple(dict.fromkeys(metric.section for metric in METRICS if metric.section))
 

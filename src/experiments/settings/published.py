@@ -98,7 +98,7 @@ class PublishedKinds(Section):
     order: dict[MethodName, Count]
 
 
-class Contact(Section):
+class PublishedContact(Section):
     """Peak force and impulse of a contact."""
 
     force_n: Positive = Field(le=10_000)
@@ -109,8 +109,8 @@ class PublishedContacts(Section):
     """Section 5.4: means of five collisions with a fixed obstacle."""
 
     printed: Text
-    foot: Contact
-    knee: Contact
+    foot: PublishedContact
+    knee: PublishedContact
 
 
 class Published(Section):

@@ -1,25 +1,39 @@
 """What the tables, figures and films of reactions show: one section for each."""
 
-from typing import Annotated
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Annotated
 
 from pydantic import Field
 
+from experiments.settings.products import Checked
 from mobnet.settings import base
 from mobnet.settings.base import Section
+from mobnet.settings.reading import Place, Problem
+
+if TYPE_CHECKING:  # which knows all sections
+    from experiments.settings.checks.results import Results
 
 
-class Safety(Section):
+class Safety(Checked):
     """What reactions are worth; a direction is right within an angle, an impulse is heavy above a bound."""
 
     cases: base.Distinct[base.CaseName]
     within_deg: Annotated[base.Positive, Field(le=180)]
     heavy_ns: Annotated[base.Positive, Field(le=1000)]
 
+    def problems(self, results: "Results", place: Place) -> Iterator[Problem]:
+        """Yield cases in which nothing is pushed or stands in the way."""
+        yield from results.not_cases((*place, "cases"), self.cases, pushed=True)
 
-class Sensorless(Section):
+
+class Sensorless(Checked):
     """Walks that nothing stands in the way of, with what is estimated in place of force sensors."""
 
     cases: base.Distinct[base.CaseName]
+
+    def problems(self, results: "Results", place: Place) -> Iterator[Problem]:
+        """Yield cases in which something is pushed or stands in the way."""
+        yield from results.not_cases((*place, "cases"), self.cases, pushed=False)
 
 
 class Figure16(Safety):
@@ -35,12 +49,16 @@ class Figure21(Section):
     case: base.CaseName
 
 
-class Figure22(Section):
+class Figure22(Checked):
     """Pictures of the first walk of each case: moments from the contact on, and azimuth and elevation of each view."""
 
     cases: base.Distinct[base.CaseName]
     moments_s: base.Some[base.Real]
     views_deg: dict[base.CaseName, tuple[base.Real, base.Real]]
+
+    def problems(self, results: "Results", place: Place) -> Iterator[Problem]:
+        """Yield cases in which nothing is pushed or stands in the way."""
+        yield from results.not_cases((*place, "cases"), self.cases, pushed=True)
 
 
 class Films(Section):

@@ -28,7 +28,13 @@ class RobotLength(Length):
 
 
 class ReactionSizes(Section):
-    """Walks of a robot with our detector, and with each other one; their longest duration."""
+    """How often a robot walks, and for how long.
+
+    Attributes:
+        runs: number of walks with our detector.
+        compared: number of walks with each other detector.
+        longest_s: time after which a walk ends at the latest.
+    """
 
     runs: Annotated[Count, Field(le=10_000)]
     compared: Annotated[Count, Field(le=10_000)]

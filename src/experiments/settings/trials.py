@@ -65,7 +65,7 @@ class Trials(Section):
     random_torque: Explored
 
 
-class Trial(NamedTuple):
+class MethodVariant(NamedTuple):
     """A variant of the method `base` at a task: its name, the keys that it changes with their values, the method."""
 
     base: str
@@ -87,13 +87,13 @@ def trial_name(base: str, changes: Mapping[str, Value]) -> str:
     return "-".join([base, *map(str, changes.values())]).replace("_", "-").replace(".", "-")
 
 
-def references(trials: Trials, methods: Mapping[str, Method], task: str) -> Iterator[Trial]:
+def references(trials: Trials, methods: Mapping[str, Method], task: str) -> Iterator[MethodVariant]:
     """Yield the methods that stand beside what is tried, unchanged."""
     for name in trials.tuning.references:
-        yield Trial(name, name, {}, methods[name], task)
+        yield MethodVariant(name, name, {}, methods[name], task)
 
 
-def tuned(trials: Trials, methods: Mapping[str, Method], tasks: Mapping[str, Development]) -> Iterator[Trial]:
+def tuned(trials: Trials, methods: Mapping[str, Method], tasks: Mapping[str, Development]) -> Iterator[MethodVariant]:
     """Yield every combination of what is tried for each method; a training that diverges is a result."""
     tuning = trials.tuning
     for name, grid in tuning.grids.items():
@@ -101,19 +101,19 @@ def tuned(trials: Trials, methods: Mapping[str, Method], tasks: Mapping[str, Dev
             learning = {**trials.recipes.get(tuning.recipe, {}), **{key: changes[key] for key in grid.learning}}
             options = {key: changes[key] for key in grid.options}
             method = _changed(methods[name], tasks.get(tuning.task), tuning.experiment, learning, options)
-            yield Trial(name, trial_name(name, changes), changes, method, tuning.task)
+            yield MethodVariant(name, trial_name(name, changes), changes, method, tuning.task)
 
 
 def compared(
     trials: Trials, methods: Mapping[str, Method], tasks: Mapping[str, Development], table: str | None = None
-) -> Iterator[Trial]:
+) -> Iterator[MethodVariant]:
     """Yield every method by every recipe at every length, of one table or of all."""
     for row in _rows(trials, table):
         known = [name for name in row.methods if name in methods]
         for name, experiment, recipe in product(known, row.experiments, row.recipes):
             changes: dict[str, Value] = {EXPERIMENT: experiment, RECIPE: recipe}
             method = _changed(methods[name], tasks.get(row.task), experiment, trials.recipes.get(recipe, {}), {})
-            yield Trial(name, trial_name(name, changes), changes, method, row.task)
+            yield MethodVariant(name, trial_name(name, changes), changes, method, row.task)
 
 
 def experiments_of(trials: Trials) -> set[str]:

@@ -13,7 +13,7 @@ from mobnet.robot.description import RobotDescription
 Indices = NDArray[np.int64]
 
 
-class Tree(NamedTuple):
+class KinematicTree(NamedTuple):
     """Bodies, parents first; body 0 is the base."""
 
     parent: Indices  # index of the parent body (nb,)
@@ -43,7 +43,7 @@ class Pose(NamedTuple):
     gravity: Array  # torque that holds each subtree against gravity (nu,) [N m]
 
 
-def tree_of(robot: RobotDescription, mass_ratio: float) -> Tree:
+def tree_of(robot: RobotDescription, mass_ratio: float) -> KinematicTree:
     """Build the tree of a robot with all masses and inertias times mass_ratio [-]."""
     bodies = robot.bodies
     index = {body.name: i for i, body in enumerate(bodies)}
@@ -54,7 +54,7 @@ def tree_of(robot: RobotDescription, mass_ratio: float) -> Tree:
     joint[moved], axis[moved] = np.arange(len(moved)), [joint.axis for joint in robot.joints]
     for i, body in enumerate(bodies):
         quaternion_to_matrix(np.asarray(body.quat) / np.linalg.norm(body.quat), turn[i])
-    return Tree(
+    return KinematicTree(
         parent=np.array([index.get(body.parent, -1) for body in bodies], dtype=np.int64),
         joint=joint,
         offset=np.array([body.pos for body in bodies], dtype=float),
@@ -67,19 +67,27 @@ def tree_of(robot: RobotDescription, mass_ratio: float) -> Tree:
     )
 
 
-def empty_pose(tree: Tree) -> Pose:
+def empty_pose(tree: KinematicTree) -> Pose:
     """Return a pose of zeros for the bodies and joints of a tree."""
     nb = len(tree.parent)
     nu = len(tree.body_of_joint)
-    vectors = [np.zeros((nb, 3)) for _ in range(4)]
     return Pose(
-        np.zeros((nb, 3, 3)), vectors[0], vectors[1], vectors[2], np.zeros((nu, 3)), vectors[3], np.zeros(nb),
-        np.zeros(3), np.zeros(3), np.zeros(3), np.zeros(nu),
-    )  # fmt: skip
+        rotation=np.zeros((nb, 3, 3)),
+        position=np.zeros((nb, 3)),
+        velocity=np.zeros((nb, 3)),
+        omega=np.zeros((nb, 3)),
+        axis=np.zeros((nu, 3)),
+        moment=np.zeros((nb, 3)),
+        weight=np.zeros(nb),
+        com=np.zeros(3),
+        com_velocity=np.zeros(3),
+        spin=np.zeros(3),
+        gravity=np.zeros(nu),
+    )
 
 
 @compiled
-def update(tree: Tree, q: Array, v: Array, gravity_m_s2: float, pose: Pose) -> None:
+def update(tree: KinematicTree, q: Array, v: Array, gravity_m_s2: float, pose: Pose) -> None:
     """Fill the pose from a generalized position q (nq,) [m, -, rad] and velocity v (nv,) [m/s, rad/s]."""
     quaternion_to_matrix(q[3:7], pose.rotation[0])
     for i in range(3):
@@ -92,7 +100,7 @@ def update(tree: Tree, q: Array, v: Array, gravity_m_s2: float, pose: Pose) -> N
 
 
 @compiled
-def _chain(tree: Tree, q: Array, v: Array, pose: Pose) -> None:
+def _chain(tree: KinematicTree, q: Array, v: Array, pose: Pose) -> None:
     """Fill orientation, position and velocity of every body from those of its parent."""
     fixed = matrix3()
     turned = matrix3()
@@ -121,7 +129,7 @@ def _chain(tree: Tree, q: Array, v: Array, pose: Pose) -> None:
 
 
 @compiled
-def _centroid(tree: Tree, pose: Pose) -> None:
+def _centroid(tree: KinematicTree, pose: Pose) -> None:
     """Fill the centre of mass, its velocity and the angular momentum about it, (W1).
 
     `weight` and `moment` get each body's own mass and first moment, to which `_subtrees` adds those of its children.
@@ -160,7 +168,7 @@ def _centroid(tree: Tree, pose: Pose) -> None:
 
 
 @compiled
-def _subtrees(tree: Tree, gravity_m_s2: float, pose: Pose) -> None:
+def _subtrees(tree: KinematicTree, gravity_m_s2: float, pose: Pose) -> None:
     """Sum masses and first moments of subtrees from the leaves on and fill the gravity torque of every joint, (W40)."""
     for b in range(len(tree.parent) - 1, 0, -1):
         parent = tree.parent[b]

@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mobnet.control.kinematics import Pose, Tree, empty_pose, tree_of
+from mobnet.control.kinematics import KinematicTree, Pose, empty_pose, tree_of
 from mobnet.control.leg_ik import LegGeometry
 from mobnet.control.parameters import WalkingParameters, walking_parameters
 from mobnet.core.arrays import Array
@@ -18,7 +18,7 @@ class Walker(NamedTuple):
     """What the controller knows of the robot."""
 
     par: WalkingParameters  # numbers of the controller
-    tree: Tree  # bodies of the nominal model
+    tree: KinematicTree  # bodies of the nominal model
     pose: Pose  # kinematics of the nominal model in the sensed state; filled by each tick
     leg: LegGeometry  # sizes of the left leg
     feet: NDArray[np.int64]  # bodies of the left, right foot (2,)

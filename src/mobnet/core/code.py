@@ -18,6 +18,7 @@ import functools
 import hashlib
 import importlib.metadata
 import re
+import subprocess
 import sys
 from collections.abc import Iterable
 from dataclasses import dataclass, field
@@ -34,9 +35,13 @@ PACKAGES = ("mobnet", "experiments")
 # Imports of these modules are not followed. Provenance and logs write notes, never results. Settings and plan read and
 # check the configuration and compute nothing: what a job takes of their values is a parameter of its rule, so that a
 # changed value reruns the job, and a changed check of it reruns nothing.
-NOT_FOLLOWED = frozenset({
-    "mobnet.core.provenance", "experiments.running.logs", "mobnet.settings", "experiments.settings", "experiments.plan",
-})  # fmt: skip
+NOT_FOLLOWED = (
+    "mobnet.core.code",
+    "experiments.running.logs",
+    "mobnet.settings",
+    "experiments.settings",
+    "experiments.plan",
+)
 DISTRIBUTIONS = {  # import name -> name in the lock, where they differ; asking importlib.metadata for all takes 0.4 s
     "OpenGL": "pyopengl",
     "PIL": "pillow",
@@ -47,9 +52,11 @@ DISTRIBUTIONS = {  # import name -> name in the lock, where they differ; asking 
 LOGGERS = frozenset({"log", "logging", "warnings"})
 LEVELS = frozenset({"debug", "info", "warning", "warn", "error", "exception", "critical", "log"})
 SHORT = 16  # characters of a hash that are kept
+UNKNOWN = "unknown"
+CHANGED = "-changed"
 
 
-class Source(NamedTuple):
+class SourceFile(NamedTuple):
     """What one file contributes: the hash of its syntax tree, and what it imports of these packages and of others."""
 
     digest: bytes
@@ -95,9 +102,9 @@ def start_of(start: Path | str) -> Path:
     return found
 
 
-def reached(starts: Iterable[Path]) -> tuple[Source, ...]:
+def reached(starts: Iterable[Path]) -> tuple[SourceFile, ...]:
     """Return some files and all that they import of these packages, directly or not."""
-    found: dict[Path, Source] = {}
+    found: dict[Path, SourceFile] = {}
     waiting = list(starts)
     while waiting:
         path = waiting.pop()
@@ -108,14 +115,14 @@ def reached(starts: Iterable[Path]) -> tuple[Source, ...]:
 
 
 @functools.cache
-def read(path: Path) -> Source:
+def read(path: Path) -> SourceFile:
     """Read one file."""
     reader = Reader()
     reader.read(ast.parse(path.read_bytes(), str(path)))
     files = set(chain.from_iterable(map(module_files, reader.imports)))
     tops = {name.partition(".")[0] for name in reader.imports} - {*PACKAGES} - sys.stdlib_module_names
     packages = {DISTRIBUTIONS.get(top, lock_name(top)) for top in tops}
-    return Source(hashlib.sha256(" ".join(reader.words).encode()).digest(), tuple(files), frozenset(packages))
+    return SourceFile(hashlib.sha256(" ".join(reader.words).encode()).digest(), tuple(files), frozenset(packages))
 
 
 @dataclass
@@ -221,3 +228,34 @@ def required(package: str) -> tuple[str, ...]:
 def lock_name(name: str) -> str:
     """Return a package's name as the lock writes it."""
     return re.sub(r"[-_.]+", "-", name).lower()
+
+
+def provenance() -> dict[str, str]:
+    """Return `commit` and `lock` of a result; `unknown` where git or environment.lock is not there."""
+    return {"commit": commit(), "lock": lock_hash()}
+
+
+@functools.cache
+def commit() -> str:
+    """Return the commit of this checkout, `-changed` added where tracked files differ from it.
+
+    A copy that lies in a repository of something else has none.
+    """
+    name = _git("rev-parse", "HEAD")
+    if name is None or not _git("ls-files", LOCK.name):
+        return UNKNOWN
+    return f"{name}{CHANGED}" if _git("status", "--porcelain", "--untracked-files=no") else name
+
+
+def _git(*words: str) -> str | None:
+    """Return what git says about this checkout, or None without git."""
+    try:
+        done = subprocess.run(["git", "-C", str(ROOT), *words], capture_output=True, text=True, check=True)
+    except (OSError, subprocess.CalledProcessError):
+        return None
+    return done.stdout.strip()
+
+
+def lock_hash() -> str:
+    """Return a short hash of environment.lock, or `unknown` without it."""
+    return hashlib.sha256(LOCK.read_bytes()).hexdigest()[:SHORT] if LOCK.exists() else UNKNOWN

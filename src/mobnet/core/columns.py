@@ -197,10 +197,33 @@ ERRORS = (*RUN, "joint", "metric", "value", "low", "high", *SPREAD, "unit", "pub
 METHODS = (*RUN, "limb", "joint", "metric", "value", "low", "high", *SPREAD, "unit")  # of any test, limb by limb
 KINDS = ("method", "quantity", "value", "low", "high", *SPREAD, "unit", "published")
 CLAIMS = (
-    "claim", "statement", "score", "printed", "says", "quantity", "published", "value", "low", "high", *SPREAD, "unit",
-    "from", "to", "sign_value", "sign_low", "sign_high", "sign_from", "sign_to", "size", "sign", "verdict",
-    "without", "without_low", "without_high", "cause",
-)  # fmt: skip
+    "claim",
+    "statement",
+    "score",
+    "printed",
+    "says",
+    "quantity",
+    "published",
+    "value",
+    "low",
+    "high",
+    *SPREAD,
+    "unit",
+    "from",
+    "to",
+    "sign_value",
+    "sign_low",
+    "sign_high",
+    "sign_from",
+    "sign_to",
+    "size",
+    "sign",
+    "verdict",
+    "without",
+    "without_low",
+    "without_high",
+    "cause",
+)
 HOURLY = ("event", "walks", "method", "hours", "count", "value", "low", "high", "unit")
 CLAIMED = ("score", "outcome", "statements", "firsts", "claims")  # `firsts`: statements by their first claim alone
 # `outcome` of a count: a verdict, on both or on one of size and sign, all of them, or one of the next line, of what
@@ -214,16 +237,30 @@ NEAR = "within a factor of 1.5"
 INSIDE, OUTSIDE, OPEN = SIZE_VERDICTS = ("inside", "outside", "open")
 SAME, OPPOSITE, _ = SIGN_VERDICTS = ("same", "opposite", OPEN)
 NOT_REPRODUCED, SIGN_ONLY, OPEN, SIGN_AT_LEAST, REPRODUCED, NOT_MEASURED = VERDICTS = (
-    "not reproduced", "sign only", "open", "sign at least", "reproduced", "not measured",
-)  # fmt: skip
+    "not reproduced",
+    "sign only",
+    "open",
+    "sign at least",
+    "reproduced",
+    "not measured",
+)
 # Values of `score` of a claim; PAPER is that of all claims of the paper together
 OBSERVER, NETWORKS, NO_NUMBER, OURS = SCORED = ("observer", "networks", "no number", "ours")
 PAPER = "paper"
 NOT_PRINTED = "not in the paper"  # where a claim of our own is printed
 TABLE_01 = (
-    "limb", "inputs", "input_count", "target", "architecture", "parameters", "horizon_steps", "data",
-    "architecture_published", "parameters_published", "horizon_published",
-)  # fmt: skip
+    "limb",
+    "inputs",
+    "input_count",
+    "target",
+    "architecture",
+    "parameters",
+    "horizon_steps",
+    "data",
+    "architecture_published",
+    "parameters_published",
+    "horizon_published",
+)
 FALLEN = (*FALLS, "per_hour", "low", "high", "chosen")  # of each robot, and of all of them
 DATA = ("set", "quantity", "part", "value", "unit", "published")
 BIN = ("set", "command", "bin_from", "bin_to", "count")
@@ -231,21 +268,64 @@ STEPS = (*BIN, "commanded", "measured", "ratio", "within", "unit")
 UNCERTAINTY = ("limb", "joint", "set", "value", "unit", "published", "ratio", "within")
 LABEL_ERROR = ("robot", "label", "phase", "joint", "value", "unit")
 COVERAGE = (
-    "training", "scenario", "level", "measure", "joint", "block_count", "with_rte", "without_rte",
-    "ratio", "low", "high",
-)  # fmt: skip
+    "training",
+    "scenario",
+    "level",
+    "measure",
+    "joint",
+    "block_count",
+    "with_rte",
+    "without_rte",
+    "ratio",
+    "low",
+    "high",
+)
 CALIBRATION = (
-    "test", "level", "pushed", "method", "limb", "measure", "share", "before", "before_low", "before_high",
-    "after", "low", "high", *SPREAD, "unit",
-)  # fmt: skip
+    "test",
+    "level",
+    "pushed",
+    "method",
+    "limb",
+    "measure",
+    "share",
+    "before",
+    "before_low",
+    "before_high",
+    "after",
+    "low",
+    "high",
+    *SPREAD,
+    "unit",
+)
 SAFETY = (
-    "case", "detector", "thresholds", "wait_s", "measure", "value", "low", "high", "walks", "touched", "unit",
+    "case",
+    "detector",
+    "thresholds",
+    "wait_s",
+    "measure",
+    "value",
+    "low",
+    "high",
+    "walks",
+    "touched",
+    "unit",
     "published",
-)  # fmt: skip
+)
 SENSORLESS = (
-    "case", "wrench", "detector", "thresholds", "feed_forward",
-    "event", "hours", "events", "value", "low", "high", "walks", "unit",
-)  # fmt: skip
+    "case",
+    "wrench",
+    "detector",
+    "thresholds",
+    "feed_forward",
+    "event",
+    "hours",
+    "events",
+    "value",
+    "low",
+    "high",
+    "walks",
+    "unit",
+)
 DETECTION = (
     "level",
     "detector",
@@ -272,9 +352,22 @@ LIMB_ERRORS = ("scenario", "method", "limb", "joint", "rmse_nm", "low", "high", 
 TUNED = ("panel", "line", "seconds", *RUN, "joint", "value", "low", "high", *SPREAD, "unit")
 PLANES = ("kind", "set", "joint", "from", "to", "torque_from_nm", "torque_to_nm", "share_percent")
 SIZES = (
-    "panel", "base", "method", "parameters", "samples", "runs",
-    "loss", "loss_low", "loss_high", "rmse_nm", "rmse_low_nm", "rmse_high_nm", "ratio", "ratio_low", "ratio_high",
-)  # fmt: skip
+    "panel",
+    "base",
+    "method",
+    "parameters",
+    "samples",
+    "runs",
+    "loss",
+    "loss_low",
+    "loss_high",
+    "rmse_nm",
+    "rmse_low_nm",
+    "rmse_high_nm",
+    "ratio",
+    "ratio_low",
+    "ratio_high",
+)
 RESPONSE = ("method", "joint", "frequency_hz", "quantity", "value", "low", "high", *SPREAD, "unit")
 DRIFT = ("panel", *RUN, "phase", "step", "share", "low", "high", *SPREAD)
 SIGMA = ("panel", "test", "method", "limb", "x", "value", "low", "high", *SPREAD)

@@ -117,9 +117,13 @@ UNNAMED = ("signal", "link", "direction")  # texts that are empty where a detect
 CALIBRATION, HELD_OUT, UNPUSHED = PARTS = ("calibration", "held out", "unpushed")  # values of `part`
 LARGEST, COLLISION = "largest", "collision"  # values of `kind`: by the paper's rule, and for one false alarm an hour
 FILES: Mapping[str, type[Any]] = {  # name of a file of detectors -> its rows
-    "collisions": Collision, "thresholds": Threshold, "promises": Promise, "detected": Detected, "swings": FreeSwing,
+    "collisions": Collision,
+    "thresholds": Threshold,
+    "promises": Promise,
+    "detected": Detected,
+    "swings": FreeSwing,
     "curves": CurvePoint,
-}  # fmt: skip
+}
 
 
 def columns_of(name: str) -> tuple[str, ...]:

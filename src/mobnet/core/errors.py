@@ -1,6 +1,6 @@
 """Errors a user can act on: one line that names the bad value and what is accepted."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from difflib import get_close_matches
 from reprlib import Repr
 
@@ -48,6 +48,13 @@ def not_accepted(what: str, value: object, accepted: Iterable[object]) -> str:
     return f"{what}: {shown} is not accepted; accepted: {', '.join(ordered) or 'none'}"
 
 
+def unknown_command(name: str, commands: Collection[str]) -> str:
+    """Return the message about a command that there is not, with the one that was probably meant."""
+    near = get_close_matches(name, commands, 1)
+    hint = f"; did you mean {near[0]}?" if near else ""
+    return not_accepted("command", name, commands) + hint
+
+
 def beyond(what: str, value: float, bounds: tuple[float, float]) -> Iterator[str]:
     """Yield the message about a number outside of its bounds, if it is."""
     low, high = bounds
@@ -62,7 +69,7 @@ def misfit(value: object, accepted: object) -> str:
 
 def refusal(path: object, faults: Iterable[str]) -> DataError:
     """Return the error that tells the faults of a file, one line for each, of which only the first are told."""
-    return _told([f"{path}: {fault}" for fault in faults])
+    return _error_of([f"{path}: {fault}" for fault in faults])
 
 
 def refuse(path: object, faults: Iterable[str]) -> None:
@@ -74,10 +81,10 @@ def refuse_lines(faults: Iterable[str]) -> None:
     """Raise a DataError with these lines, of which only the first are told, if there are any."""
     lines = list(dict.fromkeys(faults))
     if lines:
-        raise _told(lines)
+        raise _error_of(lines)
 
 
-def _told(lines: list[str]) -> DataError:
+def _error_of(lines: list[str]) -> DataError:
     """Return an error of some lines, of which only the first are told."""
     if len(lines) > MOST:
         lines = [*lines[:MOST], f"{lines[0].partition(': ')[0]}: {len(lines) - MOST} further faults"]

@@ -37,7 +37,7 @@ class Stretch:
     residual: NDArray[Any] | None = None
 
 
-class Estimator(Protocol):
+class TorqueEstimator(Protocol):
     """A way to estimate the external torque from proprioception alone; its state is explicit.
 
     `step` from `init` on, sample by sample, gives what `estimate` gives for the whole recording.
@@ -62,7 +62,7 @@ class Estimator(Protocol):
 
 
 @runtime_checkable
-class Together(Estimator, Protocol):
+class Together(TorqueEstimator, Protocol):
     """An estimator that runs over several stretches side by side in less time than one after the other."""
 
     def estimate_all(self, stretches: Sequence[Stretch]) -> list[Estimate]:
@@ -70,7 +70,7 @@ class Together(Estimator, Protocol):
         ...
 
 
-def estimate_all(estimator: Estimator, stretches: Sequence[Stretch]) -> list[Estimate]:
+def estimate_all(estimator: TorqueEstimator, stretches: Sequence[Stretch]) -> list[Estimate]:
     """Return the estimates of stretches, arrays (T_i, n) [N, N m], side by side if the estimator can do that."""
     if isinstance(estimator, Together):
         return estimator.estimate_all(stretches)

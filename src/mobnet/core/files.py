@@ -20,8 +20,14 @@ TIME = "time.json"  # beside the checkpoint of a network: what its training took
 PARTIAL = ".partial."  # first characters of the name of a file that is being written
 FULL = frozenset({errno.ENOSPC, errno.EDQUOT})
 REFUSALS = FULL | {
-    errno.EACCES, errno.EPERM, errno.EROFS, errno.EEXIST, errno.ENOTDIR, errno.EISDIR, errno.ENAMETOOLONG,
-}  # fmt: skip
+    errno.EACCES,
+    errno.EPERM,
+    errno.EROFS,
+    errno.EEXIST,
+    errno.ENOTDIR,
+    errno.EISDIR,
+    errno.ENAMETOOLONG,
+}
 MIB = 2**20
 ROOM_BYTES = 2**17  # below this a disk counts as full
 

@@ -70,6 +70,14 @@ class JointLayout:
         legs = set(chain.from_iterable(self.groups[limb] for limb in self.legs.values()))
         return tuple(joint for joint in self.actuated if joint not in legs)
 
+    @property
+    def limb_of(self) -> dict[str, str]:
+        """The limb of each joint."""
+        limbs: dict[str, str] = {}
+        for limb, joints in self.groups.items():
+            limbs |= dict.fromkeys(joints, limb)
+        return limbs
+
     def limb(self, name: str) -> tuple[str, ...]:
         """Return the joint names of a limb; a ConfigError names an unknown one."""
         if name not in self.groups:

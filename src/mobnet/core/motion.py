@@ -28,8 +28,9 @@ class MotionCheck:
     def __init__(self, names: Sequence[str], segments: Sequence[Sequence[int]], rate_hz: float) -> None:
         """Look at columns of these names, within segments (start, end) of rows, at a rate [Hz]."""
         where = {name: k for k, name in enumerate(names)}
-        self._joints = [name[2:] for name in names if name.startswith("q.") and f"v.{name[2:]}" in where
-                        and not name.startswith("q.base_")]  # fmt: skip  # a simulator may shift the base's place
+        positions = [name[2:] for name in names if name.startswith("q.")]
+        # A simulator may shift the base's place.
+        self._joints = [joint for joint in positions if f"v.{joint}" in where and not joint.startswith("base_")]
         self._q = [where[f"q.{joint}"] for joint in self._joints]
         self._v = [where[f"v.{joint}"] for joint in self._joints]
         self._quat = _places(where, QUATERNION)

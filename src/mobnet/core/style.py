@@ -53,4 +53,10 @@ def settle(figure: "Figure") -> None:
     figure.draw_without_rendering()
     figure.set_layout_engine("none")
     for axis in figure.axes:
-        axis.set_position([round(float(edge), PLACE_DIGITS) for edge in axis.get_position(original=True).bounds])
+        left, bottom, width, height = axis.get_position(original=True).bounds
+        edges = (_placed(left), _placed(bottom), _placed(width), _placed(height))
+        axis.set_position(edges)
+
+
+def _placed(edge: float) -> float:
+    return round(float(edge), PLACE_DIGITS)

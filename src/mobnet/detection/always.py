@@ -14,13 +14,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array
-from mobnet.core.errors import DataError, not_accepted
+from mobnet.core.errors import DataError
 from mobnet.core.estimator import Estimate
 from mobnet.core.recording import SensedRecording
 from mobnet.detection.detector import GateSignal
+from mobnet.detection.gate import Spans, largest
 from mobnet.detection.leg import LEG_JOINTS
 from mobnet.detection.signals import Watched
-from mobnet.detection.swings import Spans, largest
 from mobnet.detection.watch import UNKNOWN, LegRecording, LegSetup, LimbSetup
 from mobnet.robot.description import RobotDescription
 from mobnet.settings.detection import Detection
@@ -51,9 +51,14 @@ class AlwaysWatched:
 
 
 def always_watched(
-    setup: LimbSetup, watched: Watched, paths: Sequence[Path], read: Sequence[SensedRecording],
-    estimates: Sequence[Estimate], window_s: float, settle_s: float,
-) -> AlwaysWatched:  # fmt: skip
+    setup: LimbSetup,
+    watched: Watched,
+    paths: Sequence[Path],
+    read: Sequence[SensedRecording],
+    estimates: Sequence[Estimate],
+    window_s: float,
+    settle_s: float,
+) -> AlwaysWatched:
     """Return a limb in recordings, watched in windows that fill their segments.
 
     Windows have the length `window_s` or, where they are alike, one that is twice, four times ... as long, as far as
@@ -73,8 +78,9 @@ def always_watched(
     least = setup.detection.thresholds.least_swings
     found = windows(window_s)
     if (count := sum(map(len, found))) < least:
-        what = f"seconds of free motion, in windows of {window_s:g} s"
-        raise DataError(not_accepted(what, round(count * window_s, 1), [f"{least * window_s:g} or more"]))
+        seconds = round(count * window_s, 1)
+        needed = f"{least * window_s:g} s or more are needed"
+        raise DataError(f"{seconds:g} s of free motion, in windows of {window_s:g} s; {needed}")
     while (is_alike := alike([largest(*pair) for pair in zip(low, found, strict=True)])) and (
         sum(map(len, longer := windows(2.0 * window_s))) >= least
     ):

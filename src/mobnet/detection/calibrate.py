@@ -15,14 +15,14 @@ from pathlib import Path
 
 from mobnet.core.errors import DataError, not_accepted, refuse_lines
 from mobnet.core.files import check_place, sweep
+from mobnet.core.options import SIGNALS, calibrate_parser
 from mobnet.core.place import command
 from mobnet.core.printed import printed
-from mobnet.detection.choice import ALONE, BARE, NETWORK, Tried, best_of, lines_of, tried_on_pushes
+from mobnet.detection.choice import ALONE, BARE, NETWORK, DetectorCandidate, best_of, lines_of, tried_on_pushes
 from mobnet.detection.limb import OwnRecording, calibrate_limb
 from mobnet.detection.limb_report import beside, report, thresholds_of
 from mobnet.detection.signals import MEAN, RATIO, STD
 from mobnet.detection.threshold_file import write_thresholds
-from mobnet.detection.words import SIGNALS, calibrate_parser
 from mobnet.estimation import observer
 from mobnet.estimation.own import (
     OwnLog,
@@ -37,8 +37,7 @@ from mobnet.estimation.own import (
     refuse_twice,
     without_friction,
 )
-from mobnet.robot.description import RobotDescription
-from mobnet.robot.given import given_robot
+from mobnet.robot.description import RobotDescription, given_robot
 from mobnet.settings.detection import Signal
 from mobnet.settings.lab import Lab, load_lab
 
@@ -73,7 +72,7 @@ def estimated(
 ) -> list[OwnRecording]:
     """Return logs with the estimate of a limb: the observer's, or less what a network predicts."""
     _progress(logs, "estimating the external torque" + (" less what the network predicts" if network else ""))
-    estimator = estimator_of(robot, settings.plant.gravity_m_s2, logs[0].sampling, network)
+    estimator = estimator_of(robot, settings.plant.gravity_m_s2, logs[0].sampling, network and network.networks)
     estimates = estimates_of(logs, estimator, robot.layout.limb(limb))
     _progress(logs, "looking for thresholds")
     return [OwnRecording(one.folder, one.recording, own) for one, own in zip(logs, estimates, strict=True)]
@@ -132,17 +131,25 @@ def run(options: Namespace) -> list[str]:
 
 
 def _tried(
-    logs: Sequence[OwnLog], robot: RobotDescription, limb: str, network: OwnNetwork | None, options: Namespace,
+    logs: Sequence[OwnLog],
+    robot: RobotDescription,
+    limb: str,
+    network: OwnNetwork | None,
+    options: Namespace,
     settings: Lab,
-) -> Iterator[Tried]:  # fmt: skip
+) -> Iterator[DetectorCandidate]:
     """Yield the calibrated detectors among which one is kept, the observer's and then those of a network.
 
     Where a signal is given, it is kept.
     """
 
-    def calibrated(name: str, logs: Sequence[OwnLog], network: OwnNetwork | None, signal: Signal, keep: bool) -> Tried:
+    def calibrated(
+        name: str, logs: Sequence[OwnLog], network: OwnNetwork | None, signal: Signal, keep: bool
+    ) -> DetectorCandidate:
         own = estimated(logs, robot, limb, network, settings)
-        return Tried(name, calibrate_limb(own, robot, limb, signal, options.rate, settings), own, network, keep)
+        return DetectorCandidate(
+            name, calibrate_limb(own, robot, limb, signal, options.rate, settings), own, network, keep
+        )
 
     if robot.friction:
         bare = without_friction(logs, robot, settings.plant.gravity_m_s2)
@@ -156,16 +163,17 @@ def _tried(
 def _check(options: Namespace) -> None:
     """Raise a DataError for options that contradict each other, or a rate that is not accepted."""
     if bool(options.folders) == bool(options.recording or options.estimate):
-        accepted = [f"folders that `{command('observe')}` wrote", "--recording with --estimate"]
-        raise DataError(not_accepted("what calibrates", "both" if options.folders else "nothing", accepted))
+        given = "both are given" if options.folders else "nothing to calibrate from is given"
+        folders = f"folders that `{command('observe')}` wrote"
+        raise DataError(f"{given}; either {folders} are needed, or --recording with --estimate")
     if not options.folders and (options.out or options.network):
         word = "--out" if options.out else "--network"
-        accepted = [f"it with folders that `{command('observe')}` wrote"]
-        raise DataError(not_accepted(word, str(options.out or options.network), accepted))
+        given = options.out or options.network
+        raise DataError(f"{word} {given}: it needs folders that `{command('observe')}` wrote")
     if options.signal not in (None, *SIGNALS):
         raise DataError(not_accepted("--signal", options.signal, SIGNALS))
     if options.folders and options.signal not in (None, MEAN) and not options.network:
-        raise DataError(not_accepted("--signal", options.signal, ["mean; or it with --network"]))
+        raise DataError(f"--signal {options.signal}: it needs --network; without, the signal is {MEAN}")
     if not LEAST_RATE <= options.rate < math.inf:
         raise DataError(not_accepted("--rate", options.rate, [f"a number from {LEAST_RATE:g}, one in a century"]))
 

@@ -9,16 +9,16 @@ from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array
 from mobnet.core.detections import CALIBRATION, COLLISION, HELD_OUT, LARGEST, FreeSwing, Promise, Threshold
-from mobnet.core.errors import DataError, not_accepted
+from mobnet.core.errors import DataError
 from mobnet.core.estimator import Estimate
 from mobnet.detection.chain import Chain
+from mobnet.detection.gate import Spans, episodes_of, largest
 from mobnet.detection.signals import MEAN, STD, Watched, slopes_of, whitening_of
-from mobnet.detection.swings import Spans, episodes_of, largest
 from mobnet.detection.thresholds import HOUR_S, Calibrated, calibrate
 from mobnet.detection.watch import LegRecording, LegSetup, LimbSetup
-from mobnet.settings.detection import Detector
+from mobnet.settings.detection import DetectorSettings
 
-NEVER = not_accepted("swings in which the leg is watched", "none", ["some of those that calibrate"])
+NEVER = "the leg is watched in none of the swings that calibrate; some are needed in which it is"
 
 
 class NotWatchedError(DataError):
@@ -41,7 +41,7 @@ class QuietWalk:
     @classmethod
     def of(
         cls, setup: LimbSetup, scenario: str, legs: Sequence[LegRecording], estimates: Sequence[Estimate], share: float
-    ) -> "QuietWalk":  # fmt: skip
+    ) -> "QuietWalk":
         """Return a walk of which a share of the swings, the first ones, calibrates."""
         count = sum(len(one.swings) for one in legs)
         first = int(np.ceil(share * count))
@@ -87,8 +87,8 @@ class CalibratedDetector:
 
 
 def calibrate_detector(
-    setup: LegSetup, name: str, detector: Detector, place: QuietWalk, random: QuietWalk
-) -> CalibratedDetector:  # fmt: skip
+    setup: LegSetup, name: str, detector: DetectorSettings, place: QuietWalk, random: QuietWalk
+) -> CalibratedDetector:
     """Calibrate a detector on the first swings of quiet walks: in place by the paper's rule [5.3], else for rates.
 
     Raises:
@@ -172,14 +172,14 @@ def quiet_rows(setup: LegSetup, calibrated: CalibratedDetector, walk: QuietWalk)
         yield FreeSwing(calibrated.name, setup.limb, walk.scenario, part, terrain, seed, number, *numbers)
 
 
-def check_signals(setup: LimbSetup, detector: Detector, walk: QuietWalk) -> None:
+def check_signals(setup: LimbSetup, detector: DetectorSettings, walk: QuietWalk) -> None:
     """Raise a DataError if a signal has the same number in all samples of a recording."""
     names = [f"{kind}.{joint}" for kind in detector.signals for joint in setup.joints]
     for one, signals in zip(walk.legs, walk.signals(Watched(detector)), strict=True):
         for name, column in zip(names, signals.T, strict=True):
             if column.min() == column.max():
-                where = f"{one.recording}: signal {name}: every number"
-                raise DataError(not_accepted(where, float(column[0]), ["numbers that change"]))
+                value = float(column[0])
+                raise DataError(f"{one.recording}: signal {name} is always {value}; numbers that change are needed")
 
 
 def _slopes(setup: LegSetup, watched: Watched, walk: QuietWalk) -> Array:

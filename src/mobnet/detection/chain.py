@@ -72,9 +72,14 @@ def advance_chain(chain: Chain, state: ChainState, signals: Array, is_watched: b
 
 @compiled
 def run_chain(
-    chain: Chain, state: ChainState, signals: Array, watched: NDArray[np.bool_], phase: Array, ratio: Array,
+    chain: Chain,
+    state: ChainState,
+    signals: Array,
+    watched: NDArray[np.bool_],
+    phase: Array,
+    ratio: Array,
     which: NDArray[np.int64],
-) -> None:  # fmt: skip
+) -> None:
     """Run the chain over samples (T, m) as `advance_chain` does; write its numbers and the highest signals (T,)."""
     for row in range(len(signals)):
         ratio[row] = advance_chain(chain, state, signals[row], watched[row], phase[row])

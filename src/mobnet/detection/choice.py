@@ -7,7 +7,7 @@ import numpy as np
 
 from mobnet.core.estimator import Estimate
 from mobnet.detection.limb import LimbCalibration, OwnRecording, watched_signal
-from mobnet.detection.planted import Pushing, found_pushes, plant
+from mobnet.detection.planted import PushPlan, found_pushes, plant
 from mobnet.estimation.own import OwnNetwork
 from mobnet.robot.nominal import NominalModel
 from mobnet.settings.lab import Lab
@@ -19,7 +19,7 @@ SEED = 0  # of the pushes
 
 
 @dataclass(frozen=True)
-class Tried:
+class DetectorCandidate:
     """A detector of a limb, calibrated for a rate of false alarms on estimates, and how many of the pushes it finds.
 
     Only one that `may_be_kept` is written. The detector has a network, or is that of the observer.
@@ -33,12 +33,12 @@ class Tried:
     pushes: int = 0
 
 
-def pushing_of(settings: Lab) -> Pushing:
+def pushing_of(settings: Lab) -> PushPlan:
     """Return the pushes that are planted."""
-    return Pushing(settings.robotlog.planted, settings.free_motion.pushes, settings.robotlog.flag_gap_s)
+    return PushPlan(settings.robotlog.planted, settings.free_motion.pushes, settings.robotlog.flag_gap_s)
 
 
-def tried_on_pushes(tried: Sequence[Tried], gain_hz: float, settings: Lab) -> tuple[int, list[int]]:
+def tried_on_pushes(tried: Sequence[DetectorCandidate], gain_hz: float, settings: Lab) -> tuple[int, list[int]]:
     """Return how many pushes are planted into the recordings that calibrated detectors, and how many each one finds.
 
     The gain is that of the observer, K_0 [1/s].
@@ -58,13 +58,13 @@ def tried_on_pushes(tried: Sequence[Tried], gain_hz: float, settings: Lab) -> tu
     return sum(len(one.spans) for one in planted), counts
 
 
-def best_of(tried: Sequence[Tried], alone: LimbCalibration) -> Tried:
+def best_of(tried: Sequence[DetectorCandidate], alone: LimbCalibration) -> DetectorCandidate:
     """Return the detector that is kept: the one that finds most pushes, and of equals the smaller forces."""
     kept = [one for one in tried if one.may_be_kept]
     return max(kept, key=lambda one: (one.pushes, -one.found.over(alone)))
 
 
-def lines_of(tried: Sequence[Tried], kept: Tried, total: int) -> Iterator[str]:
+def lines_of(tried: Sequence[DetectorCandidate], kept: DetectorCandidate, total: int) -> Iterator[str]:
     """Yield how many of all pushes each detector finds, and which is kept."""
     width = max(len(one.name) for one in tried)
     yield from ("", f"found of {total} pushes that are planted into these logs, at this rate of false alarms:")

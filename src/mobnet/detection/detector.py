@@ -15,10 +15,9 @@ from mobnet.core.columns import FEET
 from mobnet.core.estimator import Estimate
 from mobnet.core.recording import Sensed, SensedRecording
 from mobnet.detection.chain import Chain, ChainState, advance_chain, chain_state, run_chain
-from mobnet.detection.gate import Gate, advance_gate, gate_state, make_gate, run_gate
+from mobnet.detection.gate import Gate, Spans, advance_gate, gate_state, make_gate, run_gate
 from mobnet.detection.leg import Leg, make_leg
 from mobnet.detection.signals import Watched
-from mobnet.detection.swings import Spans
 from mobnet.robot.description import RobotDescription
 from mobnet.settings import detection as settings
 
@@ -32,14 +31,14 @@ class GateSignal(NamedTuple):
     phase: Array
 
 
-class Alarm(NamedTuple):
+class DetectorOutput(NamedTuple):
     """What a detector says of samples (T,), or of one: ratio to the threshold, above 1 a collision; the signal."""
 
     ratio: Any
     signal: Any
 
 
-class State(NamedTuple):
+class DetectorState(NamedTuple):
     """State of a detector."""
 
     gate: Any
@@ -80,9 +79,9 @@ class LegGate:
         return found
 
 
-def run_segments(chain: Chain, signals: Array, gate: GateSignal, segments: Spans) -> Alarm:
+def run_segments(chain: Chain, signals: Array, gate: GateSignal, segments: Spans) -> DetectorOutput:
     """Run a chain over the signals (T, m) of a recording, each contiguous segment from rest."""
-    alarm = Alarm(np.zeros(len(signals)), np.zeros(len(signals), dtype=np.int64))
+    alarm = DetectorOutput(np.zeros(len(signals)), np.zeros(len(signals), dtype=np.int64))
     # Between two segments the robot fell or was set anew, so that nothing of one is held in the next.
     for start, end in segments:
         part = GateSignal(gate.watched[start:end], gate.phase[start:end])
@@ -98,12 +97,12 @@ class LegDetector:
     gate: LegGate
     chain: Chain
 
-    def init(self) -> State:
+    def init(self) -> DetectorState:
         """Return the state before the first sample."""
         signals = len(self.watched.detector.signals) * len(self.gate.leg.load)
-        return State(gate_state(), chain_state(self.chain, signals))
+        return DetectorState(gate_state(), chain_state(self.chain, signals))
 
-    def step(self, state: State, sample: Sensed, estimate: Estimate, gating: NDArray[Any]) -> Alarm:
+    def step(self, state: DetectorState, sample: Sensed, estimate: Estimate, gating: NDArray[Any]) -> DetectorOutput:
         """Take one sample (1-D arrays), the estimate of the leg's joints (6,) and that of the gate's method (6,) [N m].
 
         The state is changed in place.
@@ -119,15 +118,15 @@ class LegDetector:
         signals = self.watched.of(estimate, sample.command)
         phase = float(state.gate["phase"])  # by its name: NumPy takes seven times as long for an attribute of a record
         ratio = advance_chain(self.chain, state.chain, signals, is_watched, phase)
-        return Alarm(ratio, int(state.chain.place[1]))
+        return DetectorOutput(ratio, int(state.chain.place[1]))
 
-    def run(self, gate: GateSignal, sensed: Sensed, estimate: Estimate) -> Alarm:
+    def run(self, gate: GateSignal, sensed: Sensed, estimate: Estimate) -> DetectorOutput:
         """Return what the detector says of a contiguous stretch (T,), of which the gate has run."""
         return run_over(self.chain, self.watched.of(estimate, sensed.command), gate)
 
 
-def run_over(chain: Chain, signals: Array, gate: GateSignal) -> Alarm:
+def run_over(chain: Chain, signals: Array, gate: GateSignal) -> DetectorOutput:
     """Run a chain over the signals (T, m) of a contiguous stretch from rest."""
-    alarm = Alarm(np.zeros(len(signals)), np.zeros(len(signals), dtype=np.int64))
+    alarm = DetectorOutput(np.zeros(len(signals)), np.zeros(len(signals), dtype=np.int64))
     run_chain(chain, chain_state(chain, signals.shape[1]), signals, *gate, *alarm)
     return alarm

@@ -4,6 +4,7 @@ The gate knows what a robot knows at the time: the plan's swing and the time unt
 columns, the height of its sole by its joints, and the force on the foot as an estimate of their external torque has it.
 """
 
+from collections.abc import Iterable, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -14,13 +15,16 @@ from mobnet.core.compilation import compiled
 from mobnet.detection.leg import Leg, foot_load, sole_height
 from mobnet.settings import detection as settings
 
-STATE = np.dtype([
-    ("air", "i8"),  # samples since the plan lifted the foot off, counted from 1; 0 on the ground
-    ("touching", "i8"),  # samples in which the force looked like the ground's, without a gap
-    ("landed", "i8"),  # 1 once it did for long enough in this swing
-    ("phase", "f8"),  # time since lift-off over that plus the time until landing [-]
-])  # fmt: skip
+STATE = np.dtype(
+    [
+        ("air", "i8"),  # samples since the plan lifted the foot off, counted from 1; 0 on the ground
+        ("touching", "i8"),  # samples in which the force looked like the ground's, without a gap
+        ("landed", "i8"),  # 1 once it did for long enough in this swing
+        ("phase", "f8"),  # time since lift-off over that plus the time until landing [-]
+    ]
+)
 IN_THE_AIR = 0.5  # of a flag
+Spans = tuple[tuple[int, int], ...]
 
 
 class Gate(NamedTuple):
@@ -86,10 +90,50 @@ def advance_gate(gate: Gate, leg: Leg, s: Any, q: Array, tau: Array, swing: floa
 
 @compiled
 def run_gate(
-    gate: Gate, leg: Leg, s: Any, q: Array, tau: Array, swing: NDArray[Any], landing: NDArray[Any],
-    watched: NDArray[np.bool_], phase: Array,
-) -> None:  # fmt: skip
+    gate: Gate,
+    leg: Leg,
+    s: Any,
+    q: Array,
+    tau: Array,
+    swing: NDArray[Any],
+    landing: NDArray[Any],
+    watched: NDArray[np.bool_],
+    phase: Array,
+) -> None:
     """Run the gate over samples (T, ...) as `advance_gate` does, and write whether it watches and the phase (T,)."""
     for row in range(len(q)):
         watched[row] = advance_gate(gate, leg, s, q[row], tau[row], swing[row], landing[row])
         phase[row] = s.phase
+
+
+def swings_of(swing: NDArray[Any], segments: Sequence[tuple[int, int]]) -> Spans:
+    """Return the rows (start, end) of each whole swing in contiguous segments of the walking plan's swing (T,)."""
+    found: list[tuple[int, int]] = []
+    for start, end in segments:
+        air = np.asarray(swing[start:end]) > IN_THE_AIR
+        edges = np.flatnonzero(np.diff(air)) + 1 + start
+        # Half a swing has not had its largest value yet, and would make false alarms look rarer than they are.
+        lifted = edges[1:] if len(edges) and air[0] else edges
+        found += [(int(a), int(b)) for a, b in lifted[: len(lifted) // 2 * 2].reshape(-1, 2)]
+    return tuple(found)
+
+
+def episodes_of(walks: Iterable[tuple[Spans, Spans]]) -> list[int]:
+    """Return the contiguous segment of each swing, counted over recordings: their segments and swings in order."""
+    found = list[int]()
+    before = 0
+    for segments, swings in walks:
+        found += [before + segment_of(swing, segments) for swing in swings]
+        before += len(segments)
+    return found
+
+
+def segment_of(swing: tuple[int, int], segments: Spans) -> int:
+    """Return in which of some segments a swing lies."""
+    return next(k for k, (_, end) in enumerate(segments) if swing[1] <= end)
+
+
+def largest(values: NDArray[Any], swings: Sequence[tuple[int, int]]) -> Array:
+    """Return the largest numbers (k, ...) of values (T, ...) in each of k swings."""
+    shape = (len(swings), *values.shape[1:])
+    return np.array([values[start:end].max(axis=0) for start, end in swings], dtype=np.float64).reshape(shape)

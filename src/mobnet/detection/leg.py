@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mobnet.control.geometry import cross, solve
-from mobnet.control.kinematics import Pose, Tree, empty_pose, tree_of, update
+from mobnet.control.kinematics import KinematicTree, Pose, empty_pose, tree_of, update
 from mobnet.core.arrays import Array
 from mobnet.core.compilation import compiled
 from mobnet.core.errors import ConfigError, not_accepted
@@ -19,7 +19,7 @@ FORWARD, LEFT = 0, 1  # axes of a body
 class Leg(NamedTuple):
     """A leg of the nominal model, and room for its kinematics."""
 
-    tree: Tree  # bodies
+    tree: KinematicTree  # bodies
     pose: Pose  # their places; filled for each sample
     first: int  # first actuator of the leg
     foot: int  # body of the foot
@@ -53,9 +53,16 @@ def make_leg(robot: RobotDescription, limb: str) -> Leg:
     half = robot.sole.box_half
     corners = [(centre[0] + x * half[0], centre[1] + y * half[1], robot.sole.height) for x in (-1, 1) for y in (-1, 1)]
     return Leg(
-        tree, empty_pose(tree), first, foot, other, np.array(corners), np.zeros(robot.layout.nv), np.zeros((6, 6)),
-        np.zeros(6),
-    )  # fmt: skip
+        tree=tree,
+        pose=empty_pose(tree),
+        first=first,
+        foot=foot,
+        other=other,
+        corners=np.array(corners),
+        still=np.zeros(robot.layout.nv),
+        jacobian=np.zeros((6, 6)),
+        load=np.zeros(6),
+    )
 
 
 @compiled
@@ -99,9 +106,7 @@ def _lowest(leg: Leg, foot: int) -> float:
     return lowest
 
 
-def unit_torques(
-    robot: RobotDescription, leg: Leg, q: NDArray[Any], points: Sequence[str], inward: float
-) -> Array:  # fmt: skip
+def unit_torques(robot: RobotDescription, leg: Leg, q: NDArray[Any], points: Sequence[str], inward: float) -> Array:
     """Return what a force of 1 N at points of a leg does to its joints (n, 6) [N m/N], at a position q (nq,).
 
     A point whose name ends in `front` is pushed against the x axis of its body, any other towards the other leg, along
@@ -132,7 +137,7 @@ def unit_torques(
     return found
 
 
-def ancestors(tree: Tree, body: int) -> set[int]:
+def ancestors(tree: KinematicTree, body: int) -> set[int]:
     """Return a body and all above it."""
     found: set[int] = set()
     while body >= 0:

@@ -1,6 +1,6 @@
 """Thresholds of a limb from recordings that nothing pushes: of a leg in its swings, of any other limb all the time."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -8,21 +8,20 @@ import numpy as np
 
 from mobnet.core.arrays import Array
 from mobnet.core.columns import EXTERNAL, named
-from mobnet.core.errors import DataError, not_accepted, refuse
+from mobnet.core.errors import DataError, refuse
 from mobnet.core.estimator import Estimate
 from mobnet.core.notes import pair_differences, read_array_note
 from mobnet.core.recording import SensedRecording, read_sensed
 from mobnet.core.store import NOTE, check_finite, file_of
 from mobnet.detection.always import AlwaysWatched, always_watched, setup_of
 from mobnet.detection.calibration import QuietWalk, check_signals, rate_scales
-from mobnet.detection.points import axis_forces
-from mobnet.detection.sensitivity import found_forces
+from mobnet.detection.points import axis_forces, found_forces
 from mobnet.detection.signals import RATIO, STD, Watched
 from mobnet.detection.thresholds import Calibrated
 from mobnet.detection.watch import LegRecording, LegSetup, LimbSetup, read_estimate
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.nominal import NominalModel
-from mobnet.settings.detection import Detector, Signal
+from mobnet.settings.detection import Detection, DetectorSettings, Signal
 from mobnet.settings.lab import Lab
 
 WANTED = "wanted"  # the only rule of thresholds
@@ -65,10 +64,10 @@ class LimbCalibration:
         thresholds: of each joint (n,) [N m], of a ratio [-].
         promise: rate of false alarms to expect, with its interval.
         count: number of swings or windows that they are made from.
-        always: the windows; None of a leg that is watched in its swings.
         felt: torque of each joint that reaches its threshold in most samples (n,) [N m].
         forces: point -> the least force that is found there, along each axis of its body or from one side [N].
         limbs: it in each recording.
+        always: the windows; None of a leg that is watched in its swings.
     """
 
     setup: LimbSetup
@@ -76,10 +75,10 @@ class LimbCalibration:
     thresholds: Array
     promise: Calibrated
     count: int
-    always: AlwaysWatched | None
     felt: Array
     forces: Mapping[str, Array]
-    limbs: tuple[LegRecording, ...] = ()
+    limbs: tuple[LegRecording, ...]
+    always: AlwaysWatched | None = None
 
     @property
     def least(self) -> Array:
@@ -95,13 +94,17 @@ class LimbCalibration:
 
 def watched_signal(signal: Signal, settings: Lab) -> Watched:
     """Return what a detector of a limb watches: one signal of an estimate."""
-    return Watched(Detector(method=settings.detection.gate.method, signals=(signal,)))
+    return Watched(DetectorSettings(method=settings.detection.gate.method, signals=(signal,)))
 
 
 def calibrate_limb(
-    own: Sequence[OwnRecording], robot: RobotDescription, limb: str, signal: Signal, rate_per_h: float,
+    own: Sequence[OwnRecording],
+    robot: RobotDescription,
+    limb: str,
+    signal: Signal,
+    rate_per_h: float,
     settings: Lab,
-) -> LimbCalibration:  # fmt: skip
+) -> LimbCalibration:
     """Calibrate a detector of a limb on recordings that nothing pushes.
 
     Raises:
@@ -110,11 +113,62 @@ def calibrate_limb(
         ConfigError: the limb is unknown.
     """
     _check_rates(own, settings.detection.sensitivity.contact_s)
-    rate_hz = own[0].read.rate_hz
     walks = limb in robot.layout.legs.values() and _walks(own)
-    setup = _wanting(setup_of(settings.detection, robot, limb, rate_hz, walks=walks), rate_per_h, settings)
+    detection = _with_thresholds(settings.detection, rates_per_h={WANTED: rate_per_h})
+    setup = setup_of(detection, robot, limb, own[0].read.rate_hz, walks=walks)
     watched = watched_signal(signal, settings)
-    always, legs = _watched(setup, watched, own, settings)
+    if isinstance(setup, LegSetup):
+        return _calibrate_leg(setup, watched, own)
+    return _calibrate_always(setup, watched, own, settings)
+
+
+def _with_thresholds(detection: Detection, **changes: object) -> Detection:
+    """Return the section of detectors with other numbers of how thresholds are made."""
+    return detection.model_copy(update={"thresholds": detection.thresholds.model_copy(update=changes)})
+
+
+def _calibrate_leg(setup: LegSetup, watched: Watched, own: Sequence[OwnRecording]) -> LimbCalibration:
+    """Calibrate a leg in its swings; forces are from one side (1,) [N]."""
+    legs = [setup.record(one.path, one.read, one.estimate.tau_ext) for one in own]
+
+    def forces_of(poses: Array, felt: Array) -> dict[str, Array]:
+        return {point: np.array([force]) for point, force in found_forces(setup, poses, felt).items()}
+
+    return _calibrated(setup, watched, own, legs, forces_of)
+
+
+def _calibrate_always(
+    setup: LimbSetup, watched: Watched, own: Sequence[OwnRecording], settings: Lab
+) -> LimbCalibration:
+    """Calibrate a limb that is watched all the time; forces are along three axes (3,) [N]."""
+    detection = _with_thresholds(setup.detection, confidence=settings.robotlog.percentiles)
+    setup = replace(setup, detection=detection)
+    paths = [one.path for one in own]
+    read = [one.read for one in own]
+    estimates = [one.estimate for one in own]
+    lengths = (settings.detection.window_s, settings.robotlog.settle_s)
+    always = always_watched(setup, watched, paths, read, estimates, *lengths)
+
+    def forces_of(poses: Array, felt: Array) -> dict[str, Array]:
+        nominal = NominalModel(setup.robot, gravity_m_s2=settings.plant.gravity_m_s2)
+        return axis_forces(setup, nominal, poses, felt)
+
+    return replace(_calibrated(setup, watched, own, always.limbs, forces_of), always=always)
+
+
+def _calibrated(
+    setup: LimbSetup,
+    watched: Watched,
+    own: Sequence[OwnRecording],
+    legs: Sequence[LegRecording],
+    forces_of: Callable[[Array, Array], dict[str, Array]],
+) -> LimbCalibration:
+    """Calibrate a limb as its detector sees it in recordings.
+
+    `forces_of` returns point -> least force that is found [N], of the poses in which the limb is watched (T, nq) and of
+    the torques that reach its thresholds there (T, n) [N m].
+    """
+    (signal,) = watched.detector.signals
     # Nothing is tried here on what is held out, so that all swings calibrate.
     walk = QuietWalk.of(setup, "", legs, [one.estimate for one in own], share=1.0)
     check_signals(setup, watched.detector, walk)
@@ -124,9 +178,16 @@ def calibrate_limb(
     poses = np.concatenate([one.read.sensed.q[rows] for one, rows in pairs])
     stds = [one.estimate.std[rows] for one, rows in pairs if signal == RATIO and one.estimate.std is not None]
     felt = thresholds * (np.concatenate(stds) if stds else np.ones((len(poses), len(thresholds))))
-    forces = {} if signal == STD else _forces(setup, poses, felt, settings)
-    usual = np.quantile(felt, setup.detection.sensitivity.share, axis=0)
-    return LimbCalibration(setup, signal, thresholds, promises[WANTED], walk.first, always, usual, forces, tuple(legs))
+    return LimbCalibration(
+        setup=setup,
+        signal=signal,
+        thresholds=thresholds,
+        promise=promises[WANTED],
+        count=walk.first,
+        felt=np.quantile(felt, setup.detection.sensitivity.share, axis=0),
+        forces={} if signal == STD else forces_of(poses, felt),
+        limbs=tuple(legs),
+    )
 
 
 def _check_rates(own: Sequence[OwnRecording], contact_s: float) -> None:
@@ -134,12 +195,12 @@ def _check_rates(own: Sequence[OwnRecording], contact_s: float) -> None:
     first = own[0]
     least = CONTACT_SAMPLES / contact_s
     if first.read.rate_hz < least:
-        accepted = [f"{least:.0f} or more, as collisions last for {contact_s * 1e3:.0f} ms"]
-        raise DataError(not_accepted(f"{first.path}: rate_hz", first.read.rate_hz, accepted))
+        needed = f"{least:.0f} Hz or more are needed, as collisions last for {contact_s * 1e3:.0f} ms"
+        raise DataError(f"{first.path}: rate_hz is {first.read.rate_hz}; {needed}")
     for one in own:
         if one.read.rate_hz != first.read.rate_hz:
-            accepted = [f"{first.read.rate_hz}, that of the first"]
-            raise DataError(not_accepted(f"{one.path}: rate_hz", one.read.rate_hz, accepted))
+            needed = f"all need that of {first.path}, {first.read.rate_hz}"
+            raise DataError(f"{one.path}: rate_hz is {one.read.rate_hz}; {needed}")
 
 
 def _walks(own: Sequence[OwnRecording]) -> bool:
@@ -147,34 +208,6 @@ def _walks(own: Sequence[OwnRecording]) -> bool:
     expected = own[0].read.unplanned()
     for one in own:
         if (missing := one.read.unplanned()) != expected:
-            accepted = [f"{', '.join(expected) or 'nothing'}, as in {own[0].path}"]
-            raise DataError(not_accepted(f"{one.path}: missing", ", ".join(missing) or "nothing", accepted))
+            lacks = f"{', '.join(missing) or 'nothing'} is missing, and {', '.join(expected) or 'nothing'}"
+            raise DataError(f"{one.path}: {lacks} in {own[0].path}; all need the same signals")
     return not expected
-
-
-def _wanting(setup: LimbSetup, rate_per_h: float, settings: Lab) -> LimbSetup:
-    """Return a setup with one wanted rate of false alarms [1/h]."""
-    numbers = setup.detection.thresholds.model_copy(update={"rates_per_h": {WANTED: rate_per_h}})
-    if not isinstance(setup, LegSetup):
-        numbers = numbers.model_copy(update={"confidence": settings.robotlog.percentiles})
-    return replace(setup, detection=setup.detection.model_copy(update={"thresholds": numbers}))
-
-
-def _watched(
-    setup: LimbSetup, watched: Watched, own: Sequence[OwnRecording], settings: Lab
-) -> tuple[AlwaysWatched | None, Sequence[LegRecording]]:
-    """Return the windows of a limb where it is always watched, and it in recordings as its detector sees it."""
-    if isinstance(setup, LegSetup):
-        return None, [setup.record(one.path, one.read, one.estimate.tau_ext) for one in own]
-    paths, read, estimates = zip(*((one.path, one.read, one.estimate) for one in own), strict=True)
-    lengths = settings.detection.window_s, settings.robotlog.settle_s
-    always = always_watched(setup, watched, paths, read, estimates, *lengths)
-    return always, always.limbs
-
-
-def _forces(setup: LimbSetup, poses: Array, thresholds: Array, settings: Lab) -> dict[str, Array]:
-    """Return point -> least force that is found, from one side (1,) or along three axes (3,) [N]."""
-    if isinstance(setup, LegSetup):
-        return {point: np.array([force]) for point, force in found_forces(setup, poses, thresholds).items()}
-    nominal = NominalModel(setup.robot, gravity_m_s2=settings.plant.gravity_m_s2)
-    return axis_forces(setup, nominal, poses, thresholds)

@@ -79,12 +79,24 @@ def thresholds_of(
     for joint, value in zip(setup.joints, values, strict=True):
         refuse_lines(beyond(f"threshold of {joint}", value, THRESHOLD))
     return LimbThresholds(
-        robot=setup.robot.name, limb=setup.limb, joints=setup.joints, method=LEARNED if network else OBSERVER,
-        network=network.fingerprint if network else None, signal=found.signal, thresholds=values,
+        robot=setup.robot.name,
+        limb=setup.limb,
+        joints=setup.joints,
+        method=LEARNED if network else OBSERVER,
+        network=network.fingerprint if network else None,
+        signal=found.signal,
+        thresholds=values,
         watched="always" if found.always else "swing",
-        settle_s=settings.robotlog.settle_s if found.always else 0.0, low_pass_hz=setup.detection.low_pass_hz,
-        hold_s=setup.detection.hold_s, rate_hz=sampling.rate_hz, gain_hz=sampling.gain_hz, torque=sampling.torque,
+        settle_s=settings.robotlog.settle_s if found.always else 0.0,
+        low_pass_hz=setup.detection.low_pass_hz,
+        hold_s=setup.detection.hold_s,
+        rate_hz=sampling.rate_hz,
+        gain_hz=sampling.gain_hz,
+        torque=sampling.torque,
         drives=sampling.drives,
-        rate_per_h=rate_per_h, expected_per_h=promise.rate_per_h, low_per_h=promise.low, high_per_h=promise.high,
+        rate_per_h=rate_per_h,
+        expected_per_h=promise.rate_per_h,
+        low_per_h=promise.low,
+        high_per_h=promise.high,
         confidence=settings.detection.thresholds.confidence,
-    )  # fmt: skip
+    )

@@ -15,9 +15,9 @@ from numpy.typing import NDArray
 from mobnet.core.arrays import Array
 from mobnet.core.estimator import Estimate
 from mobnet.detection.detector import ALARM_RATIO
+from mobnet.detection.gate import Spans
 from mobnet.detection.points import points_of
 from mobnet.detection.signals import Watched
-from mobnet.detection.swings import Spans
 from mobnet.detection.watch import LegRecording, LimbSetup
 from mobnet.estimation.low_pass import low_pass
 from mobnet.robot.nominal import NominalModel
@@ -30,7 +30,7 @@ PASSES = 100  # most times that recordings are gone through: they may be too sho
 
 
 @dataclass(frozen=True)
-class Pushing:
+class PushPlan:
     """Numbers of pushes: how many at least, their times and sizes, and how long [s] after one its alarm may come."""
 
     count: int
@@ -48,9 +48,14 @@ class Planted:
 
 
 def plant(
-    setup: LimbSetup, nominal: NominalModel, gain_hz: float, limbs: Sequence[LegRecording],
-    poses: Sequence[NDArray[Any]], pushing: Pushing, seed: int,
-) -> list[Planted]:  # fmt: skip
+    setup: LimbSetup,
+    nominal: NominalModel,
+    gain_hz: float,
+    limbs: Sequence[LegRecording],
+    poses: Sequence[NDArray[Any]],
+    pushing: PushPlan,
+    seed: int,
+) -> list[Planted]:
     """Draw pushes on the links of a limb in recordings, which are gone through until there are enough.
 
     Args:
@@ -78,9 +83,13 @@ def plant(
 
 
 def found_pushes(
-    setup: LimbSetup, watched: Watched, thresholds: Array, limbs: Sequence[LegRecording], estimates: Sequence[Estimate],
+    setup: LimbSetup,
+    watched: Watched,
+    thresholds: Array,
+    limbs: Sequence[LegRecording],
+    estimates: Sequence[Estimate],
     planted: Sequence[Planted],
-) -> NDArray[np.bool_]:  # fmt: skip
+) -> NDArray[np.bool_]:
     """Return which pushes (k,) a detector with thresholds (n,) finds in recordings with their estimates."""
     chain = setup.chain(thresholds[None])
     found = list[bool]()
@@ -105,9 +114,15 @@ def _places(setup: LimbSetup, nominal: NominalModel) -> Iterator[tuple[str, tupl
 
 
 def _planted(
-    setup: LimbSetup, nominal: NominalModel, gain_hz: float, limb: LegRecording, q: NDArray[Any],
-    places: Sequence[tuple[str, tuple[float, ...]]], pushing: Pushing, rng: np.random.Generator,
-) -> tuple[Array, Spans]:  # fmt: skip
+    setup: LimbSetup,
+    nominal: NominalModel,
+    gain_hz: float,
+    limb: LegRecording,
+    q: NDArray[Any],
+    places: Sequence[tuple[str, tuple[float, ...]]],
+    pushing: PushPlan,
+    rng: np.random.Generator,
+) -> tuple[Array, Spans]:
     """Return what pushes do to the joints in a recording (T, n) [N m], and the rows in which an alarm counts."""
     torque = np.zeros((len(q), len(setup.joints)))
     spans = list[tuple[int, int]]()
@@ -135,9 +150,15 @@ def _planted(
 
 
 def _torque(
-    setup: LimbSetup, nominal: NominalModel, q: NDArray[Any], body: str, place: Sequence[float], direction: Array,
-    share: float, numbers: LinkPushes,
-) -> Array | None:  # fmt: skip
+    setup: LimbSetup,
+    nominal: NominalModel,
+    q: NDArray[Any],
+    body: str,
+    place: Sequence[float],
+    direction: Array,
+    share: float,
+    numbers: LinkPushes,
+) -> Array | None:
     """Return what a push of a share of the joints' largest torques does to them (n,) [N m]; None if it turns none."""
     robot = nominal.robot
     wrench = np.concatenate([direction, np.zeros(3)])[None]

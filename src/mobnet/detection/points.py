@@ -5,13 +5,15 @@ Of a limb without a side that is likelier than another, forces act along the axe
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array
-from mobnet.detection.isolation import name_push
-from mobnet.detection.sensitivity import attenuation, smallest_forces, some_rows
-from mobnet.detection.watch import LimbSetup
+from mobnet.detection.detector import GateSignal, run_over
+from mobnet.detection.leg import unit_torques
+from mobnet.detection.watch import LegSetup, LimbSetup
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.nominal import NominalModel
 from mobnet.robot.wrench import carrier_of, point_torque
@@ -20,8 +22,76 @@ from mobnet.settings.parts import PointRow
 AXES = "xyz"
 
 
+# Section 5.4 takes thresholds for an indirect estimate of what a detector can feel. This is that estimate: the torques
+# of a push of 1 N follow from the pose, and what the filters leave of a short one from the filters (note 0036).
+def found_forces(setup: LegSetup, poses: Array, thresholds: Array) -> dict[str, float]:
+    """Return point of the leg -> the force [N] that a short collision must have there, in most poses of a swing.
+
+    Poses (T, nq) [m, -, rad] are those in which the leg is watched, thresholds (T, 6) [N m] those of its joints there.
+    """
+    numbers = setup.detection.sensitivity
+    robot = setup.robot
+    points = [row.name for row in robot.points if row.name.startswith(f"{setup.side}_") and row.name.count("_") == 2]
+    picked = some_rows(len(poses), numbers.poses)
+    left = attenuation(setup)
+    units = [unit_torques(robot, setup.gate.leg, q, points, setup.inward) for q in poses[picked]]
+    forces = [smallest_forces(*pair, left) for pair in zip(units, thresholds[picked], strict=True)]
+    return dict(zip(points, np.quantile(forces, numbers.share, axis=0).tolist(), strict=True))
+
+
+def some_rows(count: int, most: int) -> NDArray[np.intp]:
+    """Return rows of poses (k,), evenly apart: neighbours differ little, and a few hundred have the same quantile."""
+    return np.linspace(0, count - 1, min(most, count)).astype(np.intp)
+
+
+def smallest_forces(units: Array, thresholds: Array, attenuation: float) -> Array:
+    """Return the least force of each of k pushes that brings a joint over its threshold (k,) [N], (D12).
+
+    Units (k, 6) are as in `name_push`, thresholds (6,) those of the joints [N m]; of a push that lasts as long as a
+    collision, filters leave the share `attenuation`.
+    """
+    # The joint that crosses first counts. The floor is for joints that the push does not load.
+    return (thresholds / (attenuation * np.maximum(np.abs(units), 1e-9))).min(axis=1)
+
+
+def attenuation(setup: LimbSetup) -> float:
+    """Return what the filters leave of the peak of a half-sine of a collision's length [-]."""
+    count = round(setup.detection.sensitivity.contact_s * setup.rate_hz)
+    # (D11): the low-pass is highest only after the peak of the force, so that the run goes on beyond its end.
+    hit = np.sin(np.pi * np.arange(2 * count) / count)[:, None] * (np.arange(2 * count) < count)[:, None]
+    always = GateSignal(np.ones(len(hit), dtype=bool), np.zeros(len(hit)))
+    return float(run_over(setup.chain(np.ones((1, 1))), np.ascontiguousarray(hit), always).ratio.max())
+
+
+# A force F at a point turns the joints above it by F g, where g (6,) is known of each point and direction. Of all
+# candidates that one is taken whose g explains most of the estimated torque, in units of what this does in free
+# walking.
+class IsolatedPush(NamedTuple):
+    """The candidate that explains a torque best, counted from 0, and its force [N]."""
+
+    candidate: int
+    force_n: float
+
+
+def name_push(torque: NDArray[Any], units: Array, whitening: Array) -> IsolatedPush:
+    """Return which of k pushes explains the torque of the joints (6,) [N m].
+
+    Units (k, 6) are the torques of 1 N of each [N m/N]; the whitening (6, 6) is that of the torque in free walking. A
+    push cannot pull; where none explains anything, the first one has a force of zero.
+    """
+    # (D10): least squares of one unknown, the force. Whitened, as an error of 5 N m says nothing at a hip that is wrong
+    # by as much in every step, and everything at an ankle.
+    seen = whitening @ torque
+    expected = units @ whitening.T
+    sizes = np.maximum((expected**2).sum(axis=1), 1e-12)
+    # A push cannot pull: the best force of a candidate that explains the torque with the wrong sign is zero.
+    forces = np.maximum(expected @ seen / sizes, 0.0)
+    best = int(np.argmax(forces**2 * sizes))
+    return IsolatedPush(best, float(forces[best]))
+
+
 @dataclass(frozen=True)
-class Felt:
+class EstimatedPush:
     """The push that explains the torques of a limb best: its point, the body of that, direction and force [N]."""
 
     point: str
@@ -64,7 +134,9 @@ def axis_forces(setup: LimbSetup, nominal: NominalModel, poses: Array, threshold
     return {row.name: np.where(own, force, np.inf) for row, own, force in zip(points, heard, most, strict=True)}
 
 
-def felt_push(nominal: NominalModel, joints: Sequence[str], q: Array, torque: Array, scale: Array) -> Felt | None:
+def felt_push(
+    nominal: NominalModel, joints: Sequence[str], q: Array, torque: Array, scale: Array
+) -> EstimatedPush | None:
     """Return which push explains torques (n,) [N m] of joints best at a position (nq,); none of a limb without points.
 
     The scale (n,) [N m] is what the torques are in free motion, such as their thresholds.
@@ -77,4 +149,4 @@ def felt_push(nominal: NominalModel, joints: Sequence[str], q: Array, torque: Ar
     found = name_push(torque, np.concatenate([units, -units]), np.diag(1.0 / scale))
     sign, place = divmod(found.candidate, len(units))
     row = points[place // len(AXES)]
-    return Felt(row.name, row.body, f"{'+-'[sign]}{AXES[place % len(AXES)]}", found.force_n)
+    return EstimatedPush(row.name, row.body, f"{'+-'[sign]}{AXES[place % len(AXES)]}", found.force_n)

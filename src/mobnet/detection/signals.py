@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from mobnet.core.arrays import Array
 from mobnet.core.errors import DataError
 from mobnet.core.estimator import Estimate
-from mobnet.settings.detection import Detector, Signal
+from mobnet.settings.detection import DetectorSettings, Signal
 
 MEAN = "mean"
 STD = "std"
@@ -33,7 +33,7 @@ class Watched:
         whitening: matrix (m, m) of `whitening_of`, where the length of all signals is watched.
     """
 
-    detector: Detector
+    detector: DetectorSettings
     slopes: Array | None = None
     whitening: Array | None = None
 

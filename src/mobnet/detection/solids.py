@@ -132,10 +132,11 @@ def _stretched(sphere: Patch, half: Sequence[float]) -> Patch:
 
 def _box(half: Array, spacing_m: float) -> Patch:
     """Return the points on the faces of a box of half lengths (3,) [m]."""
+    counts = np.maximum(1, np.rint(2.0 * half / spacing_m)).astype(int)
     faces = []
     for axis in range(3):
-        grids = [half[k] * (2.0 * np.arange(n) + 1.0 - n) / n if k != axis else np.array([-half[k], half[k]])
-                 for k, n in enumerate(np.maximum(1, np.rint(2.0 * half / spacing_m)).astype(int))]  # fmt: skip
+        grids = [length * (2.0 * np.arange(n) + 1.0 - n) / n for length, n in zip(half, counts, strict=True)]
+        grids[axis] = np.array([-half[axis], half[axis]])
         points = np.stack(np.meshgrid(*grids, indexing="ij"), axis=-1).reshape(-1, 3)
         normals = np.zeros(points.shape)
         normals[:, axis] = np.sign(points[:, axis])

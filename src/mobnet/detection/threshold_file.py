@@ -4,14 +4,14 @@ from pathlib import Path
 
 from mobnet.core.errors import ConfigError, DataError, not_accepted, refuse
 from mobnet.core.files import write_text
-from mobnet.core.flow import flow
 from mobnet.core.place import command
 from mobnet.detection.always import setup_of
 from mobnet.detection.signals import Watched
 from mobnet.detection.watch import LegSetup, LimbSetup
 from mobnet.estimation.own import OwnNetwork, Sampling, check_drives
 from mobnet.robot.description import RobotDescription
-from mobnet.settings.detection import Detection, Detector
+from mobnet.robot.table_file import flow
+from mobnet.settings.detection import Detection, DetectorSettings
 from mobnet.settings.lab import load_section
 from mobnet.settings.limb_thresholds import LimbThresholds
 
@@ -32,8 +32,9 @@ def read_thresholds(path: Path) -> LimbThresholds:
     """
     found = load_section(path, LimbThresholds)
     if len(found.thresholds) != len(found.joints):
-        accepted = [f"{len(found.joints)}, one for each of its joints"]
-        raise ConfigError(f"{path}: {not_accepted('thresholds: number', len(found.thresholds), accepted)}")
+        raise ConfigError(
+            f"{path}: {len(found.thresholds)} thresholds for {len(found.joints)} joints; each joint needs one"
+        )
     return found
 
 
@@ -44,7 +45,7 @@ def sampling_of(found: LimbThresholds) -> Sampling:
 
 def watched_of(found: LimbThresholds) -> Watched:
     """Return what a detector with these thresholds watches."""
-    return Watched(Detector(method=found.method, signals=(found.signal,)))
+    return Watched(DetectorSettings(method=found.method, signals=(found.signal,)))
 
 
 def setup_with(found: LimbThresholds, detection: Detection, robot: RobotDescription) -> LimbSetup:
@@ -62,9 +63,11 @@ def check_thresholds(path: Path, found: LimbThresholds, robot: RobotDescription,
     check_drives(path, found.drives, robot)
     own = robot.layout.groups.get(found.limb, ())
     pairs = {
-        "robot": (found.robot, robot.name), "joints": (found.joints, own),
+        "robot": (found.robot, robot.name),
+        "joints": (found.joints, own),
         "network": (found.network or "none", network.fingerprint if network else "none"),
-    }  # fmt: skip
+    }
     refuse(
-        path, [not_accepted(key, held, [f"{here}, given here"]) for key, (held, here) in pairs.items() if held != here]
+        path,
+        [f"made for {key} {held!r}, and {here!r} is given here" for key, (held, here) in pairs.items() if held != here],
     )

@@ -78,7 +78,7 @@ def _moments(over: Array) -> tuple[float, float]:
 
 def calibrate(
     largest: Array, episodes: Sequence[int], duration_s: float, rate_per_h: float, settings: Thresholds
-) -> Calibrated:  # fmt: skip
+) -> Calibrated:
     """Return the multiple of the scales for a wanted rate of false alarms.
 
     Args:
@@ -92,10 +92,11 @@ def calibrate(
         DataError: there are too few swings, they do not differ, or the rate is more than the tail holds.
     """
     if len(largest) < settings.least_swings:
-        accepted = [f"{settings.least_swings} or more, some minutes of walking"]
-        raise DataError(not_accepted("swings that calibrate", len(largest), accepted))
+        needed = f"{settings.least_swings} or more are needed, some minutes of walking"
+        raise DataError(f"{len(largest)} swings that calibrate; {needed}")
     if not np.ptp(largest):
-        raise DataError(not_accepted("largest values", float(largest[0]), ["numbers that change from swing to swing"]))
+        value = float(largest[0])
+        raise DataError(f"the largest value of each swing is {value}; numbers that change are needed")
     # (D15): a robot reacts to the first alarm of a swing, so that a swing counts once, however often it crosses.
     per_h = len(largest) * HOUR_S / duration_s
     share = rate_per_h / per_h
@@ -124,15 +125,19 @@ def _check_tail(above: Array, level: float) -> None:
     differ = len(np.unique(above))
     wanted = max(DIFFER * len(above), 1.0)
     if differ < wanted:
-        what = f"different largest values above {level:.3g} times their scales"
-        accepted = [f"{wanted:.0f} or more, those of an estimate that does not saturate"]
-        raise DataError(not_accepted(what, differ, accepted))
+        what = f"{differ} different largest values above {level:.3g} times their scales"
+        needed = f"{wanted:.0f} or more are needed, those of an estimate that does not saturate"
+        raise DataError(f"{what}; {needed}")
 
 
 def _resampled(
-    largest: Array, groups: Sequence[NDArray[np.intp]], tail: Tail, factor: float, settings: Thresholds,
+    largest: Array,
+    groups: Sequence[NDArray[np.intp]],
+    tail: Tail,
+    factor: float,
+    settings: Thresholds,
     rng: np.random.Generator,
-) -> float:  # fmt: skip
+) -> float:
     """Return the share of swings above a factor that a walk like this one, drawn anew, would make one expect."""
     # Whole episodes: their ground and commands make swings alike, and single swings would look like more than they are.
     drawn = np.concatenate([largest[groups[k]] for k in rng.integers(0, len(groups), len(groups))])

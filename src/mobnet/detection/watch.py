@@ -15,8 +15,8 @@ from mobnet.core.notes import read_array_note
 from mobnet.core.recording import SensedRecording, read_sensed
 from mobnet.core.store import NOTE, file_of, read_array
 from mobnet.detection.chain import Chain, low_passed, make_chain
-from mobnet.detection.detector import Alarm, GateSignal, LegGate, run_segments
-from mobnet.detection.swings import Spans, segment_of, swings_of
+from mobnet.detection.detector import DetectorOutput, GateSignal, LegGate, run_segments
+from mobnet.detection.gate import Spans, segment_of, swings_of
 from mobnet.robot.description import RobotDescription
 from mobnet.settings.detection import Detection
 
@@ -49,7 +49,7 @@ class LegRecording:
         """Number of samples in segments."""
         return sum(end - start for start, end in self.segments)
 
-    def run(self, chain: Chain, signals: Array) -> Alarm:
+    def run(self, chain: Chain, signals: Array) -> DetectorOutput:
         """Run a chain over signals (T, m), each segment from rest; return what it says of the samples (T,)."""
         return run_segments(chain, signals, self.gate, self.segments)
 

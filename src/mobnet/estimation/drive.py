@@ -25,7 +25,7 @@ NUMBERS = ("coulomb", "viscous", "load", "offset", "scale", "smoothing", "breaka
 
 
 @dataclass(frozen=True)
-class Drives:
+class DriveParameters:
     """Numbers of all actuated joints, (nu,) each; joints without a row have no friction.
 
     Attributes:
@@ -71,12 +71,12 @@ def bent(bend: Array, velocity: NDArray[Any], breakaway: Array, rate_hz: float) 
     return out
 
 
-def drives_of(friction: Mapping[str, FrictionRow], joints: Sequence[str]) -> Drives | None:
+def drives_of(friction: Mapping[str, FrictionRow], joints: Sequence[str]) -> DriveParameters | None:
     """Return the drives of actuated joints (nu,) by the rows of a table; None where it has none."""
     if not friction:
         return None
     rows = [friction.get(joint) for joint in joints]
-    return Drives(
+    return DriveParameters(
         coulomb=np.array([row.coulomb_nm if row else 0.0 for row in rows]),
         viscous=np.array([row.viscous_nms if row else 0.0 for row in rows]),
         load=np.array([row.load if row else 0.0 for row in rows]),

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from mobnet.core.columns import EXTERNAL, RESIDUAL, STD, Column, named, torque_columns
 from mobnet.core.errors import ConfigError, DataError, not_accepted
-from mobnet.core.estimator import Estimate, Estimator, Stretch, estimate_all
+from mobnet.core.estimator import Estimate, Stretch, TorqueEstimator, estimate_all
 from mobnet.core.joints import JointLayout
 from mobnet.core.recording import SensedRecording, read_sensed
 from mobnet.core.store import check_pair, check_rate, read_array, write_array
@@ -19,21 +19,23 @@ from mobnet.estimation.observe import CARRIED
 log = logging.getLogger(__name__)
 
 
-class Observed(NamedTuple):
+class ObservedRecording(NamedTuple):
     """The sensed part of a recording, and r of (9) where an observer has run over it, (T, nv) [N, N m]."""
 
     recording: SensedRecording
     residual: NDArray[np.float32] | None = None
 
 
-def read_observed(layout: JointLayout, recording: Path, residual: Path, rate_hz: float | None = None) -> Observed:
+def read_observed(
+    layout: JointLayout, recording: Path, residual: Path, rate_hz: float | None = None
+) -> ObservedRecording:
     """Read what was sensed in a recording, and of its residual the columns of r alone, not those of the truth."""
     check_rate(recording, rate_hz)
     check_pair(recording, residual)
-    return Observed(read_sensed(recording, layout), read_array(residual, named(RESIDUAL, layout.names))[0])
+    return ObservedRecording(read_sensed(recording, layout), read_array(residual, named(RESIDUAL, layout.names))[0])
 
 
-def rate_of(read: Sequence[Observed]) -> float:
+def rate_of(read: Sequence[ObservedRecording]) -> float:
     """Return the rate of recordings [Hz]; raise DataError where they have several."""
     rates = sorted({one.recording.rate_hz for one in read})
     if len(rates) != 1:
@@ -41,7 +43,7 @@ def rate_of(read: Sequence[Observed]) -> float:
     return rates[0]
 
 
-def run_segments(estimator: Estimator, read: Sequence[Observed]) -> list[Estimate]:
+def run_segments(estimator: TorqueEstimator, read: Sequence[ObservedRecording]) -> list[Estimate]:
     """Return the estimates (T_i, n) [N, N m] of recordings, each segment from a fresh state; zero outside of segments.
 
     All segments of all recordings run side by side where the estimator can do that.

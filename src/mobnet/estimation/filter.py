@@ -7,7 +7,7 @@ import numpy as np
 import scipy  # its parts are imported where they are used first: the workflow imports kinds before it starts
 
 from mobnet.core.arrays import Array
-from mobnet.core.estimator import Estimate, Estimator, Stretch, estimate_all
+from mobnet.core.estimator import Estimate, Stretch, TorqueEstimator, estimate_all
 from mobnet.core.recording import Sensed
 
 State = tuple[Any, Array]  # of the filtered method, and of the filter (sections, 2, n) [N, N m]
@@ -16,7 +16,7 @@ State = tuple[Any, Array]  # of the filtered method, and of the filter (sections
 class FilteredEstimator:
     """tau_e of another estimator, same joints (n,), behind a causal filter at rest at first; no standard deviation."""
 
-    def __init__(self, inner: Estimator, sections: Array) -> None:
+    def __init__(self, inner: TorqueEstimator, sections: Array) -> None:
         """Take the filter as second-order sections (sections, 6), as SciPy has them."""
         self.joints = inner.joints
         self._inner = inner

@@ -17,9 +17,13 @@ from mobnet.robot.wrench import feet_torque
 
 
 def foot_label(
-    nominal: NominalModel, read: SensedRecording, wrenches: Mapping[str, NDArray[Any]], gain_hz: float,
-    *, plates: bool = True,
-) -> Array:  # fmt: skip
+    nominal: NominalModel,
+    read: SensedRecording,
+    wrenches: Mapping[str, NDArray[Any]],
+    gain_hz: float,
+    *,
+    plates: bool = True,
+) -> Array:
     """Return (O8) behind the low-pass of K_0 [1/s], (T, nv) [N] and [N m], segment by segment.
 
     Wrenches side -> (T, 6) [N] and [N m] are those that the feet's sensors read. Without `plates`, the inertia of what

@@ -16,7 +16,7 @@ from mobnet.core.notes import Note, Text, pair_differences, read_array_note, rea
 from mobnet.core.place import command
 from mobnet.core.recording import SensedRecording, read_sensed
 from mobnet.core.store import ARRAY, NOTE, file_of, footer_hash, read_array
-from mobnet.estimation.estimate import Observed, only, run_segments
+from mobnet.estimation.estimate import ObservedRecording, only, run_segments
 from mobnet.estimation.kinds.residual import ResidualEstimator
 from mobnet.estimation.observer import MomentumObserver
 from mobnet.learning.deployed.limbs import LimbNetworks, load_limb_networks
@@ -109,9 +109,7 @@ def refuse_twice(logs: Sequence[OwnLog], why: str) -> None:
     seen = dict[str, Path]()
     for one in logs:
         if one.footer in seen:
-            raise DataError(
-                not_accepted("FOLDER", str(one.folder), [f"each log once, {why}; {seen[one.footer]} is it"])
-            )
+            raise DataError(f"{one.folder} is the same log as {seen[one.footer]}; give each log once, {why}")
         seen[one.footer] = one.folder
 
 
@@ -191,17 +189,17 @@ def check_sampling(path: Path, sampling: Sampling, wanted: Sampling, of: Path) -
 def check_drives(path: Path, drives: str | None, robot: RobotDescription) -> None:
     """Raise a DataError where a file was made with other friction or rotors than those of a robot's table."""
     if drives != robot.drives:
-        accepted = [f"{robot.drives or 'none'}, those of --robot; make it anew with that table"]
-        raise DataError(f"{path}: {not_accepted('drives (friction and armature)', drives or 'none', accepted)}")
+        made = f"made with friction and armature {drives or 'none'}, and the table of --robot has"
+        raise DataError(f"{path}: {made} {robot.drives or 'none'}; make it anew with that table")
 
 
 def estimator_of(
-    robot: RobotDescription, gravity_m_s2: float, sampling: Sampling, network: OwnNetwork | None
+    robot: RobotDescription, gravity_m_s2: float, sampling: Sampling, networks: LimbNetworks | None
 ) -> ResidualEstimator:
-    """Return the estimator of a log, as a closed loop has it: the observer, or less what a network predicts."""
+    """Return the estimator of a log, as a closed loop has it: the observer, or less what networks predict."""
     nominal = NominalModel(robot, gravity_m_s2=gravity_m_s2)
     observer = MomentumObserver(nominal, sampling.gain_hz, sampling.rate_hz, sampling.torque)
-    return ResidualEstimator(observer, robot.layout, network.networks if network else None)
+    return ResidualEstimator(observer, robot.layout, networks)
 
 
 def without_friction(logs: Sequence[OwnLog], robot: RobotDescription, gravity_m_s2: float) -> list[OwnLog]:
@@ -219,5 +217,5 @@ def without_friction(logs: Sequence[OwnLog], robot: RobotDescription, gravity_m_
 
 def estimates_of(logs: Sequence[OwnLog], estimator: ResidualEstimator, joints: Sequence[str]) -> list[Estimate]:
     """Return the estimate of some joints (T, n) [N, N m] in each log, segments from a fresh state."""
-    found = run_segments(estimator, [Observed(log.recording, log.residual) for log in logs])
+    found = run_segments(estimator, [ObservedRecording(log.recording, log.residual) for log in logs])
     return [only(result, estimator.joints, joints) for result in found]

@@ -51,11 +51,11 @@ def regress(law: Law, joints: Mapping[str, Sequence[str]], pairs: Sequence[Pair]
     found = dict[str, dict[str, float]]()
     for joint, wanted in joints.items():
         chosen = [term for term in TERMS if term in wanted]
-        found[joint] = told(joint, _solve(sums[joint], chosen, law.stribeck))
+        found[joint] = logged(joint, _solve(sums[joint], chosen, law.stribeck))
     return found
 
 
-def told(joint: str, found: dict[str, float]) -> dict[str, float]:
+def logged(joint: str, found: dict[str, float]) -> dict[str, float]:
     """Log how much friction a fit leaves of a joint, and return it."""
     log.info("%s: %.2f of %.2f N m left", joint, found["left_rms_nm"], found["target_rms_nm"])
     return found

@@ -17,27 +17,64 @@ import numpy as np
 
 from mobnet.core.errors import DataError, beyond, not_accepted, refuse_lines
 from mobnet.core.files import atomic_path, check_place, sweep, write_json
+from mobnet.core.options import export_parser
 from mobnet.core.printed import printed
+from mobnet.detection.chain import make_chain
+from mobnet.detection.detector import LegGate
 from mobnet.detection.signals import MEAN
 from mobnet.detection.threshold_file import read_thresholds
+from mobnet.estimation.observer import MomentumObserver
 from mobnet.estimation.own import OBSERVER, check_drives
 from mobnet.export.contract import CONTRACT, Contract, ObserverContract, read_contract
 from mobnet.export.graph import graph_of
-from mobnet.export.runtime import MODEL, model_of
+from mobnet.export.model_file import RuntimeDetector, RuntimeNetwork, model_content
 from mobnet.export.session import OnnxNetwork
 from mobnet.export.trained import Trained, check_apart, contract_of, read_trained
-from mobnet.export.words import export_parser
 from mobnet.learning.deployed.networks import WITHOUT_TORCH, deployed
-from mobnet.robot.description import RobotDescription
-from mobnet.robot.given import given_robot
+from mobnet.robot.description import RobotDescription, given_robot
+from mobnet.robot.nominal import NominalModel
 from mobnet.settings.base import GAIN_HZ, RATE_HZ, TorqueKind
 from mobnet.settings.detection import SwingGate
 from mobnet.settings.lab import Lab, load_lab
 from mobnet.settings.limb_thresholds import LimbThresholds
 
+MODEL = "model.bin"
 log = logging.getLogger(__name__)
 SAMPLES, SEED = 1000, 1  # of the random inputs on which a file is compared with its network
 Value = TypeVar("Value", TorqueKind, float)
+
+
+def model_of(robot: RobotDescription, contract: Contract, networks: Sequence[Trained], gate: SwingGate) -> bytes | None:
+    """Return the model file of a robot, whose table is what the observer knows, with networks and their contract.
+
+    Where the library lacks the cell of a network there is none.
+
+    Args:
+        robot: the robot.
+        contract: rate, observer, what networks estimate, and thresholds.
+        networks: the networks in the contract's order.
+        gate: numbers of the gate, for limbs that are watched in swing.
+
+    Raises:
+        DataError: a number is one that the library does not accept.
+        ConfigError: a limb that is watched in swing is no leg.
+    """
+    if not all(one.note.cell.cell in WITHOUT_TORCH for one in networks):
+        return None
+    observing = contract.observer
+    nominal = NominalModel(robot, gravity_m_s2=observing.gravity_m_s2)
+    observer = MomentumObserver(nominal, observing.gain_hz, contract.rate_hz, observing.torque)
+    pairs = zip(networks, contract.networks, strict=True)
+    parts = [RuntimeNetwork(one.tensors, one.note, told.estimates) for one, told in pairs]
+    return model_content(observer, parts, [_detector(one, robot, gate) for one in contract.detectors])
+
+
+def _detector(one: LimbThresholds, robot: RobotDescription, gate: SwingGate) -> RuntimeDetector:
+    """Return the detector of a limb's thresholds."""
+    chain = make_chain(one.low_pass_hz, one.hold_s, one.rate_hz, np.array([one.thresholds]))
+    swing = LegGate.of(gate, robot, one.limb, one.rate_hz) if one.watched == "swing" else None
+    settle = 0 if swing else round(one.settle_s * one.rate_hz)
+    return RuntimeDetector(one.limb, tuple(one.joints), (one.signal,), chain, swing, settle, one.method == OBSERVER)
 
 
 @dataclass(frozen=True)
@@ -49,9 +86,13 @@ class RunTime:
 
 
 def export(
-    networks: Sequence[Trained], robot: RobotDescription, run: RunTime, thresholds: Sequence[LimbThresholds],
-    gate: SwingGate, out: Path,
-) -> Contract:  # fmt: skip
+    networks: Sequence[Trained],
+    robot: RobotDescription,
+    run: RunTime,
+    thresholds: Sequence[LimbThresholds],
+    gate: SwingGate,
+    out: Path,
+) -> Contract:
     """Write networks, the model of the C library and their contract into a folder; return the contract.
 
     All is made before anything is written. The contract is removed first and written last, so that a folder that has
@@ -105,10 +146,13 @@ def check_thresholds(
             accepted = [f"{OBSERVER}, or a network of {', '.join(one.joints)}"]
             raise DataError(not_accepted(f"thresholds of {one.limb}: method", one.method, accepted))
         expected = {
-            "robot": robot.name, "rate_hz": run.rate_hz, "gain_hz": run.observer.gain_hz, "torque": run.observer.torque,
+            "robot": robot.name,
+            "rate_hz": run.rate_hz,
+            "gain_hz": run.observer.gain_hz,
+            "torque": run.observer.torque,
             "joints": robot.layout.limb(one.limb),
             **({"network": fingerprints.get(one.limb, "that of an exported network")} if one.network else {}),
-        }  # fmt: skip
+        }
         for key, accepted in expected.items():
             if getattr(one, key) != accepted:
                 raise DataError(not_accepted(f"thresholds of {one.limb}: {key}", getattr(one, key), [accepted]))
@@ -142,7 +186,7 @@ def difference(one: Trained, path: Path) -> float:
     return float(np.max(np.abs(apart) / tensors["target.std"]))
 
 
-def told(contract: Contract, networks: Sequence[Trained], out: Path) -> Iterator[str]:
+def report_lines(contract: Contract, networks: Sequence[Trained], out: Path) -> Iterator[str]:
     """Yield what the command prints."""
     observer = contract.observer
     yield f"{contract.robot} at {contract.rate_hz:g} Hz, gain {observer.gain_hz:g} 1/s, torques: {observer.torque}"
@@ -203,7 +247,7 @@ def run(options: Namespace) -> Iterator[str]:
             refuse_lines(beyond(f"--{word}", value, bounds))
     given = Given(options.rate, options.gain, options.torque)
     contract, networks = export_folders(options.network, robot, options.thresholds, given, settings, options.out)
-    yield from told(contract, networks, options.out)
+    yield from report_lines(contract, networks, options.out)
 
 
 def main(words: list[str]) -> int:

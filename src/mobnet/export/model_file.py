@@ -13,20 +13,22 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from mobnet.control.kinematics import empty_pose, update
 from mobnet.core.columns import recording_columns
 from mobnet.core.contract import rule_of
 from mobnet.core.errors import ConfigError, DataError, beyond, not_accepted, refuse_lines
 from mobnet.core.files import atomic_path
-from mobnet.core.joints import JointLayout
+from mobnet.core.joints import NQ_BASE, JointLayout
 from mobnet.detection.chain import Chain
 from mobnet.detection.detector import LegGate
-from mobnet.estimation.drive import NUMBERS, Drives
+from mobnet.detection.leg import Leg
+from mobnet.estimation.drive import NUMBERS, DriveParameters
 from mobnet.estimation.observer import MomentumObserver
-from mobnet.export.soles import leg_record
 from mobnet.learning.deployed.networks import WITHOUT_TORCH
 from mobnet.learning.deployed.weights import GRU_TENSORS, WeightsNote, std_scale_of
 from mobnet.learning.features import ROTATION_NAMES
 from mobnet.learning.gates import ordered
+from mobnet.robot.nominal import NominalModel
 from mobnet.settings.detection import Signal
 from mobnet.settings.methods import Target
 
@@ -45,6 +47,30 @@ BOUNDS = 1e-12, 1e9  # of numbers that are not weights, as in cursor.h; those of
 MOST_SAMPLES, MOST_UNITS = 10_000, 8192  # of a hold, and of hidden units or inputs, as in parts.c
 SMALLEST = float(np.finfo(np.float32).tiny)  # a standard deviation must be a normal number: detectors divide by it
 LARGEST = float(np.finfo(np.float32).max)
+
+
+def leg_record(nominal: NominalModel, gate: LegGate) -> bytes:
+    """Return the bytes of a leg's gate: `struct gate` and `struct leg` of internal.h."""
+    numbers = gate.gate
+    leg = gate.leg
+    head = struct.pack("<dq5dq", *numbers) + struct.pack("<q", leg.first)
+    return head + _sole(nominal, leg, leg.foot) + _sole(nominal, leg, leg.other)
+
+
+def _sole(nominal: NominalModel, leg: Leg, foot: int) -> bytes:
+    """Return the link that carries a foot, and in its axes the foot's origin and the corners of its sole [m]."""
+    body = foot
+    robot = nominal.robot
+    while body > 0 and leg.tree.joint[body] < 0:  # welded to its parent
+        body = int(leg.tree.parent[body])
+    pose = empty_pose(leg.tree)
+    q = np.zeros(robot.layout.nq)
+    q[NQ_BASE - 4] = 1.0
+    update(leg.tree, q, leg.still, 0.0, pose)
+    corners = leg.corners @ pose.rotation[foot].T + pose.position[foot]
+    points: Any = np.vstack([pose.position[foot], corners]) - pose.position[body]
+    link = int(leg.tree.joint[body]) + 1  # the base stands before the links of the joints
+    return struct.pack("<q", link) + (points @ pose.rotation[body]).astype("<f8").tobytes()
 
 
 @dataclass(frozen=True)
@@ -84,7 +110,7 @@ class RuntimeDetector:
 
 def write_model_file(
     path: Path, observer: MomentumObserver, networks: Sequence[RuntimeNetwork], detectors: Sequence[RuntimeDetector]
-) -> None:  # fmt: skip
+) -> None:
     """Write the file of an observer that knows its robot, and of the networks and detectors of the robot's limbs.
 
     Raises:
@@ -98,7 +124,7 @@ def write_model_file(
 
 def model_content(
     observer: MomentumObserver, networks: Sequence[RuntimeNetwork], detectors: Sequence[RuntimeDetector]
-) -> bytes:  # fmt: skip
+) -> bytes:
     """Return the bytes of such a file.
 
     Raises:
@@ -195,7 +221,7 @@ def _robot(observer: MomentumObserver) -> bytes:
     return struct.pack("<4I", nominal.robot.floating, len(links), feet, 0) + _doubles(gravity) + links.tobytes()
 
 
-def _drives(drives: Drives) -> bytes:
+def _drives(drives: DriveParameters) -> bytes:
     """Return the numbers of each drive, one after another."""
     return _doubles(np.column_stack([getattr(drives, name) for name in NUMBERS]))
 

@@ -30,9 +30,13 @@ from mobnet.settings.limb_thresholds import LimbThresholds
 
 # The first two columns of the rotation from base to world axes, of a unit quaternion w x y z.
 FORMULAS = (
-    "1 - 2*(y*y + z*z)", "2*(x*y + w*z)", "2*(x*z - w*y)",
-    "2*(x*y - w*z)", "1 - 2*(x*x + z*z)", "2*(y*z + w*x)",
-)  # fmt: skip
+    "1 - 2*(y*y + z*z)",
+    "2*(x*y + w*z)",
+    "2*(x*z - w*y)",
+    "2*(x*y - w*z)",
+    "1 - 2*(x*x + z*z)",
+    "2*(y*z + w*x)",
+)
 
 
 @dataclass(frozen=True)
@@ -83,9 +87,13 @@ def check_apart(networks: Sequence[Trained]) -> None:
 
 
 def contract_of(
-    robot: str, layout: JointLayout, networks: Sequence[Trained], rate_hz: float, observer: ObserverContract,
+    robot: str,
+    layout: JointLayout,
+    networks: Sequence[Trained],
+    rate_hz: float,
+    observer: ObserverContract,
     thresholds: Iterable[LimbThresholds],
-) -> Contract:  # fmt: skip
+) -> Contract:
     """Return the contract of some networks of a robot and of detectors of their limbs."""
     return Contract(
         format=FORMAT,

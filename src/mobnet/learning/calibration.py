@@ -10,12 +10,61 @@ from typing import Any
 import numpy as np
 import torch
 from numpy.typing import NDArray
+from scipy.special import ndtr, ndtri
 
 from mobnet.core.arrays import Array
-from mobnet.learning.gaussian import Fit, fit_of, half_width
 from mobnet.learning.model import LimbNetwork
 from mobnet.learning.optimisation import Samples, predictions
 from mobnet.learning.streams import EpochPlan
+
+
+@dataclass(frozen=True)
+class Fit:
+    """Measures of n predicted torques over their samples.
+
+    Attributes:
+        coverage: share of errors inside the central interval of each nominal share (k, n).
+        nll: mean negative logarithm of the predicted density (n,) [nats], of torques in [N m], V1..V3 in [N].
+        crps: mean continuous ranked probability score (n,) [N m], V1..V3 [N].
+    """
+
+    coverage: Array
+    nll: Array
+    crps: Array
+
+
+def fit_of(error: NDArray[Any], std: NDArray[Any], shares: Sequence[float]) -> Fit:
+    """Return how well errors (T, n) [N m] fit predicted standard deviations (T, n) [N m]; nominal shares (k,)."""
+    return Fit(coverage(error, std, shares), likelihood(error, std), ranked_score(error, std))
+
+
+def half_width(share: float) -> float:
+    """Return half the width of the central interval that holds a share of a Gaussian, in standard deviations."""
+    # (N25): the share outside lies in two tails.
+    return float(ndtri((1.0 + share) / 2.0))
+
+
+def coverage(error: NDArray[Any], std: NDArray[Any], shares: Sequence[float]) -> Array:
+    """Return the share of errors (T, n) [N m] inside each central interval, (k, n)."""
+    ratio = np.abs(error) / std
+    return np.array([(ratio <= half_width(share)).mean(axis=0) for share in shares])
+
+
+def likelihood(error: NDArray[Any], std: NDArray[Any]) -> Array:
+    """Return the mean negative log-likelihood of errors (T, n) [N m], (n,) [nats]: (21) with its constants."""
+    # Half of (N16) and the constant of (20), which a loss can leave out but numbers of nats cannot.
+    square = np.square(error / std).mean(axis=0, dtype=np.float64)
+    return 0.5 * (np.log(2.0 * np.pi) + square) + np.log(std).mean(axis=0, dtype=np.float64)
+
+
+def ranked_score(error: NDArray[Any], std: NDArray[Any]) -> Array:
+    """Return the mean CRPS of errors (T, n) [N m], (n,) [N m]: closed form of Gneiting et al. 2005, 10.1175/MWR2904.1.
+
+    It is the mean absolute error that a prediction without spread would have, and in the unit of the torque.
+    """
+    z = error / std  # zeta of (N28)
+    density = np.exp(-0.5 * np.square(z)) / np.sqrt(2.0 * np.pi)
+    return (std * (z * (2.0 * ndtr(z) - 1.0) + 2.0 * density - 1.0 / np.sqrt(np.pi))).mean(axis=0, dtype=np.float64)
 
 
 @dataclass(frozen=True)
@@ -84,3 +133,25 @@ def predict(network: LimbNetwork, samples: Samples, plan: EpochPlan, horizon: in
         stds.append(std.cpu())
     error, std = (torch.cat(parts).transpose(0, 1).flatten(0, 1).double().numpy() for parts in (errors, stds))
     return error, std
+
+
+def shares_inside(
+    estimate: NDArray[Any],
+    std: NDArray[Any],
+    free: NDArray[np.bool_],
+    spans: Sequence[tuple[int, int]],
+    rows: int,
+    share: float,
+) -> Array:
+    """Return for windows of some rows the share of estimates in their central interval of a nominal share (k,).
+
+    Estimates and standard deviations are of a leg's joints, (T, n) each [N m], and count where the leg is free (T,). A
+    network that knows its robot has about the nominal share; one that does not is further from zero than it says.
+    Windows follow each other within a span (start, end); one in which the leg is never free is nan.
+    """
+    inside = (np.abs(estimate) <= half_width(share) * std).mean(axis=1)
+    starts = list[int]()
+    for start, end in spans:
+        starts += range(start, end - rows + 1, rows)
+    held = [inside[row : row + rows][free[row : row + rows]] for row in starts]
+    return np.array([part.mean() if len(part) else np.nan for part in held])

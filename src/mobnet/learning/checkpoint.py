@@ -78,8 +78,12 @@ def resume(path: Path, fingerprint: str, network: nn.Module, optimizer: torch.op
         log.warning("%s: damaged (%s); starting afresh", path, error)
         return Progress()
     if note.get("fingerprint") != fingerprint:
-        log.warning("%s: belongs to another configuration, data or code (%s, here %s); starting afresh", path,
-                    note.get("fingerprint"), fingerprint)  # fmt: skip
+        log.warning(
+            "%s: belongs to another configuration, data or code (%s, here %s); starting afresh",
+            path,
+            note.get("fingerprint"),
+            fingerprint,
+        )
         return Progress()
     # The last weights go on learning, with Adam's moments; the best ones only wait to be written.
     network.load_state_dict(_below("last.", tensors))

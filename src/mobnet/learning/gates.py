@@ -104,9 +104,17 @@ def go_forward(
 
 @compiled(fastmath=MATHS)
 def close_gates(
-    inner: Array, reset: Array, update: Array, new: Array, last: Array, d: Array,
-    d_inner: Array, d_reset: Array, d_update: Array, d_new: Array,
-) -> None:  # fmt: skip
+    inner: Array,
+    reset: Array,
+    update: Array,
+    new: Array,
+    last: Array,
+    d: Array,
+    d_inner: Array,
+    d_reset: Array,
+    d_update: Array,
+    d_new: Array,
+) -> None:
     """Take the gradient `d` (n,) of a state, unitless, back through its gates: to their sums, and past them to `last`.
 
     What reaches the state before the step past the gates is left in `d`.
@@ -128,9 +136,21 @@ def close_gates(
 
 @compiled
 def go_back(
-    w_state: Factor, left: Factor, right: Factor, x_right: Factor, h_right: Factor, given: Array, gates: Array,
-    states: Array, x: Array, h: Array, d: Array, d_gates: Array, d_in: Array, d_state: Array,
-) -> None:  # fmt: skip
+    w_state: Factor,
+    left: Factor,
+    right: Factor,
+    x_right: Factor,
+    h_right: Factor,
+    given: Array,
+    gates: Array,
+    states: Array,
+    x: Array,
+    h: Array,
+    d: Array,
+    d_gates: Array,
+    d_in: Array,
+    d_state: Array,
+) -> None:
     """Take the gradients of the states back through `go_forward`, to the weights; all unitless.
 
     Args:

@@ -80,9 +80,15 @@ class TrainingJob:
     def fingerprint(self, data_digest: str, device: torch.device) -> str:
         """Return a hash of all that the weights depend on: numbers, data, code, packages, torch's build, device."""
         parts = (
-            self.root_seed, self.seed, self.training.model_dump_json(), data_digest, code_hash("mobnet.learning.train"),
-            torch.__version__, device.type, self.precision(device),
-        )  # fmt: skip
+            self.root_seed,
+            self.seed,
+            self.training.model_dump_json(),
+            data_digest,
+            code_hash("mobnet.learning.train"),
+            torch.__version__,
+            device.type,
+            self.precision(device),
+        )
         return hashlib.sha256(repr(parts).encode()).hexdigest()[:SHORT]
 
 

@@ -10,7 +10,7 @@ from torch import Tensor, nn
 from torch.nn.utils import parametrize
 from torch.nn.utils.parametrizations import spectral_norm
 
-from mobnet.core.threads import one_thread
+from mobnet.core.machine import one_thread
 from mobnet.learning.cells import CellModule, build_cell
 from mobnet.settings.networks import NetworkCell
 

@@ -10,9 +10,9 @@ import numpy as np
 import torch
 from safetensors.torch import save as to_bytes
 
+from mobnet.core.code import provenance
 from mobnet.core.files import CHECKPOINT, METRICS, RUN, TIME, WEIGHTS, atomic_path, write_json
-from mobnet.core.provenance import provenance
-from mobnet.core.threads import one_thread
+from mobnet.core.machine import one_thread
 from mobnet.learning.calibration import StdFactors
 from mobnet.learning.checkpoint import Progress, write_metrics
 from mobnet.learning.dataset import LimbData

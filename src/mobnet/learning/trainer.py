@@ -1,9 +1,12 @@
 """The course of a training: epochs, checkpoints, progress, and stopping when it diverges (section 4.4)."""
 
+import functools
+import hashlib
 import logging
 import math
 import time
-from dataclasses import replace
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -12,22 +15,61 @@ from numpy.typing import NDArray
 from torch import Tensor
 
 from mobnet.core.columns import Epoch
-from mobnet.core.errors import TrainingError
+from mobnet.core.errors import DataError, TrainingError, not_accepted
 from mobnet.core.files import CHECKPOINT, METRICS
+from mobnet.core.machine import claimed
+from mobnet.core.place import caches
 from mobnet.learning import checkpoint
 from mobnet.learning.calibration import StdFactors, calibrate, predict
 from mobnet.learning.checkpoint import Progress, write_metrics
 from mobnet.learning.dataset import LimbData, ZScore, scale_of
-from mobnet.learning.device import own_device
+from mobnet.learning.deployed.weights import GRU_TENSORS, read_weights
 from mobnet.learning.job import TrainingJob
 from mobnet.learning.losses import CHOSEN_BY, objective_of
 from mobnet.learning.model import build_network, seeded
 from mobnet.learning.optimisation import EVERY_STEP, LAST_STEP, SEQUENCES, Samples, train_epoch, validate
 from mobnet.learning.soap import optimizer_of
-from mobnet.learning.start import read_start
 from mobnet.learning.streams import EpochPlan, some_of, split, validation_plan, window_plan
 
 log = logging.getLogger(__name__)
+
+
+@dataclass(frozen=True)
+class Start:
+    """Weights of a network, z-scores of its inputs (n_in,) and targets (n,), and a hash of the file."""
+
+    weights: Mapping[str, Tensor]
+    scales: tuple[ZScore, ZScore]
+    digest: str
+
+
+def read_start(path: Path, job: TrainingJob, data: LimbData) -> Start:
+    """Read the network from which a training starts.
+
+    Raises:
+        DataError: the file is missing or damaged, or the network has other joints, inputs or sizes.
+    """
+    tensors, note = read_weights(path)
+    network = job.training.network
+    for name, own, wanted in (
+        ("joints", list(note.joints), list(data.joints)),
+        ("inputs", list(note.inputs), list(data.input_names)),
+        ("cell", (note.cell.cell, note.cell.hidden), (network.cell, network.hidden)),
+    ):
+        if own != wanted:
+            raise DataError(not_accepted(f"{path}: {name}", own, [wanted]))
+    inputs, targets = (ZScore(tensors[f"{name}.mean"], tensors[f"{name}.std"]) for name in ("input", "target"))
+    weights = {name: torch.from_numpy(tensors[name].copy()) for name in GRU_TENSORS}
+    return Start(weights, (inputs, targets), hashlib.sha256(path.read_bytes()).hexdigest())
+
+
+@functools.cache
+def own_device() -> torch.device:
+    """Return the device of all trainings of this process."""
+    if not torch.cuda.is_available():
+        return torch.device("cpu")
+    names = [str(torch.cuda.get_device_properties(place).uuid) for place in range(torch.cuda.device_count())]
+    return torch.device("cuda", claimed(names, caches()))
 
 
 class Trainer:
@@ -158,9 +200,15 @@ class Trainer:
         plan, scored = self._plan(epoch, stride)
         with seeded(self._seed("dropout", epoch)):
             losses, norms = train_epoch(
-                self.network, self._optimizer, self._samples, plan, job.horizon, learning.gradient_norm, scored,
+                self.network,
+                self._optimizer,
+                self._samples,
+                plan,
+                job.horizon,
+                learning.gradient_norm,
+                scored,
                 objective_of(learning),
-            )  # fmt: skip
+            )
         # The median: a few updates of a training that goes well can have losses of thousands.
         self._check("median training", epoch, losses.median().item(), rate, learning.divergence_loss)
         validation, errors = self._validate(self._validation_at(stride))
@@ -204,6 +252,12 @@ class Trainer:
         epochs = self.job.training.epochs
         log.info(
             "%s: epoch %d/%d, loss %.3f, validation %.3f (%.3g N m), rate %.2g, %.0f s left",
-            self.job.name, last.epoch, epochs, last.train_loss, last.validation_loss, last.validation_rmse, last.rate,
+            self.job.name,
+            last.epoch,
+            epochs,
+            last.train_loss,
+            last.validation_loss,
+            last.validation_rmse,
+            last.rate,
             done.seconds / last.epoch * (epochs - last.epoch),
-        )  # fmt: skip
+        )

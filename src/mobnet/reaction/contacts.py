@@ -11,12 +11,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mobnet.control.geometry import cross, solve
-from mobnet.control.kinematics import Pose, Tree, empty_pose, tree_of, update
+from mobnet.control.kinematics import KinematicTree, Pose, empty_pose, tree_of, update
 from mobnet.core.arrays import Array
 from mobnet.core.compilation import compiled, vector3
 from mobnet.core.joints import N_VIRTUAL
 from mobnet.robot.description import SIDES, RobotDescription
-from mobnet.settings.reaction import Identification
+from mobnet.settings.reaction import WrenchIdentification
 
 IN_THE_AIR = 0.5  # of a flag
 
@@ -24,7 +24,7 @@ IN_THE_AIR = 0.5  # of a flag
 class Ends(NamedTuple):
     """The end-effectors of a robot's limbs and the wrenches on them."""
 
-    tree: Tree  # bodies of the nominal model
+    tree: KinematicTree  # bodies of the nominal model
     pose: Pose  # their places; filled for each sample
     body: NDArray[np.int64]  # of each end-effector (k,)
     first: NDArray[np.int64]  # first actuator of its limb (k,)
@@ -39,14 +39,12 @@ class Ends(NamedTuple):
 def end_effectors(robot: RobotDescription) -> dict[str, str]:
     """Return limb -> body of its hand or foot, the left and right foot first."""
     joints = {joint.body: joint.id for joint in robot.joints}
-    limbs = dict[str, str]()  # joint -> limb
-    for limb, names in robot.layout.groups.items():
-        limbs |= dict.fromkeys(names, limb)
+    limbs = robot.layout.limb_of
     hands = {limbs[joints[body]]: body for body in robot.hands.values()}
     return {robot.feet[side].limb: robot.feet[side].body for side in SIDES} | hands
 
 
-def make_ends(robot: RobotDescription, bodies: Mapping[str, str], numbers: Identification) -> Ends:
+def make_ends(robot: RobotDescription, bodies: Mapping[str, str], numbers: WrenchIdentification) -> Ends:
     """Return the end-effectors of limbs, limb -> body."""
     tree = tree_of(robot, 1.0)
     names = [body.name for body in robot.bodies]
@@ -57,10 +55,17 @@ def make_ends(robot: RobotDescription, bodies: Mapping[str, str], numbers: Ident
     per_force = numbers.torque_error_nm / numbers.force_n
     per_moment = numbers.torque_error_nm / numbers.moment_nm
     return Ends(
-        tree, empty_pose(tree), np.array(body), np.array(first), np.array(count),
-        np.repeat([per_force**2, per_moment**2], 3), np.zeros(robot.layout.nv), np.zeros((6, max(count))),
-        np.zeros((6, 6)), np.zeros((len(body), 6)),
-    )  # fmt: skip
+        tree=tree,
+        pose=empty_pose(tree),
+        body=np.array(body),
+        first=np.array(first),
+        joints=np.array(count),
+        damping=np.repeat([per_force**2, per_moment**2], 3),
+        still=np.zeros(robot.layout.nv),
+        jacobian=np.zeros((6, max(count))),
+        normal=np.zeros((6, 6)),
+        wrench=np.zeros((len(body), 6)),
+    )
 
 
 @compiled

@@ -54,7 +54,7 @@ class Reacted:
 
 
 @dataclass
-class State:
+class HandlerState:
     """What the pipeline carries from one sample to the next.
 
     Attributes:
@@ -82,9 +82,15 @@ class Handler:
     """Detects collisions and decides how to step; `identified` has the last sample's wrenches on hands and feet."""
 
     def __init__(
-        self, robot: RobotDescription, numbers: Numbers, spacing_m: float, watchers: Mapping[str, Watcher],
-        strategy: Strategy, delay: int = 0, settle: int = 0,
-    ) -> None:  # fmt: skip
+        self,
+        robot: RobotDescription,
+        numbers: Numbers,
+        spacing_m: float,
+        watchers: Mapping[str, Watcher],
+        strategy: Strategy,
+        delay: int = 0,
+        settle: int = 0,
+    ) -> None:
         """Watch limbs; react `delay` samples after an alarm, with feet that the controller sets spacing_m [m] apart.
 
         In the first `settle` samples, while filters and networks begin from rest, nothing is an alarm.
@@ -99,12 +105,12 @@ class Handler:
         self.limbs = list(bodies)
         self.identified = make_ends(robot, bodies, numbers.identification)
 
-    def init(self) -> State:
+    def init(self) -> HandlerState:
         """Return the state before the first sample."""
         watchers = {limb: watcher.init() for limb, watcher in self.watchers.items()}
-        return State(watchers, self.settle, deque(maxlen=self.numbers.rewind.kept))
+        return HandlerState(watchers, self.settle, deque(maxlen=self.numbers.rewind.kept))
 
-    def step(self, state: State, sample: Sensed, estimate: Estimate) -> Reacted | None:
+    def step(self, state: HandlerState, sample: Sensed, estimate: Estimate) -> Reacted | None:
         """Take one sample (1-D arrays) and the estimate of all joints (nv,); return a reaction when it begins."""
         tau = np.asarray(estimate.tau_ext, dtype=np.float64)
         identify(self.identified, np.asarray(sample.q, dtype=np.float64), tau)
@@ -127,7 +133,7 @@ class Handler:
         state.has_reacted = True
         return self._react(state, sample, tau)
 
-    def _react(self, state: State, sample: Sensed, tau: Array) -> Reacted:
+    def _react(self, state: HandlerState, sample: Sensed, tau: Array) -> Reacted:
         """Return the reaction to a collision of a limb."""
         standing = [k for k in range(2) if sample.swing[k] < IN_THE_AIR]
         wrench = unexpected_wrench(self.identified, tau, standing)
@@ -153,7 +159,7 @@ class Handler:
         steps[1:, DURATION] = np.minimum(steps[1:, DURATION], numbers.step_s)
         return Reacted(state.limb, direction, wrench, steps)
 
-    def _stance(self, state: State, sample: Sensed) -> Stance:
+    def _stance(self, state: HandlerState, sample: Sensed) -> Stance:
         """Return how the robot stands, by its joints; on both feet it is about to swing the one that stood longer."""
         swing = state.swing
         pose = self.identified.pose
@@ -165,7 +171,7 @@ class Handler:
         height = float(pose.position[other, 2] - pose.position[foot, 2])
         return Stance(pose_of(self.identified, foot), SIDES[1 - swing], place, height, landing)
 
-    def _keep_footsteps(self, state: State, sample: Sensed) -> None:
+    def _keep_footsteps(self, state: HandlerState, sample: Sensed) -> None:
         """Keep where a foot stood when it leaves."""
         for k in range(2):
             in_air = sample.swing[k] >= IN_THE_AIR
@@ -176,7 +182,7 @@ class Handler:
                 state.swing = 1 - k
             state.in_air[k] = in_air
 
-    def _behind(self, state: State) -> list[Array]:
+    def _behind(self, state: HandlerState) -> list[Array]:
         """Return footsteps to walk back on, of which the last is where the swing foot stood, or still stands."""
         here = [] if any(state.in_air) else [pose_of(self.identified, self.identified.body[state.swing])]
         return [*state.kept, *here]

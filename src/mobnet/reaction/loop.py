@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from mobnet.control.parameters import State
 from mobnet.core.arrays import Array
 from mobnet.core.columns import recording_columns
-from mobnet.core.estimator import Estimate, Estimator
+from mobnet.core.estimator import Estimate, TorqueEstimator
 from mobnet.core.joints import N_VIRTUAL, JointLayout
 from mobnet.core.recording import Sensed
 from mobnet.reaction.contacts import tell_feet
@@ -72,7 +72,7 @@ class Course:
 
 def walk_with(
     simulator: Simulator,
-    estimator: Estimator,
+    estimator: TorqueEstimator,
     handler: Handler,
     longest: int,
     after: int,

@@ -7,10 +7,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array
-from mobnet.core.estimator import Estimate, Estimator
+from mobnet.core.estimator import Estimate, TorqueEstimator
 from mobnet.core.recording import Sensed
 from mobnet.detection.chain import Chain, ChainState, advance_chain, chain_state
-from mobnet.detection.detector import LegDetector, LegGate, State
+from mobnet.detection.detector import DetectorState, LegDetector, LegGate
 from mobnet.detection.gate import advance_gate, gate_state
 from mobnet.detection.signals import Watched
 
@@ -29,16 +29,16 @@ class LegWatcher:
     detector: LegDetector
     columns: Columns
 
-    def init(self) -> State:
+    def init(self) -> DetectorState:
         """Return the state before the first sample."""
         return self.detector.init()
 
-    def ratio(self, state: State, sample: Sensed, estimate: Estimate) -> float:
+    def ratio(self, state: DetectorState, sample: Sensed, estimate: Estimate) -> float:
         """Return how far the highest signal lies above its threshold in the watched part of a swing, else zero."""
         own = some(estimate, self.columns)
         return float(self.detector.step(state, sample, own, own.tau_ext).ratio)
 
-    def highest(self, state: State) -> int:
+    def highest(self, state: DetectorState) -> int:
         """Return the signal that lay highest above its threshold at the last sample, counted from 0."""
         return int(state.chain.place[1])
 
@@ -48,7 +48,7 @@ class OwnState:
     """States of an estimator and of the detector on it."""
 
     estimator: Any
-    detector: State
+    detector: DetectorState
 
 
 @dataclass(frozen=True)
@@ -57,7 +57,7 @@ class OwnLegWatcher:
 
     detector: LegDetector
     columns: Columns
-    estimator: Estimator
+    estimator: TorqueEstimator
     held: Columns
 
     def init(self) -> OwnState:
@@ -104,11 +104,11 @@ class FootWatcher:
     columns: Columns
     wrenches: Array
 
-    def init(self) -> State:
+    def init(self) -> DetectorState:
         """Return the state before the first sample."""
-        return State(gate_state(), chain_state(self.chain, 3))
+        return DetectorState(gate_state(), chain_state(self.chain, 3))
 
-    def ratio(self, state: State, sample: Sensed, estimate: Estimate) -> float:
+    def ratio(self, state: DetectorState, sample: Sensed, estimate: Estimate) -> float:
         """Return how far the force lies above its threshold in the watched part of a swing, else zero."""
         foot = self.gate.foot
         gate = self.gate

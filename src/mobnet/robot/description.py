@@ -2,7 +2,8 @@
 
 import hashlib
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from pathlib import Path
 from typing import TypeVar
 
 import numpy as np
@@ -10,6 +11,7 @@ from numpy.typing import NDArray
 
 from mobnet.core.errors import ConfigError
 from mobnet.core.joints import LEG_AXES, JointLayout, Limits, right_of, with_image
+from mobnet.settings.lab import Lab, load_section
 from mobnet.settings.parts import (
     BodyRow,
     Colour,
@@ -18,6 +20,7 @@ from mobnet.settings.parts import (
     ImuRow,
     JointRow,
     LegRow,
+    Looks,
     PointRow,
     ShapeRow,
     SoleRow,
@@ -115,6 +118,9 @@ class RobotDescription:
     def joint_of(self, body: str) -> JointRow | None:
         """Return the joint that moves a body, or None where the body is welded or the base."""
         return next((joint for joint in self.joints if joint.body == body), None)
+
+
+Robot = TypeVar("Robot", bound=RobotDescription)
 
 
 @dataclass(frozen=True)
@@ -218,3 +224,31 @@ def _posture(table: RobotTable) -> Posture:
     joints = tuple(joint for joint in table.order.actuated if joint in rows)
     numbers = np.array([rows[joint] for joint in joints], dtype=np.float64).reshape(-1, 3)
     return Posture(joints, *np.ascontiguousarray(numbers.T))
+
+
+def given_table(path: Path | None, settings: Lab) -> RobotTable:
+    """Return the table of a file, or that of the configuration where none is given.
+
+    Raises:
+        ConfigError: the file cannot be read, or is no table of a robot.
+    """
+    return load_section(path, RobotTable) if path else settings.robot
+
+
+def given_robot(path: Path | None, settings: Lab) -> RobotDescription:
+    """Return the robot of a table's file, or that of the configuration where none is given.
+
+    Raises:
+        ConfigError: the file cannot be read, or is no table of a robot.
+    """
+    return describe(given_table(path, settings))
+
+
+def dressed(robot: Robot, looks: Looks | None) -> Robot:
+    """Return a robot whose solids are those of its looks, both sides; as it is where its table has none.
+
+    The solids of a description that is not dressed are those that touch obstacles and the robot itself.
+    """
+    if looks is None:
+        return robot
+    return replace(robot, shapes=with_mirrored(looks.shapes), tones={**robot.tones, **looks.tones})

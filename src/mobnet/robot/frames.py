@@ -31,9 +31,9 @@ def rotation(quat: NDArray[Any]) -> NDArray[np.float64]:
     """Return the rotation matrices (..., 3, 3) [-] of unit quaternions w x y z (..., 4), body to world."""
     quat = np.asarray(quat, dtype=np.float64)
     w, x, y, z = np.moveaxis(quat, -1, 0)
-    entries = [
-        1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y),
-        2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x),
-        2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y),
-    ]  # fmt: skip
-    return np.moveaxis(np.array(entries), 0, -1).reshape(*quat.shape[:-1], 3, 3)
+    rows = [
+        [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+        [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+        [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+    ]
+    return np.moveaxis(np.array(rows), (0, 1), (-2, -1))

@@ -5,14 +5,14 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from mobnet.core.errors import DataError, not_accepted
-from mobnet.robot.import_tree import BALL, FREE, HINGE, PLANAR, SLIDE, WORLD, Joint, Link, Tree
+from mobnet.robot.import_tree import BALL, FREE, HINGE, PLANAR, SLIDE, WORLD, Joint, Link, LinkTree
 
 WELDED = {SLIDE: "slides", BALL: "is a ball", PLANAR: "moves in a plane", FREE: "moves freely"}
 UNITS = {HINGE: "rad", SLIDE: "m"}
 
 
 @dataclass
-class Robot:
+class RobotSelection:
     """What of a file becomes a table.
 
     Attributes:
@@ -32,7 +32,7 @@ class Robot:
         return self.base != WORLD
 
 
-def robot_of(tree: Tree, floating: bool | None, locked: Sequence[str]) -> Robot:
+def robot_of(tree: LinkTree, floating: bool | None, locked: Sequence[str]) -> RobotSelection:
     """Return the robot of a file.
 
     Args:
@@ -58,7 +58,7 @@ def robot_of(tree: Tree, floating: bool | None, locked: Sequence[str]) -> Robot:
         base = WORLD
         objects = [tree.below(k) for k in free if others or not hinges[k]]
         kept = [not any(column) for column in zip(*objects, strict=True)] if objects else [True] * len(tree.links)
-    robot = Robot(base, kept)
+    robot = RobotSelection(base, kept)
     gone = [link.name or "a body without a name" for link, stays in zip(tree.links, kept, strict=True) if not stays]
     if gone:
         robot.notes.append(f"left out, as no part of the robot: {', '.join(gone)}")
@@ -66,7 +66,7 @@ def robot_of(tree: Tree, floating: bool | None, locked: Sequence[str]) -> Robot:
     return robot
 
 
-def _base(tree: Tree, robots: Sequence[int], hinges: Sequence[int]) -> int:
+def _base(tree: LinkTree, robots: Sequence[int], hinges: Sequence[int]) -> int:
     """Return the link that floats: the one that does in the file, or else the one root with hinges."""
     roots = [k for k, link in enumerate(tree.links) if link.parent == WORLD and hinges[k]]
     found = list(robots) or roots
@@ -83,7 +83,7 @@ def _is_free(link: Link) -> bool:
     return any(joint.kind == FREE for joint in link.joints)
 
 
-def _weld(tree: Tree, robot: Robot, locked: Sequence[str]) -> Iterator[str]:
+def _weld(tree: LinkTree, robot: RobotSelection, locked: Sequence[str]) -> Iterator[str]:
     """Note which joints do not turn, and yield why."""
     joints = list[Joint]()
     for link, is_kept in zip(tree.links, robot.kept, strict=True):
@@ -108,7 +108,7 @@ def _weld(tree: Tree, robot: Robot, locked: Sequence[str]) -> Iterator[str]:
     yield from _weld_idle(tree, robot)
 
 
-def _moves_base(tree: Tree, robot: Robot, joint: Joint) -> bool:
+def _moves_base(tree: LinkTree, robot: RobotSelection, joint: Joint) -> bool:
     return robot.floating and joint in tree.links[robot.base].joints
 
 
@@ -155,7 +155,7 @@ def _asked(joints: Iterable[Joint], locked: Sequence[str]) -> dict[int, float]:
     return found
 
 
-def _weld_idle(tree: Tree, robot: Robot) -> Iterator[str]:
+def _weld_idle(tree: LinkTree, robot: RobotSelection) -> Iterator[str]:
     """Weld hinges that move nothing with a mass, and yield them."""
     heavy = [bool(link.mass or link.inertia.any()) for link in tree.links]
     for k in reversed(range(len(tree.links))):

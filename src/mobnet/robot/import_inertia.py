@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from mobnet.core.arrays import Array
-from mobnet.robot.import_tree import Body, Link, Part
+from mobnet.robot.import_tree import Link, Part, RigidBody
 from mobnet.settings.checks.robot import GYRATION_M
 from mobnet.settings.parts import is_possible
 
@@ -36,7 +36,7 @@ class Mass:
     dropped: tuple[int, ...] = ()
 
 
-def mass_of(body: Body, links: Sequence[Link]) -> Mass:
+def mass_of(body: RigidBody, links: Sequence[Link]) -> Mass:
     """Return the mass of a body as a table takes it, and notes on each change."""
     whole = Mass(*fused(body.parts))
     if not whole.mass and not whole.inertia.any():
@@ -50,13 +50,14 @@ def mass_of(body: Body, links: Sequence[Link]) -> Mass:
     dropped = tuple(part.link for part in tokens)
     rest = fused([part for part in body.parts if part.link not in dropped])
     if is_rigid(rest[0], rest[2]):
-        told = [
-            f"{links[part.link].name}: {_told(part.mass, part.inertia)} of no rigid body; left out" for part in tokens
-        ]
-        return Mass(*rest, told, is_changed=True, dropped=dropped)
+        notes = list[str]()
+        for part in tokens:
+            text = _mass_text(part.mass, part.inertia)
+            notes.append(f"{links[part.link].name}: {text} of no rigid body; left out")
+        return Mass(*rest, notes, is_changed=True, dropped=dropped)
     mass, com, inertia = fused(body.parts)
     changed_mass, changed = balanced(mass, inertia)
-    text = f"{body.name}: {_told(mass, inertia)} of no rigid body; changed to {_told(changed_mass, changed)}"
+    text = f"{body.name}: {_mass_text(mass, inertia)} of no rigid body; changed to {_mass_text(changed_mass, changed)}"
     return Mass(changed_mass, com, changed, [text], is_changed=True)
 
 
@@ -103,10 +104,11 @@ def _large(name: str, whole: Mass) -> Iterator[str]:
     """Yield that a radius of gyration is larger than that of links of robots."""
     radius = float(np.sqrt(np.diag(whole.inertia).max() / whole.mass))
     if radius > LARGE_M:
-        yield f"{name}: {_told(whole.mass, whole.inertia)}, a radius of gyration of {radius:.3g} m, as the file has it"
+        text = _mass_text(whole.mass, whole.inertia)
+        yield f"{name}: {text}, a radius of gyration of {radius:.3g} m, as the file has it"
 
 
-def _told(mass: float, inertia: Array) -> str:
+def _mass_text(mass: float, inertia: Array) -> str:
     """Return mass and principal moments as a text."""
     moments = ", ".join(f"{value:.4g}" for value in np.linalg.eigvalsh(inertia))
     return f"{mass:.4g} kg with the principal moments {moments} kg m^2"

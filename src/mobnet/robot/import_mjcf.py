@@ -10,7 +10,7 @@ import numpy as np
 
 from mobnet.core.arrays import Array
 from mobnet.core.errors import DataError
-from mobnet.robot.import_tree import BALL, FREE, HINGE, SLIDE, WORLD, Follows, Joint, Link, Site, Tree
+from mobnet.robot.import_tree import BALL, FREE, HINGE, SLIDE, WORLD, Follows, Joint, Link, LinkTree, Site
 
 KINDS = {  # an enumerator of MuJoCo equals no integer of numpy that is on its right
     int(mujoco.mjtJoint.mjJNT_HINGE): HINGE,
@@ -31,7 +31,7 @@ SMALL_TEXTURE, CUBE_SIDES = 8, 6  # [pixels]
 Made = TypeVar("Made")
 
 
-def read_mjcf(path: Path) -> Tree:
+def read_mjcf(path: Path) -> LinkTree:
     """Return the bodies of a MJCF file as links.
 
     Raises:
@@ -40,7 +40,7 @@ def read_mjcf(path: Path) -> Tree:
     spec = spec_of(path)
     model = compiled(spec)
     couplings = _couplings(model)
-    tree = Tree(spec.modelname, [_link(model, b, couplings) for b in range(1, model.nbody)])
+    tree = LinkTree(spec.modelname, [_link(model, b, couplings) for b in range(1, model.nbody)])
     measured = {int(model.sensor_objid[k]) for k in range(model.nsensor) if model.sensor_type[k] in INERTIAL}
     for k in range(model.nsite):
         if model.site_bodyid[k] > 0:
@@ -58,7 +58,7 @@ def spec_of(path: Path) -> mujoco.MjSpec:
 
     A mesh that no mass follows from is a tetrahedron, so that its file may be missing.
     """
-    spec = _told(lambda: mujoco.MjSpec.from_file(str(path)))
+    spec = _or_one_line(lambda: mujoco.MjSpec.from_file(str(path)))
     spec.memory = -1  # as much as it takes
     spec.compiler.fusestatic = False
     spec.compiler.boundmass = max(spec.compiler.boundmass, BOUND_MASS)
@@ -98,14 +98,14 @@ def compiled(spec: mujoco.MjSpec) -> mujoco.MjModel:
     """
     bodies = sorted(set(_weighed(spec).values()))  # beforehand, as nothing can be asked of one that did not compile
     try:
-        return _told(spec.compile)
+        return _or_one_line(spec.compile)
     except DataError as error:
         if "opening file" not in str(error) or not bodies:
             raise
         raise DataError(f"{error}; or an <inertial> of the bodies whose masses follow from meshes: {bodies}") from None
 
 
-def _told(make: Callable[[], Made]) -> Made:
+def _or_one_line(make: Callable[[], Made]) -> Made:
     """Return what MuJoCo makes, or raise what it says in one line."""
     try:
         with warnings.catch_warnings():
@@ -142,11 +142,16 @@ def _link(model: mujoco.MjModel, b: int, couplings: Mapping[int, Follows]) -> Li
         mass = 0.0
     if model.body_inertia[b].max() <= BOUND_INERTIA:
         inertia = np.zeros((3, 3))
-    place = model.body_pos[b].copy(), _turn(model.body_quat[b])
     return Link(
-        model.body(b).name, int(model.body_parentid[b]) - 1 if model.body_parentid[b] else WORLD, *place, joints, mass,
-        model.body_ipos[b].copy(), inertia,
-    )  # fmt: skip
+        name=model.body(b).name,
+        parent=int(model.body_parentid[b]) - 1 if model.body_parentid[b] else WORLD,
+        pos=model.body_pos[b].copy(),
+        turn=_turn(model.body_quat[b]),
+        joints=joints,
+        mass=mass,
+        com=model.body_ipos[b].copy(),
+        inertia=inertia,
+    )
 
 
 def _turn(quat: Array) -> Array:
@@ -165,14 +170,20 @@ def _joint(model: mujoco.MjModel, k: int, couplings: Mapping[int, Follows]) -> J
         torques.append(float(np.abs(model.jnt_actfrcrange[k]).max()))
     kind = KINDS[int(model.jnt_type[k])]
     return Joint(
-        model.joint(k).name, kind, model.jnt_axis[k].copy(), k, model.jnt_pos[k].copy(),
+        name=model.joint(k).name,
+        kind=kind,
+        axis=model.jnt_axis[k].copy(),
+        index=k,
+        pos=model.jnt_pos[k].copy(),
         at=float(model.qpos0[model.jnt_qposadr[k]]) if kind in (HINGE, SLIDE) else 0.0,
         range=(float(model.jnt_range[k, 0]), float(model.jnt_range[k, 1])) if model.jnt_limited[k] else None,
-        torque=min(torques, default=None), armature=float(model.dof_armature[dof]),
-        damping=float(np.ravel(model.dof_damping[dof])[0]), friction=float(model.dof_frictionloss[dof]),
+        torque=min(torques, default=None),
+        armature=float(model.dof_armature[dof]),
+        damping=float(np.ravel(model.dof_damping[dof])[0]),
+        friction=float(model.dof_frictionloss[dof]),
         has_motor=bool(actuators) or not model.nu,
         follows=None if actuators else couplings.get(k),
-    )  # fmt: skip
+    )
 
 
 def _actuators(model: mujoco.MjModel, joint: int) -> Iterator[int]:

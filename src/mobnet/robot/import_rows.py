@@ -7,15 +7,17 @@ import numpy as np
 import pinocchio as pin
 
 from mobnet.core.arrays import Array
-from mobnet.robot.import_base import Robot
+from mobnet.robot.import_base import RobotSelection
 from mobnet.robot.import_inertia import Mass, six
 from mobnet.robot.import_names import renamed, words_of
-from mobnet.robot.import_tree import Body, Joint
+from mobnet.robot.import_tree import Joint, RigidBody
 from mobnet.settings.base import MOST_M, MOST_RAD
 from mobnet.settings.parts import SPEED_RAD_S, TORQUE_NM
 
 
-def body_rows(parts: Sequence[Body], masses: Sequence[Mass], robot: Robot, notes: list[str]) -> list[dict[str, Any]]:
+def body_rows(
+    parts: Sequence[RigidBody], masses: Sequence[Mass], robot: RobotSelection, notes: list[str]
+) -> list[dict[str, Any]]:
     """Return the rows of bodies, and note names that differ from those of the file."""
     own = [body.name for body in parts]
     if not robot.floating:
@@ -32,7 +34,7 @@ def body_rows(parts: Sequence[Body], masses: Sequence[Mass], robot: Robot, notes
     return rows
 
 
-def _shift(parts: Sequence[Body], robot: Robot, notes: list[str]) -> Array:
+def _shift(parts: Sequence[RigidBody], robot: RobotSelection, notes: list[str]) -> Array:
     """Return the place from which a base that stands still counts [m], and note it where it is not the world's."""
     places = [body.pos for body in parts[1:] if body.parent == 0]
     if robot.floating or np.abs(places).max() <= MOST_M:
@@ -84,10 +86,15 @@ def joint_rows(
         unlimited["torque"] += [] if torque else [word]
         unlimited["speed"] += [] if speed else [word]
         yield {
-            "id": word, **({"name": joint.name} if joint.name else {}), "body": body,
-            "axis": [float(x) + 0.0 for x in joint.axis], "range": [low, high],
-            "torque_limit": torque or torque_limit, "armature": joint.armature, "velocity_limit": speed or speed_limit,
-        }  # fmt: skip
+            "id": word,
+            **({"name": joint.name} if joint.name else {}),
+            "body": body,
+            "axis": [float(x) + 0.0 for x in joint.axis],
+            "range": [low, high],
+            "torque_limit": torque or torque_limit,
+            "armature": joint.armature,
+            "velocity_limit": speed or speed_limit,
+        }
     defaults = {"range": f"{MOST_RAD} rad", "torque": f"{torque_limit:g} N m", "speed": f"{speed_limit:g} rad/s"}
     for kind, without in unlimited.items():
         if without:

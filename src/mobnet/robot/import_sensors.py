@@ -8,7 +8,7 @@ import numpy as np
 
 from mobnet.core.arrays import Array
 from mobnet.core.joints import right_of
-from mobnet.robot.import_tree import Body, Part, Tree, heights_of
+from mobnet.robot.import_tree import LinkTree, Part, RigidBody, heights_of
 
 NAMED = re.compile("imu|inertial", re.IGNORECASE)
 LEVEL_M = 0.02  # feet stand at one height, within this
@@ -16,7 +16,7 @@ TURN = 1e-6  # a smaller difference of axes is none
 
 
 def sensors_of(
-    tree: Tree, parts: Sequence[Body], rows: Sequence[Mapping[str, Any]]
+    tree: LinkTree, parts: Sequence[RigidBody], rows: Sequence[Mapping[str, Any]]
 ) -> tuple[dict[str, Any] | None, list[str]]:
     """Return the row of the inertial sensor on a floating base, None without one, and what else was found.
 
@@ -38,7 +38,7 @@ def sensors_of(
     return row, notes
 
 
-def _places(tree: Tree, parts: Sequence[Body]) -> Iterator[tuple[str, int, Array, Array]]:
+def _places(tree: LinkTree, parts: Sequence[RigidBody]) -> Iterator[tuple[str, int, Array, Array]]:
     """Yield name, body, position (3,) [m] and axes (3, 3) in it of what looks like an inertial sensor."""
     places = dict[int, tuple[int, Part]]()
     for k, body in enumerate(parts):
@@ -53,9 +53,12 @@ def _places(tree: Tree, parts: Sequence[Body]) -> Iterator[tuple[str, int, Array
 
 
 def feet_of(
-    turn: Array, parts: Sequence[Body], rows: Sequence[Mapping[str, Any]], limbs: Mapping[str, Sequence[str]],
+    turn: Array,
+    parts: Sequence[RigidBody],
+    rows: Sequence[Mapping[str, Any]],
+    limbs: Mapping[str, Sequence[str]],
     joints: Sequence[Mapping[str, Any]],
-) -> Iterator[str]:  # fmt: skip
+) -> Iterator[str]:
     """Yield the pair of bodies at the ends of limbs that are lowest while all joints are at zero: feet, most likely.
 
     The base has the axes `turn` (3, 3).

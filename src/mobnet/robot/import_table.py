@@ -11,13 +11,13 @@ from pathlib import Path
 from mobnet.core.child import in_child
 from mobnet.core.errors import ConfigError, DataError, refusal
 from mobnet.core.files import check_place, write_text
-from mobnet.core.flow import flow
+from mobnet.core.options import import_parser
 from mobnet.core.place import command
 from mobnet.core.printed import printed
 from mobnet.robot.description import RobotDescription, describe
 from mobnet.robot.import_checks import differences
-from mobnet.robot.import_words import import_parser
 from mobnet.robot.importing import BASE_LIMB, VIRTUAL, Imported, check_base, import_robot
+from mobnet.robot.table_file import flow
 from mobnet.settings.lab import load_section
 from mobnet.settings.robot import RobotTable
 
@@ -38,12 +38,17 @@ def table_text(found: Imported, source: str) -> str:
         f"name: {flow(found.name)}",
         f"base: {'floating' if found.floating else 'fixed'}",
         *([f"imu: {flow(found.imu)}"] if found.imu else []),
-        "order:", *(f"  {key}: {flow(value)}" for key, value in order.items()),
-        "groups:", *(f"  {flow(name)}: {flow(joints)}" for name, joints in limbs.items()),
-        "networks:", *(f"  {flow(name)}: {flow(row)}" for name, row in networks.items()),
-        "joints:", *(f"  - {flow(row)}" for row in found.joints),
-        "bodies:", *(f"  - {flow(row)}" for row in found.bodies),
-    ]  # fmt: skip
+        "order:",
+        *(f"  {key}: {flow(value)}" for key, value in order.items()),
+        "groups:",
+        *(f"  {flow(name)}: {flow(joints)}" for name, joints in limbs.items()),
+        "networks:",
+        *(f"  {flow(name)}: {flow(row)}" for name, row in networks.items()),
+        "joints:",
+        *(f"  - {flow(row)}" for row in found.joints),
+        "bodies:",
+        *(f"  - {flow(row)}" for row in found.bodies),
+    ]
     return "\n".join(lines) + "\n"
 
 
@@ -81,7 +86,7 @@ def made(options: Namespace) -> tuple[str, list[str]]:
     taken = options.torque_limit, options.speed_limit, options.armature, options.lock
     found = import_robot(options.file, check_base(options.base), *taken)
     text = table_text(found, options.file.name)
-    return text, list(told(robot_of_text(text, options.file), found, options.file))
+    return text, list(report_lines(robot_of_text(text, options.file), found, options.file))
 
 
 def read_robot(path: Path) -> RobotDescription:
@@ -113,7 +118,7 @@ def main(words: list[str]) -> int:
     return printed(log, lambda: run(options))
 
 
-def told(robot: RobotDescription, found: Imported, path: Path) -> Iterator[str]:
+def report_lines(robot: RobotDescription, found: Imported, path: Path) -> Iterator[str]:
     """Yield what the command prints.
 
     Raises:

@@ -88,7 +88,7 @@ class Site:
 
 
 @dataclass
-class Tree:
+class LinkTree:
     """Links of a file, parents first, and what else a table needs of it."""
 
     name: str
@@ -132,7 +132,7 @@ class Part:
 
 
 @dataclass
-class Body:
+class RigidBody:
     """Links that move as one, with the joint that moves them; its axis goes through the origin.
 
     `place` is that of the frame in the parent's, with the joint at zero.
@@ -146,7 +146,7 @@ class Body:
     parts: list[Part] = field(default_factory=list)
 
 
-def bodies_of(tree: Tree, base: int, kept: Sequence[bool], held: Mapping[int, float]) -> list[Body]:
+def bodies_of(tree: LinkTree, base: int, kept: Sequence[bool], held: Mapping[int, float]) -> list[RigidBody]:
     """Return the bodies of a robot, the base first and parents before children.
 
     Args:
@@ -156,7 +156,7 @@ def bodies_of(tree: Tree, base: int, kept: Sequence[bool], held: Mapping[int, fl
         held: index of a joint -> angle [rad] or position [m] at which it is welded. Other hinges turn.
     """
     first = "" if base == WORLD else tree.links[base].name
-    bodies = [Body(first, WORLD, np.zeros(3), np.eye(3))]
+    bodies = [RigidBody(first, WORLD, np.zeros(3), np.eye(3))]
     places: dict[int, tuple[int, Array, Array]] = {WORLD: (0, np.zeros(3), np.eye(3))} if base == WORLD else {}
     for k, link in enumerate(tree.links):
         if k == base:
@@ -172,7 +172,7 @@ def bodies_of(tree: Tree, base: int, kept: Sequence[bool], held: Mapping[int, fl
 
 
 def _hung(
-    bodies: list[Body], link: Link, place: tuple[int, Array, Array], held: Mapping[int, float]
+    bodies: list[RigidBody], link: Link, place: tuple[int, Array, Array], held: Mapping[int, float]
 ) -> tuple[int, Array, Array]:
     """Return body and place of a link whose parent has a place; each hinge that turns adds a body."""
     body, pos, turn = place
@@ -186,7 +186,7 @@ def _hung(
             turn = turn @ pin.exp3(angle * joint.axis)
             if joint.index not in held:
                 name = link.name if joint is turning[-1] else f"{link.name}_{joint.name}"
-                bodies.append(Body(name, body, anchor, turn, joint))
+                bodies.append(RigidBody(name, body, anchor, turn, joint))
                 body = len(bodies) - 1
                 anchor = np.zeros(3)
                 turn = np.eye(3)
@@ -196,7 +196,7 @@ def _hung(
     return body, pos, turn
 
 
-def heights_of(bodies: Sequence[Body], turn: Array) -> list[float]:
+def heights_of(bodies: Sequence[RigidBody], turn: Array) -> list[float]:
     """Return the heights of the bodies' origins above the base [m], whose axes `turn` has, with joints at zero."""
     places: list[tuple[Array, Array]] = [(np.zeros(3), turn)]
     for body in bodies[1:]:

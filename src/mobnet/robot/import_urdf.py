@@ -12,7 +12,7 @@ import pinocchio as pin
 
 from mobnet.core.arrays import Array
 from mobnet.core.errors import DataError, not_accepted
-from mobnet.robot.import_tree import FREE, HINGE, PLANAR, SLIDE, WORLD, Follows, Joint, Link, Tree
+from mobnet.robot.import_tree import FREE, HINGE, PLANAR, SLIDE, WORLD, Follows, Joint, Link, LinkTree
 
 KINDS = {"revolute": HINGE, "continuous": HINGE, "prismatic": SLIDE, "floating": FREE, "planar": PLANAR, "fixed": None}
 MOMENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
@@ -22,7 +22,7 @@ KEYWORDS = {"arg", "call", "element", "if", "include", "insert_block", "macro", 
 TURN = 0.01  # length below which an axis has no direction
 
 
-def read_urdf(root: ET.Element, path: Path) -> Tree:
+def read_urdf(root: ET.Element, path: Path) -> LinkTree:
     """Return the links of a URDF, depth-first in the order of its joints.
 
     Raises:
@@ -40,7 +40,7 @@ def read_urdf(root: ET.Element, path: Path) -> Tree:
     parents = {row.child: row.parent for row in joints}
     for link in found:
         link.parent = places.get(parents.get(link.name, ""), WORLD)
-    return Tree(root.get("name", ""), found, notes=notes)
+    return LinkTree(root.get("name", ""), found, notes=notes)
 
 
 class _Row:
@@ -179,9 +179,17 @@ def _joint(row: _Row, kind: str, numbers: Mapping[str, int]) -> Joint:
     coupling = row.row.find("mimic")
     follows = None if coupling is None else _coupling(coupling, where, numbers)
     return Joint(
-        row.name, kind, axis / (length or 1.0), row.index, torque=torque, speed=speed, damping=damping,
-        range=None if row.is_endless or not low < high else (low, high), friction=friction, follows=follows,
-    )  # fmt: skip
+        name=row.name,
+        kind=kind,
+        axis=axis / (length or 1.0),
+        index=row.index,
+        torque=torque,
+        speed=speed,
+        damping=damping,
+        range=None if row.is_endless or not low < high else (low, high),
+        friction=friction,
+        follows=follows,
+    )
 
 
 def _coupling(row: ET.Element, where: str, numbers: Mapping[str, int]) -> Follows:

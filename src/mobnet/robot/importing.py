@@ -13,14 +13,14 @@ import numpy as np
 
 from mobnet.core.errors import DataError, not_accepted
 from mobnet.core.joints import N_VIRTUAL
-from mobnet.robot.import_base import Robot, robot_of
+from mobnet.robot.import_base import RobotSelection, robot_of
 from mobnet.robot.import_file import KINDS, read_root
 from mobnet.robot.import_inertia import TOKEN_MASS, Mass, mass_of
 from mobnet.robot.import_mjcf import read_mjcf
 from mobnet.robot.import_names import limbs, title_of
 from mobnet.robot.import_rows import body_rows, joint_rows
 from mobnet.robot.import_sensors import feet_of, sensors_of
-from mobnet.robot.import_tree import Body, Joint, Tree, bodies_of
+from mobnet.robot.import_tree import Joint, LinkTree, RigidBody, bodies_of
 from mobnet.robot.import_urdf import read_urdf
 
 VIRTUAL = [f"V{k + 1}" for k in range(N_VIRTUAL)]
@@ -48,9 +48,9 @@ class Imported:
     groups: dict[str, list[str]]
     floating: bool
     kind: str
-    tree: Tree
-    robot: Robot
-    parts: list[Body]
+    tree: LinkTree
+    robot: RobotSelection
+    parts: list[RigidBody]
     masses: list[Mass]
     notes: list[str] = field(default_factory=list)
     imu: dict[str, Any] | None = None
@@ -62,9 +62,13 @@ class Imported:
 
 
 def import_robot(
-    path: Path, floating: bool | None, torque_limit: float, speed_limit: float, armature: float = 0.0,
+    path: Path,
+    floating: bool | None,
+    torque_limit: float,
+    speed_limit: float,
+    armature: float = 0.0,
     locked: Sequence[str] = (),
-) -> Imported:  # fmt: skip
+) -> Imported:
     """Read a robot from a URDF or a MJCF file.
 
     Whether the base floats follows from the file if it is not said. Limits [N m], [rad/s] and rotor inertia [kg m^2]
@@ -89,7 +93,7 @@ def import_robot(
     return found
 
 
-def _imported(tree: Tree, robot: Robot, kind: str, path: Path, armature: float) -> Imported:
+def _imported(tree: LinkTree, robot: RobotSelection, kind: str, path: Path, armature: float) -> Imported:
     """Return a robot with its bodies, and with rotors of all joints."""
     parts = bodies_of(tree, robot.base, robot.kept, robot.held)
     hinges = [body.joint for body in parts if body.joint is not None]

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array
 from mobnet.core.errors import DataError
-from mobnet.robotlog.columns import Column
+from mobnet.robotlog.columns import LogColumn
 from mobnet.settings.robotlog import RobotLog
 
 ROUND = 1e-3  # a rate this close to a whole number [Hz] is meant to be it
@@ -174,7 +174,7 @@ def at(signal: Timed, ticks: Array) -> Array:
     return found
 
 
-def stamp_hints(columns: Iterable[Column], bounds: RobotLog) -> Iterator[str]:
+def stamp_hints(columns: Iterable[LogColumn], bounds: RobotLog) -> Iterator[str]:
     """Yield what looks wrong with the stamps of messages, of one column for each topic."""
     lags = dict[str, Array]()
     for topic, column in {column.topic: column for column in columns}.items():

@@ -24,7 +24,7 @@ GIB = 2**30
 
 
 @dataclass(frozen=True)
-class Column:
+class LogColumn:
     """One column of a log.
 
     Attributes:
@@ -47,7 +47,7 @@ class Column:
     found: str = ""
 
 
-Columns = Mapping[str, Column]
+Columns = Mapping[str, LogColumn]
 
 
 def module_of(name: str, path: Path) -> ModuleType:

@@ -1,7 +1,7 @@
 """From the columns of a log to the recording that the observer takes: units, order, one clock, gaps."""
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import chain
 from pathlib import Path
 from typing import Any
@@ -10,22 +10,34 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array
-from mobnet.core.columns import FEET, recording_columns
+from mobnet.core.columns import EXTERNAL, FEET, recording_columns
 from mobnet.core.errors import DataError, not_accepted
 from mobnet.core.joints import JointLayout
 from mobnet.core.motion import turned
 from mobnet.core.recording import ABSENT, Recording, Sensed, Truth
+from mobnet.robot.frames import rotation
+from mobnet.robot.nominal import NominalModel
+from mobnet.robot.wrench import point_torque
 from mobnet.robotlog.clocks import Rising, Segments, Timed, at, common_ticks, covered, rate_of, rising, stamp_hints
-from mobnet.robotlog.columns import Column, Columns, near_names
+from mobnet.robotlog.columns import Columns, LogColumn, near_names
 from mobnet.robotlog.hints.columns import listed
 from mobnet.robotlog.meaning import given_signals, is_truth, resolved
 from mobnet.robotlog.pieces import pieces
-from mobnet.settings.robotlog import LogMap, RobotLog, Signal
+from mobnet.settings.robotlog import LogMap, RobotLog, Signal, Tool
 
 SI = {  # unit -> in SI units
-    "deg": np.pi / 180, "deg/s": np.pi / 180, "rpm": 2 * np.pi / 60, "mN m": 1e-3, "kN m": 1e3, "mm": 1e-3,
-    "g": 9.80665, "kN": 1e3, "ms": 1e-3, "us": 1e-6, "ns": 1e-9,
-}  # fmt: skip
+    "deg": np.pi / 180,
+    "deg/s": np.pi / 180,
+    "rpm": 2 * np.pi / 60,
+    "mN m": 1e-3,
+    "kN m": 1e3,
+    "mm": 1e-3,
+    "g": 9.80665,
+    "kN": 1e3,
+    "ms": 1e-3,
+    "us": 1e-6,
+    "ns": 1e-9,
+}
 LARGEST = 1e15  # number of a signal in SI units: with the square of a speed a residual is one of single precision
 
 
@@ -139,7 +151,7 @@ def _timed(
     return Timed(time_s - signal.delay_s if signal.delay_s else time_s, whole)
 
 
-def _own(path: Path, name: str, column: Column, meaning: LogMap, clock: Rising) -> tuple[Array, NDArray[Any]]:
+def _own(path: Path, name: str, column: LogColumn, meaning: LogMap, clock: Rising) -> tuple[Array, NDArray[Any]]:
     """Return the times of a column, which rise, and its numbers there."""
     time_s = column.recorded_s if meaning.clock.stamp == "recorded" else column.time_s
     values = column.values
@@ -247,15 +259,40 @@ def _recording(
         v[:, :3], v[:, 3:6] = values["velocity"], values["omega"]
     motor = values["tau_motor"]
     sensed = Sensed(
-        q=q, v=v,
-        acc_base_in_base=given("acc", "acc_base_in_base"), tau_des=motor, tau_motor=motor,
-        swing=given("swing", "swing"), command=given("command", "command"), landing=given("landing", "landing"),
-    )  # fmt: skip
+        q=q,
+        v=v,
+        acc_base_in_base=given("acc", "acc_base_in_base"),
+        tau_des=motor,
+        tau_motor=motor,
+        swing=given("swing", "swing"),
+        command=given("command", "command"),
+        landing=given("landing", "landing"),
+    )
     truth = Truth(
-        tau_ext=np.zeros((rows, layout.nv)), wrench_left_foot=given("left_foot", "wrench_left_foot"),
-        wrench_right_foot=given("right_foot", "wrench_right_foot"), contact=np.zeros((rows, len(fields["contact"]))),
-        pushed=np.zeros((rows, 1)), tau_random=np.zeros(motor.shape), tau_push=np.zeros((rows, layout.nv)),
+        tau_ext=np.zeros((rows, layout.nv)),
+        wrench_left_foot=given("left_foot", "wrench_left_foot"),
+        wrench_right_foot=given("right_foot", "wrench_right_foot"),
+        contact=np.zeros((rows, len(fields["contact"]))),
+        pushed=np.zeros((rows, 1)),
+        tau_random=np.zeros(motor.shape),
+        tau_push=np.zeros((rows, layout.nv)),
         push=np.zeros((rows, len(fields["push"]))),
-    )  # fmt: skip
+    )
     meta = {"scenario": "log", "level": "robot", "seed": 0, ABSENT: list(absent)}
     return Recording(sensed, segments, rate_hz, meta, truth), absent
+
+
+def with_tool(found: Converted, nominal: NominalModel, tool: Tool) -> Converted:
+    """Return a log whose recording has the external torque by the sensor of a tool (T, nv) [N] and [N m].
+
+    Raises:
+        ConfigError: the robot has no such body.
+    """
+    if found.tool is None:
+        return found
+    read = found.recording
+    axes = rotation(np.array(tool.quat))
+    torque = point_torque(nominal, tool.body, tool.pos, axes, read.sensed.q, found.tool)
+    absent = tuple(name for name in found.absent if name != EXTERNAL)
+    known = replace(read, truth=replace(read.truth, tau_ext=torque), meta={**read.meta, ABSENT: list(absent)})
+    return replace(found, recording=known, absent=absent)

@@ -11,11 +11,12 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mobnet.core.errors import SHOWN, DataError
-from mobnet.robotlog.arrow import is_numeric, numbers
-from mobnet.robotlog.columns import Column, check_memory
+from mobnet.robotlog.columns import LogColumn, check_memory
 
+SECONDS = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9}  # in a unit of Arrow's times
 LOOKED_BYTES = 2**20  # of a file in which its layout is looked for
 LOOKED_ROWS = 100  # in which a decimal comma is looked for
 FIRST_BYTES = 4 * 2**20  # in which the kinds of columns are looked for
@@ -25,6 +26,40 @@ SEPARATORS = (";", "\t", ",", SPACES)  # in the order tried: a comma may stand i
 COMMENTS = ("#", "%", "//", "sep=")  # first characters of lines that are no rows
 ENCODINGS = {codecs.BOM_UTF8: "utf-8-sig", codecs.BOM_UTF16_LE: "utf-16", codecs.BOM_UTF16_BE: "utf-16"}
 DECIMAL_COMMA = re.compile(r"[+-]?\d*,\d+([eE][+-]?\d+)?")
+
+
+def is_numeric(kind: Any) -> bool:
+    """Return whether a column of this type of Arrow holds numbers, points in time, times of day or durations."""
+    from pyarrow import types
+
+    tests = types.is_floating, types.is_integer, types.is_boolean, types.is_decimal, _is_time
+    return any(test(kind) for test in tests)
+
+
+def _is_time(kind: Any) -> bool:
+    """Return whether a type of Arrow is one of times with a unit."""
+    from pyarrow import types
+
+    return types.is_timestamp(kind) or types.is_duration(kind) or types.is_time(kind)
+
+
+def numbers(column: Any) -> NDArray[Any]:
+    """Return a column as floating numbers, NaN where it has none; times become seconds, points in time since 1970.
+
+    Arrow's own conversion would import pandas.
+    """
+    import pyarrow as pa
+    import pyarrow.compute as pc
+
+    size = 1.0
+    if _is_time(column.type):
+        size = SECONDS[column.type.unit]
+        whole = pa.int32() if pa.types.is_time32(column.type) else pa.int64()
+        column = pc.cast(column, whole)
+    if column.type not in (pa.float32(), pa.float64()):
+        column = pc.cast(column, pa.float64(), safe=False)
+    values: NDArray[Any] = np.from_dlpack(column.fill_null(np.nan) if column.null_count else column)
+    return values * size if size != 1.0 else values
 
 
 @dataclass(frozen=True)
@@ -67,7 +102,7 @@ def refuse_without_header(path: Path, names: Collection[str]) -> None:
         raise DataError(f"{path}: has no header; its first row is {SHOWN.repr(row)}; accepted: {accepted}")
 
 
-def csv_columns(path: Path, wanted: Collection[str]) -> dict[str, Column]:
+def csv_columns(path: Path, wanted: Collection[str]) -> dict[str, LogColumn]:
     """Read columns of a text with a separator; a field without a number is NaN."""
     layout = _layout(path)
     if layout is None:
@@ -176,7 +211,7 @@ def _named(fields: Sequence[str], row: Sequence[str]) -> list[str]:
     return names if is_header else []
 
 
-def _separated(path: Path, layout: Layout, asked: Sequence[str]) -> dict[str, Column]:
+def _separated(path: Path, layout: Layout, asked: Sequence[str]) -> dict[str, LogColumn]:
     """Read columns by Arrow; rows with another number of fields are left out."""
     import pyarrow as pa
     from pyarrow import csv as arrow
@@ -189,9 +224,12 @@ def _separated(path: Path, layout: Layout, asked: Sequence[str]) -> dict[str, Co
 
     parse = arrow.ParseOptions(delimiter=layout.separator, invalid_row_handler=leave_out)
     read = arrow.ReadOptions(
-        column_names=list(layout.names), skip_rows=layout.lead, block_size=FIRST_BYTES, encoding=layout.encoding,
+        column_names=list(layout.names),
+        skip_rows=layout.lead,
+        block_size=FIRST_BYTES,
+        encoding=layout.encoding,
         use_threads=False,
-    )  # fmt: skip
+    )
     empty = [*arrow.ConvertOptions().null_values, " "]
     kept = {"include_columns": asked, "null_values": empty, "decimal_point": layout.decimal}
     with arrow.open_csv(path, read, parse, arrow.ConvertOptions(**kept)) as file:
@@ -216,8 +254,8 @@ def _separated(path: Path, layout: Layout, asked: Sequence[str]) -> dict[str, Co
             rows += len(batch)
             others = others or {file.schema.names[k]: _such_as(batch.column(k).to_pylist()) for k in texts}
     hint = " ".join(_left_out(wrong, len(layout.names)))
-    found = {name: Column(own[:rows], hint=hint) for name, own in zip(names, values, strict=True)}
-    return found | {name: Column(np.empty(0), found=text) for name, text in others.items()}
+    found = {name: LogColumn(own[:rows], hint=hint) for name, own in zip(names, values, strict=True)}
+    return found | {name: LogColumn(np.empty(0), found=text) for name, text in others.items()}
 
 
 def _is_loose(kind: Any) -> bool:
@@ -250,25 +288,32 @@ def _such_as(values: Sequence[Any]) -> str:
     return f"text, {str(value)!r} in row {row}"
 
 
-def _spaced(path: Path, layout: Layout, asked: Sequence[str]) -> dict[str, Column]:
+def _spaced(path: Path, layout: Layout, asked: Sequence[str]) -> dict[str, LogColumn]:
     """Read columns with any number of spaces between them, which Arrow cannot."""
     import pandas as pd
 
     frame = pd.read_csv(
-        path, sep=r"\s+", header=None, names=list(layout.names), usecols=list(asked), skiprows=layout.lead,
-        decimal=layout.decimal, encoding=layout.encoding, on_bad_lines="skip",
-    )  # fmt: skip
+        path,
+        sep=r"\s+",
+        header=None,
+        names=list(layout.names),
+        usecols=list(asked),
+        skiprows=layout.lead,
+        decimal=layout.decimal,
+        encoding=layout.encoding,
+        on_bad_lines="skip",
+    )
     # A log that ends early may end in a short row, which pandas would fill with NaN.
     last = _fields(_last_line(path, layout.encoding), SPACES)
     is_cut = len(last) != len(layout.names)
     frame = frame.iloc[:-1] if is_cut else frame
     hint = " ".join(_left_out([len(last)] if is_cut else [], len(layout.names)))
-    found = dict[str, Column]()
+    found = dict[str, LogColumn]()
     for name in asked:
         kind = frame[name].dtype.kind
         is_text = kind not in "fiub"
         values = np.empty(0) if is_text else frame[name].to_numpy(np.float64)
-        found[name] = Column(values, hint=hint, found=_such_as(list(frame[name])) if is_text else "")
+        found[name] = LogColumn(values, hint=hint, found=_such_as(list(frame[name])) if is_text else "")
     return found
 
 

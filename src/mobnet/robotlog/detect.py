@@ -4,96 +4,29 @@ import logging
 import sys
 from argparse import Namespace
 from collections.abc import Iterator
-from pathlib import Path
 
-from mobnet.core.errors import DataError, not_accepted
-from mobnet.core.files import check_place, sweep, write_text
+from mobnet.core.options import detect_parser
 from mobnet.core.printed import printed
-from mobnet.core.rows import csv_text
-from mobnet.detection.threshold_file import check_thresholds, read_thresholds, sampling_of
-from mobnet.estimation import estimate, observer
-from mobnet.estimation.estimate import write_estimate
-from mobnet.estimation.own import ESTIMATE, OwnNetwork, check_sampling, read_network_folder
-from mobnet.robot.description import RobotDescription
-from mobnet.robot.given import given_robot
-from mobnet.robot.nominal import NominalModel
-from mobnet.robotlog.detected import Detected, detect_log
-from mobnet.robotlog.flags import COLUMNS
-from mobnet.robotlog.learning_words import detect_parser
-from mobnet.robotlog.plot_flags import plot_flags
-from mobnet.robotlog.wrenches import place_of, told_wrenches, wrenches_of, write_wrenches
-from mobnet.settings.lab import load_lab, load_section
-from mobnet.settings.limb_thresholds import LimbThresholds
-from mobnet.settings.robotlog import LogMap
+from mobnet.settings.lab import load_lab
 
 log = logging.getLogger(__name__)
-FLAGS = "flags.csv"
-PLOT = "flags"
-
-
-def write_detected(
-    made: Detected, robot: RobotDescription, network: OwnNetwork | None, found: LimbThresholds, out: Path
-) -> None:
-    """Write flags, estimate and plot into a folder."""
-    read = made.observed.converted.recording
-    note = {"method": found.method, "network": network.fingerprint if network else None}
-    write_estimate(out / ESTIMATE, read, made.estimate, found.joints, robot.layout, note)
-    write_text(out / FLAGS, csv_text(COLUMNS, [flag.row() for flag in made.flags]))
-    plot_flags(made.observed.converted.time_s, read.segments, made.watched, made.flags, found, out / PLOT)
-
-
-def told(made: Detected, out: Path) -> Iterator[str]:
-    """Yield what the command prints."""
-    read = made.observed.converted.recording
-    yield f"{len(read.sensed)} samples at {read.rate_hz:g} Hz, hints on the log: {len(made.observed.hints)}"
-    yield from (f"  {hint}" for hint in made.observed.hints)
-    yield f"flags: {len(made.flags) or 'none'}"
-    for flag in made.flags:
-        push = flag.push
-        where = f", as {push.force_n:.0f} N at {push.point} along {push.direction} of {push.body}" if push else ""
-        span = f"{flag.start_s:9.3f} to {flag.end_s:.3f} s"
-        yield f"  {span}: {flag.joint} at {flag.ratio:.2f} times its threshold{where}"
-    if known := made.found:
-        yield f"{known.found} of {known.pushes} pushes found, {known.others} other flag{'s' * (known.others != 1)}"
-    yield f"written: {out / FLAGS}, {out / ESTIMATE}.parquet, {out / PLOT}.png"
+TELLING = ("mobnet.estimation.observer", "mobnet.estimation.estimate")  # they tell of each part of a long log
 
 
 def run(options: Namespace) -> Iterator[str]:
     """Detect as the command's options say, and yield what is printed."""
     settings = load_lab()
-    robot = given_robot(options.robot, settings)
-    meaning = load_section(options.map, LogMap) if options.map else None
-    network = read_network_folder(options.network, robot.layout, settings) if options.network else None
-    found = read_thresholds(options.thresholds)
-    if network and found.network is None:  # `calibrate` keeps the observer where that finds more
-        network = None
-        yield f"{options.thresholds} are thresholds of the observer alone: the network is not used"
-    check_thresholds(options.thresholds, found, robot, network)
-    if meaning and "torque" in meaning.model_fields_set and meaning.torque != found.torque:
-        accepted = [f"{found.torque}, that of {options.thresholds}"]
-        raise DataError(not_accepted(f"{options.map}: torque", meaning.torque, accepted))
-    if network:
-        check_sampling(options.thresholds, sampling_of(found), network.sampling, network.folder)
-    nominal = NominalModel(robot)
-    places = [place_of(nominal, name, found.joints) for name in dict.fromkeys(options.wrench)]
-    out = options.out or Path(f"{options.log.stem}_detected")
-    check_place(out)
-    sweep(out)
-    made = detect_log(options.log, robot, meaning, network, found, settings)
-    read = made.observed.converted.recording
-    numbers = settings.robotlog.wrench
-    wrenches = [wrenches_of(nominal, place, read.sensed.q, made.estimate, numbers) for place in places]
-    write_detected(made, robot, network, found, out)
-    write_wrenches(wrenches, read, found.method, out)
-    yield from told(made, out)
-    yield from told_wrenches(wrenches, numbers, out)
+    # Here: flags and the configuration are read before the second that numba and Pinocchio take.
+    from mobnet.robotlog.detecting import detect
+
+    yield from detect(options, settings)
 
 
 def main(words: list[str]) -> int:
     """Run the command; return its exit status."""
     options = detect_parser().parse_args(words)
-    for module in (observer, estimate):  # they tell of each part of a long log
-        logging.getLogger(module.__name__).setLevel(logging.WARNING)
+    for name in TELLING:
+        logging.getLogger(name).setLevel(logging.WARNING)
     return printed(log, lambda: run(options))
 
 

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from mobnet.core.arrays import Array
-from mobnet.core.errors import DataError, not_accepted
+from mobnet.core.errors import DataError
 from mobnet.core.estimator import Estimate
 from mobnet.detection.always import always_on
 from mobnet.detection.detector import GateSignal, run_segments
@@ -18,32 +18,35 @@ from mobnet.detection.watch import LegSetup, LimbSetup
 from mobnet.estimation.own import OwnLog, OwnNetwork, estimates_of, estimator_of
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.nominal import NominalModel
-from mobnet.robotlog.flags import Flag, flags_of
-from mobnet.robotlog.observe import Observed, observe_log
-from mobnet.robotlog.pushes import Found, found_pushes
+from mobnet.robotlog.flags import Flag, PushCount, flags_of, found_pushes
+from mobnet.robotlog.observe import ObservedLog, observe_log
 from mobnet.settings.lab import Lab
 from mobnet.settings.limb_thresholds import LimbThresholds
 from mobnet.settings.robotlog import LogMap
 
 
 @dataclass(frozen=True)
-class Detected:
+class LogDetection:
     """A log, the estimate of a limb (T, n) [N m], what is watched of it behind the low-pass (T, n), and its flags.
 
     `found` counts them beside the pushes of a log that tells them.
     """
 
-    observed: Observed
+    observed: ObservedLog
     estimate: Estimate
     watched: Array
     flags: tuple[Flag, ...]
-    found: Found | None
+    found: PushCount | None
 
 
 def detect_log(
-    path: Path, robot: RobotDescription, meaning: LogMap | None, network: OwnNetwork | None, found: LimbThresholds,
+    path: Path,
+    robot: RobotDescription,
+    meaning: LogMap | None,
+    network: OwnNetwork | None,
+    found: LimbThresholds,
     settings: Lab,
-) -> Detected:  # fmt: skip
+) -> LogDetection:
     """Estimate the external torque of a limb in a log, and flag what lies above its thresholds.
 
     Raises:
@@ -58,10 +61,11 @@ def detect_log(
     observed = observe_log(path, robot, meaning, found.torque, found.gain_hz, gravity, settings.robotlog)
     read = observed.converted.recording
     if read.rate_hz != sampling.rate_hz:
-        accepted = [f"{sampling.rate_hz:g}, that of the thresholds; a --map with rate_hz resamples the log"]
-        raise DataError(not_accepted(f"{path}: rate", read.rate_hz, accepted))
+        made = f"the thresholds were made at {sampling.rate_hz:g} Hz; a --map with rate_hz resamples the log"
+        raise DataError(f"{path}: its rate is {read.rate_hz} Hz, and {made}")
     own = OwnLog(path, read, observed.residual.astype(np.float32), sampling)
-    (estimate,) = estimates_of([own], estimator_of(robot, gravity, sampling, network), found.joints)
+    estimator = estimator_of(robot, gravity, sampling, network and network.networks)
+    (estimate,) = estimates_of([own], estimator, found.joints)
     setup = setup_with(found, settings.detection, robot)
     gate = _gate(path, setup, observed, estimate, found)
     signals = watched_of(found).of(estimate, read.sensed.command)
@@ -72,13 +76,13 @@ def detect_log(
         flags_of(alarm, observed.converted.time_s, read, low, estimate.std, found, nominal, settings.robotlog)
     )
     known = found_pushes(observed.converted, found.joints, flags, settings.robotlog.flag_gap_s)
-    return Detected(observed, estimate, setup.low_passed(signals, read.segments), flags, known)
+    return LogDetection(observed, estimate, setup.low_passed(signals, read.segments), flags, known)
 
 
-def _gate(path: Path, setup: LimbSetup, observed: Observed, estimate: Estimate, found: LimbThresholds) -> GateSignal:
+def _gate(path: Path, setup: LimbSetup, observed: ObservedLog, estimate: Estimate, found: LimbThresholds) -> GateSignal:
     """Return when the limb is watched; a DataError says that thresholds of swings do not fit the log."""
     read = observed.converted.recording
-    if found.watched == "always" or not isinstance(setup, LegSetup):
+    if not isinstance(setup, LegSetup):
         return always_on(len(read.sensed), read.segments, found.settle_s, read.rate_hz)
     if missing := read.unplanned():
         # They would be zero, as of a foot on the ground: nothing would ever be watched.

@@ -1,17 +1,19 @@
 """Flags: stretches of a log in which a limb's signals lie above their thresholds, and which push explains each."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array
+from mobnet.core.columns import EXTERNAL, PUSHED
 from mobnet.core.recording import SensedRecording
-from mobnet.detection.detector import ALARM_RATIO, Alarm
-from mobnet.detection.points import Felt, felt_push
+from mobnet.detection.detector import ALARM_RATIO, DetectorOutput
+from mobnet.detection.points import EstimatedPush, felt_push
 from mobnet.robot.nominal import NominalModel
+from mobnet.robotlog.convert import Converted
 from mobnet.settings.limb_thresholds import LimbThresholds
 from mobnet.settings.robotlog import RobotLog
 
@@ -31,7 +33,7 @@ class Flag:
     end_s: float
     joint: str
     ratio: float
-    push: Felt | None
+    push: EstimatedPush | None
 
     def row(self) -> tuple[Any, ...]:
         """Return it as a row of a CSV file."""
@@ -43,9 +45,15 @@ COLUMNS = ("start_s", "end_s", "joint", "ratio", "link", "point", "direction", "
 
 
 def flags_of(
-    alarm: Alarm, time_s: Array, read: SensedRecording, low: Array, std: NDArray[Any] | None, found: LimbThresholds,
-    nominal: NominalModel, bounds: RobotLog,
-) -> Iterator[Flag]:  # fmt: skip
+    alarm: DetectorOutput,
+    time_s: Array,
+    read: SensedRecording,
+    low: Array,
+    std: NDArray[Any] | None,
+    found: LimbThresholds,
+    nominal: NominalModel,
+    bounds: RobotLog,
+) -> Iterator[Flag]:
     """Yield the flags of a limb in a log.
 
     Args:
@@ -80,3 +88,35 @@ def stretches(above: NDArray[np.bool_], segments: tuple[tuple[int, int], ...], g
             else:
                 found.append((start, end))
     return found
+
+
+class PushCount(NamedTuple):
+    """How many pushes a log has, how many of them a flag lies in, and how many flags lie in none."""
+
+    pushes: int
+    found: int
+    others: int
+
+
+def pushed_rows(log: Converted, joints: Sequence[str]) -> NDArray[np.bool_] | None:
+    """Return when a push acts on some joints (T,), None where the log does not tell it."""
+    rows = log.truth[PUSHED] > 0.5 if PUSHED in log.truth else None
+    names = [f"{EXTERNAL}.{joint}" for joint in joints]
+    torques = [log.truth[name] for name in names if name in log.truth]
+    if torques:
+        felt = np.any(torques, axis=0)
+        rows = felt if rows is None else rows & felt
+    return rows
+
+
+def found_pushes(log: Converted, joints: Sequence[str], flags: Sequence[Flag], late_s: float) -> PushCount | None:
+    """Count the pushes on some joints that a flag lies in, or begins up to so long [s] after."""
+    rows = pushed_rows(log, joints)
+    if rows is None:
+        return None
+    spans = [(log.time_s[a], log.time_s[b - 1] + late_s) for a, b in stretches(rows, log.recording.segments, 0)]
+    hits = list[list[bool]]()
+    for start, end in spans:
+        hits.append([start <= flag.end_s and flag.start_s <= end for flag in flags])
+    others = sum(not any(one) for one in zip(*hits, strict=True)) if hits else len(flags)
+    return PushCount(len(spans), sum(map(any, hits)), others)

@@ -10,7 +10,7 @@ from typing import NamedTuple, TypeVar
 
 from mobnet.core.errors import DataError, not_accepted
 from mobnet.core.files import check_regular
-from mobnet.robotlog.columns import Column, Columns, near_names
+from mobnet.robotlog.columns import Columns, LogColumn, near_names
 from mobnet.robotlog.delimited import csv_columns, csv_names
 from mobnet.robotlog.messages import message_columns, message_names
 from mobnet.robotlog.sources import FILES, METADATA
@@ -24,7 +24,7 @@ class Format(NamedTuple):
     """How a kind of log is read: the names of its columns, and the columns of some names."""
 
     names: Callable[[Path], list[str]]
-    read: Callable[[Path, Collection[str]], dict[str, Column]]
+    read: Callable[[Path, Collection[str]], dict[str, LogColumn]]
 
 
 TEXTS = dict.fromkeys((".csv", ".tsv", ".txt", ".dat"), Format(csv_names, csv_columns))

@@ -15,9 +15,9 @@ from numpy.typing import NDArray
 from mobnet.core.arrays import Array
 from mobnet.core.epochs import read_epochs
 from mobnet.core.estimator import Estimate
+from mobnet.learning.calibration import coverage
 from mobnet.learning.dataset import LimbData
 from mobnet.learning.deployed.networks import Runnable
-from mobnet.learning.gaussian import coverage
 from mobnet.learning.streams import Span
 from mobnet.robotlog.planted_check import PlantedCheck
 from mobnet.settings.robotlog import LogLearning
@@ -43,7 +43,7 @@ class Held:
 
 
 @dataclass(frozen=True)
-class Course:
+class ValidationSummary:
     """What a training did on its validation: which of its epochs is kept, and the loss (22) of that and of the last."""
 
     kept: int
@@ -121,20 +121,27 @@ def free_check(held: Held, data: LimbData, label: Array, cut: int, units: Sequen
     beyond = np.maximum(low - data.inputs[rows], data.inputs[rows] - high) > margin * (high - low)
     often = beyond.mean(axis=0)
     return FreeCheck(
-        data.joints, tuple(units), len(rows) / data.rate_hz, _size(label[rows]), _size(data.targets[rows]),
-        _size(errors), _size(held.seen), coverage(errors, std, SHARES),
-        float(beyond.any(axis=1).mean()), data.input_names[int(np.argmax(often))] if often.any() else "",
-    )  # fmt: skip
+        joints=data.joints,
+        units=tuple(units),
+        seconds=len(rows) / data.rate_hz,
+        zero=_size(label[rows]),
+        observer=_size(data.targets[rows]),
+        network=_size(errors),
+        seen=_size(held.seen),
+        covered=coverage(errors, std, SHARES),
+        outside=float(beyond.any(axis=1).mean()),
+        widest=data.input_names[int(np.argmax(often))] if often.any() else "",
+    )
 
 
-def course_of(metrics: Path, kept: int) -> Course:
+def course_of(metrics: Path, kept: int) -> ValidationSummary:
     """Read the course of a training from `metrics.csv`, of whose epochs one is kept."""
     epochs, _ = read_epochs(metrics)
-    return Course(kept, len(epochs), epochs[kept - 1].validation_loss, epochs[-1].validation_loss)
+    return ValidationSummary(kept, len(epochs), epochs[kept - 1].validation_loss, epochs[-1].validation_loss)
 
 
 def lines_of(
-    found: FreeCheck, labels: str, numbers: LogLearning, course: Course, planted: PlantedCheck | None = None
+    found: FreeCheck, labels: str, numbers: LogLearning, course: ValidationSummary, planted: PlantedCheck | None = None
 ) -> Iterator[str]:
     """Yield what the command prints of a check by some labels, of a training, and of pushes planted into that part."""
     what = "free-motion check" if labels == "free" else f"check by the labels {labels!r}"
@@ -167,7 +174,7 @@ def _faults(found: FreeCheck, numbers: LogLearning) -> Iterator[str]:
         yield f"the network's error is not below the observer's at {', '.join(worse)}: keep the observer alone there"
 
 
-def _faults_of_course(found: FreeCheck, course: Course, numbers: LogLearning) -> Iterator[str]:
+def _faults_of_course(found: FreeCheck, course: ValidationSummary, numbers: LogLearning) -> Iterator[str]:
     """Yield what a training and its standard deviation say against a log."""
     if course.last > course.loss + numbers.rises:
         yield (

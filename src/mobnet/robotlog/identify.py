@@ -14,18 +14,17 @@ from pathlib import Path
 
 from mobnet.core.errors import ConfigError, DataError, not_accepted
 from mobnet.core.files import check_place
+from mobnet.core.options import identify_parser
 from mobnet.core.place import command
 from mobnet.core.printed import printed
 from mobnet.core.recording import SensedRecording
 from mobnet.estimation import observer
 from mobnet.estimation.own import RECORDING, read_log_folder
-from mobnet.robot.description import RobotDescription, describe
-from mobnet.robot.given import given_table
+from mobnet.robot.description import RobotDescription, describe, given_table
 from mobnet.robot.table_file import head_of, write_table
-from mobnet.robotlog.identify_words import identify_parser
 from mobnet.robotlog.identifying.fit import JointFit, fit_joints
 from mobnet.robotlog.identifying.payload import Payload
-from mobnet.robotlog.identifying.regressors import Windows, columns_of, moved, together, windows_of
+from mobnet.robotlog.identifying.regressors import RegressorWindows, columns_of, moved, together, windows_of
 from mobnet.robotlog.observe import converted_log
 from mobnet.settings.base import TorqueKind
 from mobnet.settings.lab import Lab, load_lab, load_section
@@ -64,9 +63,12 @@ def read_free_log(path: Path, robot: RobotDescription, meaning: LogMap | None, s
 
 
 def identify(
-    robot: RobotDescription, logs: Sequence[FreeLog], terms: Sequence[str], settings: Lab,
+    robot: RobotDescription,
+    logs: Sequence[FreeLog],
+    terms: Sequence[str],
+    settings: Lab,
     payload: str | None = None,
-) -> tuple[dict[str, JointFit], Payload | None]:  # fmt: skip
+) -> tuple[dict[str, JointFit], Payload | None]:
     """Return the numbers of the joints that move in logs of free motion, and the payload of a body.
 
     Raises:
@@ -97,7 +99,7 @@ def _carrier(robot: RobotDescription, body: str) -> int:
     return moved_bodies.index(body)
 
 
-def split(windows: Sequence[Windows], numbers: Identification) -> tuple[Windows, Windows]:
+def split(windows: Sequence[RegressorWindows], numbers: Identification) -> tuple[RegressorWindows, RegressorWindows]:
     """Return the windows of logs before and after the time at which what is held out begins.
 
     Raises:
@@ -109,7 +111,7 @@ def split(windows: Sequence[Windows], numbers: Identification) -> tuple[Windows,
     if len(known) < numbers.least_windows or not len(held_out):
         seconds = numbers.window_s * (len(known) + len(held_out))
         least = numbers.window_s * numbers.least_windows / (1 - numbers.held_out)
-        raise DataError(not_accepted("seconds of free motion", seconds, [f"{least:g} or more"]))
+        raise DataError(f"{seconds:g} s of free motion; {least:g} s or more are needed")
     return known, held_out
 
 
@@ -136,9 +138,14 @@ def with_payload(table: RobotTable, body: str, found: Payload) -> RobotTable:
     own = _rounded(found.inertia)
     (x, y, z) = map(_rounded, found.com)
     row = BodyRow(
-        name=name, parent=body, pos=(0.0, 0.0, 0.0), quat=(1.0, 0.0, 0.0, 0.0), mass=_rounded(found.mass),
-        com=(x, y, z), inertia=(own, own, own, 0.0, 0.0, 0.0),
-    )  # fmt: skip
+        name=name,
+        parent=body,
+        pos=(0.0, 0.0, 0.0),
+        quat=(1.0, 0.0, 0.0, 0.0),
+        mass=_rounded(found.mass),
+        com=(x, y, z),
+        inertia=(own, own, own, 0.0, 0.0, 0.0),
+    )
     # Bodies of a table stand depth-first: the payload comes right after the body that carries it.
     place = names.index(body) + 1
     return table.model_copy(update={"bodies": (*table.bodies[:place], row, *table.bodies[place:]), "totals": None})
@@ -160,12 +167,16 @@ def _rounded(value: float) -> float:
     return float(f"{value:.{DIGITS}g}")
 
 
-def told(found: Mapping[str, JointFit], robot: RobotDescription, held_out: float) -> Iterator[str]:
+def report_lines(found: Mapping[str, JointFit], robot: RobotDescription, held_out: float) -> Iterator[str]:
     """Yield what the command prints."""
     units = {
-        "coulomb": "Coulomb [N m]", "viscous": "viscous [N m s/rad]", "load": "load [-]", "offset": "offset [N m]",
-        "armature": "rotor inertia [kg m^2]", "scale": "scale - 1 [-]",
-    }  # fmt: skip
+        "coulomb": "Coulomb [N m]",
+        "viscous": "viscous [N m s/rad]",
+        "load": "load [-]",
+        "offset": "offset [N m]",
+        "armature": "rotor inertia [kg m^2]",
+        "scale": "scale - 1 [-]",
+    }
     fitted = set(chain.from_iterable(fit.factors for fit in found.values()))
     shown = [term for term in units if term in fitted]
     rows = [["joint", *(units[term] for term in shown), "sign", "residual, held out", "explained"]]
@@ -208,7 +219,7 @@ def run(options: Namespace) -> Iterator[str]:
     made_table = with_payload(made_table, options.payload, carried) if carried else made_table
     write_table(out, made_table, [*head, made])
     load_section(out, RobotTable)
-    yield from told(found, robot, settings.robotlog.identify.held_out)
+    yield from report_lines(found, robot, settings.robotlog.identify.held_out)
     if carried:
         place = ", ".join(f"{x:.3f} ± {half:.2g}" for x, half in zip(carried.com, carried.com_half, strict=True))
         mass = f"{carried.mass:.4g} ± {carried.mass_half:.2g} kg"

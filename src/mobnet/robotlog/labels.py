@@ -8,6 +8,7 @@ from mobnet.core.arrays import Array
 from mobnet.core.columns import EXTERNAL, FEET, named
 from mobnet.core.errors import DataError, not_accepted
 from mobnet.core.joints import JointLayout
+from mobnet.core.options import LABELS
 from mobnet.core.recording import ABSENT
 from mobnet.core.store import read_array
 from mobnet.estimation.label import foot_label
@@ -17,7 +18,6 @@ from mobnet.estimation.own import RECORDING, OwnLog, check_sampling
 from mobnet.learning.dataset import LimbData
 from mobnet.learning.features import limb_inputs
 from mobnet.robot.nominal import NominalModel
-from mobnet.robotlog.learning_words import LABELS
 from mobnet.settings.networks import Limb
 
 

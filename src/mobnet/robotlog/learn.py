@@ -17,9 +17,11 @@ from numpy.typing import NDArray
 from mobnet.core.arrays import Array
 from mobnet.core.errors import DataError, not_accepted
 from mobnet.core.files import METRICS, RUN, check_place, read_json, sweep, write_json
+from mobnet.core.options import learn_parser
 from mobnet.core.printed import printed
 from mobnet.estimation import observer
 from mobnet.estimation.own import (
+    LEARNED,
     OwnLog,
     check_drives,
     limb_of,
@@ -29,18 +31,17 @@ from mobnet.estimation.own import (
 )
 from mobnet.learning.dataset import LimbData
 from mobnet.learning.deployed.networks import load_network
-from mobnet.learning.device import own_device
 from mobnet.learning.job import TrainingJob
+from mobnet.learning.precision import in_precision, of_processor
 from mobnet.learning.train import train_on
-from mobnet.robot.description import describe
-from mobnet.robot.given import given_table
+from mobnet.learning.trainer import own_device
+from mobnet.robot.description import describe, given_table
 from mobnet.robot.nominal import NominalModel
 from mobnet.robotlog.free_check import Held, course_of, free_check, held_out, lines_of
 from mobnet.robotlog.labels import before, check_labels, label_of, limb_data
-from mobnet.robotlog.learning_words import learn_parser
 from mobnet.robotlog.planted_check import PlantedCheck, planted_check
-from mobnet.robotlog.training import filled, training_of
 from mobnet.settings.lab import Lab, load_lab
+from mobnet.settings.networks import Coarse, Learning, Limb, Network, Training
 from mobnet.settings.robot import RobotTable
 
 log = logging.getLogger(__name__)
@@ -48,10 +49,63 @@ STATE = "training"  # folder of the checkpoint, in that of the network
 SEED = 0
 
 
+# A network counts time in samples, so that it runs at the rate at which it learned; the times of a training are kept.
+def training_of(settings: Lab, table: RobotTable, limb: str, labels: str, rate_hz: float, epochs: int) -> Training:
+    """Return how a limb's network learns from a log at a rate [Hz]: as MOB-Net's does, of the same cell.
+
+    A limb without an entry in the table's `networks` sees its own joints.
+    """
+    numbers = settings.robotlog.learn
+    ports = table.networks.get(limb) or Limb(joints=(limb,), Q=(limb,), T=(limb,))
+    # In free motion the residual follows from motion and torque alone. A network that sees both would learn to be the
+    # observer, and take away every push with it.
+    ports = ports.model_copy(update={"T": ()}) if labels == "free" else ports
+    row = settings.networks.get(limb) or settings.networks[numbers.cell]
+    learning = in_precision(settings.learning, of_processor())
+    horizon = row.horizon_steps
+    return Training(
+        method=LEARNED,
+        limb=limb,
+        target="uncertainty",
+        network=Network.model_validate({**vars(ports), **vars(row)}),
+        learning=_at_rate(learning, rate_hz / settings.rates.data_hz),
+        epochs=epochs,
+        epoch_samples=max(numbers.epoch_samples, horizon * numbers.updates),
+    )
+
+
+def _at_rate(learning: Learning, ratio: float) -> Learning:
+    """Return how a network learns at a rate that is so many times that of the configuration: strides are times."""
+    phases = [(max(1, round(phase.stride * ratio)), phase.share) for phase in learning.coarse]
+    strides = dict.fromkeys(stride for stride, _ in phases if stride > 1)
+    coarse = list[Coarse]()
+    for stride in strides:
+        share = sum(share for other, share in phases if other == stride)
+        coarse.append(Coarse(stride=stride, share=share))
+    return learning.model_copy(update={"coarse": tuple(coarse)})
+
+
+def filled(training: Training, segments: Sequence[tuple[int, int]], settings: Lab) -> Training:
+    """Return a training whose batches a log fills: of a short log, fewer lanes learn at once."""
+    stride = max((phase.stride for phase in training.learning.coarse), default=1)
+    horizons = sum(end - start for start, end in segments) // (training.network.horizon_steps * stride)
+    lanes = max(1, min(training.learning.batch_size, horizons // 4))
+    epoch = training.epoch_samples or settings.robotlog.learn.epoch_samples
+    lanes = max(1, min(lanes, epoch // (training.network.horizon_steps * settings.robotlog.learn.updates)))
+    return training.model_copy(update={"learning": training.learning.model_copy(update={"batch_size": lanes})})
+
+
 def learn(
-    settings: Lab, table: RobotTable, logs: Sequence[OwnLog], limb: str, labels: str, epochs: int, out: Path,
-    *, force: bool = False,
-) -> list[str]:  # fmt: skip
+    settings: Lab,
+    table: RobotTable,
+    logs: Sequence[OwnLog],
+    limb: str,
+    labels: str,
+    epochs: int,
+    out: Path,
+    *,
+    force: bool = False,
+) -> list[str]:
     """Train a network of a limb on logs, or go on with it, and return what is printed of it.
 
     Raises:
@@ -87,9 +141,14 @@ def learn(
 
 
 def _planted(
-    logs: Sequence[OwnLog], nominal: NominalModel, limb: str, data: LimbData, label: Array, held: Held,
+    logs: Sequence[OwnLog],
+    nominal: NominalModel,
+    limb: str,
+    data: LimbData,
+    label: Array,
+    held: Held,
     settings: Lab,
-) -> PlantedCheck | None:  # fmt: skip
+) -> PlantedCheck | None:
     """Return which detectors of a limb find pushes that are planted into what is held out.
 
     There is none of a network of several limbs, or of a part that is too short.
@@ -116,8 +175,7 @@ def _is_new(fingerprint: str, out: Path, *, force: bool) -> bool:
         log.info("%s: already trained from these logs in this way", out)
         return False
     if not force:
-        accepted = [f"{held}, the one that is there; or --force, or another --out"]
-        raise DataError(not_accepted(f"{out}: a network with the fingerprint", fingerprint, accepted))
+        raise DataError(f"{out} holds another network, of other logs or options; give --force or another --out")
     return True
 
 

@@ -45,11 +45,18 @@ def default_map(path: Path, names: Collection[str], layout: JointLayout) -> LogM
     for key, group in fields.items():
         own[key] = [name for name, *_ in group]
     groups = {
-        "q": own["q"][base:], "v": own["v"][6 if base else 0 :], "tau_motor": own["tau_motor"],
-        "position": own["q"][:3] if base else [], "quaternion": own["q"][3:base], "acc": own["acc_base_in_base"],
-        "velocity": own["v"][:3] if base else [], "omega": own["v"][3:6] if base else [],
-        **{foot: own[f"wrench_{foot}"] for foot in FEET}, "swing": own["swing"], "landing": own["landing"],
-    }  # fmt: skip
+        "q": own["q"][base:],
+        "v": own["v"][6 if base else 0 :],
+        "tau_motor": own["tau_motor"],
+        "position": own["q"][:3] if base else [],
+        "quaternion": own["q"][3:base],
+        "acc": own["acc_base_in_base"],
+        "velocity": own["v"][:3] if base else [],
+        "omega": own["v"][3:6] if base else [],
+        **{foot: own[f"wrench_{foot}"] for foot in FEET},
+        "swing": own["swing"],
+        "landing": own["landing"],
+    }
     if not any(held.intersection(groups[key]) for key in MOTORS):
         # A JointState says nothing of a base, so that no map can be guessed for one that floats.
         if base:

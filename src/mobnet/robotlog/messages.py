@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mobnet.core.errors import DataError, not_accepted
-from mobnet.robotlog.columns import MOST, Column
+from mobnet.robotlog.columns import MOST, LogColumn
 from mobnet.robotlog.sources import ENCODINGS, Message, opened
 
 NANO = 1e-9
@@ -53,7 +53,7 @@ class Entry:
         return items[self.place]
 
 
-class Part(NamedTuple):
+class MessageField(NamedTuple):
     """A number or an array of numbers in the messages of a topic, and where the names of its entries stand."""
 
     name: str
@@ -66,7 +66,7 @@ class Gathered:
     """What was read of a topic: times of recording and stamps [ns]; of each part the rows by its entries' names."""
 
     stamp: Callable[[Any], int] | None
-    parts: dict[str, Part] = field(default_factory=dict)
+    parts: dict[str, MessageField] = field(default_factory=dict)
     recorded: list[int] = field(default_factory=list)
     stamps: list[int] = field(default_factory=list)
     rows: dict[str, dict[tuple[str, ...], tuple[list[int], list[Any]]]] = field(default_factory=dict)
@@ -88,7 +88,7 @@ def message_names(path: Path) -> list[str]:
     return list(dict.fromkeys(found))
 
 
-def message_columns(path: Path, wanted: Collection[str]) -> dict[str, Column]:
+def message_columns(path: Path, wanted: Collection[str]) -> dict[str, LogColumn]:
     """Return wanted columns of a log; only messages of their topics are decoded.
 
     Raises:
@@ -102,21 +102,23 @@ def message_columns(path: Path, wanted: Collection[str]) -> dict[str, Column]:
         gathered = _gathered(source.messages(topics), set(wanted)) if topics else {}
         hint = source.hint
     began = min((min(own.recorded) for own in gathered.values()), default=0)
-    found = dict[str, Column]()
+    found = dict[str, LogColumn]()
     for topic, own in gathered.items():
         found |= {name: column for name, column in _columns_of(topic, own, began, hint).items() if name in wanted}
     return found
 
 
-def _parts(content: Any, name: str, steps: tuple[Step, ...] = (), labels: tuple[Step, ...] = ()) -> Iterator[Part]:
+def _parts(
+    content: Any, name: str, steps: tuple[Step, ...] = (), labels: tuple[Step, ...] = ()
+) -> Iterator[MessageField]:
     """Yield the numbers and arrays of numbers below a field, with the way to the names of their entries, if any.
 
     Headers and texts are left out.
     """
     if isinstance(content, (bool, int, float, np.number)):
-        yield Part(name, steps, ())
+        yield MessageField(name, steps, ())
     elif _holds(content, (bool, int, float, np.number)):
-        yield Part(name, steps, labels)
+        yield MessageField(name, steps, labels)
     elif isinstance(content, (list, tuple)):
         for (end, step), item in zip(_entry_steps(content[:MOST]), content, strict=False):
             yield from _parts(item, f"{name}.{end}", (*steps, step))
@@ -163,7 +165,7 @@ def _at(content: Any, steps: Sequence[Step]) -> Any:
     return content
 
 
-def _entries(part: Part, content: Any, values: Any) -> tuple[str, ...]:
+def _entries(part: MessageField, content: Any, values: Any) -> tuple[str, ...]:
     """Return the names of the columns that a part has in a message."""
     if not isinstance(values, (list, tuple, np.ndarray)):
         return (part.name,)
@@ -220,12 +222,12 @@ def _is_wanted(part: str, wanted: Collection[str]) -> bool:
     return any(name == part or name.startswith(f"{part}.") for name in wanted)
 
 
-def _in(part: Part, content: Any) -> tuple[str, ...]:
+def _in(part: MessageField, content: Any) -> tuple[str, ...]:
     """Return the names of the columns that a part has in a message."""
     return _entries(part, content, _at(content, part.steps))
 
 
-def _gather(own: Gathered, part: Part, content: Any) -> None:
+def _gather(own: Gathered, part: MessageField, content: Any) -> None:
     """Add the numbers of a message."""
     try:
         values = _at(content, part.steps)
@@ -241,7 +243,7 @@ def _gather(own: Gathered, part: Part, content: Any) -> None:
     numbers.append(values)
 
 
-def _columns_of(topic: str, own: Gathered, began_ns: int, hint: str) -> dict[str, Column]:
+def _columns_of(topic: str, own: Gathered, began_ns: int, hint: str) -> dict[str, LogColumn]:
     """Return the columns of a topic; what stands in some of its messages alone has their times."""
     recorded = NANO * (np.array(own.recorded) - began_ns)
     is_stamped = 2 * own.stamps.count(0) <= len(own.stamps) if own.stamp else None  # a simulation begins at zero
@@ -252,12 +254,12 @@ def _columns_of(topic: str, own: Gathered, began_ns: int, hint: str) -> dict[str
             block = np.asarray(numbers, dtype=np.float64).reshape(len(rows), -1)
             for k, name in enumerate(names):
                 pieces.setdefault(name, []).append((rows, block[:, k]))
-    found = dict[str, Column]()
+    found = dict[str, LogColumn]()
     for name, parts in pieces.items():
         # Several nodes may publish one topic, and a node may list its entries in another order: a column has pieces.
         rows = np.concatenate([rows for rows, _ in parts])
         values = np.concatenate([values for _, values in parts])
         order = np.argsort(rows, kind="stable")
         clocks = (times, recorded) if len(rows) == len(times) else (times[rows[order]], recorded[rows[order]])
-        found[name] = Column(values[order], *clocks, topic, is_stamped, hint)
+        found[name] = LogColumn(values[order], *clocks, topic, is_stamped, hint)
     return found

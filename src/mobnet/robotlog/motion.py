@@ -14,11 +14,10 @@ from pyarrow import csv, parquet
 from mobnet.core.columns import EXTERNAL, PUSHED, recording_columns
 from mobnet.core.errors import DataError, not_accepted
 from mobnet.core.files import atomic_path, check_place, sweep
+from mobnet.core.options import motion_parser
 from mobnet.core.printed import printed
 from mobnet.core.recording import Recording
-from mobnet.robot.description import RobotDescription
-from mobnet.robot.given import given_robot
-from mobnet.robotlog.motion_words import motion_parser
+from mobnet.robot.description import RobotDescription, given_robot
 from mobnet.settings.lab import load_lab
 from mobnet.simulation.free_run import Numbers, record_motion
 
@@ -48,7 +47,7 @@ def write_log(recording: Recording, robot: RobotDescription, out: Path, truth: b
         WRITERS[out.suffix](pa.table(columns), temporary)
 
 
-def told(recording: Recording, robot: RobotDescription, out: Path, truth: bool) -> Iterator[str]:
+def report_lines(recording: Recording, robot: RobotDescription, out: Path, truth: bool) -> Iterator[str]:
     """Yield what the command prints."""
     held = "; the base is held in the air" if robot.floating else ""
     apart = "shapes keep apart" if robot.shapes else "the table has no shapes: nothing keeps its bodies apart"
@@ -81,7 +80,7 @@ def run(options: Namespace) -> Iterator[str]:
     recording = record_motion(robot, numbers, seconds, options.seed, options.ideal, options.pushes)
     truth = options.pushes or robot.floating
     write_log(recording, robot, options.out, truth)
-    yield from told(recording, robot, options.out, truth)
+    yield from report_lines(recording, robot, options.out, truth)
 
 
 def main(words: list[str]) -> int:

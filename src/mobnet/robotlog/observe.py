@@ -21,17 +21,18 @@ from mobnet.core.estimator import Estimate
 from mobnet.core.files import check_place, sweep
 from mobnet.core.joints import JointLayout
 from mobnet.core.notes import read_array_note
+from mobnet.core.options import observe_parser
 from mobnet.core.printed import printed
 from mobnet.core.recording import Recording
 from mobnet.core.store import NOTE, array_writer, file_of, write_array
 from mobnet.estimation import observer
 from mobnet.estimation.own import DRIVES, ESTIMATE, OBSERVER, RECORDING
-from mobnet.robot.description import RobotDescription
-from mobnet.robot.given import given_robot
+from mobnet.robot.description import RobotDescription, given_robot
 from mobnet.robot.nominal import NominalModel
 from mobnet.robotlog.clocks import rate_of
-from mobnet.robotlog.convert import Converted, convert
+from mobnet.robotlog.convert import Converted, convert, with_tool
 from mobnet.robotlog.delimited import refuse_without_header
+from mobnet.robotlog.flags import pushed_rows
 from mobnet.robotlog.formats import column_names, read_log
 from mobnet.robotlog.hints.base import base_hints, weight_hints
 from mobnet.robotlog.hints.columns import (
@@ -43,16 +44,13 @@ from mobnet.robotlog.hints.columns import (
 )
 from mobnet.robotlog.hints.delay import speed_delay_hints, torque_delay
 from mobnet.robotlog.hints.motion import jump_hints, motion_hints
-from mobnet.robotlog.hints.rest import explanation
+from mobnet.robotlog.hints.payload import explanation
 from mobnet.robotlog.hints.torque import torque_hints
 from mobnet.robotlog.hints.windows import known_joints, windows_of
 from mobnet.robotlog.meaning import default_map, resolved, wanted_columns
 from mobnet.robotlog.pieces import pieces, root_mean_square
 from mobnet.robotlog.plot import plot_residual
-from mobnet.robotlog.pushes import pushed_rows
-from mobnet.robotlog.tool import with_tool
-from mobnet.robotlog.words import observe_parser
-from mobnet.robotlog.wrenches import Place, Wrenches, place_of, told_wrenches, wrenches_of, write_wrenches
+from mobnet.robotlog.wrenches import Wrenches, WrenchPoint, place_of, wrench_lines, wrenches_of, write_wrenches
 from mobnet.settings.base import GAIN_HZ, TorqueKind
 from mobnet.settings.lab import load_lab, load_section
 from mobnet.settings.robotlog import LogMap, RobotLog
@@ -63,7 +61,7 @@ MANY = 100_000  # samples above which progress is told
 
 
 @dataclass(frozen=True)
-class Observed:
+class ObservedLog:
     """A log with its residual r of (9), (T, nv) [N] and [N m], and hints on what is wrong with it.
 
     If its motion and torques are right, `explained` says what the residual comes from.
@@ -76,9 +74,14 @@ class Observed:
 
 
 def observe_log(
-    path: Path, robot: RobotDescription, meaning: LogMap | None, torque: TorqueKind, gain_hz: float,
-    gravity_m_s2: float, bounds: RobotLog,
-) -> Observed:  # fmt: skip
+    path: Path,
+    robot: RobotDescription,
+    meaning: LogMap | None,
+    torque: TorqueKind,
+    gain_hz: float,
+    gravity_m_s2: float,
+    bounds: RobotLog,
+) -> ObservedLog:
     """Read a log, run the momentum observer on it, and look for what is wrong with it.
 
     Without a map, columns have the names of a recording. `torque` says what torques are, whatever the map says; the
@@ -101,7 +104,7 @@ def observe_log(
         mob.residual(read.sensed[span], residual[span])
     _progress(rows, "residual computed; looking for what is wrong with the log")
     hints, explained = looked_at(converted, nominal, torque, gravity_m_s2, bounds)
-    return Observed(converted, residual, tuple(hints), tuple(explained))
+    return ObservedLog(converted, residual, tuple(hints), tuple(explained))
 
 
 def _progress(rows: int, text: str) -> None:
@@ -165,9 +168,13 @@ def looked_at(
 
 
 def _torques_looked_at(
-    found: Converted, nominal: NominalModel, torque: TorqueKind, wrenches: Mapping[str, Array], late: bool,
+    found: Converted,
+    nominal: NominalModel,
+    torque: TorqueKind,
+    wrenches: Mapping[str, Array],
+    late: bool,
     bounds: RobotLog,
-) -> tuple[list[str], list[str]]:  # fmt: skip
+) -> tuple[list[str], list[str]]:
     """Return what looks wrong with torques, or else what explains the residual; speeds may be known to be late."""
     read = found.recording
     log_of = read.sensed, read.spans(), read.rate_hz, wrenches
@@ -185,7 +192,7 @@ def _torques_looked_at(
     return hints, [] if hints or late else list(explanation(nominal, windows, bounds))
 
 
-def write_observed(found: Observed, robot: RobotDescription, gain_hz: float, torque: str, out: Path) -> None:
+def write_observed(found: ObservedLog, robot: RobotDescription, gain_hz: float, torque: str, out: Path) -> None:
     """Write recording, estimate and plot into a folder."""
     read = found.converted.recording
     meta = {**read.meta, "gain_hz": gain_hz, "torque": torque, **({DRIVES: robot.drives} if robot.drives else {})}
@@ -208,7 +215,7 @@ def _write_recording(stem: Path, recording: Recording, layout: JointLayout) -> N
         writer.close({"rate_hz": recording.rate_hz, **recording.meta}, recording.segments)
 
 
-def told(found: Observed, robot: RobotDescription, out: Path) -> Iterator[str]:
+def report_lines(found: ObservedLog, robot: RobotDescription, out: Path) -> Iterator[str]:
     """Yield what the command prints."""
     read = found.converted.recording
     rows = len(read.sensed)
@@ -262,11 +269,11 @@ def run(options: Namespace) -> Iterator[str]:
     wrenches = [_wrench(found, robot, place, bounds) for place in places]
     write_observed(found, robot, gain_hz, torque, out)
     write_wrenches(wrenches, found.converted.recording, OBSERVER, out)
-    yield from told(found, robot, out)
-    yield from told_wrenches(wrenches, bounds.wrench, out)
+    yield from report_lines(found, robot, out)
+    yield from wrench_lines(wrenches, bounds.wrench, out)
 
 
-def _wrench(found: Observed, robot: RobotDescription, place: Place, bounds: RobotLog) -> Wrenches:
+def _wrench(found: ObservedLog, robot: RobotDescription, place: WrenchPoint, bounds: RobotLog) -> Wrenches:
     """Return what the residual of the joints of a place tells of a wrench there."""
     residual = found.residual[:, robot.layout.columns(place.joints)]
     q = found.converted.recording.sensed.q

@@ -14,10 +14,10 @@ from numpy.typing import NDArray
 from mobnet.core.estimator import Estimate
 from mobnet.detection.always import always_on, setup_of
 from mobnet.detection.choice import ALONE, BARE, NETWORK, SEED, pushing_of
+from mobnet.detection.gate import Spans
 from mobnet.detection.limb import watched_signal
 from mobnet.detection.planted import found_pushes, plant
 from mobnet.detection.signals import MEAN, RATIO
-from mobnet.detection.swings import Spans
 from mobnet.detection.watch import LegRecording
 from mobnet.estimation.own import Sampling
 from mobnet.robot.nominal import NominalModel
@@ -58,9 +58,15 @@ class PlantedCheck:
 
 
 def planted_check(
-    nominal: NominalModel, limb: str, sampling: Sampling, q: NDArray[Any], segments: Spans, network: Estimate,
-    observers: Sequence[NDArray[Any]], settings: Lab,
-) -> PlantedCheck | None:  # fmt: skip
+    nominal: NominalModel,
+    limb: str,
+    sampling: Sampling,
+    q: NDArray[Any],
+    segments: Spans,
+    network: Estimate,
+    observers: Sequence[NDArray[Any]],
+    settings: Lab,
+) -> PlantedCheck | None:
     """Plant pushes into a part of logs, and return which detectors find them; None where it is too short for a push.
 
     Args:

@@ -27,7 +27,7 @@ class Message(NamedTuple):
     content: Any
 
 
-class Source(NamedTuple):
+class MessageLog(NamedTuple):
     """An open log of messages: its topics, and those messages of some of them, in the order of recording.
 
     `unread` are the encodings of topics that cannot be read; `hint` says where the log ends early.
@@ -40,7 +40,7 @@ class Source(NamedTuple):
 
 
 @contextlib.contextmanager
-def opened(path: Path) -> Iterator[Source]:
+def opened(path: Path) -> Iterator[MessageLog]:
     """Open a bag of ROS 1, a folder that `ros2 bag` wrote, a file of one, or a MCAP file.
 
     Raises:
@@ -54,13 +54,13 @@ def opened(path: Path) -> Iterator[Source]:
         yield stack.enter_context(_opener(path)(path))
 
 
-def _opener(path: Path) -> Callable[[Path], contextlib.AbstractContextManager[Source]]:
+def _opener(path: Path) -> Callable[[Path], contextlib.AbstractContextManager[MessageLog]]:
     """Return the function that opens a log of messages."""
     return {".mcap": _mcap, ".db3": _database, ".bag": _bag}.get(path.suffix.lower(), _folder)
 
 
 @contextlib.contextmanager
-def _folder(path: Path) -> Iterator[Source]:
+def _folder(path: Path) -> Iterator[MessageLog]:
     """Open what `ros2 bag` wrote; where it was stopped, its files one after the other."""
     files = sorted(file for file in path.iterdir() if file.suffix in FILES)
     with contextlib.ExitStack() as stack:
@@ -83,11 +83,11 @@ def _folder(path: Path) -> Iterator[Source]:
         for source in sources:
             topics.update(source.topics)
             unread.update(source.unread)
-        yield Source(sorted(topics), messages, unread, next((source.hint for source in sources if source.hint), ""))
+        yield MessageLog(sorted(topics), messages, unread, next((source.hint for source in sources if source.hint), ""))
 
 
 @contextlib.contextmanager
-def _bag(path: Path) -> Iterator[Source]:
+def _bag(path: Path) -> Iterator[MessageLog]:
     """Open a bag of ROS 1 or 2; definitions of messages come from the bag, or are those of ROS 2 where it has none."""
     highlevel = module_of("rosbags.highlevel", path)
     stores = module_of("rosbags.typesys", path)
@@ -101,7 +101,7 @@ def _bag(path: Path) -> Iterator[Source]:
                 yield Message(connection.topic, recorded, bag.deserialize(raw, connection.msgtype))
 
         known = bag.typestore.fielddefs
-        yield Source(sorted({one.topic for one in bag.connections if one.msgtype in known}), messages)
+        yield MessageLog(sorted({one.topic for one in bag.connections if one.msgtype in known}), messages)
 
 
 def _check_magic(path: Path) -> None:
@@ -113,7 +113,7 @@ def _check_magic(path: Path) -> None:
 
 
 @contextlib.contextmanager
-def _database(path: Path) -> Iterator[Source]:
+def _database(path: Path) -> Iterator[MessageLog]:
     """Open a file of a bag of ROS 2 without its metadata, sqlite3."""
     stores = module_of("rosbags.typesys", path)
     reader = module_of("rosbags.rosbag2.storage_sqlite3", path).Sqlite3Reader(path)
@@ -132,13 +132,13 @@ def _database(path: Path) -> Iterator[Source]:
                 yield Message(connection.topic, recorded, types.deserialize_cdr(raw, connection.msgtype))
 
         known = {one.topic for one in reader.connections if one.msgtype in types.fielddefs}
-        yield Source(
+        yield MessageLog(
             sorted(known), messages, {one.topic: one.msgtype for one in reader.connections if one.topic not in known}
         )
 
 
 @contextlib.contextmanager
-def _mcap(path: Path) -> Iterator[Source]:
+def _mcap(path: Path) -> Iterator[MessageLog]:
     """Open a MCAP file with messages of ROS 1, of ROS 2 or in JSON; one that ends early, as far as it is whole."""
     reading = module_of("mcap.reader", path)
     with path.open("rb") as file:
@@ -166,7 +166,7 @@ def _mcap(path: Path) -> Iterator[Source]:
         channels = summary.channels if summary and summary.channels else {one.id: one for _, one, _ in every(None)}
         read = {one.topic for one in channels.values() if one.message_encoding in ENCODINGS}
         unread = {one.topic: one.message_encoding or "none" for one in channels.values() if one.topic not in read}
-        yield Source(sorted(read), messages, unread, f"{path.name} ends early: read as far as it is whole" * is_cut)
+        yield MessageLog(sorted(read), messages, unread, f"{path.name} ends early: read as far as it is whole" * is_cut)
 
 
 def _whole(file: IO[bytes], path: Path) -> Iterator[tuple[Any, Any, Any]]:

@@ -12,11 +12,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mobnet.core.errors import DataError
-from mobnet.robotlog.arrow import is_numeric, numbers
-from mobnet.robotlog.columns import MOST, Column, check_memory, module_of
+from mobnet.robotlog.columns import MOST, LogColumn, check_memory, module_of
+from mobnet.robotlog.delimited import is_numeric, numbers
 
 
-class Part(NamedTuple):
+class TableColumn(NamedTuple):
     """A column in a file: its array there, the field of a compound one, and its number in one of several columns."""
 
     array: str
@@ -32,7 +32,7 @@ def parquet_names(path: Path) -> list[str]:
         return list(_parquet_parts(file))
 
 
-def parquet_columns(path: Path, wanted: Collection[str]) -> dict[str, Column]:
+def parquet_columns(path: Path, wanted: Collection[str]) -> dict[str, LogColumn]:
     """Read columns of a Parquet file.
 
     Raises:
@@ -44,38 +44,38 @@ def parquet_columns(path: Path, wanted: Collection[str]) -> dict[str, Column]:
         parts = _parquet_parts(file)
         asked = {name: parts[name] for name in wanted if name in parts}
         check_memory(path, file.metadata.num_rows, len(asked))
-        found = dict[str, Column]()
+        found = dict[str, LogColumn]()
         lists = dict[str, NDArray[Any]]()
         kinds = {field.name: field.type for field in file.schema_arrow}
         for name, part in asked.items():
             if part.number is not None:
                 if part.array not in lists:
                     lists[part.array] = _lists(path, part.array, file.read([part.array]).column(part.array))
-                found[name] = Column(np.ascontiguousarray(lists[part.array][:, part.number]))
+                found[name] = LogColumn(np.ascontiguousarray(lists[part.array][:, part.number]))
             elif is_numeric(kinds[part.array]):
                 # One at a time: a whole table of Arrow's would stay beside the columns.
-                found[name] = Column(
+                found[name] = LogColumn(
                     numbers(file.read([part.array], use_threads=False).column(part.array).combine_chunks())
                 )
             else:
-                found[name] = Column(np.empty(0), found=str(kinds[part.array]))
+                found[name] = LogColumn(np.empty(0), found=str(kinds[part.array]))
         return found
 
 
-def _parquet_parts(file: Any) -> dict[str, Part]:
+def _parquet_parts(file: Any) -> dict[str, TableColumn]:
     """Return the columns of a Parquet file by their names; those of lists by the length of the first one."""
     from pyarrow import types
 
-    found = dict[str, Part]()
+    found = dict[str, TableColumn]()
     for field in file.schema_arrow:
         is_list = types.is_list(field.type) or types.is_large_list(field.type) or types.is_fixed_size_list(field.type)
         if not is_list:
-            found[field.name] = Part(field.name)
+            found[field.name] = TableColumn(field.name)
         elif is_numeric(field.type.value_type):
             first = next(file.iter_batches(batch_size=1, columns=[field.name]), None)
             width = len(first.column(0)[0].as_py() or ()) if first else 0
             if width <= MOST:
-                found |= {f"{field.name}.{k}": Part(field.name, number=k) for k in range(width)}
+                found |= {f"{field.name}.{k}": TableColumn(field.name, number=k) for k in range(width)}
     return found
 
 
@@ -106,10 +106,10 @@ def array_names(path: Path) -> list[str]:
         return list(_array_parts(arrays))
 
 
-def array_columns(path: Path, wanted: Collection[str]) -> dict[str, Column]:
+def array_columns(path: Path, wanted: Collection[str]) -> dict[str, LogColumn]:
     """Read columns of a file of arrays; an array is read once."""
     asked = dict[tuple[str, str | None], dict[str, int | None]]()
-    found = dict[str, Column]()
+    found = dict[str, LogColumn]()
     with _arrays(path) as arrays:
         parts = _array_parts(arrays)
         for name in wanted:
@@ -123,7 +123,7 @@ def array_columns(path: Path, wanted: Collection[str]) -> dict[str, Column]:
             if values.ndim == 2 and values.shape[0] < values.shape[1]:
                 values = values.T
             for name, k in columns.items():
-                found[name] = Column(np.atleast_1d(values) if k is None else np.ascontiguousarray(values[:, k]))
+                found[name] = LogColumn(np.atleast_1d(values) if k is None else np.ascontiguousarray(values[:, k]))
     return found
 
 
@@ -162,9 +162,9 @@ def _flat(content: Mapping[str, Any], above: str = "") -> Iterator[tuple[str, ND
             yield above + name, item
 
 
-def _array_parts(arrays: Mapping[str, Any]) -> dict[str, Part]:
+def _array_parts(arrays: Mapping[str, Any]) -> dict[str, TableColumn]:
     """Return the columns of arrays by their names."""
-    found = dict[str, Part]()
+    found = dict[str, TableColumn]()
     for array, item in arrays.items():
         for field in item.dtype.names or [None]:
             kind = item.dtype if field is None else item.dtype[field]
@@ -175,7 +175,7 @@ def _array_parts(arrays: Mapping[str, Any]) -> dict[str, Part]:
             if base.kind not in "fiub" or len(axes) > 2 or (len(axes) == 2 and min(axes) > MOST):
                 continue
             if len(axes) < 2:
-                found[name] = Part(array, field)
+                found[name] = TableColumn(array, field)
             else:
-                found |= {f"{name}.{k}": Part(array, field, k) for k in range(min(axes))}
+                found |= {f"{name}.{k}": TableColumn(array, field, k) for k in range(min(axes))}
     return found

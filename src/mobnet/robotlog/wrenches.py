@@ -30,7 +30,7 @@ BLOCK_ROWS = 8192  # that are worked on at once
 
 
 @dataclass(frozen=True)
-class Place:
+class WrenchPoint:
     """A point of a body, at a place (3,) [m] in its frame, and the joints of its limb, of which so many move it."""
 
     name: str
@@ -55,13 +55,13 @@ class Wrenches:
         told: share of each number that comes from the torques [-]; the rest of it is taken as none.
     """
 
-    place: Place
+    place: WrenchPoint
     mean: NDArray[np.float32]
     std: NDArray[np.float32] | None
     told: NDArray[np.float32]
 
 
-def place_of(nominal: NominalModel, name: str, joints: Sequence[str] | None = None) -> Place:
+def place_of(nominal: NominalModel, name: str, joints: Sequence[str] | None = None) -> WrenchPoint:
     """Return the point of the robot's table, or the origin of the body, of a name.
 
     Joints are those of the limb that carries it; other ones may be given.
@@ -78,15 +78,13 @@ def place_of(nominal: NominalModel, name: str, joints: Sequence[str] | None = No
         raise ConfigError(not_accepted("--wrench", name, [*points, *(body.name for body in robot.bodies)]))
     body, pos = known[name]
     carrier = carrier_of(robot, body)[0]
-    limbs = dict[str, str]()  # joint -> limb
-    for limb, own in robot.layout.groups.items():
-        limbs |= dict.fromkeys(own, limb)
+    limbs = robot.layout.limb_of
     own = tuple(joints or (robot.layout.limb(limbs[carrier]) if carrier in limbs else ()))
     if carrier is None or carrier not in own:
         moved = [row.name for row in robot.bodies if carrier_of(robot, row.name)[0] in (joints or limbs)]
         raise ConfigError(not_accepted("--wrench, what joints of the limb move", name, moved))
     ahead = _joints_ahead(nominal, carrier)
-    return Place(name, body, pos, own, len([joint for joint in own if joint in ahead]))
+    return WrenchPoint(name, body, pos, own, len([joint for joint in own if joint in ahead]))
 
 
 def _joints_ahead(nominal: NominalModel, joint: str) -> list[str]:
@@ -101,7 +99,7 @@ def _joints_ahead(nominal: NominalModel, joint: str) -> list[str]:
 
 
 def wrenches_of(
-    nominal: NominalModel, place: Place, q: NDArray[np.floating], torque: Estimate, numbers: WrenchEstimate
+    nominal: NominalModel, place: WrenchPoint, q: NDArray[np.floating], torque: Estimate, numbers: WrenchEstimate
 ) -> Wrenches:
     """Return the wrenches that explain external torques of the place's joints (T, n) [N m] at positions (T, nq).
 
@@ -164,7 +162,7 @@ def write_wrenches(found: Sequence[Wrenches], recording: SensedRecording | Recor
         write_array(out / WRENCH, array, columns, {"rate_hz": recording.rate_hz, "method": method}, recording.segments)
 
 
-def told_wrenches(found: Sequence[Wrenches], numbers: WrenchEstimate, out: Path) -> Iterator[str]:
+def wrench_lines(found: Sequence[Wrenches], numbers: WrenchEstimate, out: Path) -> Iterator[str]:
     """Yield what is printed of wrenches: their sizes, where the joints do not tell them, and the file."""
     for one in found:
         force, *moment = (_size(part) for part in np.split(one.mean, one.place.parts // 3, axis=1))

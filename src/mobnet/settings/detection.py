@@ -51,7 +51,7 @@ class CurveGrid(Section):
     count: base.Whole = Field(ge=2, le=1000)
 
 
-class Detector(Section):
+class DetectorSettings(Section):
     """A detector: signals of a method's estimate, each with a threshold of its own, or with `norm` one of all.
 
     Thresholds follow the phase of the swing in so many `phases`, and where it is `commanded` what the robot is told.
@@ -83,7 +83,7 @@ class Detection(Section):
     legs: base.Distinct[base.LegName]
     curve: CurveGrid
     sensitivity: Sensitivity
-    detectors: Annotated[dict[base.RowName, Detector], Field(min_length=1)]
+    detectors: Annotated[dict[base.RowName, DetectorSettings], Field(min_length=1)]
 
 
 class ContactPoint(Section):

@@ -16,7 +16,7 @@ from mobnet.settings.checks.robot import robot_problems
 from mobnet.settings.detection import ContactPoint, Detection
 from mobnet.settings.faults import refuse_faults, validated
 from mobnet.settings.free_motion import FreeMotion
-from mobnet.settings.methods import Observer
+from mobnet.settings.methods import ObserverSettings
 from mobnet.settings.networks import Learning, NetworkRow
 from mobnet.settings.plant import Plant, Rates
 from mobnet.settings.reading import Document, Place
@@ -41,7 +41,7 @@ class Lab(Section):
     seed: Index
     rates: Rates
     plant: Plant
-    observer: Observer
+    observer: ObserverSettings
     networks: Annotated[dict[RobotNetworkName, NetworkRow], Field(min_length=1)]
     learning: Learning
     detection: Detection
@@ -81,16 +81,17 @@ def load_lab(folder: Path = CONFIGS) -> Lab:
     return lab
 
 
-def load_section(path: Path, kind: type[Kind]) -> Kind:
-    """Read one section from a file of its own, such as a robot's table.
+def load_section(path: Path, kind: type[Kind], key: str = "") -> Kind:
+    """Read one section from a file of its own, such as a robot's table, or what stands below a key of the file.
 
     Raises:
         ConfigError: the file, a key or a value is not accepted; one line for each of them.
     """
     document = Document(path)
     refuse_faults(document.faults)
-    values: Mapping[str, Any] = document.values
-    section = validated(kind, values, values, document.told)
+    values: Mapping[str, Any] = document.values.get(key, {}) if key else document.values
+    above: Place = (key,) if key else ()
+    section = validated(kind, values, values, lambda place, text: document.told((*above, *place), text))
     if isinstance(section, RobotTable):
         refuse_faults(document.told(place, text) for place, text in robot_problems(section))
     return section

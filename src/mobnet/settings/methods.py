@@ -13,7 +13,7 @@ Networks = Annotated[tuple[base.NetworkName, ...], AfterValidator(base.distinct)
 Target = Literal["uncertainty", "external"]
 
 
-class Observer(Section):
+class ObserverSettings(Section):
     """The momentum observer (7), and what recordings hold of the motors' torque."""
 
     gain_hz: base.GainHz

@@ -1,8 +1,7 @@
 """Handling collisions (sections 5.4 and 7): identification, reacting steps, stop mode."""
 
-from collections.abc import Mapping
 from pathlib import Path
-from typing import Any, Literal
+from typing import Literal
 
 from pydantic import Field
 
@@ -11,13 +10,12 @@ from mobnet.core.place import CONFIGS
 from mobnet.settings import base
 from mobnet.settings.base import Section
 from mobnet.settings.data import Wrench
-from mobnet.settings.faults import refuse_faults, validated
-from mobnet.settings.reading import Document, Place
+from mobnet.settings.lab import load_section
 
 Strategy = Literal["compliant", "rewind"]
 
 
-class Identification(Section):
+class WrenchIdentification(Section):
     """Damping of the contact Jacobian's inverse: errors of torques, and wrenches that are large."""
 
     torque_error_nm: base.Real = Field(ge=0.01, le=100)
@@ -76,7 +74,7 @@ class Case(Section):
 class Reaction(Section):
     """Numbers of the pipeline of section 7, and the walks on which it is tried."""
 
-    identification: Identification
+    identification: WrenchIdentification
     first_step: FirstStep
     compliant: Compliant
     rewind: Rewind
@@ -105,11 +103,4 @@ def load_reaction(folder: Path = CONFIGS) -> Reaction:
     Raises:
         ConfigError: the file, a key or a value is not accepted; one line for each of them.
     """
-    document = Document(folder / "reaction.yaml")
-    refuse_faults(document.faults)
-    values: Mapping[str, Any] = document.values.get("reaction", {})
-
-    def told(place: Place, text: str) -> str:
-        return document.told(("reaction", *place), text)
-
-    return validated(Reaction, values, values, told)
+    return load_section(folder / "reaction.yaml", Reaction, "reaction")

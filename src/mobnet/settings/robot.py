@@ -102,10 +102,14 @@ class RobotTable(Section):
         joints_of_legs = list(chain.from_iterable(self.groups.get(limb, ()) for limb in legs))
         points = list(chain.from_iterable(with_image(point.name) for point in self.points))
         return {
-            "joint": joints, "motor": order.actuated, "limb": self.groups, "limb or joint": (*self.groups, *joints),
-            "leg": legs, "joint of a leg": joints_of_legs,
+            "joint": joints,
+            "motor": order.actuated,
+            "limb": self.groups,
+            "limb or joint": (*self.groups, *joints),
+            "leg": legs,
+            "joint of a leg": joints_of_legs,
             "body": [body.name for body in self.bodies],
             "tone": {**self.tones, **(self.looks.tones if self.looks else {})},
             "network of the robot": self.networks,
             "point": [*points, *(f"{side}_sole" for side in self.feet)],
-        }  # fmt: skip
+        }

@@ -22,9 +22,28 @@ from mobnet.settings.base import (
 )
 
 Unit = Literal[
-    "rad", "deg", "rad/s", "deg/s", "rpm", "N m", "mN m", "kN m", "A", "m", "mm", "m/s", "m/s^2", "g", "N", "kN", "s",
-    "ms", "us", "ns", "-",
-]  # fmt: skip
+    "rad",
+    "deg",
+    "rad/s",
+    "deg/s",
+    "rpm",
+    "N m",
+    "mN m",
+    "kN m",
+    "A",
+    "m",
+    "mm",
+    "m/s",
+    "m/s^2",
+    "g",
+    "N",
+    "kN",
+    "s",
+    "ms",
+    "us",
+    "ns",
+    "-",
+]
 Sign = Literal[-1, 1]
 
 

@@ -5,6 +5,10 @@ from typing import Annotated
 from pydantic import Field
 
 from mobnet.settings.base import Length, LengthPair, Metres, Positive, Real, Section, Share, Some, Span
+from mobnet.settings.data import Commands, Obstacle, Push, RandomTorque, RecordingSettings, Scenario, Terrain
+from mobnet.settings.plant import Plant, Rates
+from mobnet.settings.robot import RobotTable
+from mobnet.settings.surrogate import Level, Surrogate
 
 Stiffness = Annotated[Positive, Field(ge=10, le=100_000)]
 Damping = Annotated[Positive, Field(ge=0.1, le=5_000)]
@@ -85,3 +89,24 @@ class Walking(Section):
     leg_damping_nms_rad: Some[Damping]
     unloaded_stiffness: Real = Field(ge=0, le=1)
     knee_torque_max_nm: Real = Field(ge=10, le=2000)
+
+
+class WalkSettings(Section):
+    """A scenario at a level, with the terrains and pushes that it names and no others; recordings draw by its name."""
+
+    seed: int
+    robot: RobotTable
+    rates: Rates
+    plant: Plant
+    walking: Walking
+    commands: Commands
+    random_torque: RandomTorque
+    recording: RecordingSettings
+    scenario_name: str
+    scenario: Scenario
+    level_name: str
+    level: Level
+    surrogate: Surrogate | None
+    terrain: Terrain
+    pushes: dict[str, Push]
+    obstacles: dict[str, Obstacle]

@@ -15,13 +15,34 @@ from mobnet.core.compilation import compiled
 from mobnet.robot.description import RobotDescription
 from mobnet.settings.surrogate import Surrogate
 
-LAW = np.dtype([
-    ("constant", "f8"), ("lag", "f8"), ("delay", "i8"), ("rotor", "f8"), ("stiffness", "f8"), ("damping", "f8"),
-    ("coulomb", "f8"), ("viscous", "f8"), ("load", "f8"), ("back", "f8"), ("direction", "f8"), ("static", "f8"),
-    ("stribeck", "f8"), ("presliding", "f8"), ("ripple", "f8"), ("ripple_waves", "f8"), ("ripple_phase", "f8"),
-    ("cogging", "f8"), ("cogging_waves", "f8"), ("cogging_phase", "f8"), ("cable", "f8"), ("cable_phase", "f8"),
-    ("warm", "f8"), ("warm_s", "f8"),
-])  # fmt: skip
+LAW = np.dtype(
+    [
+        ("constant", "f8"),
+        ("lag", "f8"),
+        ("delay", "i8"),
+        ("rotor", "f8"),
+        ("stiffness", "f8"),
+        ("damping", "f8"),
+        ("coulomb", "f8"),
+        ("viscous", "f8"),
+        ("load", "f8"),
+        ("back", "f8"),
+        ("direction", "f8"),
+        ("static", "f8"),
+        ("stribeck", "f8"),
+        ("presliding", "f8"),
+        ("ripple", "f8"),
+        ("ripple_waves", "f8"),
+        ("ripple_phase", "f8"),
+        ("cogging", "f8"),
+        ("cogging_waves", "f8"),
+        ("cogging_phase", "f8"),
+        ("cable", "f8"),
+        ("cable_phase", "f8"),
+        ("warm", "f8"),
+        ("warm_s", "f8"),
+    ]
+)
 STATE = np.dtype([("angle", "f8"), ("rate", "f8"), ("current", "f8"), ("bend", "f8")])
 CABLE_WAVES = 2.0  # periods of a cable's torque in a turn of the joint
 
@@ -73,17 +94,28 @@ def draw_drives(
         either = rng.choice([-1.0, 1.0])
         shared = rotor * link[k] / (rotor + link[k])
         found = {
-            "constant": rng.uniform(*drive.torque_constant), "lag": rng.uniform(*drive.lag_s),
-            "delay": round(rng.uniform(*drive.delay_s) * rate_hz), "rotor": rotor,
+            "constant": rng.uniform(*drive.torque_constant),
+            "lag": rng.uniform(*drive.lag_s),
+            "delay": round(rng.uniform(*drive.delay_s) * rate_hz),
+            "rotor": rotor,
             "stiffness": row["stiffness_nm_rad"],
             "damping": 2 * drive.damping_ratio * np.sqrt(row["stiffness_nm_rad"] * shared),
-            "coulomb": row["coulomb_nm"], "viscous": row["viscous_nms"], "load": row["load_share"],
-            "back": rng.uniform(*drive.back_ratio), "direction": either * rng.uniform(*drive.direction_share),
-            "static": rng.uniform(*drive.static_share), "stribeck": rng.uniform(*drive.stribeck_rad_s),
-            "presliding": rng.uniform(*drive.presliding_rad), "ripple": rng.uniform(*drive.ripple_share),
-            "ripple_waves": drive.ripple_waves, "cogging": row["cogging_nm"], "cogging_waves": drive.cogging_waves,
-            "cable": row["cable_nm"], "warm": rng.uniform(*drive.warm_share), "warm_s": rng.uniform(*drive.warm_s),
-        }  # fmt: skip
+            "coulomb": row["coulomb_nm"],
+            "viscous": row["viscous_nms"],
+            "load": row["load_share"],
+            "back": rng.uniform(*drive.back_ratio),
+            "direction": either * rng.uniform(*drive.direction_share),
+            "static": rng.uniform(*drive.static_share),
+            "stribeck": rng.uniform(*drive.stribeck_rad_s),
+            "presliding": rng.uniform(*drive.presliding_rad),
+            "ripple": rng.uniform(*drive.ripple_share),
+            "ripple_waves": drive.ripple_waves,
+            "cogging": row["cogging_nm"],
+            "cogging_waves": drive.cogging_waves,
+            "cable": row["cable_nm"],
+            "warm": rng.uniform(*drive.warm_share),
+            "warm_s": rng.uniform(*drive.warm_s),
+        }
         for name, value in found.items():
             law[name][k] = value
         for name in ("ripple_phase", "cogging_phase", "cable_phase"):

@@ -59,26 +59,61 @@ class LivePlant(NamedTuple):
 
 
 def make_plant(
-    world: World, native: Native, friction: PlantFriction, drives: Drives, faults: Faults, limits: Array,
-    fall_height: float, every: int,
-) -> LivePlant:  # fmt: skip
+    world: World,
+    native: Native,
+    friction: PlantFriction,
+    drives: Drives,
+    faults: Faults,
+    limits: Array,
+    fall_height: float,
+    every: int,
+) -> LivePlant:
     """Collect the live arrays of a world; the world must outlive the plant. limits (nu,) [N m], fall_height [m]."""
     data = world.data
     return LivePlant(
-        native, data.qpos, data.qvel, data.ctrl, data.qfrc_applied, data.xfrc_applied, data.site_xpos, data.xipos,
-        data.xmat, data.qfrc_smooth, data.qfrc_bias, data.qfrc_passive, data.qfrc_actuator, data.sensordata, friction,
-        drives, faults, -float(world.model.opt.gravity[2]), np.zeros(len(data.ctrl)),
-        np.array(limits, dtype=float), float(world.period), world.edge, float(fall_height),
-        float(world.model.opt.timestep), int(every),
-    )  # fmt: skip
+        native=native,
+        qpos=data.qpos,
+        qvel=data.qvel,
+        ctrl=data.ctrl,
+        qfrc_applied=data.qfrc_applied,
+        xfrc_applied=data.xfrc_applied,
+        site_xpos=data.site_xpos,
+        xipos=data.xipos,
+        xmat=data.xmat,
+        qfrc_smooth=data.qfrc_smooth,
+        qfrc_bias=data.qfrc_bias,
+        qfrc_passive=data.qfrc_passive,
+        qfrc_actuator=data.qfrc_actuator,
+        sensordata=data.sensordata,
+        friction=friction,
+        drives=drives,
+        faults=faults,
+        gravity=-float(world.model.opt.gravity[2]),
+        links=np.zeros(len(data.ctrl)),
+        limits=np.array(limits, dtype=float),
+        period=float(world.period),
+        edge=world.edge,
+        fall_height=float(fall_height),
+        dt=float(world.model.opt.timestep),
+        every=int(every),
+    )
 
 
 @compiled(allocating=True)
 def run(
-    plant: LivePlant, walker: Walker, sensors: Sensors, s: State, commands: Array, upper: UpperBody,
-    torque: Exploration, pushes: Pushes, rng_noise: np.random.Generator, rng_torque: np.random.Generator,
-    rng_pushes: np.random.Generator, log: NDArray[np.float32],
-) -> int:  # fmt: skip
+    plant: LivePlant,
+    walker: Walker,
+    sensors: Sensors,
+    s: State,
+    commands: Array,
+    upper: UpperBody,
+    torque: Exploration,
+    pushes: Pushes,
+    rng_noise: np.random.Generator,
+    rng_torque: np.random.Generator,
+    rng_pushes: np.random.Generator,
+    log: NDArray[np.float32],
+) -> int:
     """Simulate len(log) samples into log (n, C), columns of `recording_columns`; return how many before a fall."""
     nv = len(plant.qvel)
     nu = len(plant.ctrl)
@@ -108,9 +143,18 @@ def run(
             _explore(walker, s, torque, rng_torque, plant.dt, tau, tau_random)
             _actuate(plant, tau, tau_des, tau_motor)
             push(
-                pushes, s, plant.xfrc_applied, plant.qfrc_applied, plant.site_xpos, plant.xipos, plant.xmat,
-                plant.dt, rng_pushes, tau_push, told,
-            )  # fmt: skip
+                pushes,
+                s,
+                plant.xfrc_applied,
+                plant.qfrc_applied,
+                plant.site_xpos,
+                plant.xipos,
+                plant.xmat,
+                plant.dt,
+                rng_pushes,
+                tau_push,
+                told,
+            )
             active = pushes.state.active.sum()
             pushed += active
             s.clock += plant.dt
@@ -124,9 +168,20 @@ def run(
         for i in range(nv):
             tau_ext[i] += tau_push[i]
         _write(
-            log[row], sensors, s, tau_des, tau_motor, tau_ext, tau_random, tau_push, told, wrenches, touch, pushed,
+            log[row],
+            sensors,
+            s,
+            tau_des,
+            tau_motor,
+            tau_ext,
+            tau_random,
+            tau_push,
+            told,
+            wrenches,
+            touch,
+            pushed,
             plant.every,
-        )  # fmt: skip
+        )
         if not plant.qpos[2] > plant.fall_height:  # a state that is not finite is a fall too
             return row
     return len(log)
@@ -135,7 +190,7 @@ def run(
 @compiled
 def _explore(
     walker: Walker, s: State, torque: Exploration, rng: np.random.Generator, dt: float, tau: Array, added: Array
-) -> None:  # fmt: skip
+) -> None:
     """Add the random torque to the desired torques tau and to its sum `added` (nu,) [N m], but not to a loaded leg."""
     advance_random_torque(torque, rng, dt)
     swing = -1 if s.swinging == 0 else (1 if s.side > 0 else 0)
@@ -233,9 +288,20 @@ def _wrap(plant: LivePlant, sensors: Sensors, s: State) -> None:
 
 @compiled
 def _write(
-    row: NDArray[np.float32], sensors: Sensors, s: State, tau_des: Array, tau_motor: Array, tau_ext: Array,
-    tau_random: Array, tau_push: Array, told: Array, wrenches: Array, touch: Array, pushed: int, every: int,
-) -> None:  # fmt: skip
+    row: NDArray[np.float32],
+    sensors: Sensors,
+    s: State,
+    tau_des: Array,
+    tau_motor: Array,
+    tau_ext: Array,
+    tau_random: Array,
+    tau_push: Array,
+    told: Array,
+    wrenches: Array,
+    touch: Array,
+    pushed: int,
+    every: int,
+) -> None:
     """Write one sample in the order of `recording_columns`; sums over the sample's steps become means."""
     at = _put(row, 0, sensors.q, 1.0)
     at = _put(row, at, sensors.v, 1.0)

@@ -86,11 +86,24 @@ def no_faults(model: mujoco.MjModel) -> Faults:
     """Return what stands in the place of errors on the plant of section 5.1."""
     nu = model.nu
     return Faults(
-        0, np.zeros(nu), np.zeros(3), np.zeros(3), np.zeros(3), 0, np.ones((len(SIDES), 6)), np.zeros((len(SIDES), 6)),
-        np.zeros(2), np.zeros(3), np.array([model.sensor(f"{side}_foot_acc").adr[0] for side in SIDES], dtype=np.int64),
-        np.array([model.body(sole_name(side)).id for side in SIDES], dtype=np.int64), np.zeros((1, INERTIAL)),
-        np.zeros(1, dtype=np.int64), np.zeros(model.nq), np.zeros(model.nv), np.zeros(model.nsensordata),
-    )  # fmt: skip
+        hidden=0,
+        zero=np.zeros(nu),
+        acc=np.zeros(3),
+        omega=np.zeros(3),
+        mounting=np.zeros(3),
+        late=0,
+        gain=np.ones((len(SIDES), 6)),
+        offset=np.zeros((len(SIDES), 6)),
+        plate=np.zeros(2),
+        arm=np.zeros(3),
+        foot_acc=np.array([model.sensor(f"{side}_foot_acc").adr[0] for side in SIDES], dtype=np.int64),
+        soles=np.array([model.body(sole_name(side)).id for side in SIDES], dtype=np.int64),
+        past=np.zeros((1, INERTIAL)),
+        steps=np.zeros(1, dtype=np.int64),
+        qpos=np.zeros(model.nq),
+        qvel=np.zeros(model.nv),
+        data=np.zeros(model.nsensordata),
+    )
 
 
 def reset_faults(faults: Faults, sensors: Sensors) -> None:
@@ -102,7 +115,7 @@ def reset_faults(faults: Faults, sensors: Sensors) -> None:
 @compiled
 def perceive(
     faults: Faults, sensors: Sensors, drives: Drives, qpos: Array, qvel: Array, data: Array, xmat: Array, gravity: float
-) -> None:  # fmt: skip
+) -> None:
     """Fill what the sensors see from the plant after a step: qpos (nq,), qvel (nv,), sensordata, body axes (n, 9)."""
     _copy(qpos, faults.qpos)
     _copy(qvel, faults.qvel)

@@ -29,7 +29,7 @@ class JointFriction(NamedTuple):
     smoothing: float
 
 
-class Push(NamedTuple):
+class LinkPush(NamedTuple):
     """A force on a link: from `start` to `end` [s], on a point (3,) [m] of a body, along a direction (3,) in the world.
 
     `share` is the largest torque that it makes at a joint, over that joint's largest torque.
@@ -94,7 +94,7 @@ def held_model(robot: RobotDescription, settings: FreeMotion, rate_hz: float, gr
 
 def draw_pushes(
     model: mujoco.MjModel, settings: LinkPushes, seconds: float, rng: np.random.Generator
-) -> tuple[Push, ...]:
+) -> tuple[LinkPush, ...]:
     """Draw pushes on the named points of a robot; without points, on the centres of mass of the links that move."""
     sites = [k for k in range(model.nsite) if not model.site(k).name.startswith("imu")]
     places = [(int(model.site_bodyid[k]), model.site_pos[k]) for k in sites]
@@ -102,7 +102,7 @@ def draw_pushes(
         {int(body) for k, body in enumerate(model.jnt_bodyid) if model.jnt_type[k] == mujoco.mjtJoint.mjJNT_HINGE}
     )
     places = places or [(body, model.body_ipos[body]) for body in moved]
-    pushes = list[Push]()
+    pushes = list[LinkPush]()
     start = rng.uniform(*settings.pause_s)
     while True:
         end = start + rng.uniform(*(settings.short_s if rng.random() < 0.5 else settings.long_s))
@@ -111,14 +111,14 @@ def draw_pushes(
         body, place = places[int(rng.integers(len(places)))]
         direction = rng.normal(size=3)
         share = rng.uniform(*settings.torque_share)
-        pushes.append(Push(start, end, body, place.copy(), direction / np.linalg.norm(direction), share))
+        pushes.append(LinkPush(start, end, body, place.copy(), direction / np.linalg.norm(direction), share))
         start = end + rng.uniform(*settings.pause_s)
 
 
-class Pushing:
+class PushSequence:
     """Pushes one after another, each of the size that its share of the joints' torques asks for where it begins."""
 
-    def __init__(self, pushes: Sequence[Push], limits: Array, settings: LinkPushes) -> None:
+    def __init__(self, pushes: Sequence[LinkPush], limits: Array, settings: LinkPushes) -> None:
         """Take pushes in the order of their times, and the largest torques of the joints (nu,) [N m]."""
         self.waiting = list(pushes)
         self.limits = limits
@@ -143,7 +143,7 @@ class Pushing:
         mujoco.mj_applyFT(model, data, force, np.zeros(3), _point(push, data), push.body, torque)
         return torque
 
-    def _size(self, push: Push, model: mujoco.MjModel, data: mujoco.MjData) -> float:
+    def _size(self, push: LinkPush, model: mujoco.MjModel, data: mujoco.MjData) -> float:
         """Return the largest force of a push that begins where the robot is [N]."""
         jacobian = np.zeros((3, model.nv))
         mujoco.mj_jac(model, data, jacobian, None, _point(push, data), push.body)
@@ -152,6 +152,6 @@ class Pushing:
         return float(min(push.share / max(load.max(), NO_LOAD), self.settings.weight_share * weight))
 
 
-def _point(push: Push, data: mujoco.MjData) -> Array:
+def _point(push: LinkPush, data: mujoco.MjData) -> Array:
     """Return the point of a push in the world (3,) [m]."""
     return data.xpos[push.body] + data.xmat[push.body].reshape(3, 3) @ push.place

@@ -20,7 +20,7 @@ from mobnet.settings.free_motion import FreeMotion
 from mobnet.settings.plant import Plant, Rates
 from mobnet.simulation.free_motion import TableModel, plan_motion, whole_state
 from mobnet.simulation.free_plant import (
-    Pushing,
+    PushSequence,
     damping_of,
     draw_pushes,
     held_model,
@@ -65,8 +65,8 @@ def record_motion(
     off = 0.0 if ideal else settings.joints.constant_share
     constants = 1 + off * rng["motors"].uniform(-1, 1, robot.layout.nu)
     drawn = draw_pushes(model, settings.pushes, seconds, rng["pushes"]) if pushed else ()
-    run = Run(robot, numbers, model, motion, constants, ideal)
-    run.through(round(seconds * numbers.rates.data_hz), Pushing(drawn, robot.torque_limits, settings.pushes))
+    run = FreeRun(robot, numbers, model, motion, constants, ideal)
+    run.through(round(seconds * numbers.rates.data_hz), PushSequence(drawn, robot.torque_limits, settings.pushes))
     if not ideal:
         add_noise(run, robot, numbers, rng["noise"])
     meta = {"scenario": "motion", "level": "ideal" if ideal else "hidden", "seed": seed}
@@ -79,13 +79,18 @@ def streams(names: Sequence[str], entropy: Sequence[int]) -> dict[str, np.random
     return {name: np.random.default_rng(seed) for name, seed in zip(names, seeds, strict=True)}
 
 
-class Run:
+class FreeRun:
     """A plant in motion, and its samples: q (T, nq), v (T, nv), acc (T, 3), tau (T, nu), ext (T, nv), pushed (T, 1)."""
 
     def __init__(
-        self, robot: RobotDescription, numbers: Numbers, model: mujoco.MjModel, motion: BSpline, constants: Array,
+        self,
+        robot: RobotDescription,
+        numbers: Numbers,
+        model: mujoco.MjModel,
+        motion: BSpline,
+        constants: Array,
         ideal: bool,
-    ) -> None:  # fmt: skip
+    ) -> None:
         """Put a robot at the start of a motion; `constants` (nu,) are true torques over reported ones."""
         self.robot = robot
         self.numbers = numbers
@@ -100,7 +105,7 @@ class Run:
         self.gains = numbers.motion.tracking_rad_s**2, 2 * numbers.motion.tracking_rad_s
         self.imu = slice(model.sensor("imu_acc").adr[0], model.sensor("imu_acc").adr[0] + 3) if robot.imu else None
 
-    def through(self, samples: int, pushes: Pushing) -> None:
+    def through(self, samples: int, pushes: PushSequence) -> None:
         """Simulate so many samples."""
         model = self.model
         data = self.data
@@ -144,7 +149,7 @@ class Run:
         limits = self.robot.torque_limits
         return np.clip(self.table.torque(data.qpos, data.qvel, wanted), -limits, limits)
 
-    def step(self, torque: Array, pushes: Pushing) -> tuple[Array, Array]:
+    def step(self, torque: Array, pushes: PushSequence) -> tuple[Array, Array]:
         """Advance by a sample; return its mean torques of what holds the base, and of pushes, (nv,) [N], [N m] each."""
         model = self.model
         data = self.data
@@ -163,7 +168,7 @@ class Run:
         return held, pushed
 
 
-def add_noise(run: Run, robot: RobotDescription, numbers: Numbers, rng: np.random.Generator) -> None:
+def add_noise(run: FreeRun, robot: RobotDescription, numbers: Numbers, rng: np.random.Generator) -> None:
     """Add errors of sensors to the samples: steps of encoders, noise of speeds, base and torques (Table 3, our own)."""
     noise = numbers.plant.noise
     own = numbers.plant.own_noise
@@ -188,7 +193,7 @@ def slightly_turned(quaternion: Array, half: Array) -> Array:
     return turned / np.linalg.norm(turned, axis=1, keepdims=True)
 
 
-def recording_of(run: Run, layout: JointLayout, rate_hz: float, meta: dict[str, Any]) -> Recording:
+def recording_of(run: FreeRun, layout: JointLayout, rate_hz: float, meta: dict[str, Any]) -> Recording:
     """Return the samples of a run as a recording; what does not exist, and feet that touch nothing, are zero."""
     rows = len(run.q)
     values = {name: np.zeros((rows, len(columns))) for name, columns in recording_columns(layout).items()}

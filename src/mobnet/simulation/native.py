@@ -20,10 +20,17 @@ from numba.extending import intrinsic
 from mobnet.core.errors import SimulationError
 
 C_TYPES: dict[str, Any] = {
-    "int": ctypes.c_int, "mjtSize": ctypes.c_int64, "uint64_t": ctypes.c_uint64, "size_t": ctypes.c_size_t,
-    "float": ctypes.c_float, "mjtNum": ctypes.c_double, "double": ctypes.c_double, "uintptr_t": ctypes.c_void_p,
-    "mjtByte": ctypes.c_ubyte, "mjtBool": ctypes.c_bool,
-}  # fmt: skip
+    "int": ctypes.c_int,
+    "mjtSize": ctypes.c_int64,
+    "uint64_t": ctypes.c_uint64,
+    "size_t": ctypes.c_size_t,
+    "float": ctypes.c_float,
+    "mjtNum": ctypes.c_double,
+    "double": ctypes.c_double,
+    "uintptr_t": ctypes.c_void_p,
+    "mjtByte": ctypes.c_ubyte,
+    "mjtBool": ctypes.c_bool,
+}
 
 
 READ = {  # fields of mjData that compiled code reads by address, in the order of Native, and their type

@@ -22,7 +22,7 @@ IMPEDANCE = 0.01  # d of every contact: so small that a contact is a spring and 
 
 def add_obstacles(
     spec: mujoco.MjSpec, robot: RobotDescription, obstacles: Mapping[str, Obstacle], rng: np.random.Generator
-) -> None:  # fmt: skip
+) -> None:
     """Add obstacles by name at distances that are drawn, ahead of the origin along x, and what touches them."""
     for name, obstacle in obstacles.items():
         place = [rng.uniform(*obstacle.ahead_m), 0.0, 0.0]
@@ -36,9 +36,15 @@ def add_obstacles(
         )
         for number, part in enumerate(obstacle.parts):
             geom = body.add_geom(
-                name=f"{PREFIX}{name}_{number}", type=GEOM[part.type], pos=part.pos, rgba=PAD_RGBA,
-                group=OBSTACLE_GROUP, contype=0, conaffinity=0, mass=0,
-            )  # fmt: skip
+                name=f"{PREFIX}{name}_{number}",
+                type=GEOM[part.type],
+                pos=part.pos,
+                rgba=PAD_RGBA,
+                group=OBSTACLE_GROUP,
+                contype=0,
+                conaffinity=0,
+                mass=0,
+            )
             geom.size[: len(part.size)] = part.size
             geom.quat = QUATERNIONS[part.axis]
             for link in _links(robot):

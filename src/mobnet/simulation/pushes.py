@@ -25,17 +25,41 @@ _, HALF_SINE, SINES, IMPACTOR = range(4)
 PHASES: tuple[Phase, ...] = ("always", "left_swing", "right_swing", "left_support", "right_support")
 SHARE_WINDOW = 0.05  # [-] of a step: a push whose moment has passed by more waits for the next step
 
-LAW = np.dtype([
-    ("site", "i8"), ("body", "i8"), ("dof", "i8"), ("phase", "i8"), ("direction", "i8"), ("shape", "i8"),
-    ("timed", "i8"), ("log", "i8"),
-    ("share", "f8", 2), ("pause", "f8", 2), ("size", "f8", 2), ("moment", "f8", 2), ("duration", "f8", 2),
-    ("mass", "f8"),
-])  # fmt: skip
-STATE = np.dtype([
-    ("start", "f8"), ("end", "f8"), ("share", "f8"), ("active", "i8"), ("count", "i8"),
-    ("size", "f8"), ("direction", "f8", 3), ("moment", "f8", 3),
-    ("stiffness", "f8"), ("speed", "f8"), ("travel", "f8"), ("anchor", "f8"), ("place", "f8", 3),
-])  # fmt: skip
+LAW = np.dtype(
+    [
+        ("site", "i8"),
+        ("body", "i8"),
+        ("dof", "i8"),
+        ("phase", "i8"),
+        ("direction", "i8"),
+        ("shape", "i8"),
+        ("timed", "i8"),
+        ("log", "i8"),
+        ("share", "f8", 2),
+        ("pause", "f8", 2),
+        ("size", "f8", 2),
+        ("moment", "f8", 2),
+        ("duration", "f8", 2),
+        ("mass", "f8"),
+    ]
+)
+STATE = np.dtype(
+    [
+        ("start", "f8"),
+        ("end", "f8"),
+        ("share", "f8"),
+        ("active", "i8"),
+        ("count", "i8"),
+        ("size", "f8"),
+        ("direction", "f8", 3),
+        ("moment", "f8", 3),
+        ("stiffness", "f8"),
+        ("speed", "f8"),
+        ("travel", "f8"),
+        ("anchor", "f8"),
+        ("place", "f8", 3),
+    ]
+)
 
 
 class Pushes(NamedTuple):
@@ -82,10 +106,19 @@ def _law(row: Push, model: mujoco.MjModel, robot: RobotDescription) -> tuple[Any
     if row.point:
         target = model.site(row.point).id, int(model.site(row.point).bodyid[0]), -1
     return (
-        *target, PHASES.index(row.during), DIRECTIONS.index(row.direction), SHAPES.index(row.shape),
-        row.at_s is not None, row.sizes == "log", row.share, row.pause_s or (0.0, 0.0), row.force_n or row.torque_nm,
-        row.moment_nm or (0.0, 0.0), row.duration_s, row.impactor_kg or 0.0,
-    )  # fmt: skip
+        *target,
+        PHASES.index(row.during),
+        DIRECTIONS.index(row.direction),
+        SHAPES.index(row.shape),
+        row.at_s is not None,
+        row.sizes == "log",
+        row.share,
+        row.pause_s or (0.0, 0.0),
+        row.force_n or row.torque_nm,
+        row.moment_nm or (0.0, 0.0),
+        row.duration_s,
+        row.impactor_kg or 0.0,
+    )
 
 
 def reset_pushes(pushes: Pushes, start_s: float, rng: np.random.Generator) -> None:
@@ -234,9 +267,18 @@ def sum_of_sines(sines: Array, time_s: float) -> float:
 
 @compiled
 def push(
-    pushes: Pushes, s: State, xfrc: Array, qfrc: Array, site_xpos: Array, xipos: Array, xmat: Array,
-    dt: float, rng: np.random.Generator, tau_joints: Array, told: Array,
-) -> None:  # fmt: skip
+    pushes: Pushes,
+    s: State,
+    xfrc: Array,
+    qfrc: Array,
+    site_xpos: Array,
+    xipos: Array,
+    xmat: Array,
+    dt: float,
+    rng: np.random.Generator,
+    tau_joints: Array,
+    told: Array,
+) -> None:
     """Apply what pushes in a step of dt [s]: forces into xfrc (nbody, 6) [N, N m], joint torques to qfrc (nv,) [N m].
 
     xfrc holds wrenches at the bodies' centres of mass, world axes, and is overwritten for pushed bodies. The joint

@@ -12,12 +12,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mobnet.control.upper_body import UpperBody
+from mobnet.core.code import provenance
 from mobnet.core.columns import recording_columns
 from mobnet.core.errors import SimulationError
-from mobnet.core.provenance import provenance
 from mobnet.core.store import array_writer, read_array
 from mobnet.settings.data import RecordingSettings
-from mobnet.settings.walk import WalkSettings
+from mobnet.settings.walking import WalkSettings
 from mobnet.simulation.self_collision import Clearance
 from mobnet.simulation.simulator import Simulator
 
@@ -80,11 +80,16 @@ def collect(settings: WalkSettings, seed: int, duration_s: float, out: Path, mot
 
         course = record(simulator, samples, settings.recording, rate, keep)
         meta = {
-            "rate_hz": rate, "scenario": settings.scenario_name, "level": settings.level_name, "seed": seed,
-            "falls": course.falls, "terrains": course.terrains, "clearance_min_m": round(watch.nearest, 4),
+            "rate_hz": rate,
+            "scenario": settings.scenario_name,
+            "level": settings.level_name,
+            "seed": seed,
+            "falls": course.falls,
+            "terrains": course.terrains,
+            "clearance_min_m": round(watch.nearest, 4),
             "self_collisions": watch.collisions,
             "provenance": provenance(),
-        }  # fmt: skip
+        }
         writer.close(meta, course.segments)
     speed = duration_s / (time.perf_counter() - started)
     log.info("%s: %d samples, %d falls, %.1f x real time", out.name, samples, course.falls, speed)

@@ -51,13 +51,21 @@ def picture_model(robot: RobotDescription, terrain: DrawnTerrain, size: tuple[in
     spec.stat.center = [0.0, 0.0, EXTENT_M / 2]
     _set_view(spec.visual, size)
     spec.add_texture(
-        name="sky", type=mujoco.mjtTexture.mjTEXTURE_SKYBOX, builtin=mujoco.mjtBuiltin.mjBUILTIN_FLAT, rgb1=SKY_RGB,
-        width=SAMPLES, height=SAMPLES,
-    )  # fmt: skip
+        name="sky",
+        type=mujoco.mjtTexture.mjTEXTURE_SKYBOX,
+        builtin=mujoco.mjtBuiltin.mjBUILTIN_FLAT,
+        rgb1=SKY_RGB,
+        width=SAMPLES,
+        height=SAMPLES,
+    )
     spec.worldbody.add_light(
-        pos=-SUN_DISTANCE_M * SUN_DIRECTION, dir=SUN_DIRECTION, castshadow=True, diffuse=[SUN] * 3,
-        specular=[SUN_SHINE] * 3, type=mujoco.mjtLightType.mjLIGHT_DIRECTIONAL,
-    )  # fmt: skip
+        pos=-SUN_DISTANCE_M * SUN_DIRECTION,
+        dir=SUN_DIRECTION,
+        castshadow=True,
+        diffuse=[SUN] * 3,
+        specular=[SUN_SHINE] * 3,
+        type=mujoco.mjtLightType.mjLIGHT_DIRECTIONAL,
+    )
     return spec.compile()
 
 

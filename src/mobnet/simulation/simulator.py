@@ -15,7 +15,7 @@ from mobnet.core.arrays import Array
 from mobnet.core.columns import recording_width
 from mobnet.robot.description import describe, for_walking
 from mobnet.settings.data import CommandSource, FixedCommand
-from mobnet.settings.walk import WalkSettings
+from mobnet.settings.walking import WalkSettings
 from mobnet.simulation.drives import reset_drives
 from mobnet.simulation.engine import LivePlant, make_plant, run
 from mobnet.simulation.faults import reset_faults
@@ -170,6 +170,16 @@ class Simulator:
         """Simulate len(rows) samples into rows (n, C); return how many came before a fall."""
         rng = self.rng
         return run(
-            self.plant, self.walker, self.sensors, self.state, self.commands, self.upper, self.torque,
-            self.pushes, rng["noise"], rng["torque"], rng["pushes"], rows,
-        )  # fmt: skip
+            self.plant,
+            self.walker,
+            self.sensors,
+            self.state,
+            self.commands,
+            self.upper,
+            self.torque,
+            self.pushes,
+            rng["noise"],
+            rng["torque"],
+            rng["pushes"],
+            rows,
+        )

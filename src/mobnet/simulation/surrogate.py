@@ -24,9 +24,13 @@ class Hidden(NamedTuple):
 
 
 def draw_hidden(
-    robot: WalkingRobot, plant: Plant, rate_hz: float, surrogate: Surrogate | None, chosen: SurrogateRobot | None,
+    robot: WalkingRobot,
+    plant: Plant,
+    rate_hz: float,
+    surrogate: Surrogate | None,
+    chosen: SurrogateRobot | None,
     seed: int,
-) -> Hidden:  # fmt: skip
+) -> Hidden:
     """Draw a surrogate robot, whose plant is stepped at a rate [1/s]; without one, the plant is that of section 5.1.
 
     Each part has random numbers of its own, so that it is the same whichever other parts are hidden.

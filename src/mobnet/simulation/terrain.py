@@ -142,9 +142,13 @@ def add_terrain(spec: mujoco.MjSpec, terrain: DrawnTerrain, half_width: float | 
         spec.add_mesh(name=f"piece{number}", uservert=frustum(bottom, top, piece.height).ravel())
         for x, y in _copies(piece, terrain.period, half_width):
             spec.worldbody.add_geom(
-                type=mujoco.mjtGeom.mjGEOM_MESH, meshname=f"piece{number}", pos=[x, y, 0.0], rgba=WOOD_RGBA,
-                quat=[np.cos(piece.yaw / 2), 0.0, 0.0, np.sin(piece.yaw / 2)], **touch,
-            )  # fmt: skip
+                type=mujoco.mjtGeom.mjGEOM_MESH,
+                meshname=f"piece{number}",
+                pos=[x, y, 0.0],
+                rgba=WOOD_RGBA,
+                quat=[np.cos(piece.yaw / 2), 0.0, 0.0, np.sin(piece.yaw / 2)],
+                **touch,
+            )
 
 
 def _copies(piece: Piece, period: float, half_width: float) -> Iterator[Array]:

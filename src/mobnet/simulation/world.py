@@ -43,9 +43,14 @@ class World:
 
 
 def make_world(
-    robot: RobotDescription, terrain: DrawnTerrain, plant: Plant, level: Level, rate_hz: float,
-    obstacles: Mapping[str, Obstacle] = MappingProxyType({}), rng: np.random.Generator | None = None,
-) -> World:  # fmt: skip
+    robot: RobotDescription,
+    terrain: DrawnTerrain,
+    plant: Plant,
+    level: Level,
+    rate_hz: float,
+    obstacles: Mapping[str, Obstacle] = MappingProxyType({}),
+    rng: np.random.Generator | None = None,
+) -> World:
     """Compile the robot on a terrain, stepped at a rate [1/s]; the level switches friction loss on or off.
 
     The distances of obstacles are drawn by `rng`.

@@ -5,7 +5,7 @@ import pytest
 
 from mobnet.core.errors import ConfigError
 from mobnet.estimation.kinds.direct import DirectEstimator
-from mobnet.estimation.methods import build_estimator
+from mobnet.estimation.recipe import build_estimator
 from mobnet.learning.deployed.limbs import LimbNetworks
 from mobnet.learning.deployed.networks import GruNetwork
 from mobnet.learning.deployed.weights import GRU_TENSORS, Z_SCORES

@@ -12,13 +12,13 @@ from experiments.evaluation.figures.further.forest import ENDS, LOOKS, draw_fore
 from experiments.evaluation.measure.claims.places import (
     BEYOND_BOUND,
     OVER_PAPER,
-    Place,
-    Statement,
+    ClaimPosition,
+    StatementPosition,
     beyond_bound,
     over_paper,
     statements_of,
 )
-from experiments.evaluation.measure.claims.verdicts import Found, Judged, rows_of, score_of, worst
+from experiments.evaluation.measure.claims.verdicts import ClaimNumbers, Judged, rows_of, score_of, worst
 from experiments.evaluation.measure.claims.verdicts import judged as judged_on
 from experiments.evaluation.number.number import Number
 from experiments.settings.settings import Settings
@@ -30,7 +30,7 @@ LONGEST_LABEL = 64  # characters of what a claim says
 def judged(settings: Settings, name: str, ours: Number) -> Judged:
     """Return a claim of the configuration, judged on a number."""
     row = next(row for row in rows_of(settings.claims) if row.name == name)
-    return judged_on(row, Found(ours, ours), score_of(row.claim, settings.methods))
+    return judged_on(row, ClaimNumbers(ours, ours), score_of(row.claim, settings.methods))
 
 
 def test_a_number_is_over_that_of_the_paper(settings: Settings) -> None:
@@ -99,11 +99,11 @@ def test_every_statement_is_in_one_of_the_two_figures(settings: Settings, tmp_pa
     assert found["claims"] + found["claims_own"] == Counter({each.row.statement: 1 for each in every})
 
 
-def of(settings: Settings, values: tuple[float | None, ...], name: str = "noise-floor") -> Statement:
+def of(settings: Settings, values: tuple[float | None, ...], name: str = "noise-floor") -> StatementPosition:
     """Return a statement whose place has some values."""
     number = Number(*(None if value is None else 1.22 * value for value in values))
     one = judged(settings, name, number)
-    return Statement(Place(one, OVER_PAPER, values, (0.5, 2.0)), 7)  # type: ignore[arg-type]
+    return StatementPosition(ClaimPosition(one, OVER_PAPER, values, (0.5, 2.0)), 7)  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize(

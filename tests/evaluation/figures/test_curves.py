@@ -10,13 +10,12 @@ import pytest
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from experiments.evaluation.compare.curves import Panel, TorqueCurve
-from experiments.evaluation.compare.errors import ZERO, compared
+from experiments.evaluation.compare.curves import ZERO, Panel, TorqueCurve, compared
 from experiments.evaluation.figures.drawing.compared import bars_of, draw_columns, draw_leg, draw_stack
 from experiments.evaluation.figures.drawing.curves import draw_panel, held, table_of
 from experiments.evaluation.figures.style import UNDATED, save_figure, shortened, with_stable_names
-from experiments.evaluation.number.files import write_csv
 from experiments.evaluation.number.number import Number
+from experiments.evaluation.number.rows import write_csv
 from mobnet.core.style import COLUMN_INCH, PAGE_INCH
 
 TIME = np.arange(140) / 100.0

@@ -5,8 +5,7 @@ import pytest
 from made_trials import FORCE_N, write_made_course
 from PIL import Image
 
-from experiments.evaluation.figures.drawing.robot import projection
-from experiments.evaluation.figures.drawing.scene import draw_scene, solid_of
+from experiments.evaluation.figures.drawing.robot import draw_scene, projection, solid_of
 from experiments.evaluation.figures.drawing.solids import outline_of
 from experiments.evaluation.figures.further.films import films, read_curves
 from experiments.evaluation.figures.paper.figure_21 import figure_21, sole_corners

@@ -6,7 +6,7 @@ from pathlib import Path
 from csv_files import read_table
 
 from experiments.evaluation.figures.further.learning_curve import AXES, beside, curves_of, learning_curve
-from experiments.evaluation.number.files import write_csv
+from experiments.evaluation.number.rows import write_csv
 from experiments.settings.figures import LearningCurve
 from mobnet.core.columns import TRIALS, TrialError
 

@@ -12,8 +12,8 @@ from made_swings import GROUND, RATE_HZ, swinging, unseen
 from PIL import Image
 
 from experiments.evaluation.figures.drawing.push_film import eased, lines_of, push_film, shots_of
-from experiments.evaluation.measure.estimates.felt import Felt
-from experiments.evaluation.measure.estimates.told import read_story
+from experiments.evaluation.measure.estimates.felt import PushResponse
+from experiments.evaluation.measure.push_scene import PushAlarm, read_story
 from experiments.plan.runs import Run
 from experiments.settings.pages import PushFilm, Story
 from experiments.settings.settings import Settings
@@ -70,19 +70,31 @@ def short(settings: Settings) -> PushFilm:
 
 
 def test_shares_delays_and_errors_are_those_of_the_estimates(settings: Settings, made: Made) -> None:
-    told = read_story(made[0], settings.evaluation.peaks, settings.layout, *made[1:], COLLISION)
-    assert {method: felt.share for method, felt in told.felt.items()} == pytest.approx(SHARES, abs=1e-3)
-    assert told.errors_nm["MOB-fric-dahl"] == pytest.approx(OFFSETS_NM["MOB-fric-dahl"], rel=1e-3)
-    late = [told.felt[method].delay_ms for method in ("MOB", "MOB-fric-dahl", "MOB-Net")]
+    story, runs, detections = made
+    hit, push = read_story(story, settings.layout, runs, detections[story.level], COLLISION)
+    torques = push.torques(story.joint)
+    felt = {method: push.felt(torque, story.joint, settings.evaluation.peaks) for method, torque in torques.items()}
+    assert {method: own.share for method, own in felt.items()} == pytest.approx(SHARES, abs=1e-3)
+    errors_nm = {method: push.error_nm(torque, story.joint) for method, torque in torques.items()}
+    assert errors_nm["MOB-fric-dahl"] == pytest.approx(OFFSETS_NM["MOB-fric-dahl"], rel=1e-3)
+    late = [felt[method].delay_ms for method in ("MOB", "MOB-fric-dahl", "MOB-Net")]
     assert late == sorted(late)  # a lower one reaches half of the peak later
-    assert (told.time_s[0], told.time_s[-1]) == pytest.approx((-0.3, 0.399))
-    assert np.linalg.norm(told.force, axis=1).max() == pytest.approx(PEAK_N, rel=0.01)
+    assert (push.time_s[0], push.time_s[-1]) == pytest.approx((-0.3, 0.399))
+    assert np.linalg.norm(push.force, axis=1).max() == pytest.approx(PEAK_N, rel=0.01)
+    assert (push.first + push.start, push.end - push.start) == (START, LENGTH)
+    assert (hit.link, push.alarm) == ("knee", PushAlarm(DELAY_S, "knee", "front"))
 
 
 def test_a_run_without_the_push_is_refused(settings: Settings, made: Made) -> None:
     story = made[0].model_copy(update={"push": "collision_left_foot_front"})
     with pytest.raises(DataError, match="'collision_left_foot_front' is not accepted"):
-        read_story(story, settings.evaluation.peaks, settings.layout, *made[1:], COLLISION)
+        read_story(story, settings.layout, made[1], made[2][story.level], COLLISION)
+
+
+def test_a_push_of_which_nothing_is_said_is_refused(settings: Settings, made: Made) -> None:
+    story, runs, detections = made
+    with pytest.raises(DataError, match=r"detected\.csv: MOB-Net-ratio says nothing of push 1 of s"):
+        read_story(story, settings.layout, runs, detections[story.level], "other")
 
 
 def test_the_film_lasts_ten_seconds_and_slows_the_push(settings: Settings) -> None:
@@ -106,7 +118,11 @@ def test_the_time_axis_changes_without_a_jump() -> None:
 
 
 def test_the_lines_at_the_end_have_the_numbers_of_each_method() -> None:
-    felt = {"MOB": Felt(98.0, 1.504, 2.0), "FTS-e2e": Felt(20.0, 0.3, None), "MOB-Net": Felt(43.0, 0.72, 24.7)}
+    felt = {
+        "MOB": PushResponse(98.0, 1.504, 2.0),
+        "FTS-e2e": PushResponse(20.0, 0.3, None),
+        "MOB-Net": PushResponse(43.0, 0.72, 24.7),
+    }
     heads, *lines = lines_of(felt, {"MOB": 27.8, "FTS-e2e": 5.4, "MOB-Net": 3.9})
     assert lines == [
         ("MOB-Net", "72 %", "25 ms", "4 N m"), ("FTS-e2e", "30 %", "-", "5 N m"), ("MOB", "150 %", "2 ms", "28 N m")

@@ -2,7 +2,7 @@
 
 import pytest
 
-from experiments.evaluation.number.averages import Column, columns_of
+from experiments.evaluation.number.grid import Column, columns_of
 from experiments.settings.runs import Mean
 from mobnet.core.errors import ConfigError
 from mobnet.core.joints import JointLayout

@@ -9,7 +9,7 @@ import pytest
 from experiments.evaluation.measure.claims.cells import Evidence
 from experiments.evaluation.measure.claims.verdicts import (
     WORST_FIRST,
-    Found,
+    ClaimNumbers,
     Row,
     found_of,
     judged,
@@ -62,9 +62,9 @@ def test_two_verdicts_follow_from_the_interval(
 ) -> None:
     """A point within the bounds decides nothing."""
     ours = Number(1.5, *ends)
-    assert verdicts_of(Found(ours, ours), Ranges(SIZE, SIGN)) == (size, sign, verdict)
+    assert verdicts_of(ClaimNumbers(ours, ours), Ranges(SIZE, SIGN)) == (size, sign, verdict)
     none = Number(None)
-    assert verdicts_of(Found(none, none), Ranges(SIZE, SIGN)) == ("", "", "not measured")
+    assert verdicts_of(ClaimNumbers(none, none), Ranges(SIZE, SIGN)) == ("", "", "not measured")
 
 
 @pytest.mark.parametrize(
@@ -81,7 +81,11 @@ def test_one_verdict_may_stand_alone_and_the_worse_one_rules(size: str, sign: st
 
 def test_the_sign_may_be_that_of_another_number() -> None:
     ours, signed = Number(1.5, 1.2, 1.8), Number(-0.2, -0.3, -0.1)
-    assert verdicts_of(Found(ours, signed), Ranges(SIZE, (0.0, None))) == ("inside", "opposite", "not reproduced")
+    assert verdicts_of(ClaimNumbers(ours, signed), Ranges(SIZE, (0.0, None))) == (
+        "inside",
+        "opposite",
+        "not reproduced",
+    )
 
 
 @pytest.mark.parametrize(

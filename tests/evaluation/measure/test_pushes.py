@@ -13,7 +13,7 @@ from experiments.evaluation.measure.estimates.pushes import (
     collision_errors,
     push_metrics,
 )
-from experiments.evaluation.number.lookup import Lookup, read_lookup
+from experiments.evaluation.number.grid import Lookup, read_lookup
 from experiments.settings.evaluation import Evaluation
 from experiments.settings.settings import Settings
 

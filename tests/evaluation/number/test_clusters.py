@@ -5,9 +5,9 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from experiments.evaluation.number.clusters import Place, mean_in, rate_in, share_in
+from experiments.evaluation.number.clusters import ClusterKey, mean_in, rate_in, share_in
 from experiments.evaluation.number.number import Number
-from experiments.evaluation.number.single import rate
+from experiments.evaluation.number.single import rate_of
 from experiments.settings.runs import Statistics
 
 STATISTICS = Statistics(confidence=0.95)
@@ -15,9 +15,9 @@ ROBOTS, WALKS, DRAWS = 3, 6, 200
 LEAST = 0.91  # of 200 intervals, of which 95 % hold: three standard deviations below are .904
 
 
-def places_of(each: int, robots: int = ROBOTS) -> list[Place]:
+def places_of(each: int, robots: int = ROBOTS) -> list[ClusterKey]:
     """Return the places of some values in every walk of every robot."""
-    return [Place(f"robot_{k}", 240 + w) for k in range(robots) for w in range(WALKS) for _ in range(each)]
+    return [ClusterKey(f"robot_{k}", 240 + w) for k in range(robots) for w in range(WALKS) for _ in range(each)]
 
 
 def effects(rng: np.random.Generator, each: int, robot: float, walk: float, rest: float = 0.0) -> np.ndarray:
@@ -78,7 +78,7 @@ def test_walks_taken_as_independent_would_be_covered_half_of_the_time() -> None:
     rng, held = np.random.default_rng(7), 0
     for _ in range(DRAWS):
         chance = 1.0 / (1.0 + np.exp(-effects(rng, 6, 1.5, 0.0)))
-        flags, apart = list(rng.random(108) < chance), [Place(f"{k}", k) for k in range(108)]
+        flags, apart = list(rng.random(108) < chance), [ClusterKey(f"{k}", k) for k in range(108)]
         found = share_in(flags, apart, STATISTICS)
         assert found.low is not None
         assert found.high is not None
@@ -95,7 +95,7 @@ def test_nothing_found_in_all_walks_of_three_robots_leaves_half_open() -> None:
 
 
 def test_no_event_in_an_hour_of_three_robots_ends_where_robots_are_few() -> None:
-    found, apart = rate_in([0] * 18, [1 / 18] * 18, places_of(1), STATISTICS), rate(0, 1.0, STATISTICS)
+    found, apart = rate_in([0] * 18, [1 / 18] * 18, places_of(1), STATISTICS), rate_of(0, 1.0, STATISTICS)
     assert found.low == 0.0
     assert found.high == pytest.approx((apart.high or 0.0) * (4.3027 / 1.96) ** 2, rel=1e-3)
 
@@ -114,7 +114,7 @@ def test_one_robot_has_an_interval_over_its_walks_and_one_walk_none() -> None:
     one = [place for place in places_of(6) if place.robot == "robot_0"]
     found = share_in([True, False] * 18, one, STATISTICS)
     assert found.low is not None
-    first = [Place("robot_0", 240)] * 6
+    first = [ClusterKey("robot_0", 240)] * 6
     assert share_in([True, False] * 3, first, STATISTICS) == Number(0.5)
     assert mean_in([1.0, 2.0, 3.0], first[:3], STATISTICS, "ms") == Number(2.0, unit="ms")
     assert rate_in([1], [0.5], first[:1], STATISTICS) == Number(2.0, unit="1/h")

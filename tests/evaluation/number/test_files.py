@@ -6,8 +6,8 @@ from pathlib import Path
 import pytest
 from csv_files import write_rows
 
-from experiments.evaluation.number.files import read_numbers, write_csv
 from experiments.evaluation.number.number import Number
+from experiments.evaluation.number.rows import read_numbers, write_csv
 from mobnet.core.columns import ERRORS, Score
 from mobnet.core.errors import DataError
 from mobnet.core.rows import read_rows

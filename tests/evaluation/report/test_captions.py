@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from experiments.evaluation.report.captions import caption_tex, captions_tex, inline_tex
+from experiments.evaluation.report.numbers import caption_tex, captions_tex, inline_tex
 from mobnet.core.errors import DataError
 
 

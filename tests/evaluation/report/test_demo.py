@@ -12,6 +12,8 @@ import numpy as np
 import pytest
 
 from experiments.demo import DATA, load, main
+from experiments.evaluation.measure.estimates.felt import PushResponse
+from experiments.evaluation.measure.push_scene import PushScene
 from experiments.evaluation.measure.story import StoredPush
 from experiments.evaluation.number.rows import read_detections
 from experiments.evaluation.report.demo import draw, lines_of, title_of
@@ -24,10 +26,12 @@ from mobnet.core.errors import ConfigError, DataError
 from mobnet.core.estimator import Estimate
 from mobnet.core.files import read_json
 from mobnet.core.store import read_array
+from mobnet.estimation.low_pass import low_pass
 
 REPO = Path(__file__).parents[3]
 PAGE = (REPO / "docs" / "demo.md").read_text()
-METHODS = load_settings().evaluation.story.methods
+EVALUATION = load_settings().evaluation
+METHODS = EVALUATION.story.methods
 SETTLED_NM, AFTER_NM = 0.002, 0.0002  # bounds of differences once estimators are judged, and from the push on
 READ = (
     "recording.json", "recording.parquet", "collisions.csv", "thresholds.csv", "fits/MOB-fric-dahl.json",
@@ -37,29 +41,34 @@ Estimates = Mapping[str, Estimate]
 
 
 @pytest.fixture(scope="module")
-def push() -> StoredPush:
+def stored() -> StoredPush:
     return StoredPush(DATA, load_settings())
 
 
 @pytest.fixture(scope="module")
-def estimates(push: StoredPush) -> Estimates:
+def estimates(stored: StoredPush) -> Estimates:
     """What each method makes of the stored push, step by step."""
-    return {method: push.estimate(method) for method in METHODS}
+    return {method: stored.estimate(method) for method in METHODS}
+
+
+@pytest.fixture(scope="module")
+def push(stored: StoredPush, estimates: Estimates) -> PushScene:
+    return stored.scene(estimates)
 
 
 @pytest.mark.parametrize("method", METHODS)
 def test_what_is_stored_makes_the_estimates_of_the_published_run(
-    push: StoredPush, estimates: Estimates, method: str
+    push: PushScene, estimates: Estimates, method: str
 ) -> None:
     """Those began at the beginning of the walk, ours begin a little before the push."""
-    ours, stored = estimates[method], DATA / estimate_place(method)
+    ours, made = estimates[method], DATA / estimate_place(method)
     signals = {EXTERNAL: ours.tau_ext} | ({} if ours.std is None else {STD: ours.std})
     assert (STD in signals) == (method == "MOB-Net")
     for signal, values in signals.items():
-        run, _ = read_array(stored, named(signal, push.joints))
-        assert np.abs(values - run)[push.settled].max() < SETTLED_NM
+        run, _ = read_array(made, named(signal, push.joints))
+        assert np.abs(values - run)[push.settled :].max() < SETTLED_NM
         assert np.abs(values - run)[push.start :].max() < AFTER_NM
-        assert np.abs(run[push.settled]).max() > 1.0
+        assert np.abs(run[push.settled :]).max() > 1.0
 
 
 def test_what_was_copied_has_the_hash_that_is_noted_and_is_of_the_published_run() -> None:
@@ -78,79 +87,88 @@ def test_the_stored_push_is_small() -> None:
     assert sum(path.stat().st_size for path in DATA.rglob("*")) < 5e6
 
 
-def test_the_window_begins_before_the_push_as_long_as_the_story_says(push: StoredPush) -> None:
-    assert np.flatnonzero(push.pushed)[0] == push.start
-    assert (push.time[0], push.time[-1]) == (-push.story.before_s, push.story.after_s - 0.001)
-    assert push.swing[push.pushed].all()
+def test_the_window_begins_before_the_push_as_long_as_the_story_says(stored: StoredPush, push: PushScene) -> None:
+    pushed = push.flags["pushed"]
+    assert (np.flatnonzero(pushed)[0], np.flatnonzero(pushed)[-1] + 1) == (push.start, push.end)
+    assert (push.time_s[0], push.time_s[-1]) == (-stored.story.before_s, stored.story.after_s - 0.001)
+    assert push.flags["swing"][pushed].all()
 
 
-def perfect(push: StoredPush) -> Estimate:
-    return Estimate(push.truth.copy(), np.ones(push.truth.shape))
+def felt(push: PushScene, torque: np.ndarray) -> PushResponse:
+    """Return what a torque shows of the push at the joint of the story."""
+    return push.felt(torque, EVALUATION.story.joint, EVALUATION.peaks)
 
 
-def test_a_perfect_estimate_shows_the_whole_push(push: StoredPush) -> None:
-    felt = push.felt(perfect(push))
-    assert felt.share == pytest.approx(1.0)
-    assert felt.delay_ms is not None
-    assert 0.0 < felt.delay_ms < 15.0  # the observer's low-pass, of 10 ms
-    assert push.error_nm(perfect(push)) == 0.0
+@pytest.fixture
+def truth(stored: StoredPush, push: PushScene) -> np.ndarray:
+    """The true torque of the joint of the story."""
+    return push.truth[:, push.joints.index(stored.story.joint)]
 
 
-def test_a_constant_error_changes_the_rmse_alone(push: StoredPush) -> None:
-    felt, off = push.felt(perfect(push)), push.felt(Estimate(push.truth + 3.0))
-    assert (off.share, off.delay_ms) == (pytest.approx(felt.share), pytest.approx(felt.delay_ms))
-    assert push.error_nm(Estimate(push.truth + 3.0)) == pytest.approx(3.0)
+def test_a_perfect_estimate_shows_the_whole_push(push: PushScene, truth: np.ndarray) -> None:
+    found = felt(push, truth)
+    assert found.share == pytest.approx(1.0)
+    assert found.delay_ms is not None
+    assert 0.0 < found.delay_ms < 15.0  # the observer's low-pass, of 10 ms
+    assert push.error_nm(truth, "LL3") == 0.0
+
+
+def test_a_constant_error_changes_the_rmse_alone(push: PushScene, truth: np.ndarray) -> None:
+    found, off = felt(push, truth), felt(push, truth + 3.0)
+    assert (off.share, off.delay_ms) == (pytest.approx(found.share), pytest.approx(found.delay_ms))
+    assert push.error_nm(truth + 3.0, "LL3") == pytest.approx(3.0)
 
 
 @pytest.mark.parametrize("part", [0.0, 0.5, 2.0])
-def test_a_part_of_the_push_is_a_share_of_its_peak(push: StoredPush, part: float) -> None:
-    behind = push.truth - push.filtered(push.external - push.push)
-    felt = push.felt(Estimate(push.truth - (1.0 - part) * behind))
-    assert felt.share == pytest.approx(part, abs=1e-6)
-    assert (felt.delay_ms is None) == (part <= 0.5)  # behind the low-pass the peak is a little lower
+def test_a_part_of_the_push_is_a_share_of_its_peak(push: PushScene, truth: np.ndarray, part: float) -> None:
+    behind = low_pass(push.push[:, push.joints.index("LL3")], push.gain_hz, push.rate_hz)
+    found = felt(push, truth - (1.0 - part) * behind)
+    assert found.share == pytest.approx(part, abs=1e-6)
+    assert (found.delay_ms is None) == (part <= 0.5)  # behind the low-pass the peak is a little lower
 
 
-def test_a_late_estimate_is_late(push: StoredPush) -> None:
-    late, prompt = push.felt(Estimate(np.roll(push.truth, 20, axis=0))), push.felt(perfect(push))
+def test_a_late_estimate_is_late(push: PushScene, truth: np.ndarray) -> None:
+    late, prompt = felt(push, np.roll(truth, 20)), felt(push, truth)
     assert late.delay_ms is not None
     assert late.delay_ms - 20.0 == pytest.approx(prompt.delay_ms, abs=1.0)
 
 
-def test_the_alarm_is_that_of_the_published_run(push: StoredPush, estimates: Estimates) -> None:
+def test_the_alarm_is_that_of_the_published_run(stored: StoredPush, push: PushScene) -> None:
     (detected,) = read_detections(DATA / "detected.csv", "detected")
-    assert (detected.detector, detected.number) == (push.story.detector, push.collision.number)
-    assert push.alarm_s(estimates) == pytest.approx(detected.delay_s)
+    assert (detected.detector, detected.number) == (stored.story.detector, stored.collision.number)
+    assert push.alarm is not None
+    assert push.alarm.delay_s == pytest.approx(detected.delay_s)
 
 
-def test_nothing_felt_is_no_alarm(push: StoredPush) -> None:
+def test_nothing_felt_is_no_alarm(stored: StoredPush, push: PushScene) -> None:
     nothing = Estimate(np.zeros(push.truth.shape), np.ones(push.truth.shape))
-    calm = dict.fromkeys(METHODS, nothing)
-    assert push.alarm_s(calm) is None
-    lines = list(lines_of(push, calm))
+    calm = stored.scene(dict.fromkeys(METHODS, nothing))
+    assert calm.alarm is None
+    lines = list(lines_of(stored, calm))
     assert lines[-1].endswith("no alarm")
     assert all("never half of it" in line for line in lines[:-1])
 
 
 def test_the_page_says_what_the_command_prints_and_the_picture_is_drawn_alike(
-    push: StoredPush, estimates: Estimates, tmp_path: Path
+    stored: StoredPush, push: PushScene, tmp_path: Path
 ) -> None:
     (block,) = re.findall(r"<!-- demo -->\n```\n(.*?)\n```\n<!-- /demo -->", PAGE, re.DOTALL)
-    assert block.splitlines() == [title_of(push), *lines_of(push, estimates)]
+    assert block.splitlines() == [title_of(stored), *lines_of(stored, push)]
     for ending in ("png", "svg"):
         drawn = [tmp_path / f"{name}.{ending}" for name in ("a", "b")]
         for out in (*drawn, drawn[0]):
-            draw(push, estimates, out)
+            draw(stored, push, out)
         assert drawn[0].read_bytes() == drawn[1].read_bytes()
     text = (tmp_path / "a.svg").read_text()
-    assert all(method in text for method in (*METHODS, push.story.detector))
+    assert all(method in text for method in (*METHODS, stored.story.detector))
     assert len(list(tmp_path.iterdir())) == 4
 
 
-def test_the_snapshot_renews_what_the_page_says(push: StoredPush, tmp_path: Path) -> None:
+def test_the_snapshot_renews_what_the_page_says(stored: StoredPush, tmp_path: Path) -> None:
     page = tmp_path / "demo.md"
     page.write_text(re.sub(r"```\nrobot_1.*?```", "old", PAGE, flags=re.DOTALL))
     assert page.read_text() != PAGE
-    tell_demo(push, page)
+    tell_demo(stored, page)
     assert page.read_text() == PAGE
 
 
@@ -188,7 +206,7 @@ def test_thresholds_of_another_detector_are_told(tmp_path: Path, estimates: Esti
     path = shutil.copytree(DATA, tmp_path / "data") / "thresholds.csv"
     path.write_text(path.read_text().replace("ratio.LL3", "mean.LL3"))
     with pytest.raises(DataError, match=r"thresholds\.csv: threshold of ratio\.LL3, phase 1, is missing"):
-        StoredPush(tmp_path / "data", load_settings()).alarm_s(estimates)
+        StoredPush(tmp_path / "data", load_settings()).scene(estimates)
 
 
 def test_pictures_of_another_kind_are_refused(capsys: pytest.CaptureFixture[str]) -> None:
@@ -197,23 +215,23 @@ def test_pictures_of_another_kind_are_refused(capsys: pytest.CaptureFixture[str]
     assert "--out: ending: '.bmp' is not accepted; accepted: .pdf, .png, .svg" in capsys.readouterr().err
 
 
-def test_the_code_of_the_page_runs(capsys: pytest.CaptureFixture[str], push: StoredPush) -> None:
+def test_the_code_of_the_page_runs(capsys: pytest.CaptureFixture[str], stored: StoredPush) -> None:
     (code,) = re.findall(r"^```python\n(.*?)^```$", PAGE, flags=re.DOTALL | re.MULTILINE)
     assert len([line for line in code.splitlines() if line and not line.startswith("from")]) == 5
     found: dict[str, object] = {}
     exec(code, found)
-    last = read_array(DATA / estimate_place("MOB-Net"), named(EXTERNAL, push.joints))[0][-1]
+    last = read_array(DATA / estimate_place("MOB-Net"), named(EXTERNAL, stored.joints))[0][-1]
     printed = eval(capsys.readouterr().out, {"np": np})
-    assert list(printed) == list(push.joints)
+    assert list(printed) == list(stored.joints)
     np.testing.assert_allclose(list(printed.values()), last, atol=AFTER_NM)
 
 
 @pytest.mark.parametrize("method", METHODS)
-def test_every_method_can_be_loaded(method: str, push: StoredPush) -> None:
+def test_every_method_can_be_loaded(method: str, stored: StoredPush) -> None:
     estimator, samples = load(method)
     state, estimate = estimator.step(estimator.init(), samples[0])
     assert state is not None
-    assert set(push.joints) <= set(estimator.joints)
+    assert set(stored.joints) <= set(estimator.joints)
     assert estimate.tau_ext.shape == (len(estimator.joints),)
 
 
@@ -222,11 +240,11 @@ def test_a_method_that_is_not_stored_is_named() -> None:
         load("FTS-e2e")
 
 
-def test_numbers_of_the_page_are_those_of_the_story_and_of_the_samples(push: StoredPush) -> None:
-    story, sensed = push.story, push.recording.sensed
+def test_numbers_of_the_page_are_those_of_the_story_and_of_the_samples(stored: StoredPush) -> None:
+    story, sensed = stored.story, stored.recording.sensed
     assert f"begins {story.settle_s:g} s after" in PAGE.replace("\n", " ")
     assert f"less than {SETTLED_NM} N m" in PAGE
     assert f"`samples` are {story.before_s + story.after_s:g} s" in PAGE
     assert all(f"`{name}` ({getattr(sensed, name).shape[1]},)" in PAGE.replace("\n", " ") for name in "qv")
     assert f"`tau_motor` ({sensed.tau_motor.shape[1]},)" in PAGE
-    assert f"`estimate.tau_ext` ({len(push.joints)},)" in PAGE
+    assert f"`estimate.tau_ext` ({len(stored.joints)},)" in PAGE

@@ -13,13 +13,12 @@ from made_scenes import GAIN_HZ, LEAD, RATE_HZ, ROWS, START, pushed_scene
 
 from experiments.evaluation.figures.drawing.robot import lowest
 from experiments.evaluation.measure.estimates.pushes import read_pushes
-from experiments.evaluation.report.explore import explore, joint_names, page_of
+from experiments.evaluation.report.explore import PackedArray, explore, joint_names, packed, page_of
 from experiments.evaluation.report.explore_numbers import ALREADY, ASLEEP, NEVER, push_numbers
-from experiments.evaluation.report.explore_pack import Part, packed
 from experiments.evaluation.report.explore_scenes import read_scene
+from experiments.plan.parts import PageScene
 from experiments.plan.products import EXPLORE, TEMPLATES
 from experiments.plan.runs import Run
-from experiments.plan.scenes import PageScene
 from mobnet.core.columns import residual_columns, torque_columns
 from mobnet.core.errors import DataError
 from mobnet.core.recording import Recording, write_recording
@@ -37,7 +36,7 @@ def numbers_of(shown, settings, joint="LL3", threshold_nm=20.0):
 
 def test_numbers_of_a_push_are_those_that_were_made(robot, settings):
     """The truth shows all of the push and FTS-e2e 40 % of it; friction of 40 N m is an error of the observer's."""
-    found = numbers_of(pushed_scene(robot), settings)
+    found = numbers_of(pushed_scene(robot).push, settings)
     assert found["truth"].share == pytest.approx(1.0)
     assert found["truth"].error == 0.0
     assert found["FTS-e2e"].share == pytest.approx(0.4)
@@ -49,7 +48,7 @@ def test_numbers_of_a_push_are_those_that_were_made(robot, settings):
 
 
 def test_an_alarm_is_late_by_the_filters_never_comes_or_stood_before(robot, settings):
-    shown = pushed_scene(robot)
+    shown = pushed_scene(robot).push
     found = numbers_of(shown, settings)
     assert found["truth"].false_alarms == 0
     assert 5.0 < found["truth"].alarm < 60.0
@@ -58,14 +57,14 @@ def test_an_alarm_is_late_by_the_filters_never_comes_or_stood_before(robot, sett
 
 
 def test_a_leg_on_the_ground_is_not_watched(robot, settings):
-    shown = pushed_scene(robot)
+    shown = pushed_scene(robot).push
     still = replace(shown, flags={**shown.flags, "watched": np.zeros(ROWS, dtype=bool)})
     found = numbers_of(still, settings)["MOB"]
     assert (found.alarm, found.false_alarms, found.quiet_nm) == (ASLEEP, 0, None)
 
 
 def test_a_threshold_at_the_quiet_one_has_no_false_alarm_and_one_below_has(robot, settings):
-    shown = pushed_scene(robot)
+    shown = pushed_scene(robot).push
     quiet = numbers_of(shown, settings)["MOB"].quiet_nm
     assert numbers_of(shown, settings, threshold_nm=quiet * 1.001)["MOB"].false_alarms == 0
     assert numbers_of(shown, settings, threshold_nm=quiet * 0.999)["MOB"].false_alarms > 0
@@ -75,7 +74,7 @@ def test_packed_arrays_come_back(rng):
     """Differences may exceed 16 bits and wrap around; two arrays of any width stand one after the other."""
     arrays = [rng.uniform(-300, 300, (40, 3)), rng.normal(size=(7, 1))]
     steps = [0.01, 0.001]
-    data = gzip.decompress(base64.b64decode(packed(Part("x", s, a) for s, a in zip(steps, arrays, strict=True))))
+    data = gzip.decompress(base64.b64decode(packed(PackedArray("x", s, a) for s, a in zip(steps, arrays, strict=True))))
     for array, step in zip(arrays, steps, strict=True):
         size = array.size
         planes, data = np.frombuffer(data[: 2 * size], np.uint8).reshape(2, -1).astype(np.uint16), data[2 * size :]
@@ -86,7 +85,7 @@ def test_packed_arrays_come_back(rng):
 
 def test_what_does_not_fit_is_refused():
     with pytest.raises(DataError, match=r"truth: 400 is not accepted; accepted: up to 327\.67"):
-        packed([Part("truth", 0.01, np.full((2, 1), 400.0))])
+        packed([PackedArray("truth", 0.01, np.full((2, 1), 400.0))])
 
 
 def page(robot, settings, **scenes):
@@ -109,7 +108,7 @@ def test_page_needs_nothing_else_is_small_and_always_the_same(robot, settings):
 
 
 def test_page_without_scripts_says_so_and_has_the_numbers(robot, settings):
-    text, found = page(robot, settings), numbers_of(pushed_scene(robot), settings)
+    text, found = page(robot, settings), numbers_of(pushed_scene(robot).push, settings)
     assert '<p id="still">' in text
     assert '<div class="live" hidden>' in text
     row = re.search(r'<tr data-method="MOB-Net">.*?</tr>', text, re.DOTALL)
@@ -164,13 +163,14 @@ def read(scene, settings, robot):
 
 
 def test_a_scene_is_the_recording_around_its_push(recorded, settings, robot):
-    shown = read(scene_of(recorded, settings), settings, robot)
+    scene = read(scene_of(recorded, settings), settings, robot)
+    assert scene.name == "collision_left_knee_front"
+    shown = scene.push
     story = settings.evaluation.story
     before = round(story.before_s * RATE_HZ)
-    assert (shown.start - shown.lead, shown.end - shown.start, shown.lead) == (before, 100, LEAD)
+    assert (shown.start - shown.settled, shown.end - shown.start, shown.settled) == (before, 100, LEAD)
     assert len(shown.truth) == LEAD + before + round(story.after_s * RATE_HZ)
     assert shown.first + shown.start == PUSHES[0][0]
-    assert shown.pushed == "collision_left_knee_front"
     np.testing.assert_allclose(shown.estimates["MOB-Net"] - shown.truth, 2.0, atol=1e-3)
     assert set(shown.stds) == {"MOB-Net"}
     assert np.abs(shown.push[: shown.start]).max() == 0.0
@@ -188,7 +188,7 @@ def test_a_scene_is_the_recording_around_its_push(recorded, settings, robot):
 )
 def test_a_scene_shows_the_first_push_of_its_name_from_its_time_on(recorded, settings, robot, name, from_s, start):
     shown = read(scene_of(recorded, settings, name, from_s), settings, robot)
-    assert (shown.first + shown.start if shown else None) == start
+    assert (shown.push.first + shown.push.start if shown else None) == start
 
 
 def test_the_robot_stands_on_its_lower_sole(recorded, settings, robot):
@@ -200,7 +200,7 @@ def test_the_robot_stands_on_its_lower_sole(recorded, settings, robot):
 
 def test_the_page_and_figure_6_have_the_same_samples(recorded, settings, robot):
     figure = settings.evaluation.figure_06.model_copy(update={"joint": "LL3"})
-    moved = read(scene_of(recorded, settings), settings, robot)
+    moved = read(scene_of(recorded, settings), settings, robot).push
     panel = read_pushes(robot.layout, figure, recorded, "step {}")[0]
     rows, curves = (
         moved.start + np.round(panel.time * RATE_HZ).astype(int),

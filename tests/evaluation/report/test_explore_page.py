@@ -92,8 +92,8 @@ def test_every_array_arrives(browse, scenes):
     for k, shown in enumerate(scenes.values()):
         for j, joint in ((2, "LL3"), (5, "LL6")):
             found = asked(browser, f"trained(told.scenes[{k}], '{joint}')")
-            np.testing.assert_allclose(found["truth"], shown.truth[:, j], atol=0.006)
-            for method, estimate in shown.estimates.items():
+            np.testing.assert_allclose(found["truth"], shown.push.truth[:, j], atol=0.006)
+            for method, estimate in shown.push.estimates.items():
                 np.testing.assert_allclose(found[method], estimate[:, j], atol=0.011)
         q = asked(browser, f"told.scenes[{k}].parts.poses.width")
         poses = np.array(asked(browser, f"Array.from({{length: {q}}}, (_, i) => column(told.scenes[{k}], 'poses', i))"))
@@ -106,7 +106,7 @@ def test_the_table_is_what_python_computed(browse, scenes, settings, scene):
     browser, own = browse(f"#scene={scene}"), settings.evaluation
     still = page_cells(browser, scene)
     assert table_of(browser) == still
-    rows = push_numbers(scenes[scene], "LL3", 20.0, settings.detection, own.peaks)
+    rows = push_numbers(scenes[scene].push, "LL3", 20.0, settings.detection, own.peaks)
     for cells, row in zip(still, rows, strict=True):
         assert cells[0] == row.method
         assert float(cells[1]) == pytest.approx(row.peak, abs=0.05 + 2 * own.explore.step_nm)
@@ -125,7 +125,7 @@ def page_cells(browser: Browser, scene: str) -> list[list[str]]:
 def test_sliders_compute_as_python_does(browse, scenes, settings, joint, threshold):
     browser = browse(f"#joint={joint}&threshold={threshold}")
     numbers, step = asked(browser, "drawn.numbers"), settings.evaluation.explore.step_nm
-    stored = as_stored(scenes["story"], step)
+    stored = as_stored(scenes["story"].push, step)
     wanted = push_numbers(stored, joint, threshold, settings.detection, settings.evaluation.peaks)
     for found, row in zip(numbers, wanted, strict=True):
         assert (found["method"], found["falseAlarms"]) == (row.method, row.false_alarms)
@@ -143,7 +143,7 @@ def test_sliders_compute_as_python_does(browse, scenes, settings, joint, thresho
 @pytest.mark.parametrize("gain", [20, 60, 200])
 def test_another_gain_is_another_observer(browse, scenes, gain):
     """The page's residual of another gain is the low-pass of that gain of what the observer filters."""
-    browser, residual = browse(f"#gain={gain}"), scenes["story"].estimates["MOB"][:, 2]
+    browser, residual = browse(f"#gain={gain}"), scenes["story"].push.estimates["MOB"][:, 2]
     pole = exact_pole(GAIN_HZ, RATE_HZ)
     before = np.concatenate([[0.0], residual[1:] - pole * residual[:-1]]) / (1 - pole)
     wanted = low_pass(before, gain, RATE_HZ)

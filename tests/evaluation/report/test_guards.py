@@ -2,7 +2,7 @@
 
 import pytest
 
-from experiments.evaluation.report.guards import defined_texts, turned_guards
+from experiments.evaluation.report.paper import defined_texts, turned_guards
 
 NUMBERS = {"verdict@hit": "direction", "value@t@a": "1.5", "value@t@b": "2.0"}
 

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from experiments.evaluation.report.main_tables import main_tables
-from experiments.plan.products import MAIN_TABLES, SOURCES
+from experiments.plan.products import MAIN_TABLES, sources
 from experiments.settings.settings import Settings
 
 PUBLISHED = Path(__file__).parents[3] / "docs/results"
@@ -16,8 +16,8 @@ PUBLISHED = Path(__file__).parents[3] / "docs/results"
 def made(settings: Settings, tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Folder of the three tables, from the published ones."""
     folder = tmp_path_factory.mktemp("tables")
-    sources = [PUBLISHED / f"{name}.csv" for name in SOURCES]
-    main_tables(settings.evaluation.main_tables, sources, folder / "legs.csv")
+    used = [PUBLISHED / f"{name}.csv" for name in sources(settings.evaluation)]
+    main_tables(settings.evaluation.main_tables, used, folder / "legs.csv")
     return folder
 
 

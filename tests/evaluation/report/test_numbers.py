@@ -6,11 +6,11 @@ from pathlib import Path
 import pytest
 from asked_numbers import asked_names
 
-from experiments.evaluation.number.files import read_numbers
-from experiments.evaluation.report.cells import cells_of
-from experiments.evaluation.report.guards import defined_texts
+from experiments.evaluation.number.rows import read_numbers
+from experiments.evaluation.report.main_tables import cells_of
 from experiments.evaluation.report.numbers import cell_texts, further_texts, numbers, size_texts
-from experiments.plan.products import QUOTED
+from experiments.evaluation.report.paper import defined_texts
+from experiments.plan.products import quoted
 from experiments.settings.settings import Settings
 from mobnet.core.columns import VERDICTS
 from mobnet.settings.data import Recordings
@@ -24,7 +24,7 @@ TRAIN = Recordings(shards=3, shard_s=600.0)
 def defined(table: Path, claims_csv: Path, summary_csv: Path, settings: Settings) -> dict[str, str]:
     """Return name -> text of the numbers of a table and of claims."""
     out, sizes = claims_csv.with_name("numbers.tex"), (settings.scale, settings.rates, settings.sizes, settings.fleet)
-    further = [REPO / f"tests/golden/{name}.csv" for name in QUOTED]
+    further = [REPO / f"tests/golden/{name}.csv" for name in quoted()]
     compared = settings.evaluation.main_tables
     numbers(*sizes, TRAIN, [table], further, claims_csv, summary_csv, [CAPTION], compared, [], out)
     return defined_texts(out.read_text())
@@ -71,7 +71,7 @@ def test_every_number_the_paper_asks_for_exists(texts: dict[str, str], settings:
     """Golden tables hold few rows, so that those of the results are looked for in what is published."""
     asked = asked_names((REPO / "paper/main.tex").read_text())
     assert len(asked) > 150
-    published = [REPO / f"docs/results/{name}.csv" for name in QUOTED]
+    published = [REPO / f"docs/results/{name}.csv" for name in quoted()]
     known = {*texts, *(name for path in published if path.is_file() for name in of_cells(path))}
     for name in settings.evaluation.tables:
         for of, number in read_numbers(REPO / f"docs/results/{name}.csv"):

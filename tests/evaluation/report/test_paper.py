@@ -19,14 +19,20 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 from experiments.evaluation.report.deviations import deviations
-from experiments.evaluation.report.guards import defined_texts
 from experiments.evaluation.report.numbers import LOOKUP, numbers
-from experiments.evaluation.report.paper import PACKAGES, PaperError, copy_sources, missing_packages, paper
+from experiments.evaluation.report.paper import (
+    PACKAGES,
+    PaperError,
+    copy_sources,
+    defined_texts,
+    missing_packages,
+    paper,
+)
 from experiments.evaluation.tables.further import claims_table, methods
 from experiments.evaluation.tables.further.uncertainty import text_of
 from experiments.evaluation.tables.layout import PART, long_table, note_tex, text_table
 from experiments.plan.files import Files
-from experiments.plan.products import DRAWN, MAIN_TABLES, SOURCES, Folders, Products, pictures
+from experiments.plan.products import DRAWN, MAIN_TABLES, Folders, Products, pictures, sources
 from experiments.settings.catalogue import Catalogue
 from experiments.settings.pages import PaperText
 from experiments.settings.settings import Settings
@@ -180,9 +186,9 @@ def write_numbers(products: Products, settings: Settings, claims_csv: Path, summ
     tables, further = ([published(path.stem) for path in wanted[name]] for name in ("table_csvs", "further_csvs"))
     train, sizes = Recordings(shards=1, shard_s=60.0), (settings.scale, settings.rates, settings.sizes, settings.fleet)
     captions = [REPO / path for path in wanted["captions"]]
-    sources = [published(name) for name in SOURCES]
+    used = [published(name) for name in sources(settings.evaluation)]
     compared = settings.evaluation.main_tables
-    numbers(*sizes, train, tables, further, claims_csv, summary_csv, captions, compared, sources, out)
+    numbers(*sizes, train, tables, further, claims_csv, summary_csv, captions, compared, used, out)
     known = defined_texts(out.read_text())
     made = (name for name in asked_names((REPO / "paper/main.tex").read_text()) if name not in known)
     out.write_text(

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from experiments.evaluation.number.files import write_csv
+from experiments.evaluation.number.rows import write_csv
 from experiments.evaluation.report.readme import COLUMNS, FINDINGS, blocks
 from experiments.settings.load import load_settings
 from mobnet.core.columns import CLAIMED, HELD, NEAR, OURS, PAPER, PRINTED, UNEXPLAINED, VERDICTS

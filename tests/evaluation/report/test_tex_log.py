@@ -2,7 +2,7 @@
 
 import pytest
 
-from experiments.evaluation.report.tex_log import page_faults
+from experiments.evaluation.report.paper import page_faults
 
 
 @pytest.mark.parametrize(

@@ -1,6 +1,6 @@
 """Labels have the pages of TeX's .aux file; a long main text and a float far from its mention are told."""
 
-from experiments.evaluation.report.tex_pages import label_pages, place_faults
+from experiments.evaluation.report.paper import label_pages, place_faults
 
 AUX = r"""
 \newlabel{tab:legs}{{I}{4}}

@@ -7,7 +7,7 @@ import pytest
 from experiments.evaluation.report.walked import (
     SEEDS,
     Span,
-    Walked,
+    WalkedSeeds,
     check_seeds,
     methods_hash,
     read_history,
@@ -30,13 +30,13 @@ def published_scale() -> Settings:
     return load_settings(overrides={"scale": "default"})
 
 
-def run_of(settings: Settings, commit: str = "head") -> Walked:
+def run_of(settings: Settings, commit: str = "head") -> WalkedSeeds:
     return walked(Files(Catalogue(settings), Path("results/default")), commit)
 
 
-def made(commit: str, methods: str | None, first: int, count: int = 3) -> Walked:
+def made(commit: str, methods: str | None, first: int, count: int = 3) -> WalkedSeeds:
     """Return a run with tests alone."""
-    return Walked(commit=commit, methods=methods, tests={"walk": Span(first=first, count=count)}, reactions={})
+    return WalkedSeeds(commit=commit, methods=methods, tests={"walk": Span(first=first, count=count)}, reactions={})
 
 
 def test_the_present_configuration_walks_no_seed_that_another_method_was_published_with(

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 from csv_files import read_table
 
-from experiments.evaluation.number.files import write_csv
+from experiments.evaluation.number.rows import write_csv
 from experiments.evaluation.tables.further.claims_summary import USED
 
 Counted = dict[tuple[str, str], tuple[float, float, float]]

@@ -10,7 +10,7 @@ from csv_files import check_golden, markdown_cells, read_table, write_rows
 from made_contacts import pushed
 from made_swings import GROUND, RATE_HZ, swinging, unseen
 
-from experiments.evaluation.measure.detection.contact_points import NAMED, NOTHING, Found
+from experiments.evaluation.measure.detection.contact_points import NAMED, NOTHING, ContactDeviation
 from experiments.evaluation.measure.detection.results import CELLS
 from experiments.evaluation.tables.further.contact_points import write_contacts
 from experiments.plan.runs import Run
@@ -20,7 +20,7 @@ from mobnet.core.detections import Detected
 from mobnet.core.errors import DataError
 from mobnet.core.recording import Recording, write_recording
 from mobnet.core.store import write_array
-from mobnet.detection.contact import ContactFinder
+from mobnet.detection.contact import ContactLocator
 from mobnet.estimation.low_pass import low_pass
 from mobnet.robot.description import RobotDescription
 
@@ -36,7 +36,7 @@ def write_files(settings: Settings, robot: RobotDescription, folder: Path) -> tu
     force = np.zeros(len(sensed))
     force[START : START + LENGTH] = PEAK_N * np.sin(np.pi * np.arange(LENGTH) / LENGTH)
     q, point = sensed.q[START], next(row for row in robot.points if row.name == "left_knee_front")
-    axes, _ = ContactFinder.of(settings.contact_point, robot, "LL", layout.limb("LL")).place(q, point.body)
+    axes, _ = ContactLocator.of(settings.contact_point, robot, "LL", layout.limb("LL")).place(q, point.body)
     push = np.zeros((len(sensed), 4))
     push[:, 1:] = -force[:, None] * axes[:, 0]
     push[force > 0.0, 0] = 1 + list(settings.scenarios["collisions"].pushes).index("collision_left_knee_front")
@@ -90,11 +90,11 @@ def test_errors_are_those_of_the_hit(made: Path) -> None:
 
 
 def test_numbers_are_medians_by_what_is_hit(settings: Settings, tmp_path: Path) -> None:
-    section, found = settings.evaluation.contact_points, list[Found]()
+    section, found = settings.evaluation.contact_points, list[ContactDeviation]()
     for k, title in enumerate((*section.lines, NAMED, NOTHING)):
         said = () if title in (NAMED, NOTHING) else (0.05, -0.1, 7.0)
         # errors of 3, 4 and 12 parts along the axes make 13; the seven hits of a cell have multiples of them
-        found += [Found(title, cell, 0.001 * (k + 1) * n * np.array([3.0, -4.0, 12.0]), *said)
+        found += [ContactDeviation(title, cell, 0.001 * (k + 1) * n * np.array([3.0, -4.0, 12.0]), *said)
                   for cell in CELLS for n in range(1, 8)]  # fmt: skip
     write_contacts(tmp_path / "contact_points", section, settings.evaluation.statistics, found)
     rows = {(row.detector, row.cell, row.quantity): row for row in read_table(tmp_path / "contact_points.csv")}

@@ -8,7 +8,7 @@ import pytest
 from csv_files import check_golden, markdown_cells, read_table
 from made_detections import write_detections
 
-from experiments.evaluation.measure.detection.smallest_force import smallest_force
+from experiments.evaluation.measure.detection.results import smallest_force
 from experiments.evaluation.number.number import Number
 from experiments.evaluation.tables.further.found_by_rate import gain_text
 from experiments.settings.settings import Settings

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from csv_files import GOLDEN, check_golden, read_table, write_rows
 
-from experiments.evaluation.number.averages import Column
+from experiments.evaluation.number.grid import Column
 from experiments.evaluation.number.number import Number, published_row, published_value
 from experiments.evaluation.tables.layout import GAP, RULE
 from experiments.evaluation.tables.paper.error_table import TableLook, TableRow, table_lines, write_error_table

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from experiments.evaluation.measure.data.falls import count_falls
-from experiments.evaluation.number.files import write_csv
+from experiments.evaluation.measure.data.random_torque import count_falls
+from experiments.evaluation.number.rows import write_csv
 from experiments.evaluation.tables.further.falls import ALL, falls
 from experiments.plan.jobs import walk_settings
 from experiments.settings.runs import Statistics

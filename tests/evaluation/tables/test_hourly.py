@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 from csv_files import check_golden, read_table
 
-from experiments.evaluation.number.single import rate
+from experiments.evaluation.number.single import rate_of
 from experiments.evaluation.tables.further.hourly import ALL, FALL, FLAG
 from experiments.settings.evaluation import Evaluation
 from experiments.settings.runs import LegRuns, Statistics
@@ -53,6 +53,6 @@ def test_events_of_all_walks_are_counted_together(
 @pytest.mark.parametrize(("count", "ends"), [(0, (0.0, 3.689)), (1, (0.0253, 5.572)), (10, (4.795, 18.39))])
 def test_a_count_has_the_interval_that_tables_print(count: int, ends: tuple[float, float]) -> None:
     """Exact limits of a Poisson count (Garwood 1936, Table 1)."""
-    found = rate(count, 2.0, STATISTICS)
+    found = rate_of(count, 2.0, STATISTICS)
     assert found.value == count / 2.0
     assert found.with_ends[1:] == pytest.approx([end / 2.0 for end in ends], rel=1e-3)

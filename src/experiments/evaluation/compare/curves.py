@@ -1,7 +1,7 @@
 """Truth, estimates and flags of some joints of a recording, a gait cycle of it, and the panels cut out of them."""
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -17,6 +17,7 @@ from mobnet.core.joints import JointLayout
 from mobnet.core.store import read_array
 
 TRUTH, TARGET = "truth", "target"  # labels: tau_e, and what is learned of the uncertainty, r - tau_e (section 4.2.3)
+ZERO = "zero"  # the method that estimates no torque at all: its error is the torque
 
 
 @dataclass(frozen=True)
@@ -138,3 +139,38 @@ def gait_cycle(air: NDArray[np.bool_], segments: Spans, start: int) -> slice | N
         if len(lifts) > 1:
             return slice(int(lifts[0]), int(lifts[1]))
     return None
+
+
+@dataclass(frozen=True)
+class Compared:
+    """Truth, or target, and estimates of a joint, and their errors: estimate minus truth [N m], V1..V3 [N].
+
+    `rmse` leads from each estimate, and from `zero`, to the root mean square of its error in the panel [same unit].
+    """
+
+    torque: Panel
+    error: Panel
+    rmse: Mapping[str, float]
+
+
+def compared(panel: Panel, during: str = "") -> Compared:
+    """Return a panel whose first curve is the truth, or the target, with the errors of all other curves.
+
+    An error keeps the standard deviation of its estimate. Where a flag is named, its RMSE is that while the flag holds.
+    """
+    truth, *estimates = panel.curves
+    errors = [TorqueCurve(curve.label, curve.values - truth.values, curve.std) for curve in estimates]
+    # An estimate of zero has the torque as its error, up to its sign, of which the RMSE knows nothing.
+    shown = {ZERO: truth.values, **{error.label: error.values for error in errors}}
+    counted = panel.flags[during].astype(bool) if during else np.ones(len(panel.time), dtype=bool)
+    rmse = {
+        label: float(np.sqrt(np.mean(values[counted].astype(np.float64) ** 2)))
+        for label, values in shown.items()
+        if counted.any()
+    }
+    return Compared(panel, replace(panel, curves=errors), rmse)
+
+
+def without_zero(runs: Iterable[Run]) -> list[Run]:
+    """Return the runs whose estimates are drawn as curves."""
+    return [run for run in runs if run.method != ZERO]

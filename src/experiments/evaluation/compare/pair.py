@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -83,3 +83,17 @@ def read_std(run: Run, joints: Sequence[str]) -> NDArray[np.float32] | None:
     held = {column["name"] for column in read_array_note(file_of(run.estimate, NOTE))["columns"]}
     names = named(STD, joints)
     return read_array(run.estimate, names)[0] if held.issuperset(names) else None
+
+
+class Measured(NamedTuple):
+    """A metric of n joints; nan where it is not defined, which makes no row.
+
+    Its unit is that of `experiments.settings.metrics`. Where only the average counts, joints get no rows of their own.
+    """
+
+    metric: str
+    values: NDArray[np.float64]
+    average_only: bool = False
+
+
+Measures = Iterator[Measured]

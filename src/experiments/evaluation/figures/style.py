@@ -13,7 +13,7 @@ import matplotlib as mpl
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from experiments.evaluation.number.files import Field, write_csv
+from experiments.evaluation.number.rows import Field, write_csv
 from mobnet.core.files import atomic_path
 from mobnet.core.style import COLUMN_INCH, PAGE_INCH, STYLE, settle
 

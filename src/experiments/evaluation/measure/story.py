@@ -1,4 +1,4 @@
-"""The stored push as methods feel it: estimators step through it as on a robot, and what they show of it is measured.
+"""The stored push as methods feel it: estimators step through it as on a robot.
 
 Its files are those of `experiments.plan.demo`; docs/demo has those of the published run.
 """
@@ -8,14 +8,12 @@ from dataclasses import dataclass
 from functools import cached_property
 from itertools import product
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from experiments.evaluation.compare.windows import FLAG
-from experiments.evaluation.measure.estimates.felt import Felt, felt_of
-from experiments.evaluation.measure.estimates.peaks import push_rows
+from experiments.evaluation.measure.push_scene import FORCE, PushAlarm, PushScene
 from experiments.evaluation.number.rows import read_detections
 from experiments.plan.demo import RECORDING, fit_place, network_place
 from experiments.settings.catalogue import Catalogue
@@ -25,17 +23,16 @@ from mobnet.core.arrays import Array
 from mobnet.core.columns import EXTERNAL, PUSH, PUSH_TORQUE, named
 from mobnet.core.detections import Collision, Threshold
 from mobnet.core.errors import ConfigError, DataError, not_accepted, refuse
-from mobnet.core.estimator import Estimate, Estimator
+from mobnet.core.estimator import Estimate, TorqueEstimator
 from mobnet.core.recording import SensedRecording, read_sensed
 from mobnet.core.store import check_rate, read_array
 from mobnet.detection.detector import ALARM_RATIO, LegDetector
 from mobnet.detection.signals import Watched
 from mobnet.detection.watch import LegSetup
 from mobnet.estimation.low_pass import low_pass
-from mobnet.estimation.methods import build_estimator
-from mobnet.estimation.recipe import Recipe
+from mobnet.estimation.recipe import Recipe, build_estimator
 from mobnet.robot.description import RobotDescription, describe
-from mobnet.settings.detection import Detector
+from mobnet.settings.detection import DetectorSettings
 
 
 @dataclass(frozen=True)
@@ -72,58 +69,46 @@ class StoredPush:
         """The joints of the leg, (n,)."""
         return self.robot.layout.limb(self.collision.leg)
 
-    @property
-    def place(self) -> int:
-        """Where the joint that is shown stands among those of the leg."""
-        return self.joints.index(self.story.joint)
-
     @cached_property
     def recording(self) -> SensedRecording:
         """What the robot sensed, T samples."""
         check_rate(self.folder / RECORDING, self.settings.rates.data_hz)
         return read_sensed(self.folder / RECORDING, self.robot.layout)
 
-    @cached_property
-    def external(self) -> NDArray[np.float32]:
-        """The true external torque of the leg, (T, n) [N m]."""
-        return self._read(named(EXTERNAL, self.joints))
+    def scene(self, estimates: Mapping[str, Estimate]) -> PushScene:
+        """Return the push as estimates of the leg's joints (T, n) [N m] show it, those of the methods by name.
 
-    @cached_property
-    def truth(self) -> Array:
-        """The true external torque of the leg behind the observer's low-pass, (T, n) [N m]."""
-        return self.filtered(self.external)
+        Raises:
+            DataError: a file is missing or damaged.
+        """
+        story = self.story
+        collision = self.collision
+        sensed = self.recording.sensed
+        rate_hz = self.recording.rate_hz
+        gain_hz = self.settings.observer.gain_hz
+        start = round(story.before_s * rate_hz)
+        stds = {method: one.std for method, one in estimates.items() if one.std is not None}
+        pushed = self._read([f"{PUSH}.row"])[:, 0] > FLAG
+        alarm_s = self._alarm_s(estimates, pushed)
+        return PushScene(
+            joints=self.joints,
+            rate_hz=rate_hz,
+            gain_hz=gain_hz,
+            first=0,
+            settled=round(story.settle_s * rate_hz),
+            start=start,
+            end=start + round((collision.end_s - collision.start_s) * rate_hz),
+            truth=low_pass(self._read(named(EXTERNAL, self.joints)), gain_hz, rate_hz),
+            push=self._read(named(PUSH_TORQUE, self.joints)),
+            estimates={method: one.tau_ext for method, one in estimates.items()},
+            stds=stds,
+            flags={"swing": sensed.swing[:, self._setup.gate.foot] > FLAG, "pushed": pushed},
+            q=sensed.q.astype(np.float64),
+            force=self._read(FORCE).astype(np.float64),
+            alarm=None if alarm_s is None else PushAlarm(alarm_s),
+        )
 
-    @cached_property
-    def push(self) -> NDArray[np.float32]:
-        """What the push adds to the external torque of the leg, (T, n) [N m]."""
-        return self._read(named(PUSH_TORQUE, self.joints))
-
-    @cached_property
-    def pushed(self) -> NDArray[np.bool_]:
-        """Whether a push acts, (T,)."""
-        return self._read([f"{PUSH}.row"])[:, 0] > FLAG
-
-    @property
-    def swing(self) -> NDArray[np.bool_]:
-        """Whether the walking plan has the foot of the leg in the air, (T,)."""
-        return self.recording.sensed.swing[:, self._setup.gate.foot] > FLAG
-
-    @property
-    def start(self) -> int:
-        """The row in which the push begins."""
-        return round(self.story.before_s * self.recording.rate_hz)
-
-    @property
-    def time(self) -> Array:
-        """Time from the beginning of the push on, (T,) [s]."""
-        return (np.arange(len(self.recording.sensed)) - self.start) / self.recording.rate_hz
-
-    @property
-    def settled(self) -> slice:
-        """The rows in which estimators are judged."""
-        return slice(round(self.story.settle_s * self.recording.rate_hz), None)
-
-    def estimator(self, method: str) -> Estimator:
+    def estimator(self, method: str) -> TorqueEstimator:
         """Return a method's estimator; a ConfigError names a method whose files are not stored."""
         if method not in self.story.methods:
             raise ConfigError(not_accepted("method", method, self.story.methods))
@@ -157,45 +142,26 @@ class StoredPush:
         std = [one.std for one in steps if one.std is not None]
         return Estimate(tau[:, held], np.array(std)[:, held] if std else None)
 
-    def felt(self, estimate: Estimate) -> Felt:
-        """Return what an estimate of the leg shows of the push at the joint of the story."""
-        k = self.place
-        rate_hz = self.recording.rate_hz
-        spans = ((0, len(self.pushed)),)
-        peaks = self.settings.evaluation.peaks
-        rise = next(rows for _, rows in push_rows(self.pushed, spans, peaks, rate_hz))
-        push, truth, tau = (part[:, k].astype(np.float64) for part in (self.push, self.truth, estimate.tau_ext))
-        behind = self.filtered(push)
-        return felt_of(push[rise], behind[rise], (behind + tau - truth)[rise], rate_hz)
-
-    def error_nm(self, estimate: Estimate) -> float:
-        """Return the RMSE of an estimate of the leg at the joint of the story, from `settle_s` on [N m]."""
-        error = estimate.tau_ext[self.settled, self.place].astype(np.float64) - self.truth[self.settled, self.place]
-        return float(np.sqrt(np.square(error).mean()))
-
-    def filtered(self, torque: NDArray[Any]) -> Array:
-        """Return torque behind the observer's low-pass, (T, ...) [N m]."""
-        return low_pass(torque, self.settings.observer.gain_hz, self.recording.rate_hz)
-
-    def alarm_s(self, estimates: Mapping[str, Estimate]) -> float | None:
+    def _alarm_s(self, estimates: Mapping[str, Estimate], pushed: NDArray[np.bool_]) -> float | None:
         """Return how long after the beginning of the push the detector of the story says so [s], None if it does not.
 
-        Estimates are those of the methods. An alarm counts until some time after the push, as in Table 9.
+        An alarm counts until some time after the push (T,), as in Table 9.
         """
         setup = self._setup
         row = self.settings.detection.detectors[self.story.detector]
         detector = LegDetector(Watched(row), setup.gate, setup.chain(self._thresholds(row)))
         gate = setup.gate.run(self.recording.sensed, estimates[setup.detection.gate.method].tau_ext)
         ratio = detector.run(gate, self.recording.sensed, estimates[row.method]).ratio
-        end = int(np.flatnonzero(self.pushed)[-1]) + 1 + round(setup.detection.late_s * setup.rate_hz)
-        alarms = np.flatnonzero(ratio[self.start : end] > ALARM_RATIO)
+        start = round(self.story.before_s * setup.rate_hz)
+        end = int(np.flatnonzero(pushed)[-1]) + 1 + round(setup.detection.late_s * setup.rate_hz)
+        alarms = np.flatnonzero(ratio[start:end] > ALARM_RATIO)
         return float(alarms[0]) / setup.rate_hz if len(alarms) else None
 
     @cached_property
     def _setup(self) -> LegSetup:
         return LegSetup.of(self.settings.detection, self.robot, self.collision.leg, self.recording.rate_hz)
 
-    def _thresholds(self, row: Detector) -> Array:
+    def _thresholds(self, row: DetectorSettings) -> Array:
         """Return the thresholds of a detector, (phases, signals) [N m], of a ratio [-]."""
         path = self.folder / "thresholds.csv"
         names = Watched(row).names(self.joints)

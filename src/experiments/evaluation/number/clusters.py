@@ -26,14 +26,14 @@ from experiments.settings.runs import Statistics
 Array = NDArray[np.float64]
 
 
-class Place(NamedTuple):
+class ClusterKey(NamedTuple):
     """Where a value is from: the robot, and the seed of the walk."""
 
     robot: str
     seed: int
 
 
-def mean_in(values: Sequence[float], places: Sequence[Place], statistics: Statistics, unit: str) -> Number:
+def mean_in(values: Sequence[float], places: Sequence[ClusterKey], statistics: Statistics, unit: str) -> Number:
     """Return the mean of values [unit] at places, with its interval; none below zero if no value is."""
     if not values:
         return Number(None, unit=unit)
@@ -51,7 +51,7 @@ def mean_in(values: Sequence[float], places: Sequence[Place], statistics: Statis
     return Number(mean, max(low, 0.0) if (found >= 0.0).all() else low, mean + reach, unit=unit)
 
 
-def share_in(flags: Sequence[bool], places: Sequence[Place], statistics: Statistics) -> Number:
+def share_in(flags: Sequence[bool], places: Sequence[ClusterKey], statistics: Statistics) -> Number:
     """Return the share of flags that are set [-] at places, with its interval."""
     if not flags:
         return Number(None)
@@ -67,7 +67,9 @@ def share_in(flags: Sequence[bool], places: Sequence[Place], statistics: Statist
     return Number(value, low, high)
 
 
-def rate_in(counts: Sequence[int], hours: Sequence[float], places: Sequence[Place], statistics: Statistics) -> Number:
+def rate_in(
+    counts: Sequence[int], hours: Sequence[float], places: Sequence[ClusterKey], statistics: Statistics
+) -> Number:
     """Return how many events there are in an hour [1/h] of the time at places [h], with its interval."""
     events = np.array(counts, dtype=np.float64)
     time = np.array(hours, dtype=np.float64)
@@ -81,13 +83,19 @@ def rate_in(counts: Sequence[int], hours: Sequence[float], places: Sequence[Plac
         return Number(total / whole, unit="1/h")
     # Of a Poisson count the variance is the count itself.
     part = _independent(effects, total, 1, statistics)
-    tail = (1.0 - statistics.confidence) / 2.0
-    low = float(scipy.special.gammaincinv(total * part, tail)) if total else 0.0
-    high = float(scipy.special.gammaincinv(total * part + 1.0, 1.0 - tail))
+    low, high = garwood(total * part, statistics)
     return Number(total / whole, low / (whole * part), high / (whole * part), unit="1/h")
 
 
-def _effects(parts: Array, places: Sequence[Place]) -> list[tuple[int, float]]:
+def garwood(count: float, statistics: Statistics) -> tuple[float, float]:
+    """Return the interval of the mean of a Poisson count (Garwood 1936), which need not be a whole number."""
+    tail = (1.0 - statistics.confidence) / 2.0
+    low = float(scipy.special.gammaincinv(count, tail)) if count else 0.0
+    high = float(scipy.special.gammaincinv(count + 1.0, 1.0 - tail))
+    return low, high
+
+
+def _effects(parts: Array, places: Sequence[ClusterKey]) -> list[tuple[int, float]]:
     """Return of robots and of walks, where there are several, how many and the variance of the sum of parts (n,)."""
     found: list[tuple[int, float]] = []
     for names in ([place.robot for place in places], [place.seed for place in places]):

@@ -1,16 +1,22 @@
 """The runs behind one number, picked out of the scores, and the number that they make."""
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from collections import defaultdict
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from pathlib import Path
 
 import numpy as np
 
 from experiments.evaluation.number.intervals import MEAN, Formula, RunGrid, summarise
 from experiments.evaluation.number.number import Number
+from experiments.evaluation.number.rows import read_scores
 from experiments.settings.fleet import FIRST_SEED
-from experiments.settings.runs import Statistics
+from experiments.settings.runs import Mean, Runs, Statistics
 from mobnet.core.columns import Score
-from mobnet.core.errors import DataError
+from mobnet.core.errors import ConfigError, DataError
+from mobnet.core.joints import JointLayout
+
+AVERAGE = "avg"
 
 
 @dataclass(frozen=True)
@@ -72,10 +78,98 @@ def rows_of(method: str, seeds: Sequence[int]) -> str:
 
 
 def number_of(
-    scores: Sequence[Score], wanted: Sequence[Wanted], statistics: Statistics, formula: Formula = MEAN,
+    scores: Sequence[Score],
+    wanted: Sequence[Wanted],
+    statistics: Statistics,
+    formula: Formula = MEAN,
     published: float | None = None,
-) -> Number:  # fmt: skip
+) -> Number:
     """Return the number that a formula makes of mean errors, with its interval, in the first one's unit, e.g. [N m]."""
     unit = wanted[0].rows(scores)[0].unit
     number = summarise([run_grid(scores, each) for each in wanted], statistics, formula, unit)
     return replace(number, published=published)
+
+
+@dataclass(frozen=True)
+class Lookup:
+    """The runs behind every number that was scored, and how an interval is made of them."""
+
+    statistics: Statistics
+    scores: Mapping[Wanted, Sequence[Score]] = field(repr=False)
+
+    def number(self, wanted: Sequence[Wanted], formula: Formula = MEAN) -> Number:
+        """Return what a formula makes of means, with its interval, in the first one's unit; none if any is missing.
+
+        A number may be missing where the runs are there: a push that comes after the end of a short test, or a joint
+        that it does not turn.
+        """
+        rows = [self.scores.get(one, ()) for one in wanted]
+        if not all(rows):
+            return Number(None)
+        grids = [run_grid(own, one) for own, one in zip(rows, wanted, strict=True)]
+        return summarise(grids, self.statistics, formula, rows[0][0].unit)
+
+    def average(self, test: Runs, method: str, limb: str, metric: str) -> Number:
+        """Return the mean over a limb's joints of a metric of a method in a test [the metric's unit]."""
+        return self.number([Wanted(test.scenario, limb, test.level, method, AVERAGE, metric)])
+
+
+def read_lookup(paths: Iterable[Path], statistics: Statistics) -> Lookup:
+    """Read files of scores."""
+    found: dict[Wanted, list[Score]] = defaultdict(list)
+    for row in read_scores(*paths):
+        found[Wanted(row.scenario, row.limb, row.level, row.method, row.joint, row.metric)].append(row)
+    return Lookup(statistics, found)
+
+
+@dataclass(frozen=True)
+class Column:
+    """A column of a table: the mean over its joints and its metrics, of which there is mostly one each.
+
+    Attributes:
+        name: its name.
+        unit: that of the joints' torques.
+        joints: limb and name of each joint, (n,).
+        metrics: names of the metrics; empty where each row of the table names its own.
+    """
+
+    name: str
+    unit: str
+    joints: tuple[tuple[str, str], ...]
+    metrics: tuple[str, ...] = ()
+
+
+def columns_of(layout: JointLayout, items: Sequence[str | Mean]) -> list[Column]:
+    """Return the columns that a table's configuration asks for, such as those of Table 6.
+
+    An item is a joint, a limb for its joints one by one, or a mean over some of both.
+    """
+    columns: list[Column] = []
+    for item in items:
+        if isinstance(item, str):
+            columns += [column_of(layout, joint, [joint], ()) for joint in members(layout, item)]
+        else:
+            joints: list[str] = []
+            for name in item.joints:
+                joints += members(layout, name)
+            columns.append(column_of(layout, item.name, joints, item.metrics))
+    return columns
+
+
+def column_of(layout: JointLayout, name: str, joints: Sequence[str], metrics: Sequence[str]) -> Column:
+    """Return a column of some joints, whose torques must be all in N m or all in N.
+
+    Raises:
+        ConfigError: a joint is unknown, or the units differ.
+    """
+    layout.columns(joints)
+    units = sorted({layout.unit(joint) for joint in joints})
+    if len(units) > 1:
+        raise ConfigError(f"column {name!r}: a mean over {', '.join(joints)} mixes {' and '.join(units)}")
+    limbs = layout.limb_of
+    return Column(name, units[0], tuple((limbs[joint], joint) for joint in joints), tuple(metrics))
+
+
+def members(layout: JointLayout, name: str) -> tuple[str, ...]:
+    """Return the joints of a limb, or the joint itself."""
+    return layout.groups.get(name, (name,))

@@ -1,20 +1,23 @@
 """Files of rows that jobs hand on: errors of runs, epochs of trainings, and what detectors find."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import fields
 from operator import attrgetter
 from pathlib import Path
 from typing import Any, cast
 
+from experiments.evaluation.number.number import Number
 from experiments.settings.metrics import metric_of
 from mobnet.core.columns import Score
 from mobnet.core.detections import FILES, PARTS, UNNAMED
-from mobnet.core.errors import ConfigError
-from mobnet.core.rows import read_rows, refuse_rows
+from mobnet.core.errors import ConfigError, refuse_lines
+from mobnet.core.files import write_text
+from mobnet.core.rows import csv_text, parse_field, read_rows, read_texts, refuse_rows
 
 KEY = attrgetter(*(field.name for field in fields(Score) if field.name != "value"))  # what names a score, unit last
 ENDS = (("start_s", "end_s"), ("low", "high"), ("found", "collisions"))  # of rows of detectors, smaller one first
 Fault = tuple[int, str, object, str]  # number of a row, column, value, accepted
+Field = str | int | float | None
 
 
 def read_scores(*paths: Path) -> list[Score]:
@@ -85,3 +88,25 @@ def _score_faults(rows: Sequence[Score]) -> Iterator[Fault]:
         # a limb with forces and torques has two means of what has no unit of a joint, such as %
         if first != k and not (row.joint == "avg" and len(metric.units) == 1):
             yield k, "row", ", ".join(map(str, key[:-1])), f"once; it stands in line {first + 2} already"
+
+
+def write_csv(path: Path, columns: Sequence[str], rows: Iterable[Sequence[Field]]) -> None:
+    """Write CSV atomically: numbers with six digits, None as an empty field, lines ending in a newline."""
+    write_text(path, csv_text(columns, rows))
+
+
+def read_numbers(path: Path) -> list[tuple[dict[str, str], Number]]:
+    """Read the rows of a table: the texts of all columns, and the number, with what the paper prints.
+
+    Raises:
+        DataError: the file is missing, a column is missing or a field is not a number where one is due.
+    """
+    names = ("value", "low", "high", "published")
+    faults = list[str]()
+    found: list[tuple[dict[str, str], Number]] = []
+    # The names of the columns are line 1 of the file.
+    for line, row in enumerate(read_texts(path, [*names, "unit"]), start=2):
+        numbers = {name: parse_field(row[name], float | None, f"{path}:{line}: {name}", faults) for name in names}
+        found.append((row, Number(**numbers, unit=row["unit"])))
+    refuse_lines(faults)
+    return found

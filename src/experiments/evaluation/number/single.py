@@ -5,6 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 import scipy  # pyright: ignore[reportMissingTypeStubs]  # its parts are imported where they are used first
 
+from experiments.evaluation.number.clusters import garwood
 from experiments.evaluation.number.intervals import Array, RunGrid, quantile_of
 from experiments.evaluation.number.number import Number
 from experiments.settings.runs import Statistics
@@ -31,14 +32,14 @@ def share(grids: Sequence[RunGrid], statistics: Statistics, unit: str = "-") -> 
     return Number(grid.mean, float(ends.low), float(ends.high), unit=unit, networks=(networks,), walks=(walks,))
 
 
-def rate(count: int, hours: float, statistics: Statistics) -> Number:
+def rate_of(count: int, hours: float, statistics: Statistics) -> Number:
     """Return how many events there are in an hour [1/h], with the interval of a Poisson count (Garwood 1936).
 
-    Events are taken as independent of each other.
+    Events are taken as independent of each other. In no time there is no rate.
     """
-    tail = (1.0 - statistics.confidence) / 2.0
-    low = float(scipy.special.gammaincinv(count, tail)) if count else 0.0
-    high = float(scipy.special.gammaincinv(count + 1, 1.0 - tail))
+    if hours <= 0.0:
+        return Number(None, unit="1/h")
+    low, high = garwood(count, statistics)
     return Number(count / hours, low / hours, high / hours, unit="1/h")
 
 

@@ -14,9 +14,16 @@ from mobnet.settings.networks import Learning
 
 
 def calibration(
-    settings: CalibrationTable, learning: Learning, coverage: Coverage, layout: JointLayout, statistics: Statistics,
-    folders: Mapping[str, Sequence[Path]], runs: Sequence[Sequence[Run]], table_dir: Path, figure_dir: Path,
-) -> None:  # fmt: skip
+    settings: CalibrationTable,
+    learning: Learning,
+    coverage: Coverage,
+    layout: JointLayout,
+    statistics: Statistics,
+    folders: Mapping[str, Sequence[Path]],
+    runs: Sequence[Sequence[Run]],
+    table_dir: Path,
+    figure_dir: Path,
+) -> None:
     """Write calibration.csv, .tex and .md, and the reliability diagram as calibration.pdf, .png and .csv.
 
     `folders` are the trained networks by the level that they learned at, `runs` those of each test of `settings`.

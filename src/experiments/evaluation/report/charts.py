@@ -36,17 +36,19 @@ class Chart:
     spans: tuple[float, float, float, float]
 
 
-def line_chart(key: str, title: str, x: Sequence[float], lines: Mapping[str, Sequence[float]],
-               marked: float) -> Chart:  # fmt: skip
+def line_chart(key: str, title: str, x: Sequence[float], lines: Mapping[str, Sequence[float]], marked: float) -> Chart:
     """Scale curves, values (n,) at whole numbers x (n,), all on one axis, to the drawing; `marked` is a place of x."""
     across = span(x)
     up = span(list(chain.from_iterable(lines.values())))
     return Chart(
-        key, title,
-        {name: points(x, values, across, up) for name, values in lines.items()},
-        round(GRID * share(marked, across)),
-        ticks(across, whole=True), ticks(up), (*across, *up),
-    )  # fmt: skip
+        key=key,
+        title=title,
+        lines={name: points(x, values, across, up) for name, values in lines.items()},
+        marked=round(GRID * share(marked, across)),
+        x_ticks=ticks(across, whole=True),
+        y_ticks=ticks(up),
+        spans=(*across, *up),
+    )
 
 
 def span(values: Sequence[float]) -> tuple[float, float]:

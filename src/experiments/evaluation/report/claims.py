@@ -17,9 +17,16 @@ log = logging.getLogger(__name__)
 
 
 def claims(
-    claims: Mapping[str, Claim], statistics: Statistics, methods: Mapping[str, Method], layout: JointLayout,
-    scores: Sequence[Path], folders: Sequence[Path], tables: Mapping[str, Path], table_dir: Path, figure_dir: Path,
-) -> None:  # fmt: skip
+    claims: Mapping[str, Claim],
+    statistics: Statistics,
+    methods: Mapping[str, Method],
+    layout: JointLayout,
+    scores: Sequence[Path],
+    folders: Sequence[Path],
+    tables: Mapping[str, Path],
+    table_dir: Path,
+    figure_dir: Path,
+) -> None:
     """Judge every claim; write claims.csv, .tex and .md and the figure. A claim that fails is a result, not an error.
 
     Raises:

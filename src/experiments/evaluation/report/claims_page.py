@@ -134,8 +134,8 @@ class Statement:
     def summary(self) -> str:
         """How many claims and joints it has, and how many of them have which verdict."""
         joints = sum(bool(claim.joint) for claim in self.claims)
-        parts = [f"{n} {what}{'s' * (n != 1)}" for n, what in ((len(self.claims) - joints, "claim"), (joints, "joint"))
-                 if n]  # fmt: skip
+        numbers = {"claim": len(self.claims) - joints, "joint": joints}
+        parts = [f"{n} {what}{'s' * (n != 1)}" for what, n in numbers.items() if n]
         counts = Counter(claim.verdict for claim in self.claims)
         return f"{' and '.join(parts)}: " + ", ".join(f"{counts[name]} {name}" for name in VERDICTS if counts[name])
 
@@ -155,11 +155,19 @@ def claims_page(claims_csv: Path, confidence: float, title: str, text: str, temp
     for statement in statements:
         places.update(statement.places)
     return rendered(
-        template, title=title, text=text, confidence=confidence, statements=statements, kinds=SCORED, linked=True,
-        counts=verdict_counts(papers), firsts=first_counts(papers),
+        template,
+        title=title,
+        text=text,
+        confidence=confidence,
+        statements=statements,
+        kinds=SCORED,
+        linked=True,
+        counts=verdict_counts(papers),
+        firsts=first_counts(papers),
         ours=verdict_counts([one for one in statements if one.kind == OURS]),
-        order={name: k for k, name in enumerate(VERDICTS)}, places=sorted(places, key=_order_of_place),
-    )  # fmt: skip
+        order={name: k for k, name in enumerate(VERDICTS)},
+        places=sorted(places, key=_order_of_place),
+    )
 
 
 def verdict_counts(statements: Sequence[Statement]) -> dict[str, int]:
@@ -200,10 +208,21 @@ def _claim(row: Mapping[str, str]) -> ClaimRow:
     has_own_sign = row["sign_value"] == row["value"]  # a sign of another number has another axis
     is_sized = size != ANY
     return ClaimRow(
-        row["claim"], row["says"], row["printed"], row["verdict"], row["cause"], published, value, low, high,
-        row["unit"], row["size"], row["sign"], size if is_sized else sign,
-        sign if is_sized and sign != ANY and has_own_sign else None,
-    )  # fmt: skip
+        name=row["claim"],
+        says=row["says"],
+        printed=row["printed"],
+        verdict=row["verdict"],
+        cause=row["cause"],
+        published=published,
+        value=value,
+        low=low,
+        high=high,
+        unit=row["unit"],
+        size=row["size"],
+        sign=row["sign"],
+        claimed=size if is_sized else sign,
+        side=sign if is_sized and sign != ANY and has_own_sign else None,
+    )
 
 
 def places_of(printed: str) -> list[str]:

@@ -89,14 +89,21 @@ def card(settings: Settings) -> str:
     """Return the card of a configuration as Markdown."""
     walk = settings.training_sets["walk"]
     files = FILES.format(
-        rate=settings.rates.data_hz, dropped=settings.recording.dropped_before_fall_s,
-        scale=settings.scale, scenario=walk.scenario, level=walk.level, seed=FIRST_TRAINING_SEED,
-    )  # fmt: skip
+        rate=settings.rates.data_hz,
+        dropped=settings.recording.dropped_before_fall_s,
+        scale=settings.scale,
+        scenario=walk.scenario,
+        level=walk.level,
+        seed=FIRST_TRAINING_SEED,
+    )
     test = ", ".join(f"{row.test.first_seed} (scale {name})" for name, row in settings.scales.items())
     split = SPLIT.format(
-        test=test, development=FIRST_DEVELOPMENT_SEED, first=FIRST_TRAINING_SEED, seed=settings.seed,
+        test=test,
+        development=FIRST_DEVELOPMENT_SEED,
+        first=FIRST_TRAINING_SEED,
+        seed=settings.seed,
         share=settings.learning.validation_share,
-    )  # fmt: skip
+    )
     tables = columns(settings.layout, settings.observer.gain_hz)
     parts = [HEAD, files, "\n## Columns\n", *tables, sizes(settings), split]
     return "".join([*parts, "\n## What was drawn from what\n", *drawn(settings)])

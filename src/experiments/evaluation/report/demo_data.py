@@ -14,13 +14,13 @@ from experiments.evaluation.number.rows import read_detections
 from experiments.evaluation.report.manifest import file_hash
 from experiments.plan.demo import RECORDING, SOURCES, estimate_place
 from experiments.settings.pages import Story
+from mobnet.core.code import provenance
 from mobnet.core.columns import EXTERNAL, PUSH, PUSH_TORQUE, STD, named, recording_columns, torque_columns
 from mobnet.core.detections import COLLISION, Collision, columns_of
 from mobnet.core.errors import DataError, not_accepted
 from mobnet.core.files import atomic_path, read_json, write_json, write_text
 from mobnet.core.joints import JointLayout
 from mobnet.core.notes import read_array_note
-from mobnet.core.provenance import provenance
 from mobnet.core.recording import Sensed
 from mobnet.core.rows import csv_text
 from mobnet.core.store import ARRAY, NOTE, file_of, read_array, spans_and_rate, write_array
@@ -31,9 +31,17 @@ log = logging.getLogger(__name__)
 
 
 def demo_data(
-    settings: Story, scale: str, layout: JointLayout, limb: str, pushes: Sequence[str], recording: Path,
-    estimates: Mapping[str, Path], copied: Mapping[str, Path], detections: Mapping[str, Path], out: Path,
-) -> None:  # fmt: skip
+    settings: Story,
+    scale: str,
+    layout: JointLayout,
+    limb: str,
+    pushes: Sequence[str],
+    recording: Path,
+    estimates: Mapping[str, Path],
+    copied: Mapping[str, Path],
+    detections: Mapping[str, Path],
+    out: Path,
+) -> None:
     """Write the files of the stored push beside `out`, which says what each of them is made from, with its hash.
 
     Args:
@@ -73,6 +81,7 @@ def demo_data(
     read |= {f"{name}.csv": path for name, path in detections.items()}
     sources = {name: _source(path) for name, path in read.items()}
     cut = {"from_row": rows.start, "to_row": rows.stop, **provenance()}
+    # The description comes last: whoever finds it finds every file that it lists.
     write_json(out, {"scale": scale, "sources": sources, "cut": cut})
     log.info("%s: %s, %d rows", out, settings.push, rows.stop - rows.start)
 

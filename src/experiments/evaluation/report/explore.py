@@ -4,47 +4,94 @@ It has what `explore_scenes` reads, packed as `explore_pack` says, and the numbe
 of which a browser shows that cannot unpack the data. The address holds what is shown.
 """
 
+import base64
+import gzip
 import json
 import logging
 import re
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from experiments.evaluation.measure.push_scene import PushScene, story_push
 from experiments.evaluation.report.explore_numbers import PushNumbers, push_numbers, stretches
-from experiments.evaluation.report.explore_pack import Part, packed
-from experiments.evaluation.report.explore_scenes import Shown, read_scene
+from experiments.evaluation.report.explore_scenes import PagePush, read_scene
 from experiments.evaluation.report.html import rendered
-from experiments.plan.scenes import PageScene
+from experiments.plan.parts import PageScene
 from experiments.settings.measures import Peaks
 from experiments.settings.pages import Explore, Story
-from mobnet.core.detections import COLLISION, Collision, Detected
+from mobnet.core.detections import COLLISION
 from mobnet.core.errors import DataError
 from mobnet.core.files import write_text
 from mobnet.core.joints import JointLayout
-from mobnet.core.rows import read_rows
-from mobnet.robot.description import RobotDescription, describe
-from mobnet.robot.looks import dressed
+from mobnet.robot.description import RobotDescription, describe, dressed
 from mobnet.settings.detection import Detection
 from mobnet.settings.parts import Looks
 from mobnet.settings.robot import RobotTable
 
+LARGEST = 2**15 - 1  # of a whole number of 16 bits
 OBSERVER = "MOB"
 STORY = "story"
 ROLES = {OBSERVER: "observer", "MOB-Net": "network", "FTS-e2e": "direct"}  # method -> its colour; others are formulas
 SIDES = {"L": ("left",), "R": ("right",)}  # first letter of a joint's name in the source of the table -> word
+FLAGS = ("swing", "watched", "pushed")
 STEP_M, STEP_N = 1e-4, 0.1  # of positions [m, rad, -] and forces [N]
 log = logging.getLogger(__name__)
 
 
+# A page unpacks them with the `DecompressionStream` that browsers have. Differences of neighbouring samples are small,
+# so that their upper bytes are nearly all alike, and are packed together.
+@dataclass(frozen=True)
+class PackedArray:
+    """An array (T, n) of a page: its name, and the step of its whole numbers in its own unit."""
+
+    name: str
+    step: float
+    values: NDArray[Any]
+
+    @property
+    def place(self) -> dict[str, Any]:
+        """What a page must know to unpack it."""
+        return {"name": self.name, "step": self.step, "count": len(self.values), "width": self.values.shape[1]}
+
+
+def packed(parts: Iterable[PackedArray]) -> str:
+    """Return arrays one after the other as text, the same for equal ones.
+
+    Raises:
+        DataError: a value is more than 32767 steps.
+    """
+    return base64.b64encode(gzip.compress(b"".join(map(_planes, parts)), 9, mtime=0)).decode()
+
+
+def _planes(part: PackedArray) -> bytes:
+    """Return an array column by column as differences, first all their lower and then all their upper bytes."""
+    whole = np.round(np.asarray(part.values, dtype=np.float64) / part.step).T
+    if whole.size and np.abs(whole).max() > LARGEST:
+        largest = float(np.abs(part.values).max())
+        raise DataError(f"{part.name}: {largest:g} is not accepted; accepted: up to {LARGEST * part.step:g}")
+    # A difference may exceed 16 bits; it wraps around, and so does its sum.
+    steps = np.diff(whole.astype(np.int64), axis=1, prepend=0).astype("<u2", casting="unsafe")
+    return np.ascontiguousarray(steps).view(np.uint8).reshape(-1, 2).T.tobytes()
+
+
 def explore(
-    settings: Explore, story: Story, detection: Detection, peaks: Peaks, robot: RobotTable, looks: Looks | None,
-    scenes: Mapping[str, PageScene], collisions: Path, detected: Path, templates: Sequence[Path], out: Path,
-) -> None:  # fmt: skip
+    settings: Explore,
+    story: Story,
+    detection: Detection,
+    peaks: Peaks,
+    robot: RobotTable,
+    looks: Looks | None,
+    scenes: Mapping[str, PageScene],
+    collisions: Path,
+    detected: Path,
+    templates: Sequence[Path],
+    out: Path,
+) -> None:
     """Write the page; a scene whose recording has no such push is left out.
 
     `templates` has the page's HTML, then the files that it includes; `collisions` are those of the story's robot and
@@ -59,22 +106,30 @@ def explore(
     log.info("%s: %d of %d scenes", out, len(shown), len(scenes))
     if not shown:
         raise DataError(f"{out}: no recording has a push that the page shows; accepted: one or more")
-    alarm = alarm_of(shown[STORY], story, description.layout, collisions, detected) if STORY in shown else None
+    alarm: dict[str, Any] | None = None
+    if STORY in shown:
+        alarm = alarm_of(shown[STORY], story, description.layout, {"collisions": collisions, "detected": detected})
     seen = dressed(description, looks)
     write_text(out, page_of(shown, alarm, settings, story, detection, peaks, seen, templates[0]))
 
 
 def page_of(
-    shown: Mapping[str, Shown], alarm: Mapping[str, Any] | None, settings: Explore, story: Story, detection: Detection,
-    peaks: Peaks, robot: RobotDescription, template: Path,
-) -> str:  # fmt: skip
+    shown: Mapping[str, PagePush],
+    alarm: Mapping[str, Any] | None,
+    settings: Explore,
+    story: Story,
+    detection: Detection,
+    peaks: Peaks,
+    robot: RobotDescription,
+    template: Path,
+) -> str:
     """Return the page of some scenes; `alarm` is that of the story's detector; scripts stand beside the template."""
     numbers: dict[str, list[PushNumbers]] = {}
     steps: dict[str, dict[str, PushNumbers]] = {}
-    parts: list[Part] = []
+    parts: list[PackedArray] = []
     for name, scene in shown.items():
         # The page computes with the rounded torques that it gets: the table has numbers of the same.
-        stored = as_stored(scene, settings.step_nm)
+        stored = as_stored(scene.push, settings.step_nm)
         numbers[name] = push_numbers(stored, scene.scene.joint, scene.scene.threshold_nm, detection, peaks)
         steps[name] = {row.method: row for row in numbers[name]}
         parts += parts_of(scene, settings)
@@ -86,29 +141,39 @@ def page_of(
         ],
     }
     return rendered(
-        template, told=json.dumps(told, separators=(",", ":")), numbers=numbers, shown=shown, roles=ROLES,
-        data=packed(parts), detection=detection,
-        peaks=peaks, joint_names=joint_names(robot), alarm_of=story.detector,
+        template,
+        told=json.dumps(told, separators=(",", ":")),
+        numbers=numbers,
+        shown=shown,
+        roles=ROLES,
+        data=packed(parts),
+        detection=detection,
+        peaks=peaks,
+        joint_names=joint_names(robot),
+        alarm_of=story.detector,
         steps=steps,
-        trained_hz=next(iter(shown.values())).gain_hz,
-    )  # fmt: skip
+        trained_hz=next(iter(shown.values())).push.gain_hz,
+    )
 
 
 def page_numbers(settings: Explore, detection: Detection, peaks: Peaks) -> dict[str, Any]:
     """Return the numbers of the configuration with which the page computes."""
     return {
-        "gains": settings.gains_hz, "thresholds": settings.thresholds_nm,
-        "poseHz": settings.pose_hz, "lowPassHz": detection.low_pass_hz, "holdS": detection.hold_s,
-        "lateS": detection.late_s, "afterS": peaks.after_s, "longestS": peaks.longest_s,
-    }  # fmt: skip
+        "gains": settings.gains_hz,
+        "thresholds": settings.thresholds_nm,
+        "poseHz": settings.pose_hz,
+        "lowPassHz": detection.low_pass_hz,
+        "holdS": detection.hold_s,
+        "lateS": detection.late_s,
+        "afterS": peaks.after_s,
+        "longestS": peaks.longest_s,
+    }
 
 
 def robot_parts(robot: RobotDescription) -> dict[str, Any]:
     """Return bodies, joints, solids with their colours, and soles of a robot, bodies by their number."""
     index = {body.name: k for k, body in enumerate(robot.bodies)}
-    limbs: dict[str, str] = {}
-    for limb, joints in robot.layout.groups.items():
-        limbs |= dict.fromkeys(joints, limb)
+    limbs = robot.layout.limb_of
     tones: dict[str, list[int]] = {}
     for name, colour in robot.tones.items():
         tones[name] = [round(255 * part) for part in colour[:3]]
@@ -137,46 +202,59 @@ def joint_names(robot: RobotDescription) -> dict[str, str]:
 
 
 def scene_note(
-    name: str, shown: Shown, robot: RobotDescription, settings: Explore, alarm: Mapping[str, Any] | None
-) -> dict[str, Any]:  # fmt: skip
+    name: str, shown: PagePush, robot: RobotDescription, settings: Explore, alarm: Mapping[str, Any] | None
+) -> dict[str, Any]:
     """Return what the page must know of a scene besides its arrays."""
     scene = shown.scene
-    push = shown.scene.pushes[shown.pushed]
+    push = shown.push
+    row = scene.pushes[shown.name]
     names = joint_names(robot)
     bodies = [body.name for body in robot.bodies]
-    point = next((point for point in robot.points if point.name == push.point), None)
+    point = next((point for point in robot.points if point.name == row.point), None)
     return {
-        "name": name, "push": scene.push, "plant": scene.plant, "joint": scene.joint, "threshold": scene.threshold_nm,
-        "joints": [[joint, names[joint]] for joint in shown.joints],
-        "methods": [[method, ROLES.get(method, "formula")] for method in shown.estimates],
-        "stds": list(shown.stds), "rate": shown.rate_hz, "gain": shown.gain_hz,
-        "lead": shown.lead, "start": shown.start, "end": shown.end, "count": len(shown.truth),
+        "name": name,
+        "push": scene.push,
+        "plant": scene.plant,
+        "joint": scene.joint,
+        "threshold": scene.threshold_nm,
+        "joints": [[joint, names[joint]] for joint in push.joints],
+        "methods": [[method, ROLES.get(method, "formula")] for method in push.estimates],
+        "stds": list(push.stds),
+        "rate": push.rate_hz,
+        "gain": push.gain_hz,
+        "lead": push.settled,
+        "start": push.start,
+        "end": push.end,
+        "count": len(push.truth),
         "point": [bodies.index(point.body), point.pos, point.name.replace("_", " ")] if point else None,
-        "turned": push.joint, "flags": {key: list(stretches(flag)) for key, flag in shown.flags.items()},
-        "alarm": alarm, "parts": [part.place for part in parts_of(shown, settings)],
-    }  # fmt: skip
+        "turned": row.joint,
+        "flags": {key: list(stretches(push.flags[key])) for key in FLAGS},
+        "alarm": alarm,
+        "parts": [part.place for part in parts_of(shown, settings)],
+    }
 
 
-def parts_of(shown: Shown, settings: Explore) -> Iterator[Part]:
+def parts_of(shown: PagePush, settings: Explore) -> Iterator[PackedArray]:
     """Yield the arrays of a scene, of the residual's methods what they subtract from it, which is smoother."""
+    push = shown.push
     step = settings.step_nm
-    yield Part("poses", STEP_M, shown.poses)
-    yield Part("wrenches", STEP_N, shown.wrenches)
-    yield Part("force", STEP_N, shown.force)
-    yield Part("truth", step, shown.truth)
-    yield Part("push", step, shown.push)
-    for method, estimate in shown.estimates.items():
-        yield Part(method, step, estimate if is_whole(shown, method) else shown.estimates[OBSERVER] - estimate)
-    for method, std in shown.stds.items():
-        yield Part(f"std {method}", step, std)
+    yield PackedArray("poses", STEP_M, shown.poses)
+    yield PackedArray("wrenches", STEP_N, shown.wrenches)
+    yield PackedArray("force", STEP_N, shown.force)
+    yield PackedArray("truth", step, push.truth)
+    yield PackedArray("push", step, push.push)
+    for method, estimate in push.estimates.items():
+        yield PackedArray(method, step, estimate if is_whole(push, method) else push.estimates[OBSERVER] - estimate)
+    for method, std in push.stds.items():
+        yield PackedArray(f"std {method}", step, std)
 
 
-def is_whole(shown: Shown, method: str) -> bool:
+def is_whole(shown: PushScene, method: str) -> bool:
     """Return whether a method's torque is stored, and not what it subtracts from the observer's."""
     return OBSERVER not in shown.estimates or ROLES.get(method) in ("observer", "direct")
 
 
-def as_stored(shown: Shown, step_nm: float) -> Shown:
+def as_stored(shown: PushScene, step_nm: float) -> PushScene:
     """Return a scene with the torques that a page gets of it, whole numbers of steps [N m]: its numbers are theirs."""
 
     def stored(values: NDArray[Any]) -> NDArray[np.float64]:
@@ -193,22 +271,15 @@ def as_stored(shown: Shown, step_nm: float) -> Shown:
     return replace(shown, truth=stored(shown.truth), push=stored(shown.push), estimates=estimates)
 
 
-def alarm_of(
-    shown: Shown, story: Story, layout: JointLayout, collisions: Path, detected: Path
-) -> dict[str, Any] | None:  # fmt: skip
+def alarm_of(shown: PagePush, story: Story, layout: JointLayout, files: Mapping[str, Path]) -> dict[str, Any] | None:
     """Return when the story's detector finds its push and what it names, as recorded; None if it does not find it.
 
-    Its thresholds are those for one false alarm an hour.
+    Its thresholds are those for one false alarm an hour; the files are those of the robot's detectors.
     """
-    seed = shown.scene.runs[0].test_seed
-    hit = next(
-        row for row in read_rows(collisions, Collision)
-        if (row.scenario, row.seed, row.push) == (story.scenario, seed, story.push)
-    )  # fmt: skip
-    wanted = (story.scenario, seed, hit.leg, hit.number, story.detector, COLLISION)
-    for row in read_rows(detected, Detected):
-        if (row.scenario, row.seed, row.leg, row.number, row.detector, row.kind) == wanted and row.delay_s is not None:
-            side = next(side for side, limb in layout.legs.items() if limb == row.leg)
-            named = f"{side} {row.link}, {row.direction}"
-            return {"detector": row.detector, "at": shown.start + round(row.delay_s * shown.rate_hz), "named": named}
-    return None
+    hit, alarm = story_push(story, files, shown.scene.runs[0].test_seed, COLLISION)
+    if alarm is None:
+        return None
+    push = shown.push
+    side = next(side for side, limb in layout.legs.items() if limb == hit.leg)
+    named = f"{side} {alarm.link}, {alarm.direction}"
+    return {"detector": story.detector, "at": push.start + round(alarm.delay_s * push.rate_hz), "named": named}

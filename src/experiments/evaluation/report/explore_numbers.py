@@ -11,14 +11,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from experiments.evaluation.compare.curves import TRUTH
-from experiments.evaluation.measure.estimates.felt import felt_of
 from experiments.evaluation.measure.estimates.peaks import MS
-from experiments.evaluation.report.explore_scenes import Shown
+from experiments.evaluation.measure.push_scene import PushScene
 from experiments.settings.measures import Peaks
 from mobnet.core.arrays import Array
 from mobnet.detection.chain import make_chain
 from mobnet.detection.detector import ALARM_RATIO, GateSignal, run_over
-from mobnet.estimation.low_pass import low_pass
 from mobnet.settings.detection import Detection
 
 ALREADY, NEVER, ASLEEP = "on before", "none", "not watched"  # of an alarm without a delay
@@ -50,26 +48,19 @@ class PushNumbers:
 
 
 def push_numbers(
-    shown: Shown, joint: str, threshold_nm: float, detection: Detection, peaks: Peaks
+    shown: PushScene, joint: str, threshold_nm: float, detection: Detection, peaks: Peaks
 ) -> list[PushNumbers]:
     """Return the numbers of the truth and of every method at a joint, with a threshold on the torque [N m].
 
     They are those of the time that the table of peaks looks at: from the last sample before the push to some time after
     it, or the rise of one that lasts.
     """
-    k = shown.joints.index(joint)
-    rate_hz = shown.rate_hz
-    after, longest = (round(time_s * rate_hz) for time_s in (peaks.after_s, peaks.longest_s))
-    rise = slice(shown.start - 1, min(shown.end + after, shown.start + longest, len(shown.truth)))
-    truth = shown.truth[:, k].astype(np.float64)
-    push = shown.push[:, k].astype(np.float64)
-    behind = low_pass(push, shown.gain_hz, rate_hz)[rise]
-    torques = {TRUTH: truth, **{name: found[:, k].astype(np.float64) for name, found in shown.estimates.items()}}
+    truth = shown.truth[:, shown.joints.index(joint)].astype(np.float64)
+    rise = shown.rise(peaks)
     rows: list[PushNumbers] = []
-    for name, torque in torques.items():
-        # What an estimate shows of a push is the push behind the low-pass plus its error, as for the table of peaks.
-        error = (torque - truth)[rise]
-        felt = felt_of(push[rise], behind, behind + error, rate_hz)
+    for name, torque in {TRUTH: truth, **shown.torques(joint)}.items():
+        error = torque[rise].astype(np.float64) - truth[rise]
+        felt = shown.felt(torque, joint, peaks)
         rms = float(np.sqrt(np.mean(error**2)))
         found = alarms(shown, torque, threshold_nm, detection)
         rows.append(PushNumbers(name, felt.peak_nm, felt.share, felt.delay_ms, rms, *found))
@@ -77,7 +68,7 @@ def push_numbers(
 
 
 def alarms(
-    shown: Shown, torque: NDArray[Any], threshold_nm: float, detection: Detection
+    shown: PushScene, torque: NDArray[Any], threshold_nm: float, detection: Detection
 ) -> tuple[float | str, int, float | None]:
     """Return the delay of the alarm [ms], or why there is none, false alarms, and the quiet threshold [N m].
 
@@ -90,10 +81,10 @@ def alarms(
     # An alarm counts where it begins, however long it lasts.
     rises = over & calm & ~np.concatenate([[False], over[:-1] & calm[:-1]])
     largest = float(ratio[calm].max(initial=0.0)) * threshold_nm
-    return _delay(shown, over, detection), int(rises.sum()), largest if watched[shown.lead :].any() else None
+    return _delay(shown, over, detection), int(rises.sum()), largest if watched[shown.settled :].any() else None
 
 
-def held_ratio(shown: Shown, torque: NDArray[Any], threshold_nm: float, detection: Detection) -> Array:
+def held_ratio(shown: PushScene, torque: NDArray[Any], threshold_nm: float, detection: Detection) -> Array:
     """Return the torque over its threshold (T,), behind the low-pass and held, as in any detector of the project."""
     watched = shown.flags["watched"]
     chain = make_chain(detection.low_pass_hz, detection.hold_s, shown.rate_hz, np.array([[threshold_nm]]))
@@ -101,11 +92,11 @@ def held_ratio(shown: Shown, torque: NDArray[Any], threshold_nm: float, detectio
     return run_over(chain, signals, GateSignal(np.ascontiguousarray(watched), np.zeros(len(watched)))).ratio
 
 
-def calm_rows(shown: Shown) -> NDArray[np.bool_]:
+def calm_rows(shown: PushScene) -> NDArray[np.bool_]:
     """Return the rows in which an alarm is a false one (T,): watched, and nothing has pushed since that began."""
     calm = shown.flags["watched"].copy()
     pushed = shown.flags["pushed"]
-    calm[: shown.lead] = False
+    calm[: shown.settled] = False
     for start, end in stretches(shown.flags["watched"]):
         # A leg that was hit still recovers until it lands.
         hit = np.flatnonzero(pushed[start:end])
@@ -120,7 +111,7 @@ def stretches(flag: NDArray[np.bool_]) -> Iterator[tuple[int, int]]:
     yield from ((int(start), int(end)) for start, end in edges.reshape(-1, 2))
 
 
-def _delay(shown: Shown, over: NDArray[np.bool_], detection: Detection) -> float | str:
+def _delay(shown: PushScene, over: NDArray[np.bool_], detection: Detection) -> float | str:
     """Return the delay of the push's alarm [ms], or why there is none, as for a collision, (D21)."""
     window = slice(shown.start, shown.end + round(detection.late_s * shown.rate_hz))
     if not shown.flags["watched"][window].any():

@@ -1,75 +1,48 @@
 """The scenes of the page on which a reader plays with pushes: what is read of recordings and estimates."""
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from itertools import product
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from experiments.evaluation.compare.pair import Pair, read_pair, read_std
-from experiments.evaluation.compare.scene import Scene
+from experiments.evaluation.compare.pair import read_pair
 from experiments.evaluation.compare.windows import FLAG, flagged_spans
-from experiments.plan.scenes import PageScene
-from experiments.settings.measures import Scoring
+from experiments.evaluation.measure.push_scene import PushRows, PushScene, read_push
+from experiments.plan.parts import PageScene
 from experiments.settings.pages import Explore, Story
 from mobnet.control.kinematics import empty_pose, tree_of, update
-from mobnet.core.columns import FEET, PUSH, PUSHED, named, recording_columns
-from mobnet.core.errors import DataError, not_accepted
-from mobnet.core.joints import JointLayout
-from mobnet.core.notes import read_array_note
+from mobnet.core.arrays import Array
+from mobnet.core.columns import FEET, PUSH, PUSHED
 from mobnet.core.recording import read_sensed
-from mobnet.core.store import NOTE, file_of, read_array
+from mobnet.core.store import read_array
 from mobnet.detection.detector import LegGate
 from mobnet.robot.description import RobotDescription
 from mobnet.settings.detection import Detection
 
-ARROWS = named(PUSH, ("row", "force_x", "force_y", "force_z"))
 FORCES = [f"wrench_{foot}.force_{axis}" for foot, axis in product(FEET, "xyz")]
 
 JUMP_M = 0.2  # between two poses, more than a robot walks
 
 
 @dataclass(frozen=True)
-class Shown:
-    """A scene, T samples of n joints and P poses.
+class PagePush:
+    """A push of the page, and the robot in P poses meanwhile.
 
     Attributes:
         scene: what the configuration says of it.
-        joints: names (n,).
-        rate_hz: samples per second [Hz].
-        gain_hz: gain of the observer behind which everything lies [1/s].
-        first: row of the recording at which it begins.
-        lead: samples that are stored but not shown.
-        start: sample at which the push begins.
-        end: sample after its last one.
-        pushed: name of the push.
-        truth: external torque behind the observer's low-pass (T, n) [N m].
-        push: what pushes alone add to the external torque, without a low-pass (T, n) [N m].
-        estimates: method -> external torque (T, n) [N m].
-        stds: method -> standard deviation (T, n) [N m], where it predicts one.
-        flags: `swing`, `watched`, `pushed` -> whether it holds (T,).
+        name: that of the push.
+        push: what is shown; its samples before `settled` are stored but not shown.
         poses: generalized positions (P, nq).
         wrenches: forces on both feet, axes of the foot (P, 6) [N].
         force: force of the push, world axes (P, 3) [N].
     """
 
     scene: PageScene
-    joints: tuple[str, ...]
-    rate_hz: float
-    gain_hz: float
-    first: int
-    lead: int
-    start: int
-    end: int
-    pushed: str
-    truth: NDArray[Any]
-    push: NDArray[Any]
-    estimates: Mapping[str, NDArray[Any]]
-    stds: Mapping[str, NDArray[Any]]
-    flags: Mapping[str, NDArray[np.bool_]]
+    name: str
+    push: PushScene
     poses: NDArray[Any]
     wrenches: NDArray[Any]
     force: NDArray[Any]
@@ -77,42 +50,35 @@ class Shown:
 
 def read_scene(
     scene: PageScene, settings: Explore, story: Story, detection: Detection, robot: RobotDescription
-) -> Shown | None:
+) -> PagePush | None:
     """Read a scene; None where its recording has no such push.
 
     Raises:
-        DataError: a file is missing or damaged, or some method estimates none of the joints.
+        DataError: a file is missing or damaged, or some method does not estimate the joint that is shown first.
     """
-    first = scene.runs[0]
-    layout = robot.layout
-    arrows, meta = read_array(first.recording, [PUSHED, *ARROWS])
+    recording = scene.runs[0].recording
+    arrows, meta = read_array(recording, [PUSHED, f"{PUSH}.row"])
     rate = float(meta["rate_hz"])
-    gain_hz = float(read_array_note(file_of(first.residual, NOTE))["gain_hz"])
-    lead, before, after, earliest = (
-        round(time_s * rate) for time_s in (settings.lead_s, story.before_s, story.after_s, scene.from_s)
-    )
-    found = find_push(scene, arrows, meta["segments"], max(lead + before, earliest))
+    lead = round(settings.lead_s * rate)
+    before = round(story.before_s * rate)
+    earliest = max(lead + before, round(scene.from_s * rate))
+    found = find_push(scene, arrows, meta["segments"], earliest)
     if found is None:
         return None
     start, end, last = found
-    rows = slice(start - before - lead, min(start + after, last))
-    pairs = {run.method: read_pair(run, layout) for run in scene.runs}
-    joints = shared_joints(scene, layout, pairs)
-    stds = {run.method: read_std(run, joints) for run in scene.runs}
-    flags = read_flags(scene, detection, robot, pairs, arrows[:, 0] > FLAG)
-    poses, wrenches = read_poses(first.recording, robot, rows, round(rate / settings.pose_hz))
-    truth = pairs[first.method]
-    return Shown(
-        scene, joints, rate, gain_hz, rows.start, lead, start - rows.start, end - rows.start,
+    shown = slice(start - before - lead, min(start + round(story.after_s * rate), last))
+    push = read_push(scene.runs, robot.layout, scene.limbs, scene.joint, PushRows(shown, start, end, lead))
+    watched = watched_rows(scene, detection, robot, len(arrows))[shown]
+    every = round(rate / settings.pose_hz)
+    wrenches = read_array(recording, FORCES)[0][shown][::every].astype(np.float64)
+    return PagePush(
+        scene,
         list(scene.pushes)[max(int(arrows[start, 1]) - 1, 0)],  # the torque on a joint has no row
-        truth=truth.truth[rows][:, truth.places(joints)],
-        push=Scene(first.recording, layout, Scoring()).pushes[rows][:, layout.columns(joints)],
-        estimates={name: pair.estimate[rows][:, pair.places(joints)] for name, pair in pairs.items()},
-        stds={name: std[rows] for name, std in stds.items() if std is not None},
-        flags={name: flag[rows] for name, flag in flags.items()},
-        poses=poses, wrenches=wrenches,
-        force=arrows[rows][:: round(rate / settings.pose_hz), 2:],
-    )  # fmt: skip
+        replace(push, flags={**push.flags, "watched": watched}),
+        standing_poses(robot, push.q[::every]),
+        wrenches,
+        push.force[::every],
+    )
 
 
 def find_push(
@@ -120,7 +86,7 @@ def find_push(
 ) -> tuple[int, int, int] | None:
     """Return start and end of the push that a scene shows, and the end of its segment [rows]; None if there is none.
 
-    Columns of `arrows` (T, 5) are whether something pushes, the row of the push and its force.
+    Columns of `arrows` (T, 2) are whether something pushes, and the row of the push.
     """
     wanted = None if scene.name is None else list(scene.pushes).index(scene.name) + 1
     for first, last in segments:
@@ -132,56 +98,29 @@ def find_push(
     return None
 
 
-def shared_joints(scene: PageScene, layout: JointLayout, pairs: Mapping[str, Pair]) -> tuple[str, ...]:
-    """Return the joints of the scene's limbs that every method estimates.
-
-    Raises:
-        DataError: there is none, or the one that is shown first is not among them.
-    """
-    found: list[str] = []
-    for joint in layout.limbs(scene.limbs):
-        if all(joint in pair.joints for pair in pairs.values()):
-            found.append(joint)
-    joints = tuple(found)
-    if scene.joint not in joints:
-        raise DataError(f"{scene.runs[0].recording}: {not_accepted('joint of the scene', scene.joint, joints)}")
-    return joints
-
-
-def read_flags(
-    scene: PageScene, detection: Detection, robot: RobotDescription, pairs: Mapping[str, Pair],
-    pushed: NDArray[np.bool_],
-) -> dict[str, NDArray[np.bool_]]:  # fmt: skip
-    """Return whether the leg swings by the plan, whether it is watched, and whether something pushes (T,).
-
-    A joint of no leg has no swing, and is watched all the time.
-    """
-    recording = scene.runs[0].recording
+def watched_rows(scene: PageScene, detection: Detection, robot: RobotDescription, count: int) -> NDArray[np.bool_]:
+    """Return whether the leg of a scene is watched in each of its recording's samples (T,); no leg always is."""
     layout = robot.layout
-    limb = next((leg for leg in layout.legs.values() if scene.joint in layout.limb(leg)), None)
-    if limb is None:
-        return {"swing": np.zeros_like(pushed), "watched": np.ones_like(pushed), "pushed": pushed}
-    gating = pairs[detection.gate.method]
-    read = read_sensed(recording, layout)
+    limb = layout.limb_of[scene.joint]
+    if limb not in layout.legs.values():
+        return np.ones(count, dtype=bool)
+    gating = next(run for run in scene.runs if run.method == detection.gate.method)
+    pair = read_pair(gating, layout)
+    read = read_sensed(scene.runs[0].recording, layout)
     gate = LegGate.of(detection.gate, robot, limb, read.rate_hz)
-    watched = gate.watch(read, gating.estimate[:, gating.places(layout.limb(limb))]).watched
-    return {"swing": read.sensed.swing[:, gate.foot] > FLAG, "watched": watched, "pushed": pushed}
+    return gate.watch(read, pair.estimate[:, pair.places(layout.limb(limb))]).watched
 
 
-def read_poses(recording: Path, robot: RobotDescription, rows: slice, every: int) -> tuple[NDArray[Any], NDArray[Any]]:
-    """Return every so many positions of some rows (P, nq), and the forces on both feet, axes of the foot (P, 6) [N].
+def standing_poses(robot: RobotDescription, q: Array) -> Array:
+    """Return positions (P, nq) of a robot that begins over the origin and stands on its lower sole.
 
-    The robot begins over the origin, and stands on its lower sole: the sensed position of the base drifts (note 0007)
-    and jumps where the ground repeats itself.
+    The sensed position of the base drifts (note 0007) and jumps where the ground repeats itself.
     """
-    names = [name for name, *_ in recording_columns(robot.layout)["q"]]
-    moved = read_array(recording, [*names, *FORCES])[0][rows][::every].astype(np.float64)
-    poses = moved[:, : len(names)]
-    forces = moved[:, len(names) :]
+    poses = q.copy()
     steps = np.diff(poses[:, :2], axis=0, prepend=poses[:1, :2])
     poses[:, :2] = np.cumsum(np.where(np.abs(steps) < JUMP_M, steps, 0.0), axis=0)
     poses[:, 2] -= sole_heights(robot, poses)
-    return poses, forces
+    return poses
 
 
 def sole_heights(robot: RobotDescription, poses: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -28,9 +28,14 @@ class Picture:
 
 
 def first_page(
-    title: str, text: str, claims_csv: Path, table_dir: Path, pictures: Sequence[tuple[Path, Path]],
-    tables: Mapping[str, str], template: Path,
-) -> str:  # fmt: skip
+    title: str,
+    text: str,
+    claims_csv: Path,
+    table_dir: Path,
+    pictures: Sequence[tuple[Path, Path]],
+    tables: Mapping[str, str],
+    template: Path,
+) -> str:
     """Return the page, from claims.csv, the folder of tables, PNG files with captions, and name of a table -> title.
 
     The title is text, what stands below it is HTML.
@@ -42,9 +47,16 @@ def first_page(
     papers = [one for one in read_statements(claims_csv) if one.kind != OURS]
     shown = MarkdownIt("js-default").render(headline(table_dir)).strip()
     return rendered(
-        template, title=title, text=text, counts=verdict_counts(papers), firsts=first_counts(papers), linked=False,
-        headline=shown, pictures=[_picture(*pair) for pair in pictures], tables=tables,
-    )  # fmt: skip
+        template,
+        title=title,
+        text=text,
+        counts=verdict_counts(papers),
+        firsts=first_counts(papers),
+        linked=False,
+        headline=shown,
+        pictures=[_picture(*pair) for pair in pictures],
+        tables=tables,
+    )
 
 
 def _picture(file: Path, caption: Path) -> Picture:

@@ -12,7 +12,11 @@ def rendered(template: Path, **values: Any) -> str:
     A template may include others of its folder. A value that it needs and does not get is an error.
     """
     settings = Environment(
-        loader=FileSystemLoader(template.parent), autoescape=True, undefined=StrictUndefined,
-        trim_blocks=True, lstrip_blocks=True, keep_trailing_newline=True,
-    )  # fmt: skip
+        loader=FileSystemLoader(template.parent),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        keep_trailing_newline=True,
+    )
     return settings.get_template(template.name).render(values)

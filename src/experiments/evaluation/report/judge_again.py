@@ -14,7 +14,15 @@ from pathlib import Path
 
 from experiments.evaluation.figures.further.forest import STEMS, forest
 from experiments.evaluation.measure.claims.cells import Evidence
-from experiments.evaluation.measure.claims.verdicts import Found, Judged, Row, found_of, judged, rows_of, score_of
+from experiments.evaluation.measure.claims.verdicts import (
+    ClaimNumbers,
+    Judged,
+    Row,
+    found_of,
+    judged,
+    rows_of,
+    score_of,
+)
 from experiments.evaluation.number.number import Number
 from experiments.evaluation.report.snapshot import PICTURES, SNAPSHOT, store_drawn, tell_readme
 from experiments.evaluation.tables.further.claims_summary import claims_summary
@@ -57,7 +65,7 @@ def judged_again(settings: Settings, published: Path) -> list[Judged]:
     return [judged(*each) for each in zip(rows, found, scores, strict=True)]
 
 
-def _found(row: Row, before: Text, evidence: Evidence, settings: Settings) -> Found:
+def _found(row: Row, before: Text, evidence: Evidence, settings: Settings) -> ClaimNumbers:
     """Return the numbers of a claim, made of published tables where all its cells are fields of them."""
     claim = row.claim
     if is_of_tables(claim):
@@ -70,7 +78,7 @@ def _found(row: Row, before: Text, evidence: Evidence, settings: Settings) -> Fo
     ours = replace(ours, published=claim.published, std_networks=stds[0], std_walks=stds[1])
     signed = _number(same, ("sign_value", "sign_low", "sign_high"), claim) if claim.sign_of else ours
     without = _number(same, ("without", "without_low", "without_high"), claim) if claim.cause else None
-    return Found(ours, signed, without)
+    return ClaimNumbers(ours, signed, without)
 
 
 def is_of_tables(claim: Claim) -> bool:

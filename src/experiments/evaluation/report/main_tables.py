@@ -3,13 +3,18 @@
 from collections.abc import Mapping, Sequence
 from itertools import product
 from pathlib import Path
+from typing import Literal
 
 from experiments.evaluation.number.number import Number
-from experiments.evaluation.report.cells import cell_text, cells_of
 from experiments.evaluation.tables.layout import Line, Table, write_table
 from experiments.settings.detection_tables import AlarmTable
 from experiments.settings.tables import LegsTable, LimbsTable, MainTables
+from mobnet.core.errors import refuse_lines
+from mobnet.core.rows import parse_field, read_texts
 
+COUNTS = ("hours", "count", "events")  # they stand before a number, but are no name of it
+FINE = ("N m", "-")  # units of numbers that are written with two digits
+LARGE = 100.0
 COLUMNS = ("row", "quantity", "value", "low", "high", "unit", "published")
 NONE = Number(None)
 ZERO, ABOVE = "zero", "*"  # the method that estimates nothing, and what stands behind an error larger than its
@@ -24,13 +29,48 @@ DETECTED = {  # quantity -> its cell, of a detector of a leg; both rules of thre
     "alarms at rate": "false_alarms@{}@collision@held out@measured",
 }
 HEADS = {  # head -> quantity of a column; heads of the right half say so
-    "LL3 [N m]": "threshold", "found": "found", "paper": "paper", "delay [ms]": "delay", "false [1/h]": "alarms",
-    "at 1/h: found": "found at rate", "at 1/h: 95%": "interval", "at 1/h: delay [ms]": "delay at rate",
+    "LL3 [N m]": "threshold",
+    "found": "found",
+    "paper": "paper",
+    "delay [ms]": "delay",
+    "false [1/h]": "alarms",
+    "at 1/h: found": "found at rate",
+    "at 1/h: 95%": "interval",
+    "at 1/h: delay [ms]": "delay at rate",
     "at 1/h: false [1/h]": "alarms at rate",
-}  # fmt: skip
-
+}
 Cells = Mapping[str, Number]
 Fields = Sequence[str | float | None]
+
+
+def cells_of(path: Path) -> dict[str, Number]:
+    """Read the numbers of a table: `<table>@<column>@<column>...` -> number.
+
+    Raises:
+        DataError: the file or a column is missing, or a field is not a number where one is due.
+    """
+    faults = list[str]()
+    found = dict[str, Number]()
+    for line, row in enumerate(read_texts(path, ["value", "unit"]), start=2):
+        before = list(row)[: list(row).index("value")]
+        name = "@".join([path.stem, *(row[column] for column in before if column not in COUNTS)])
+        numbers = {
+            column: parse_field(row[column], float | None, f"{path}:{line}: {column}", faults)
+            for column in ("value", "low", "high", "published")
+            if column in row
+        }
+        found[name] = Number(**numbers, unit=row["unit"])
+    refuse_lines(faults)
+    return found
+
+
+def cell_text(number: Number, part: Literal["number", "interval", "published"] = "number") -> str:
+    """Return a number, its interval or the paper's as text; what is no torque or ratio has one digit, or none."""
+    size = abs((number.published if part == "published" else number.value) or 0.0)
+    digits = 2 if number.unit in FINE else int(size < LARGE)
+    if part == "interval":
+        return number.interval(digits)
+    return Number(number.published).text(digits) if part == "published" else number.text(digits)
 
 
 def main_tables(settings: MainTables, sources: Sequence[Path], out: Path) -> None:
@@ -91,8 +131,8 @@ def detectors_table(settings: AlarmTable, cells: Cells) -> Table:
     rows = list[Fields]()
     lines = list[Line]()
     for level, detector in product(settings.levels, settings.detectors):
-        found = {name: cells.get(cell.format(f"{level}@{detector}@{settings.leg}"), NONE)
-                 for name, cell in DETECTED.items()}  # fmt: skip
+        place = f"{level}@{detector}@{settings.leg}"
+        found = {name: cells.get(cell.format(place), NONE) for name, cell in DETECTED.items()}
         rows += [(detector, name, *one.with_ends, one.unit, one.published) for name, one in found.items()]
         texts = {name: cell_text(one) for name, one in found.items()}
         texts["interval"] = found["found at rate"].interval()

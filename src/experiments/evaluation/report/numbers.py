@@ -1,24 +1,31 @@
 """Numbers of the paper's prose as TeX macros, so that a sentence cannot disagree with its table."""
 
-from collections.abc import Mapping, Sequence
+import re
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
 from experiments.evaluation.compare.rmse import RAW
-from experiments.evaluation.number.files import read_numbers
 from experiments.evaluation.number.number import Number, interval_text, number_text
-from experiments.evaluation.report.captions import captions_tex
-from experiments.evaluation.report.cells import cell_text, cells_of
-from experiments.evaluation.report.main_tables import main_tables
+from experiments.evaluation.number.rows import read_numbers
+from experiments.evaluation.report.main_tables import cell_text, cells_of, main_tables
 from experiments.evaluation.tables.layout import tex_escape
 from experiments.settings.scales import Scale
 from experiments.settings.tables import MainTables
 from mobnet.core.columns import CLAIMED
-from mobnet.core.files import write_text
+from mobnet.core.errors import DataError
+from mobnet.core.files import read_text, write_text
 from mobnet.core.rows import read_texts
 from mobnet.settings.data import Recordings
 from mobnet.settings.plant import Rates
 from mobnet.settings.surrogate import Fleet
 
+PRINTED = re.compile(r"^(?:Figure|Table) \d+: ")  # of the paper that is reproduced: ours have numbers of their own
+OURS = re.compile(r" \(ours\)$")
+MARKUP = re.compile(r"``(?P<code>.+?)``|\*\*(?P<bold>.+?)\*\*|\*(?P<italic>.+?)\*")
+COMMANDS = {"code": "texttt", "bold": "textbf", "italic": "emph"}
+HEAD = r"""\newcommand{\capt}[1]{\ifcsname capt@#1\endcsname\csname capt@#1\endcsname
+  \else\errmessage{captions.tex has no #1}\fi}
+"""
 LOOKUP = r"""% Written by experiments.evaluation.report.numbers; do not edit.
 \newcommand{\lookup}[1]{\ifcsname #1\endcsname\csname #1\endcsname\else\errmessage{numbers.tex has no #1}\fi}
 \newcommand{\ourcell}[5]{\lookup{ours@#1@#2@#3@#4@#5}}
@@ -53,11 +60,56 @@ MINUTE_S = 60.0
 MILLION = 1e6
 
 
+def captions_tex(files: Iterable[Path]) -> str:
+    r"""Return TeX that defines \capt{tables/NAME} and \capt{figures/NAME}: the title in bold, then the text.
+
+    `files` are those of `workflow/report`: a title, an empty line, and paragraphs with ``code``, *emphasis* and
+    **bold**.
+
+    Raises:
+        DataError: a file is missing, or has no text below its title.
+    """
+    texts = {f"{path.parent.name}/{path.stem}": caption_tex(path) for path in files}
+    lines = (rf"\expandafter\def\csname capt@{name}\endcsname{{{text}}}" + "\n" for name, text in texts.items())
+    return HEAD + "".join(lines)
+
+
+def caption_tex(path: Path) -> str:
+    """Return the caption of a file as TeX."""
+    title, _, text = read_text(path).partition("\n")
+    words = " ".join(text.split())
+    if not words:
+        raise DataError(f"{path}: no text below the title")
+    bare = OURS.sub("", PRINTED.sub("", title.strip()))
+    return rf"\textbf{{{inline_tex(bare[:1].upper() + bare[1:])}.}} {inline_tex(words)}"
+
+
+def inline_tex(text: str) -> str:
+    """Return a line of reStructuredText as TeX."""
+    done = ""
+    end = 0
+    for found in MARKUP.finditer(text):
+        kind = found.lastgroup or ""
+        done += tex_escape(text[end : found.start()]) + rf"\{COMMANDS[kind]}{{{tex_escape(found[kind])}}}"
+        end = found.end()
+    return done + tex_escape(text[end:])
+
+
 def numbers(
-    scale: str, rates: Rates, sizes: Scale, fleet: Fleet, train: Recordings, table_csvs: Sequence[Path],
-    further_csvs: Sequence[Path], claims_csv: Path, summary_csv: Path, captions: Sequence[Path],
-    compared: MainTables, sources: Sequence[Path], out: Path,
-) -> None:  # fmt: skip
+    scale: str,
+    rates: Rates,
+    sizes: Scale,
+    fleet: Fleet,
+    train: Recordings,
+    table_csvs: Sequence[Path],
+    further_csvs: Sequence[Path],
+    claims_csv: Path,
+    summary_csv: Path,
+    captions: Sequence[Path],
+    compared: MainTables,
+    sources: Sequence[Path],
+    out: Path,
+) -> None:
     r"""Write what the paper's text takes: macros of numbers, captions.tex beside them, and the tables of the main text.
 
     \ourcell{scenario}{level}{method}{joint}{metric} and \publishedcell give a cell of a table of errors (metric: `mean`
@@ -69,7 +121,7 @@ def numbers(
     first claim alone, \counted how many claims; \size{name} gives sizes of the scale.
 
     Two guards stand behind sentences whose wording depends on results, and print a dagger where that turned:
-    \holds{claim}{verdict,...} and \below{cell}{cell}, of \cell; `experiments.evaluation.report.guards` has more.
+    \holds{claim}{verdict,...} and \below{cell}{cell}, of \cell; `experiments.evaluation.report.paper` has more.
 
     Args:
         scale: name of the scale.

@@ -21,9 +21,15 @@ Titled = tuple[str, str]  # title, and HTML of the text below it
 
 
 def pages(
-    tables: Sequence[Path], captions: Sequence[Path | None], pictures: Sequence[tuple[Path, Path]], first: Path,
-    statistics: Statistics, table_dir: Path, templates: Mapping[str, Path], out: Path,
-) -> None:  # fmt: skip
+    tables: Sequence[Path],
+    captions: Sequence[Path | None],
+    pictures: Sequence[tuple[Path, Path]],
+    first: Path,
+    statistics: Statistics,
+    table_dir: Path,
+    templates: Mapping[str, Path],
+    out: Path,
+) -> None:
     """Write a page for each table (Markdown) beside the first one, `out`, and `index.html`, on which the report opens.
 
     A caption is reStructuredText with its title in the first line; a table without one gets its name as title. The page
@@ -33,6 +39,7 @@ def pages(
     Raises:
         DataError: a file is missing or damaged.
     """
+    # Only pages with a plain table are listed by title: the first page shows the claims themselves.
     claims_csv = table_dir / f"{CLAIMS}.csv"
     titles = dict[str, str]()
     for table, caption in zip(tables, captions, strict=True):

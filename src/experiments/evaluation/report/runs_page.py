@@ -204,11 +204,15 @@ def runs_page(
     runs = [read_training_run(folder, tested) for folder in folders]
     runs.sort(key=lambda run: (run.method, run.limb, run.seed))
     text = rendered(
-        templates[0], scale=scale, columns=COLUMNS, runs=runs, diverged=DIVERGED,
+        templates[0],
+        scale=scale,
+        columns=COLUMNS,
+        runs=runs,
+        diverged=DIVERGED,
         shared=shared_settings(runs),
         charts={run.name: charts(run) for run in runs},
         links={run.name: os.path.relpath(run.metrics, out.parent) for run in runs},
-    )  # fmt: skip
+    )
     write_text(out, text)
 
 

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from experiments.evaluation.figures.further.sigma_courses import sigma_figure
-from experiments.evaluation.number.lookup import read_lookup
+from experiments.evaluation.number.grid import read_lookup
 from experiments.evaluation.tables.further.sigma_table import sigma_table
 from experiments.settings.measures import Sigma
 from experiments.settings.runs import Statistics
@@ -13,9 +13,14 @@ from mobnet.settings.networks import Learning
 
 
 def sigma(
-    settings: Sigma, learning: Learning, layout: JointLayout, statistics: Statistics,
-    scores: Sequence[Path], table_dir: Path, figure_dir: Path,
-) -> None:  # fmt: skip
+    settings: Sigma,
+    learning: Learning,
+    layout: JointLayout,
+    statistics: Statistics,
+    scores: Sequence[Path],
+    table_dir: Path,
+    figure_dir: Path,
+) -> None:
     """Write sigma.csv, .tex and .md, and sigma.pdf, .png and .csv."""
     lookup = read_lookup(scores, statistics)
     share = learning.calibration_share

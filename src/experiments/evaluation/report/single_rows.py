@@ -6,7 +6,7 @@ from dataclasses import astuple
 from pathlib import Path
 
 from experiments.evaluation.measure.reaction.results import read_trials
-from experiments.evaluation.number.files import Field
+from experiments.evaluation.number.rows import Field
 from experiments.plan.detection import Detections
 from experiments.plan.reactions import Reactions
 from mobnet.core.detections import Collision, Detected
@@ -18,9 +18,24 @@ FOLDER = "rows"  # of the snapshot
 WALKS = "reactions.csv.gz"
 COLLISIONS = "collisions.csv.gz"
 COLUMNS = (
-    "level", "scenario", "seed", "number", "leg", "hit_link", "hit_direction", "force_n", "impulse_ns", "swing_share",
-    "detector", "kind", "ratio", "delay_s", "perfect_s", "link", "direction",
-)  # fmt: skip
+    "level",
+    "scenario",
+    "seed",
+    "number",
+    "leg",
+    "hit_link",
+    "hit_direction",
+    "force_n",
+    "impulse_ns",
+    "swing_share",
+    "detector",
+    "kind",
+    "ratio",
+    "delay_s",
+    "perfect_s",
+    "link",
+    "direction",
+)
 
 
 def write_single_rows(detections: Detections, reactions: Reactions, cases: Sequence[str], out: Path) -> None:

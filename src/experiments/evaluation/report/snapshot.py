@@ -27,14 +27,13 @@ from experiments.plan.dry_run import dry_run
 from experiments.plan.plan import make_plan
 from experiments.plan.reactions import all_reactions
 from experiments.plan.work import works_of
-from experiments.running.accounts import read_account
-from experiments.running.logs import LOGS
+from experiments.running.logs import LOGS, read_account
 from experiments.running.words import results_parser
 from experiments.settings.load import load_settings
 from experiments.settings.settings import Settings
+from mobnet.core.code import CHANGED, UNKNOWN, commit, provenance
 from mobnet.core.errors import DataError, MobnetError
 from mobnet.core.files import atomic_path, read_json, read_text, write_json, write_text
-from mobnet.core.provenance import CHANGED, UNKNOWN, commit, provenance
 from mobnet.core.rows import read_texts
 
 log = logging.getLogger(__name__)
@@ -52,11 +51,40 @@ PICTURES = (".png", ".svg", ".webp")
 NOTED = ("recordings", "motions", "networks")  # folders of results whose notes name the commit that made them
 README = Path("README.md")
 KEYS = (  # columns that name a row; the others are results
-    "scenario", "level", "method", "joint", "metric", "claim",
-    "set", "quantity", "part", "command", "bin_from", "measure", "limb", "test", "pushed", "share", "unit",
-    "score", "outcome", "detector", "leg", "kind", "cell", "case", "wrench", "thresholds", "wait_s", "feed_forward",
-    "event", "robot", "label", "phase", "row",
-)  # fmt: skip
+    "scenario",
+    "level",
+    "method",
+    "joint",
+    "metric",
+    "claim",
+    "set",
+    "quantity",
+    "part",
+    "command",
+    "bin_from",
+    "measure",
+    "limb",
+    "test",
+    "pushed",
+    "share",
+    "unit",
+    "score",
+    "outcome",
+    "detector",
+    "leg",
+    "kind",
+    "cell",
+    "case",
+    "wrench",
+    "thresholds",
+    "wait_s",
+    "feed_forward",
+    "event",
+    "robot",
+    "label",
+    "phase",
+    "row",
+)
 KEYS_OF = {"hourly": ("walks",)}  # a number in other tables
 Rows = dict[tuple[str, ...], dict[str, str]]
 
@@ -160,10 +188,10 @@ def tell_readme(results: Path, readme: Path = README) -> None:
     write_text(readme, page)
 
 
-def tell_demo(push: StoredPush, page: Path) -> None:
+def tell_demo(stored: StoredPush, page: Path) -> None:
     """Write into the page of the demo what it prints."""
-    estimates = {method: push.estimate(method) for method in push.story.methods}
-    said = "\n".join(["```", title_of(push), *lines_of(push, estimates), "```"])
+    push = stored.scene({method: stored.estimate(method) for method in stored.story.methods})
+    said = "\n".join(["```", title_of(stored), *lines_of(stored, push), "```"])
     write_text(page, with_block(read_text(page), "demo", said, page))
 
 
@@ -244,6 +272,7 @@ def store(manifest: Path) -> None:
             seeds, or a file is missing or damaged.
     """
     settings = load_settings()
+    # Everything is checked before the first file is replaced: a refused snapshot leaves the old one whole.
     check_run(RESULTS, manifest)
     check_fingerprints("all")
     plan = make_plan(settings, with_pdf=not missing_packages())

@@ -22,14 +22,26 @@ from mobnet.core.notes import Count, Index, Note, Text, read_note
 SEEDS = Path("docs/results/seeds.json")
 KINDS = "mobnet/estimation/kinds"
 CODE = (  # what learns, estimates, detects and reacts; the modules of estimators, which are imported by name, are added
-    "experiments.jobs.trainings", "experiments.jobs.estimates", "mobnet.detection.calibrate", "experiments.jobs.detect",
-    "experiments.jobs.calm", "experiments.jobs.react",
-)  # fmt: skip
+    "experiments.jobs.trainings",
+    "experiments.jobs.estimates",
+    "mobnet.detection.calibrate",
+    "experiments.jobs.detect",
+    "experiments.jobs.calm",
+    "experiments.jobs.react",
+)
 # Sections that change no method: what is shown, printed and claimed, trials apart from the published results, what
 # belongs to other robots, and the scales, of which the lengths of trainings are added.
-NO_METHOD = frozenset({
-    "scale", "scales", "evaluation", "published", "claims", "trials", "development", "robotlog", "free_motion",
-})  # fmt: skip
+NO_METHOD = {
+    "scale",
+    "scales",
+    "evaluation",
+    "published",
+    "claims",
+    "trials",
+    "development",
+    "robotlog",
+    "free_motion",
+}
 LENGTHS = ("experiments", "robots", "least_swings", "batch_size", "stream_s", "rate_decay_share")
 
 
@@ -45,7 +57,7 @@ class Span(Note):
         return range(self.first, self.first + self.count)
 
 
-class Walked(Note):
+class WalkedSeeds(Note):
     """What a run has walked.
 
     Attributes:
@@ -70,10 +82,10 @@ class Walked(Note):
 class History(Note):
     """The published runs, the oldest one first."""
 
-    runs: list[Walked]
+    runs: list[WalkedSeeds]
 
 
-def read_history(path: Path) -> list[Walked]:
+def read_history(path: Path) -> list[WalkedSeeds]:
     """Return the published runs, the oldest one first.
 
     Raises:
@@ -82,13 +94,13 @@ def read_history(path: Path) -> list[Walked]:
     return read_note(path, History).runs
 
 
-def write_history(path: Path, runs: Sequence[Walked]) -> None:
+def write_history(path: Path, runs: Sequence[WalkedSeeds]) -> None:
     """Write the published runs; of two of the same commit the later one is kept."""
     by_commit = {run.commit: run for run in runs}
     write_json(path, History(runs=list(by_commit.values())).model_dump())
 
 
-def walked(files: Files, commit: str) -> Walked:
+def walked(files: Files, commit: str) -> WalkedSeeds:
     """Return what a run of the chosen scale walks at a commit."""
     tests: dict[str, Span] = {}
     for owner in files.owners:
@@ -103,19 +115,19 @@ def walked(files: Files, commit: str) -> Walked:
         for case in files.settings.reaction.cases:
             first = files.settings.sizes.test.first_seed
             reactions[case] = Span(first=first, count=sizes_of(files, case).runs)
-    return Walked(commit=commit, methods=methods_hash(files.settings), tests=tests, reactions=reactions)
+    return WalkedSeeds(commit=commit, methods=methods_hash(files.settings), tests=tests, reactions=reactions)
 
 
 def methods_hash(settings: Settings) -> str:
     """Return a short hash of what makes the methods: their code, and the configuration without what is only shown."""
-    written = settings.model_dump(mode="json", exclude=set(NO_METHOD))
+    written = settings.model_dump(mode="json", exclude=NO_METHOD)
     lengths = settings.sizes.model_dump(mode="json", include=set(LENGTHS))
     kinds = sorted((SOURCE / KINDS).glob("*.py"))
     text = json.dumps([written, lengths, source_hash(*CODE, *kinds)], sort_keys=True)
     return hashlib.sha256(text.encode()).hexdigest()[:SHORT]
 
 
-def check_seeds(run: Walked, published: Iterable[Walked]) -> None:
+def check_seeds(run: WalkedSeeds, published: Iterable[WalkedSeeds]) -> None:
     """Check that a run walks no seed of a published run whose methods were others.
 
     Raises:

@@ -69,14 +69,30 @@ def begin(scratch: Path, name: str, method: str, limb: str, settings: Mapping[st
     os.environ |= dict.fromkeys(WANDB_PLACES, str(scratch)) | {"WANDB_ERROR_REPORTING": "false"}
     import wandb  # reads its environment when imported
 
+    # Nothing of this machine goes into a run: two runs of the same results have the same files.
     quiet = wandb.Settings(
-        x_disable_stats=True, x_disable_meta=True, x_disable_machine_info=True, x_save_requirements=False,
-        console="off", silent=True, disable_git=True, disable_code=True, x_transaction_log_flush_interval=FLUSH_S,
-    )  # fmt: skip
+        x_disable_stats=True,
+        x_disable_meta=True,
+        x_disable_machine_info=True,
+        x_save_requirements=False,
+        console="off",
+        silent=True,
+        disable_git=True,
+        disable_code=True,
+        x_transaction_log_flush_interval=FLUSH_S,
+    )
     return wandb.init(
-        project="mobnet", id=name, name=name, group=method, job_type=limb, config=dict(settings), dir=scratch,
-        mode="offline", settings=quiet, reinit="create_new",
-    )  # fmt: skip
+        project="mobnet",
+        id=name,
+        name=name,
+        group=method,
+        job_type=limb,
+        config=dict(settings),
+        dir=scratch,
+        mode="offline",
+        settings=quiet,
+        reinit="create_new",
+    )
 
 
 def rows(epochs: Sequence[Epoch], errors: Mapping[str, Sequence[float]]) -> Iterator[dict[str, Any]]:

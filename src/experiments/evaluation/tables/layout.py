@@ -5,27 +5,31 @@ In TeX only booktabs is needed, and longtable for a table of several pages.
 
 import logging
 import re
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from itertools import product
 from pathlib import Path
 
-from experiments.evaluation.number.files import Field, write_csv
-from experiments.evaluation.number.grid import Wanted
-from experiments.evaluation.number.lookup import AVERAGE, Lookup
 from experiments.evaluation.number.number import Number
-from experiments.settings.runs import LimbRuns
-from mobnet.core.columns import METHODS
+from experiments.evaluation.number.rows import Field, write_csv
 from mobnet.core.files import write_text
-from mobnet.core.joints import JointLayout
 
 log = logging.getLogger(__name__)
 
 TEX_SPECIAL = {
-    "\\": r"\textbackslash{}", "&": r"\&", "%": r"\%", "$": r"\$", "#": r"\#", "_": r"\_", "{": r"\{", "}": r"\}",
-    "~": r"\textasciitilde{}", "^": r"\textasciicircum{}", "<": r"\textless{}", ">": r"\textgreater{}",
+    "\\": r"\textbackslash{}",
+    "&": r"\&",
+    "%": r"\%",
+    "$": r"\$",
+    "#": r"\#",
+    "_": r"\_",
+    "{": r"\{",
+    "}": r"\}",
+    "~": r"\textasciitilde{}",
+    "^": r"\textasciicircum{}",
+    "<": r"\textless{}",
+    ">": r"\textgreater{}",
     "|": r"\textbar{}",
-}  # fmt: skip
+}
 MINUS = re.compile(r"(?<![\w-])-(?=\d)")
 OUTSIDE = "*"  # behind a ratio that lies outside of its bounds
 RULE = r"\midrule"
@@ -97,34 +101,6 @@ def with_intervals(
         blank = [""] * (len(labels) - 1)
         lines.append([*blank, f"{confidence:.0%}", *(number.interval(digits) for number in numbers)])
     return lines
-
-
-def write_measured(
-    stem: Path, lookup: Lookup, layout: JointLayout, tests: Sequence[tuple[str, LimbRuns]], metrics: Sequence[str],
-    header: Sequence[str], lines_of: Callable[[LimbRuns, str], Sequence[Sequence[str]]],
-) -> None:  # fmt: skip
-    """Write metrics of titled tests: every joint as CSV, columns METHODS, and as text the lines of each test and limb.
-
-    The leading columns are those of the title, the limb and the method.
-    """
-    records: list[Sequence[Field]] = []
-    blocks: list[tuple[list[str], Sequence[Sequence[str]]]] = []
-    for title, test in tests:
-        records += _measured_rows(lookup, layout, test, metrics)
-        blocks += [([title, limb], lines_of(test, limb)) for limb in test.limbs]
-    write_table(stem, Table(METHODS, records, header, in_blocks(blocks), left=3))
-
-
-def _measured_rows(
-    lookup: Lookup, layout: JointLayout, test: LimbRuns, metrics: Sequence[str]
-) -> Iterator[Sequence[Field]]:
-    """Yield the rows of CSV of some metrics of a test: joints of its limbs, then their average."""
-    for method, limb in product(test.methods, test.limbs):
-        for joint, metric in product((*layout.limb(limb), AVERAGE), metrics):
-            found = lookup.number([Wanted(test.scenario, limb, test.level, method, joint, metric)])
-            if found.value is not None:
-                of = test.scenario, test.level, method, limb, joint, metric
-                yield (*of, *found.with_ends, *found.spread, found.unit)
 
 
 def tex_escape(text: str) -> str:

@@ -3,13 +3,20 @@
 Units, bounds and quoted numbers, which only who words a claim can get wrong, are checked by tests/settings.
 """
 
+import re
 from collections.abc import Iterator, Sequence
+from pathlib import Path
 from typing import get_args
 
 from experiments.settings.checks.results import Results
 from experiments.settings.claims import Cell, TrainingMetric
+from experiments.settings.settings import Settings
 from mobnet.core.errors import misfit, not_accepted
 from mobnet.settings.reading import Place, Problem
+
+MACROS = re.compile(
+    r"\\(?:claimed|claimedshare|found|foundshare|foundspan|verdict|cause|holds)\{([\w-]+)\}"
+)  # of `evaluation.report.numbers`
 
 
 def claim_problems(results: Results) -> Iterator[Problem]:
@@ -64,3 +71,10 @@ def _score_problems(results: Results, cell: Cell) -> Iterator[Problem]:
     for metric in metrics_of(cell):
         if text := results.not_scored(str(cell.scenario), metric):
             yield ("metric",), text
+
+
+def text_problems(settings: Settings, text: Path) -> Iterator[tuple[Place, str]]:
+    """Yield the claims that a TeX file names and the configuration lacks; TeX would miss them at the end of a run."""
+    for name in dict.fromkeys(MACROS.findall(text.read_text(encoding="utf-8"))):
+        if name not in settings.claims:
+            yield ("claims", name), not_accepted(f"claim in {text.name}", name, settings.claims)

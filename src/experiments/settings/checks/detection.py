@@ -4,13 +4,14 @@ import re
 from collections.abc import Iterator
 
 from experiments.settings.checks.results import Results
-from mobnet.core.errors import misfit
-from mobnet.settings.checks.limits import below
+from mobnet.core.errors import misfit, not_accepted
+from mobnet.settings.faults import below
 from mobnet.settings.reading import Place, Problem
 
 POINT = re.compile(r"(left|right)_[a-z]+_[a-z]+")  # side, link and direction of what a collision meets
 LARGEST, COLLISION = "largest", "collision"  # rules that are always there
 ROOT: Place = ("detection",)
+REACTION: Place = ("reaction",)
 
 
 def detection_problems(results: Results) -> Iterator[Problem]:
@@ -47,3 +48,22 @@ def _number_problems(results: Results) -> Iterator[Problem]:
     if LARGEST in rates or COLLISION not in rates:
         accepted = f"{COLLISION} and others, but for {LARGEST}, the paper's rule"
         yield (*ROOT, "thresholds", "rates_per_h"), misfit(", ".join(rates), accepted)
+
+
+def reaction_problems(results: Results) -> Iterator[Problem]:
+    """Yield cases of sizes that there are not, loops without all legs, and scenarios that no loop walks but must."""
+    settings = results.settings
+    reaction = results.settings.reaction
+    walked = {row.scenario for row in reaction.cases.values()}
+    for scale, sizes in settings.scales.items():
+        for name in sizes.reactions.cases:
+            if name not in reaction.cases:
+                yield ("scales", scale, "reactions", "cases", name), not_accepted("case", name, reaction.cases)
+    limbs = settings.methods[reaction.estimator].limbs
+    legs = settings.detection.legs
+    if not {"V", *legs} <= {*limbs}:
+        text = misfit(reaction.estimator, f"a method with networks of V, {', '.join(legs)}: the base and all legs")
+        yield (*REACTION, "estimator"), text
+    for name, row in settings.scenarios.items():
+        if row.wrench == "estimated" and name not in walked:
+            yield ("scenarios", name, "wrench"), misfit(row.wrench, "`sensed` where reaction.cases does not walk it")

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from experiments.settings.catalogue import Catalogue
 from experiments.settings.settings import Settings
 from mobnet.core.errors import misfit, not_accepted
-from mobnet.settings.checks.limits import at_most
+from mobnet.settings.faults import at_most
 from mobnet.settings.methods import Method, swept_names
 from mobnet.settings.networks import Learning, Network, NetworkCell
 from mobnet.settings.reading import Problem

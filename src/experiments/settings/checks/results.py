@@ -1,41 +1,23 @@
 """What the configuration will have results of: runs, scores, estimated joints, trainings and pushes."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import chain
 
 from experiments.settings.asked import tests_in
 from experiments.settings.catalogue import Catalogue
-from experiments.settings.evaluation import measured_in
+from experiments.settings.evaluation import PRODUCTS, measured_in
 from experiments.settings.metrics import metric_of
 from experiments.settings.runs import Mean
 from experiments.settings.settings import Settings
-from mobnet.core.columns import (
-    CALIBRATION,
-    COVERAGE,
-    DETECTION,
-    ERRORS,
-    HOURLY,
-    KINDS,
-    LATENCY,
-    METHODS,
-    SAFETY,
-    SENSORLESS,
-)
-from mobnet.core.errors import not_accepted
+from mobnet.core.columns import ERRORS
+from mobnet.core.errors import misfit, not_accepted
 from mobnet.core.joints import JointLayout, right_of, with_image
 from mobnet.settings.checks.robot import joints_above
 from mobnet.settings.methods import swept_names
+from mobnet.settings.reading import Place, Problem
 
-TABLES = {  # that are no entry of `tables` -> their columns
-    **dict.fromkeys(
-        ("table_09", "table_13", "false_alarms", "found_by_rate", "smallest_force", "links", "contact_points"),
-        DETECTION,
-    ),
-    "calibration": CALIBRATION, "coverage": COVERAGE, "error_budget": ERRORS, "hourly": HOURLY, "kinds": KINDS,
-    "latency": LATENCY, "methods": METHODS, "safety": SAFETY, "sensorless": SENSORLESS,
-}  # fmt: skip
 PUSHED, PUSH, RAW = "rmse_pushed", "rmse_push_", "_raw"  # metrics of windows around pushes, against the raw truth
 
 
@@ -98,6 +80,39 @@ class Results:
         learned = [name for name, row in self.catalogue.all_methods.items() if row.limbs]
         return "" if method in learned else not_accepted("method with networks", method, learned)
 
+    def not_trained(self, method: str, limb: str) -> str:
+        """Return what is wrong with a method where networks of a limb are shown."""
+        trained = self.trained(limb)
+        return "" if method in trained else not_accepted(f"method that trains {limb}", method, trained)
+
+    def not_printed(self, table: str, printed: str | None) -> str:
+        """Return what is wrong with the place of the paper's numbers in a table; None shows none of them."""
+        tables = self.settings.published.tables
+        accepted = tables[table].numbers if table in tables else {}
+        return "" if printed is None or printed in accepted else not_accepted("place of a row", printed, accepted)
+
+    def not_pushed(self, scenario: str, joint: str) -> str:
+        """Return what is wrong with a joint that the pushes of a test should turn."""
+        pushed = self.pushed_joints(scenario)
+        return "" if joint in pushed else not_accepted(f"joint pushed in {scenario}", joint, pushed)
+
+    def not_cases(self, place: Place, names: Sequence[str], *, pushed: bool) -> Iterator[Problem]:
+        """Yield cases of reactions in which something is pushed or stands in the way, or in which nothing does."""
+        fitting: list[str] = []
+        for name, case in self.settings.reaction.cases.items():
+            row = self.settings.scenarios[case.scenario]
+            if bool(row.obstacles or row.pushes) == pushed:
+                fitting.append(name)
+        for name in names:
+            if name not in fitting:
+                yield place, misfit(name, ", ".join(fitting))
+
+    def not_gated(self, place: Place, methods: Sequence[str]) -> Iterator[Problem]:
+        """Yield methods without that of the gate of detectors."""
+        gate = self.settings.detection.gate.method
+        if gate not in methods:
+            yield place, misfit(", ".join(methods), f"methods with {gate}, that of the gate")
+
     def trained(self, limb: str) -> list[str]:
         """Return the methods that train a network of a limb."""
         return [name for name, method in self.catalogue.all_methods.items() if limb in method.limbs]
@@ -115,7 +130,8 @@ class Results:
 
     def claimed_tables(self) -> dict[str, tuple[str, ...]]:
         """Return the tables whose fields claims may name -> their columns."""
-        return {**dict.fromkeys(self.settings.evaluation.tables, ERRORS), **TABLES}
+        own = {name: row.columns for name, row in PRODUCTS.items() if row.columns}
+        return {**dict.fromkeys(self.settings.evaluation.tables, ERRORS), **own}
 
     def pushed_joints(self, scenario: str) -> list[str]:
         """Return the joints that the pushes of a scenario turn."""

@@ -7,15 +7,20 @@ from typing import Any
 
 from pydantic import BaseModel, ValidationError
 
+from experiments.settings.asked import RunRequest
 from experiments.settings.catalogue import Catalogue
+from experiments.settings.checks.claims import claim_problems
 from experiments.settings.checks.data import data_problems
-from experiments.settings.checks.detection import LARGEST
+from experiments.settings.checks.detection import LARGEST, detection_problems, reaction_problems
 from experiments.settings.checks.learning import learning_problems
-from experiments.settings.checks.shown import shown_problems
+from experiments.settings.checks.outcomes import outcome_problems
+from experiments.settings.checks.results import Results
 from experiments.settings.checks.sizes import size_problems
 from experiments.settings.checks.surrogate import surrogate_problems
 from experiments.settings.checks.walking import walking_problems
+from experiments.settings.products import problems_in
 from experiments.settings.settings import Settings
+from mobnet.core.errors import misfit
 from mobnet.core.reactions import FORCE_SENSORS, NONE
 from mobnet.settings.methods import swept_names
 from mobnet.settings.names import Use, kind_of, unknown, uses
@@ -23,6 +28,50 @@ from mobnet.settings.networks import Learning, Network
 from mobnet.settings.reading import Place, Problem
 
 Refused = tuple[Place, type[BaseModel], Mapping[str, Any], ValidationError]
+
+
+def asked_problems(catalogue: Catalogue) -> Iterator[Problem]:
+    """Yield methods that do not estimate what is shown of them, or that do not learn from what robots record."""
+    for one in catalogue.asked:
+        for text in (*_estimate_faults(catalogue, one), *_fleet_faults(catalogue, one)):
+            yield one.place, text
+
+
+def _estimate_faults(catalogue: Catalogue, one: RunRequest) -> Iterator[str]:
+    """Yield joints that are shown of a run and that its method does not estimate."""
+    groups = catalogue.layout.groups
+    held = catalogue.estimated(one.method, one.scenario, one.level)
+    shown = chain.from_iterable(groups.get(name, (name,)) for name in one.shown)
+    missing = [joint for joint in shown if joint not in held]
+    if missing and not (one.partly and held):
+        yield misfit(one.method, f"methods that estimate {missing[0]} in {one.scenario}, {one.level}")
+
+
+def _fleet_faults(catalogue: Catalogue, one: RunRequest) -> Iterator[str]:
+    """Yield data that a method learns from and that the robots of the fleet do not record, where they walk."""
+    fleet = catalogue.settings.fleet
+    source = catalogue.source_of(one.method)
+    if one.level not in fleet.levels:
+        return
+    learned = [(one.method, limb) for limb in catalogue.method(catalogue.network_source_of(one.method)).limbs]
+    learned += [(source, limb) for limb in catalogue.method(source).fitted]
+    data = [catalogue.network(*pair).data for pair in learned]
+    yield from (
+        misfit(f"{one.method}, which learns from {name}", f"methods that learn from {', '.join(fleet.sets)}")
+        for name in data
+        if name not in fleet.sets
+    )
+
+
+# What must hold for a single table or figure stands with its section (`experiments.settings.products.Checked`).
+def shown_problems(catalogue: Catalogue) -> Iterator[Problem]:
+    """Yield what does not fit in tables, figures and claims, and in detectors and reactions that they show."""
+    results = Results(catalogue)
+    yield from problems_in(catalogue.settings.evaluation, results, ("evaluation",))
+    yield from detection_problems(results)
+    yield from reaction_problems(results)
+    yield from asked_problems(catalogue)
+    yield from claim_problems(results)
 
 
 def accepted_names(catalogue: Catalogue) -> dict[str, Collection[str]]:
@@ -96,7 +145,9 @@ def inconsistencies(catalogue: Catalogue) -> Iterator[Problem]:
     settings = catalogue.settings
     found = [*walking_problems(settings), *data_problems(settings), *surrogate_problems(settings)]
     found += learning_problems(catalogue)
-    yield from found
     if not found:  # only then can sizes and results be looked up
-        yield from size_problems(catalogue)
-        yield from shown_problems(catalogue)
+        found = [*size_problems(catalogue), *shown_problems(catalogue)]
+    yield from found
+    for name, scale in settings.scales.items():
+        if scale.decides and not found:  # only then is known what a claim counts
+            yield from outcome_problems(catalogue.at_scale(name))

@@ -4,14 +4,13 @@ from collections.abc import Iterator
 from itertools import chain
 
 from experiments.settings.catalogue import Catalogue
-from experiments.settings.checks.outcomes import outcome_problems
 from experiments.settings.checks.walking import is_whole
 from experiments.settings.figures import Figure05, GaitFigure, HandFigure
 from experiments.settings.fleet import FIRST_SEED
 from experiments.settings.scales import Scale
 from experiments.settings.settings import Settings
 from mobnet.core.errors import misfit, not_accepted
-from mobnet.settings.checks.limits import at_most, below
+from mobnet.settings.faults import at_most, below
 from mobnet.settings.reading import Place, Problem
 
 RESULTS_MAX = 50_000  # of one scale: its files are twice as many, and each has a place in Snakemake's plan
@@ -41,8 +40,6 @@ def size_problems(catalogue: Catalogue) -> Iterator[Problem]:
         yield from _length_problems(scaled.settings, scale)
         yield from _time_problems(scaled, scale)
         yield from _training_problems(scaled)
-        if scale.decides:
-            yield from outcome_problems(scaled)
         results = _result_count(scaled)
         if results > RESULTS_MAX:
             accepted = f"{RESULTS_MAX} of them, by fewer shards or seeds"
@@ -104,9 +101,6 @@ def _time_problems(catalogue: Catalogue, scale: Scale) -> Iterator[Problem]:
         most = min(settings.test_s(test), settings.recording.episode_s) - after
         lasts = f"for {test} lasts {settings.test_s(test)} s at scale {settings.scale}"
         yield from at_most(place, value, most, lasts)
-    place = ("evaluation", "coverage", "block_s")
-    block_s = settings.evaluation.coverage.block_s
-    yield from at_most(place, block_s, length, f"a test at scale {settings.scale}")
 
 
 def _training_problems(catalogue: Catalogue) -> Iterator[Problem]:

@@ -5,7 +5,7 @@ from itertools import chain
 
 from experiments.settings.settings import Settings
 from mobnet.core.errors import misfit
-from mobnet.settings.checks.limits import as_many
+from mobnet.settings.faults import as_many
 from mobnet.settings.reading import Problem
 
 

@@ -6,7 +6,7 @@ from math import isclose
 
 from experiments.settings.settings import Settings
 from mobnet.core.errors import misfit
-from mobnet.settings.checks.limits import as_many, at_least, at_most, below, within
+from mobnet.settings.faults import as_many, at_least, at_most, below, within
 from mobnet.settings.reading import Problem
 
 LEG_JOINTS = 6

@@ -23,9 +23,9 @@ from mobnet.estimation.drive import bent
 from mobnet.estimation.kinds.friction import LARGEST, check, fitted_joints, friction_model
 from mobnet.estimation.kinds.residual import ResidualEstimator
 from mobnet.estimation.recipe import Recipe
-from mobnet.estimation.regression import Pair, non_negative, square_sums, told
+from mobnet.estimation.regression import Pair, logged, non_negative, square_sums
 from mobnet.settings.base import Positive, Rising, Section
-from mobnet.settings.methods import Observer
+from mobnet.settings.methods import ObserverSettings
 from mobnet.settings.networks import Network
 
 __all__ = ["Options", "build", "check", "fit"]  # what a kind has
@@ -43,7 +43,7 @@ class Options(Section):
     breakaway_rad: Rising[Annotated[Positive, Field(ge=1e-5, le=1)]]
 
 
-class JointNote(Note):
+class DahlJointNote(Note):
     """The fitted numbers of a joint, and the root mean square of the target and of what is left of it [N m].
 
     `driving` and `driven` are friction for each torque of the motor, `gain` is the share of it that the joint lacks.
@@ -70,7 +70,7 @@ class DahlNote(Note):
     model_config = ConfigDict(extra="forbid")
 
     law: Literal["dahl"]
-    joints: dict[str, JointNote]
+    joints: dict[str, DahlJointNote]
     stamp: Text = "-"
 
 
@@ -103,11 +103,15 @@ def regressors(velocity: NDArray[Any], torque: NDArray[Any], bend: Array) -> dic
     """Return term -> what its factor multiplies in -tau_f of (O20), of velocity [rad/s], torque [N m] and bend."""
     loaded = np.abs(torque) * bend
     drives = torque * bend > 0
-    columns = (
-        np.maximum(bend, 0.0), np.minimum(bend, 0.0), loaded * drives, loaded * ~drives,
-        velocity, np.ones_like(velocity), torque,
-    )  # fmt: skip
-    return dict(zip(TERMS, columns, strict=True))
+    return {
+        "forward_nm": np.maximum(bend, 0.0),
+        "backward_nm": np.minimum(bend, 0.0),
+        "driving": loaded * drives,
+        "driven": loaded * ~drives,
+        "viscous_nms": velocity,
+        "constant_nm": np.ones_like(velocity),
+        "gain": torque,
+    }
 
 
 def build(recipe: Recipe) -> ResidualEstimator:
@@ -117,7 +121,7 @@ def build(recipe: Recipe) -> ResidualEstimator:
 
 def fit(
     layout: JointLayout,
-    observer: Observer,
+    observer: ObserverSettings,
     options: Options,
     networks: Mapping[str, Network],
     training: Mapping[str, Sequence[Pair]],
@@ -132,7 +136,7 @@ def fit(
     for limb, pairs in training.items():
         terms = fitted_joints(layout, TERMS, OF_TORQUE, [networks[limb]])
         sums = square_sums(partial(_columns, angles), list(terms), observer.gain_hz, pairs)
-        found |= {joint: told(joint, _solve(sums[joint], terms[joint], angles)) for joint in terms}
+        found |= {joint: logged(joint, _solve(sums[joint], terms[joint], angles)) for joint in terms}
     return {"law": "dahl", "joints": {joint: found[joint] for joint in layout.actuated if joint in found}}
 
 

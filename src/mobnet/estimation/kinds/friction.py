@@ -24,7 +24,7 @@ from mobnet.estimation.recipe import Recipe
 from mobnet.estimation.regression import TERMS, Law, Pair, regress, regressors
 from mobnet.learning.deployed.networks import Prediction
 from mobnet.settings.base import Distinct, Positive, Rising, Section
-from mobnet.settings.methods import Method, Observer
+from mobnet.settings.methods import Method, ObserverSettings
 from mobnet.settings.networks import Limb, Network
 from mobnet.settings.reading import Place
 
@@ -45,7 +45,7 @@ class Options(Section):
     stribeck_rad_s: Rising[Velocity]
 
 
-class JointNote(Note):
+class FrictionJointNote(Note):
     """The fitted numbers of a joint, and the root mean square of the target and of what is left of it [N m].
 
     Bounds are wide: what the training data hardly move can be large, where the Stribeck term has all but faded.
@@ -72,11 +72,11 @@ class FrictionNote(Note):
     model_config = ConfigDict(extra="forbid")
 
     smoothing_rad_s: AboveZero
-    joints: dict[str, JointNote]
+    joints: dict[str, FrictionJointNote]
     stamp: Text = "-"
 
 
-class Friction(Protocol):
+class FrictionLaw(Protocol):
     """A model of the friction of all actuated joints (nu,), with what it remembers as its state."""
 
     def init(self) -> Any:
@@ -122,7 +122,7 @@ State = tuple[Any, Array | None]  # of the friction, and the filtered torque (nv
 class FrictionModel:
     """The filtered friction torque as an uncertainty model of (15), for all joints (nv,); the base has none."""
 
-    def __init__(self, layout: JointLayout, friction: Friction, gain_hz: float, rate_hz: float) -> None:
+    def __init__(self, layout: JointLayout, friction: FrictionLaw, gain_hz: float, rate_hz: float) -> None:
         """Take a fitted friction model, and the observer's gain K_0 of (7) [1/s]."""
         self.joints = layout.names
         self._base = len(layout.virtual)  # generalized velocities without a motor
@@ -165,7 +165,7 @@ def build(recipe: Recipe) -> ResidualEstimator:
     return ResidualEstimator(recipe.observer(), recipe.layout, friction_model(recipe, read_friction))
 
 
-def friction_model(recipe: Recipe, read: Callable[[Path, Sequence[str]], Friction]) -> FrictionModel:
+def friction_model(recipe: Recipe, read: Callable[[Path, Sequence[str]], FrictionLaw]) -> FrictionModel:
     """Return the fitted friction of a method, whose file `read` reads for the robot's actuated joints.
 
     Raises:
@@ -179,7 +179,7 @@ def friction_model(recipe: Recipe, read: Callable[[Path, Sequence[str]], Frictio
 
 def fit(
     layout: JointLayout,
-    observer: Observer,
+    observer: ObserverSettings,
     options: Options,
     networks: Mapping[str, Network],
     training: Mapping[str, Sequence[Pair]],

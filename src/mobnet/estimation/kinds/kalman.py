@@ -13,8 +13,7 @@ from mobnet.core.arrays import Array
 from mobnet.core.errors import ConfigError, misfit
 from mobnet.estimation.filter import FilteredEstimator
 from mobnet.estimation.low_pass import exact_pole
-from mobnet.estimation.methods import build_estimator
-from mobnet.estimation.recipe import Recipe
+from mobnet.estimation.recipe import Recipe, build_estimator
 from mobnet.settings.base import Positive, Section
 from mobnet.settings.methods import Method
 from mobnet.settings.reading import Place

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mobnet.core.files import WEIGHTS
-from mobnet.core.threads import one_thread
+from mobnet.core.machine import one_thread
 from mobnet.learning.deployed.weights import GRU_TENSORS, Z_SCORES, WeightsNote, read_weights, std_scale_of
 from mobnet.settings.networks import CellKind
 

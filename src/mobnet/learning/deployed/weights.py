@@ -128,8 +128,13 @@ def _cell_shapes(cell: NetworkCell, inputs: int) -> tuple[int, dict[str, Shape]]
     steps = cell.window_steps or 1
     if cell.cell in GATES:
         rows = GATES[cell.cell] * hidden
-        return hidden, {"weight_ih_l0": (rows, inputs), "weight_hh_l0": (rows, hidden),
-                        "bias_ih_l0": (rows,), "bias_hh_l0": (rows,)}  # fmt: skip
+        shapes = {
+            "weight_ih_l0": (rows, inputs),
+            "weight_hh_l0": (rows, hidden),
+            "bias_ih_l0": (rows,),
+            "bias_hh_l0": (rows,),
+        }
+        return hidden, shapes
     if cell.cell == "constant":
         return 0, {}
     found = {}

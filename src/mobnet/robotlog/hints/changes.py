@@ -12,7 +12,7 @@ from mobnet.core.arrays import Array
 from mobnet.robot.nominal import NominalModel
 from mobnet.robotlog.hints.fits import TINY, friction_fit, unexplained
 from mobnet.robotlog.hints.payload import payloads
-from mobnet.robotlog.hints.windows import Asked, Windows, repeated, size_of
+from mobnet.robotlog.hints.windows import MotionWindows, MotorDemand, repeated, size_of
 from mobnet.settings.robotlog import RobotLog
 
 ALIKE = 3.0  # factor that a wrong model may make of a torque
@@ -27,7 +27,7 @@ LEAST_CARRIED = 2  # joints that a mass at the end of an arm loads
 LEAST_ORDER = 3  # joints that stand in another order; two are exchanged
 
 
-Changed = Callable[[Windows], Windows]
+Changed = Callable[[MotionWindows], MotionWindows]
 
 
 class Change(NamedTuple):
@@ -61,8 +61,8 @@ class Seen(NamedTuple):
 
     nominal: NominalModel
     bounds: RobotLog
-    windows: Windows
-    asked: Asked
+    windows: MotionWindows
+    asked: MotorDemand
     left: Array
     known: tuple[int, ...]
     suspects: tuple[int, ...]
@@ -228,7 +228,7 @@ def motion_changes(seen: Seen) -> Iterator[Moved]:
         yield _with_motion(order, np.degrees(same)), (degrees,)
 
 
-def zero_changes(seen: Seen, thin: Windows) -> Iterator[Moved]:
+def zero_changes(seen: Seen, thin: MotionWindows) -> Iterator[Moved]:
     """Yield shifts of positions, of each joint that which explains its own torque best in a few windows.
 
     It must explain how the torque changes, too: gravity at another angle can look like the friction of a joint that
@@ -253,7 +253,7 @@ def zero_changes(seen: Seen, thin: Windows) -> Iterator[Moved]:
             yield _shifted(nu, i, best), (Change(text, (i,), 2, _unchanged),)
 
 
-def _needed_by_angle(seen: Seen, windows: Windows, i: int) -> Array:
+def _needed_by_angle(seen: Seen, windows: MotionWindows, i: int) -> Array:
     """Return what joint i needs in windows as a sum of waves of a shift of its positions, (WAVES, W) [N m].
 
     Behind a joint nothing sees its angle but by the turn of what comes from before it: momentum has that turn once, and
@@ -274,7 +274,7 @@ def _waves(angles: Array) -> Array:
 
 
 def _left_by_shifts(
-    seen: Seen, asked: Asked, torque: Array, by_angle: Array, i: int, shifts: Array, offset: Array
+    seen: Seen, asked: MotorDemand, torque: Array, by_angle: Array, i: int, shifts: Array, offset: Array
 ) -> Array:
     """Return what joint i would leave unexplained if its positions were shifted by numbers (n,) [rad], (n,).
 
@@ -307,11 +307,11 @@ def _logs(left: Array, bounds: RobotLog) -> Array:
     return np.log(np.maximum(left, bounds.floor))
 
 
-def _with_feet_exchanged(windows: Windows) -> Windows:
+def _with_feet_exchanged(windows: MotionWindows) -> MotionWindows:
     return replace(windows, loads=dict(zip(windows.loads, reversed(list(windows.loads.values())), strict=True)))
 
 
-def _unchanged(windows: Windows) -> Windows:
+def _unchanged(windows: MotionWindows) -> MotionWindows:
     return windows
 
 
@@ -345,7 +345,7 @@ def _in_order(order: NDArray[np.intp]) -> Changed:
 def _with_motion(order: NDArray[np.intp], size: Array) -> Changed:
     """Return the change that puts positions and velocities of joints into an order, with factors (nu,)."""
 
-    def apply(w: Windows) -> Windows:
+    def apply(w: MotionWindows) -> MotionWindows:
         q = w.q.copy()
         v = w.v.copy()
         q[..., -len(order) :], v[..., -len(order) :] = (size * x[..., -len(order) :][..., order] for x in (w.q, w.v))
@@ -357,7 +357,7 @@ def _with_motion(order: NDArray[np.intp], size: Array) -> Changed:
 def _shifted(nu: int, i: int, shift: float) -> Changed:
     """Return the change that adds a number [rad] to the positions of a joint."""
 
-    def apply(w: Windows) -> Windows:
+    def apply(w: MotionWindows) -> MotionWindows:
         q = w.q.copy()
         q[..., i - nu] += shift
         return replace(w, q=q)

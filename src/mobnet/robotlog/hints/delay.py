@@ -36,9 +36,15 @@ class Delay(NamedTuple):
 
 
 def torque_delay(
-    nominal: NominalModel, sensed: Sensed, spans: Sequence[slice], rate_hz: float, wrenches: Mapping[str, Array],
-    joints: NDArray[np.bool_], kind: TorqueKind, bounds: RobotLog,
-) -> Delay | None:  # fmt: skip
+    nominal: NominalModel,
+    sensed: Sensed,
+    spans: Sequence[slice],
+    rate_hz: float,
+    wrenches: Mapping[str, Array],
+    joints: NDArray[np.bool_],
+    kind: TorqueKind,
+    bounds: RobotLog,
+) -> Delay | None:
     """Return the delay of torques of a kind, if those of some joints (nu,) fit the motion better when moved in time."""
     step = max(1, round(STEP_S * rate_hz))
     span = round(STRETCH_S * rate_hz)

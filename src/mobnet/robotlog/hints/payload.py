@@ -1,6 +1,6 @@
 """A mass at the end of an arm that its table lacks, such as a tool or what it holds, by least squares."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -9,14 +9,16 @@ import pinocchio as pin
 from mobnet.core.arrays import Array
 from mobnet.robot.linkage import linkage_of
 from mobnet.robot.nominal import NominalModel
-from mobnet.robotlog.hints.fits import quotient
-from mobnet.robotlog.hints.windows import Asked, Windows, size_of
+from mobnet.robotlog.hints.fits import friction_fit, quotient
+from mobnet.robotlog.hints.windows import MotionWindows, MotorDemand, known_joints, left_of, size_of
+from mobnet.settings.robotlog import RobotLog
 
 PLACE_M = 0.1  # from the link's origin, at which a mass is tried
 LEAST_KG = 0.05  # mass that is none
+HALF = 0.5  # share of a residual that must be explained for a word
 
 
-class Payload(NamedTuple):
+class PayloadHint(NamedTuple):
     """A mass that is carried [kg], where (3,) [m] in the frame of which body, and its torques (W, nu) [N m]."""
 
     mass: float
@@ -31,8 +33,8 @@ class Payload(NamedTuple):
 
 
 def payloads(
-    nominal: NominalModel, windows: Windows, asked: Asked, left: Array, joints: Sequence[int]
-) -> list[Payload]:
+    nominal: NominalModel, windows: MotionWindows, asked: MotorDemand, left: Array, joints: Sequence[int]
+) -> list[PayloadHint]:
     """Return the mass at the end of each limb of a robot with a fixed base that explains some joints best.
 
     `left` is the share of the joints' square torque that is not explained without it (nu,).
@@ -55,11 +57,11 @@ def payloads(
         numbers = lsq_linear(terms.reshape(-1, terms.shape[-1]), (rest * weight).ravel(), (low, np.inf)).x[:4]
         if numbers[0] > LEAST_KG:
             body = _body_of(nominal, joint)
-            found.append(Payload(float(numbers[0]), numbers[1:] / numbers[0], body, carried @ numbers))
+            found.append(PayloadHint(float(numbers[0]), numbers[1:] / numbers[0], body, carried @ numbers))
     return found
 
 
-def _torque_of_mass(nominal: NominalModel, windows: Windows, joint: int) -> Array:
+def _torque_of_mass(nominal: NominalModel, windows: MotionWindows, joint: int) -> Array:
     """Return the torques for a mass at the origin of a joint's link, and for its first moments (W, nu, 4)."""
     without = windows.needed(nominal)
     found = [windows.needed(_loaded(nominal, joint, np.zeros(3))) - without]
@@ -82,3 +84,31 @@ def _body_of(nominal: NominalModel, joint: int) -> str:
     names = (body.name for body in nominal.robot.bodies)
     moved = {row.id: name for name in names if (row := nominal.robot.joint_of(name))}
     return moved[nominal.model.names[joint]]
+
+
+def explanation(nominal: NominalModel, windows: MotionWindows, bounds: RobotLog) -> Iterator[str]:
+    """Yield what explains the residual of each joint that tells of itself, and what a mass would explain beside."""
+    asked = windows.asked(nominal)
+    names = nominal.robot.layout.actuated
+    known = np.flatnonzero(known_joints(nominal, windows, asked, bounds)).tolist()
+    if not known:
+        return
+    left = left_of(asked, windows.torque, nominal, bounds, range(len(names)))
+    plain = np.square(quotient(size_of(windows.torque - asked.needed), size_of(windows.torque)))
+    for k in known:
+        explained = 1 - left[k] / plain[k]
+        if plain[k] < bounds.floor or explained < HALF:
+            continue
+        most = np.asarray(bounds.offset * nominal.robot.torque_limits[k])
+        numbers, offset = friction_fit(asked.terms[:, k], (windows.torque - asked.needed)[:, [k]], most)
+        dry, viscous, rotor = numbers[:, 0] + 0.0  # no minus before zero
+        yield (
+            f"{names[k]}: friction of {dry:.3g} N m and {viscous:.3g} N m s/rad, rotor inertia of {rotor:.3g} kg m^2, "
+            f"offset of {offset.item():.2g} N m explain {explained:.0%} of its square"
+        )
+    for mass in payloads(nominal, windows, asked, left, known):
+        needed = asked.needed + mass.torque
+        after = left_of(asked._replace(needed=needed), windows.torque, nominal, bounds, known)
+        ratio = float(np.exp(np.log(np.maximum(after, 1e-9) / np.maximum(left[known], 1e-9)).mean()))
+        if ratio < HALF and np.mean(after < left[known]) > HALF:
+            yield f"{mass.text()}, would leave {ratio:.0%} of what is left: a tool, or masses of the table"

@@ -28,7 +28,7 @@ from mobnet.robotlog.hints.changes import (
     zero_changes,
 )
 from mobnet.robotlog.hints.columns import listed
-from mobnet.robotlog.hints.windows import Asked, Windows, known_joints, left_of
+from mobnet.robotlog.hints.windows import MotionWindows, MotorDemand, known_joints, left_of
 from mobnet.settings.robotlog import RobotLog
 
 MANY = 2  # joints up to which each of them must be explained
@@ -41,12 +41,12 @@ class Mistake(NamedTuple):
     """A mistake with the windows that undoing it makes, what they ask for, and a score: the less the better."""
 
     change: Change
-    windows: Windows
-    asked: Asked
+    windows: MotionWindows
+    asked: MotorDemand
     score: float
 
 
-def torque_hints(nominal: NominalModel, windows: Windows, bounds: RobotLog) -> Iterator[str]:
+def torque_hints(nominal: NominalModel, windows: MotionWindows, bounds: RobotLog) -> Iterator[str]:
     """Yield what looks wrong with torques, or with joints as a whole, of those that tell of themselves."""
     asked = windows.asked(nominal)
     told = dict[str, list[str]]()
@@ -64,7 +64,7 @@ def torque_hints(nominal: NominalModel, windows: Windows, bounds: RobotLog) -> I
         yield f"{', '.join(joints)}: {text}"
 
 
-def _seen(nominal: NominalModel, windows: Windows, asked: Asked, bounds: RobotLog) -> Seen:
+def _seen(nominal: NominalModel, windows: MotionWindows, asked: MotorDemand, bounds: RobotLog) -> Seen:
     """Return windows with what is not explained in them."""
     known = np.flatnonzero(known_joints(nominal, windows, asked, bounds)).tolist()
     left = left_of(asked, windows.torque, nominal, bounds, range(windows.torque.shape[1]))
@@ -124,7 +124,7 @@ def _of_motion(seen: Seen) -> Iterator[Mistake]:
                 yield from _cleared(change, change.apply(whole), asked, seen)
 
 
-def _cleared(change: Change, windows: Windows, asked: Asked, seen: Seen) -> Iterator[Mistake]:
+def _cleared(change: Change, windows: MotionWindows, asked: MotorDemand, seen: Seen) -> Iterator[Mistake]:
     """Yield a change with its score, if it clears its joints and is better than none."""
     own = list(change.joints)
     left = left_of(asked, windows.torque, seen.nominal, seen.bounds, range(len(seen.left)))

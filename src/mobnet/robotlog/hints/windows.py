@@ -23,7 +23,7 @@ from mobnet.settings.robotlog import RobotLog
 NODES = 11  # samples of a window at which beta is taken
 
 
-class Asked(NamedTuple):
+class MotorDemand(NamedTuple):
     """What the motion of windows asks of the motors: `needed` (W, nu) [N m], and terms of their friction (W, nu, 3)."""
 
     needed: Array
@@ -31,7 +31,7 @@ class Asked(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Windows:
+class MotionWindows:
     """Positions and velocities at the nodes of windows (W, NODES, n), and mean torques of the motors (W, nu) [N m].
 
     `loads` are what the feet's sensors read, side -> (W, NODES, 6) [N], [N m]; `beside` is what acts on the joints
@@ -45,11 +45,11 @@ class Windows:
     loads: Mapping[str, Array]
     period_s: float
 
-    def asked(self, nominal: NominalModel) -> Asked:
+    def asked(self, nominal: NominalModel) -> MotorDemand:
         """Return what the motion needs of the motors, and what their friction and rotor inertia multiply."""
         speed = self.v[:, :, len(nominal.robot.layout.virtual) :]
         terms = np.stack([_mean(dry(speed)), _mean(speed), (speed[:, -1] - speed[:, 0]) / self.period_s], axis=-1)
-        return Asked(self.needed(nominal) - self.beside, terms)
+        return MotorDemand(self.needed(nominal) - self.beside, terms)
 
     def needed(self, nominal: NominalModel) -> Array:
         """Return the mean torques that the motion needs at the joints (W, nu) [N m]."""
@@ -59,30 +59,35 @@ class Windows:
         needed = (p[:, -1] - p[:, 0]) / self.period_s - _mean(beta) - feet
         return needed[:, len(nominal.robot.layout.virtual) :]
 
-    def thinned(self, step: int) -> "Windows":
+    def thinned(self, step: int) -> "MotionWindows":
         """Return every so many of the windows."""
         loads = {side: load[::step] for side, load in self.loads.items()}
         q = self.q[::step]
         v = self.v[::step]
         torque = self.torque[::step]
         beside = self.beside[::step]
-        return Windows(q, v, torque, beside, loads, self.period_s)
+        return MotionWindows(q, v, torque, beside, loads, self.period_s)
 
 
-def repeated(windows: Windows, times: int) -> Windows:
+def repeated(windows: MotionWindows, times: int) -> MotionWindows:
     """Return windows so many times, one after another."""
     loads = {side: np.concatenate([load] * times) for side, load in windows.loads.items()}
     q = np.concatenate([windows.q] * times)
     v = np.concatenate([windows.v] * times)
     torque = np.concatenate([windows.torque] * times)
     beside = np.concatenate([windows.beside] * times)
-    return Windows(q, v, torque, beside, loads, windows.period_s)
+    return MotionWindows(q, v, torque, beside, loads, windows.period_s)
 
 
 def windows_of(
-    sensed: Sensed, spans: Sequence[slice], rate_hz: float, wrenches: Mapping[str, Array], kind: TorqueKind,
-    late: float, bounds: RobotLog,
-) -> Windows | None:  # fmt: skip
+    sensed: Sensed,
+    spans: Sequence[slice],
+    rate_hz: float,
+    wrenches: Mapping[str, Array],
+    kind: TorqueKind,
+    late: float,
+    bounds: RobotLog,
+) -> MotionWindows | None:
     """Return windows spread evenly over the spans, None where no span is long enough.
 
     Torques of a kind are so many samples late.
@@ -101,7 +106,7 @@ def windows_of(
     v = sensed.v[nodes].astype(np.float64)
     torque = _mean_torque(sensed, starts[:, None] + np.arange(steps + 1), kind, late)
     loads = {side: wrench[nodes] for side, wrench in wrenches.items()}
-    return Windows(q, v, torque, np.zeros(torque.shape), loads, steps / rate_hz)
+    return MotionWindows(q, v, torque, np.zeros(torque.shape), loads, steps / rate_hz)
 
 
 def _mean_torque(sensed: Sensed, rows: NDArray[np.intp], kind: TorqueKind, late: float) -> Array:
@@ -119,7 +124,9 @@ def _mean(nodes: Array) -> Array:
     return (nodes.sum(axis=1) - (nodes[:, 0] + nodes[:, -1]) / 2) / (nodes.shape[1] - 1)
 
 
-def known_joints(nominal: NominalModel, windows: Windows, asked: Asked, bounds: RobotLog) -> NDArray[np.bool_]:
+def known_joints(
+    nominal: NominalModel, windows: MotionWindows, asked: MotorDemand, bounds: RobotLog
+) -> NDArray[np.bool_]:
     """Return which joints tell of themselves (nu,): with a torque, and on no leg whose contact nobody measures."""
     robot = nominal.robot
     felt = [foot.limb for side, foot in robot.feet.items() if side not in windows.loads]
@@ -130,7 +137,7 @@ def known_joints(nominal: NominalModel, windows: Windows, asked: Asked, bounds: 
     return sees & (largest > bounds.least_torque * robot.torque_limits)
 
 
-def left_of(asked: Asked, torque: Array, nominal: NominalModel, bounds: RobotLog, joints: Sequence[int]) -> Array:
+def left_of(asked: MotorDemand, torque: Array, nominal: NominalModel, bounds: RobotLog, joints: Sequence[int]) -> Array:
     """Return the share of the square torque of some joints that motion and friction leave unexplained (n,)."""
     own = list(joints)
     offsets = bounds.offset * nominal.robot.torque_limits[own]

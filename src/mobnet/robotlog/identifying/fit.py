@@ -21,7 +21,7 @@ from scipy.stats import t
 
 from mobnet.core.arrays import Array
 from mobnet.robotlog.identifying.payload import NUMBERS, START, Payload, linearised, parameters, payload_of
-from mobnet.robotlog.identifying.regressors import LINK, Columns, Windows, together
+from mobnet.robotlog.identifying.regressors import LINK, Columns, RegressorWindows, together
 from mobnet.settings.robotlog import Identification
 
 FREE = ("offset", "scale")  # of either sign: errors of a sensor, which dissipate nothing
@@ -68,7 +68,7 @@ class Problem:
     weights: Array
     prior: Array
 
-    def own(self, windows: Windows, joint: int) -> Array:
+    def own(self, windows: RegressorWindows, joint: int) -> Array:
         """Return the columns of a joint, (windows, rows, terms)."""
         return windows.joints[:, :, joint, [self.columns.of(term, self.signs[joint]) for term in self.terms]]
 
@@ -83,7 +83,11 @@ class Solution:
 
 
 def fit_joints(
-    known: Windows, held_out: Windows, columns: Columns, terms: Sequence[str], settings: Identification
+    known: RegressorWindows,
+    held_out: RegressorWindows,
+    columns: Columns,
+    terms: Sequence[str],
+    settings: Identification,
 ) -> tuple[list[JointFit], Payload | None]:
     """Fit all joints: what is not held out chooses the signs, and its fit is tried on what is held out.
 
@@ -112,7 +116,7 @@ def fit_joints(
 
 
 def solved(
-    windows: Windows, columns: Columns, terms: Sequence[str], settings: Identification
+    windows: RegressorWindows, columns: Columns, terms: Sequence[str], settings: Identification
 ) -> tuple[Problem, Solution]:
     """Return the signs of the joints, the weights of their errors, and the numbers with them."""
     nu = windows.joints.shape[2]
@@ -141,7 +145,7 @@ def solved(
     return problem, found
 
 
-def _weights(windows: Windows, problem: Problem, by_links: Array) -> Array:
+def _weights(windows: RegressorWindows, problem: Problem, by_links: Array) -> Array:
     """Return one over the variance of what is left of each joint (nu,), in whole windows."""
     found = np.empty(len(problem.signs))
     for j in range(len(found)):
@@ -196,7 +200,7 @@ def _bounded(matrix: Array, right: Array, free: Array) -> Array:
     return found if (found >= low).all() else lsq_linear(root, target, (low, np.inf), method="bvls").x
 
 
-def solution(windows: Windows, problem: Problem) -> Solution:
+def solution(windows: RegressorWindows, problem: Problem) -> Solution:
     """Return the regularised least squares of all joints and links."""
     nu = len(problem.signs)
     count = len(problem.terms)
@@ -226,7 +230,7 @@ def solution(windows: Windows, problem: Problem) -> Solution:
     return Solution(found[: nu * count].reshape(nu, count), found[nu * count :], matrix)
 
 
-def half_widths(windows: Windows, problem: Problem, found: Solution, confidence: float) -> Array:
+def half_widths(windows: RegressorWindows, problem: Problem, found: Solution, confidence: float) -> Array:
     """Return half the widths of the intervals of the joints' numbers and of the links' errors, (nu * terms + d,)."""
     (nu, count) = found.joints.shape
     d = len(problem.prior)

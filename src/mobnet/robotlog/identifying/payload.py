@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mobnet.core.arrays import Array
-from mobnet.robotlog.identifying.regressors import Windows
+from mobnet.robotlog.identifying.regressors import RegressorWindows
 
 NUMBERS = 4  # mass [kg] and first moment [kg m] in the axes of the body, about its origin
 LEAST_KG = 1e-3
@@ -47,13 +47,13 @@ def own_inertia(mass: float, density: float) -> float:
     return 0.4 * mass * (3.0 * mass / (4.0 * math.pi * density)) ** (2.0 / 3.0)
 
 
-def linearised(windows: Windows, numbers: Array, density: float) -> Windows:
+def linearised(windows: RegressorWindows, numbers: Array, density: float) -> RegressorWindows:
     """Return windows whose last columns of the links are those of mass and first moment near some numbers (4,)."""
     at = parameters(numbers, density)
     slopes = np.column_stack([(parameters(numbers + STEP * e, density) - at) / STEP for e in np.eye(NUMBERS)])
     joints = windows.joints.copy()
     joints[..., -1] -= windows.payload @ (at - slopes @ numbers)
-    return Windows(joints, np.concatenate([windows.links, windows.payload @ slopes], axis=-1), windows.payload)
+    return RegressorWindows(joints, np.concatenate([windows.links, windows.payload @ slopes], axis=-1), windows.payload)
 
 
 def payload_of(numbers: Array, half: Array, density: float) -> Payload:

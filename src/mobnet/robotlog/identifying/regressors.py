@@ -50,7 +50,7 @@ class Columns:
 
 
 @dataclass(frozen=True)
-class Windows:
+class RegressorWindows:
     """Windows of logs, laid one after another.
 
     Attributes:
@@ -67,17 +67,17 @@ class Windows:
         """Return how many there are."""
         return len(self.joints)
 
-    def __getitem__(self, part: slice) -> "Windows":
+    def __getitem__(self, part: slice) -> "RegressorWindows":
         """Return some of them."""
-        return Windows(self.joints[part], self.links[part], self.payload[part])
+        return RegressorWindows(self.joints[part], self.links[part], self.payload[part])
 
 
-def together(windows: Sequence[Windows]) -> Windows:
+def together(windows: Sequence[RegressorWindows]) -> RegressorWindows:
     """Return windows of several logs."""
     joints = np.concatenate([one.joints for one in windows])
     links = np.concatenate([one.links for one in windows])
     payload = np.concatenate([one.payload for one in windows])
-    return Windows(joints, links, payload)
+    return RegressorWindows(joints, links, payload)
 
 
 def columns_of(settings: Identification) -> Columns:
@@ -93,9 +93,13 @@ def bare(robot: RobotDescription) -> RobotDescription:
 
 
 def windows_of(
-    robot: RobotDescription, read: SensedRecording, torque: TorqueKind, gravity_m_s2: float, settings: Identification,
+    robot: RobotDescription,
+    read: SensedRecording,
+    torque: TorqueKind,
+    gravity_m_s2: float,
+    settings: Identification,
     carrier: int | None = None,
-) -> Windows:  # fmt: skip
+) -> RegressorWindows:
     """Return the windows of a recording; the end of a segment behind its last whole window is not used.
 
     `carrier` is the joint whose body carries a payload that the table does not have.
@@ -106,7 +110,7 @@ def windows_of(
     columns = columns_of(settings)
     every = max(1, int(read.rate_hz / (OVERSAMPLED * settings.low_pass_hz)))
     rows = round(settings.window_s * read.rate_hz / every)
-    found = list[Windows]()
+    found = list[RegressorWindows]()
     for span in read.spans():
         sensed = read.sensed[span]
         if len(sensed) <= rows * every:
@@ -115,12 +119,12 @@ def windows_of(
         regressor = _links(nominal, sensed, *parts)
         links = regressor @ link_directions(nominal.model, robot.layout.nu)
         payload = regressor[..., 10 * carrier : 10 * carrier + 10] if carrier is not None else regressor[..., :0]
-        found.append(Windows(_joints(observer, sensed, columns, *parts), links, payload))
+        found.append(RegressorWindows(_joints(observer, sensed, columns, *parts), links, payload))
     if not found:
         nu = robot.layout.nu
         width = 2 * len(columns.signs) + len(PLAIN) + 1
         sizes = width, len(LINK) * nu, 0 if carrier is None else 10
-        return Windows(*(np.zeros((0, rows, nu, size)) for size in sizes))
+        return RegressorWindows(*(np.zeros((0, rows, nu, size)) for size in sizes))
     return together(found)
 
 

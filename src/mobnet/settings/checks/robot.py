@@ -9,7 +9,7 @@ import numpy as np
 
 from mobnet.core.errors import misfit, not_accepted
 from mobnet.core.joints import LEG_AXES, N_VIRTUAL, right_of, with_image
-from mobnet.settings.checks.limits import as_many, within
+from mobnet.settings.faults import as_many, within
 from mobnet.settings.names import unknown, uses
 from mobnet.settings.parts import PointRow, ShapeRow
 from mobnet.settings.reading import Place, Problem
@@ -90,8 +90,10 @@ def _tree_problems(table: RobotTable) -> Iterator[Problem]:
         branch = [name for name in branch if name != WORLD] + [body.name]
     names = {body.name for body in table.bodies}
     mirrored: Mapping[Place, Sequence[PointRow]] = {
-        ("shapes",): table.shapes, ("points",): table.points, ("looks", "shapes"): shapes_of_looks(table)
-    }  # fmt: skip
+        ("shapes",): table.shapes,
+        ("points",): table.points,
+        ("looks", "shapes"): shapes_of_looks(table),
+    }
     for place, index, row in _numbered(mirrored):
         if len(with_image(row.name)) > 1 and row.body in names and right_of(row.body) not in names:
             yield (*place, index, "body"), not_accepted("body of the mirror image", right_of(row.body), names)
@@ -210,8 +212,9 @@ def _size_problems(table: RobotTable) -> Iterator[Problem]:
             text = misfit(f"a radius of gyration of {radius:.3g} m", f"{low} to {high}, [kg m^2] and [kg]")
             yield ("bodies", index, "inertia"), text
     solids: Mapping[Place, Sequence[ShapeRow]] = {
-        ("shapes",): table.shapes, ("looks", "shapes"): shapes_of_looks(table)
-    }  # fmt: skip
+        ("shapes",): table.shapes,
+        ("looks", "shapes"): shapes_of_looks(table),
+    }
     for place, index, shape in _numbered(solids):
         if shape.segment is not None and dist(shape.segment[:3], shape.segment[3:]) < LENGTH_TOLERANCE_M:
             yield (*place, index, "segment"), misfit(list(shape.segment), "two points that differ")
@@ -224,8 +227,11 @@ def _total_problems(table: RobotTable) -> Iterator[Problem]:
     nv = len(table.order.virtual)
     nu = len(table.order.actuated)
     counts: Mapping[str, int] = {
-        "bodies": len(table.bodies), "actuated_joints": nu, "virtual_joints": nv, "dof": nv + nu
-    }  # fmt: skip
+        "bodies": len(table.bodies),
+        "actuated_joints": nu,
+        "virtual_joints": nv,
+        "dof": nv + nu,
+    }
     for name, count in counts.items():
         if getattr(table.totals, name) != count:
             yield ("totals", name), f"{getattr(table.totals, name)} is not accepted; accepted: {count}, by the rows"

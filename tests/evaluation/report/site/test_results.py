@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from experiments.evaluation.number.files import write_csv
+from experiments.evaluation.number.rows import write_csv
 from experiments.evaluation.report.site.results import result_pages
 from experiments.settings.claims import Claim
 

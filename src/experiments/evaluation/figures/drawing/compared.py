@@ -10,13 +10,12 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from experiments.evaluation.compare.curves import Panel, TorqueCurve
-from experiments.evaluation.compare.errors import Compared
+from experiments.evaluation.compare.curves import Compared, Panel, TorqueCurve
 from experiments.evaluation.figures.drawing.curves import FROM_LIFT_OFF, draw_panel, table_of
 from experiments.evaluation.figures.drawing.named_bars import BAR_INCH, NamedBar, draw_named_bars
 from experiments.evaluation.figures.style import entitle, legend, looks, save_figure
-from experiments.evaluation.number.files import Field, write_csv
 from experiments.evaluation.number.number import Number
+from experiments.evaluation.number.rows import Field, write_csv
 from mobnet.core.columns import JOINT_ERRORS
 from mobnet.core.style import COLUMN_INCH, PAGE_INCH, styled
 
@@ -69,9 +68,13 @@ def draw_sigma(axis: Axes, method: str, time: NDArray[Any], std: NDArray[Any]) -
 
 @styled
 def draw_columns(
-    pairs: Sequence[Compared], bars: Sequence[Sequence[NamedBar]], units: Sequence[str], methods: Sequence[str],
-    x_label: str, source: str,
-) -> Figure:  # fmt: skip
+    pairs: Sequence[Compared],
+    bars: Sequence[Sequence[NamedBar]],
+    units: Sequence[str],
+    methods: Sequence[str],
+    x_label: str,
+    source: str,
+) -> Figure:
     """Draw joints side by side, as wide as a page: torque, errors, and the RMSE of each method [a unit each].
 
     The errors of some methods are drawn, those of others are far beyond them. The legend calls the paper's numbers
@@ -90,6 +93,7 @@ def draw_columns(
         draw_named_bars(below, own, unit, source=source)
         if k:
             below.tick_params(labelleft=False)
+    # Joints of one unit share its label; where units differ each title has its own.
     one = f" [{units[0]}]" if len(set(units)) == 1 else ""
     grid[0, 0].set_ylabel(f"torque{one}" if one else "torque or force")
     grid[1, 0].set_ylabel(f"error{one}")

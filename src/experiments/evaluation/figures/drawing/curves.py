@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from experiments.evaluation.compare.curves import Panel
 from experiments.evaluation.figures.style import looks
-from experiments.evaluation.number.files import Field
+from experiments.evaluation.number.rows import Field
 
 Mark = tuple[float, Mapping[str, Any]]  # of a flag: its lower edge [of the height], its look
 FLAGS: Mapping[str, Mark] = {"swing": (0.0, {"color": "#009E73", "alpha": 0.15})}
@@ -30,9 +30,15 @@ def draw_panel(axis: Axes, panel: Panel) -> None:
             low = curve.values - curve.std
             high = curve.values + curve.std
             axis.fill_between(
-                panel.time, low, high, color=look.colour, alpha=BAND_ALPHA, linewidth=0.0, zorder=1.5,
+                panel.time,
+                low,
+                high,
+                color=look.colour,
+                alpha=BAND_ALPHA,
+                linewidth=0.0,
+                zorder=1.5,
                 label=f"\N{PLUS-MINUS SIGN} 1 std of {curve.label}",
-            )  # fmt: skip
+            )
 
 
 def mark_flag(axis: Axes, name: str, time: NDArray[Any], flags: NDArray[Any]) -> None:

@@ -53,10 +53,18 @@ def draw_box(axis: Axes, box: Box, line_inch: float = 0.125) -> None:
     (x, y) = box.centre
     (width, height) = box.size
     style = f"round,pad=0,rounding_size={CORNER}"
-    axis.add_patch(FancyBboxPatch(
-        (x - width / 2, y - height / 2), width, height, boxstyle=style, facecolor=box.colour, edgecolor=INK,
-        linewidth=0.7, linestyle=DASHES if box.dashed else "-", zorder=3,
-    ))  # fmt: skip
+    outline = FancyBboxPatch(
+        (x - width / 2, y - height / 2),
+        width,
+        height,
+        boxstyle=style,
+        facecolor=box.colour,
+        edgecolor=INK,
+        linewidth=0.7,
+        linestyle=DASHES if box.dashed else "-",
+        zorder=3,
+    )
+    axis.add_patch(outline)
     for k, text in enumerate(box.lines):
         look: dict[str, Any] = (
             {"fontweight": "bold", "fontsize": 7.5, "color": INK} if k == 0 else {"fontsize": 7, "color": INK}
@@ -71,8 +79,16 @@ def draw_sum(axis: Axes, centre: Place, signs: Sequence[tuple[str, float, float]
         axis.text(centre[0] + x, centre[1] + y, sign, ha="center", va="center", fontsize=8, zorder=4)
 
 
-def draw_path(axis: Axes, places: Sequence[Place], text: str = "", at: Place = (0.0, 0.0), *, dashed: bool = False,
-              ha: str = "center", headed: bool = True) -> None:  # fmt: skip
+def draw_path(
+    axis: Axes,
+    places: Sequence[Place],
+    text: str = "",
+    at: Place = (0.0, 0.0),
+    *,
+    dashed: bool = False,
+    ha: str = "center",
+    headed: bool = True,
+) -> None:
     """Draw a line through places [inch] that ends in an arrow, and a text at a place beside it."""
     look: dict[str, Any] = {"color": INK, "linewidth": 0.8, "linestyle": DASHES if dashed else "-", "zorder": 2}
     corners = np.array(places)

@@ -121,8 +121,16 @@ def _line(axis: Axes, line: Line, look: Look, x: NDArray[np.float64], ends: tupl
     axis.plot(x, mean, label=line.label, marker=look.marker, markersize=3.5, markevery=marked, **look.line)
     axis.vlines(x, low, high, color=look.colour, linewidth=0.8, zorder=look.order)
     for place, dots in zip(x, line.dots, strict=False):
-        axis.plot([place] * len(dots), dots, look.marker, markersize=3.5, color=look.colour, markeredgewidth=0.0,
-                  alpha=0.6, zorder=4)  # fmt: skip
+        axis.plot(
+            [place] * len(dots),
+            dots,
+            look.marker,
+            markersize=3.5,
+            color=look.colour,
+            markeredgewidth=0.0,
+            alpha=0.6,
+            zorder=4,
+        )
     bottom, top = ends
     if bottom is None or top is None:
         return

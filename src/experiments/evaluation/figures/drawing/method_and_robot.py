@@ -17,8 +17,7 @@ from experiments.settings.pages import Drawings
 from mobnet.core.arrays import Array
 from mobnet.core.joints import JointLayout
 from mobnet.core.style import COLUMN_INCH, PAGE_INCH, styled
-from mobnet.robot.description import RobotDescription, describe
-from mobnet.robot.looks import dressed
+from mobnet.robot.description import RobotDescription, describe, dressed
 from mobnet.settings.data import Push
 from mobnet.settings.parts import Looks
 from mobnet.settings.robot import RobotTable
@@ -67,9 +66,16 @@ def draw_method(limbs: list[str]) -> tuple[Figure, list[tuple[str, str, str]]]:
 
 
 def _arrows(
-    axis: Axes, inputs: Mapping[str, Box], feet: Box, formula: Box, observer: Box, network: Box, torque: Box,
-    detector: Box, reaction: Box,
-) -> list[tuple[str, str, str]]:  # fmt: skip
+    axis: Axes,
+    inputs: Mapping[str, Box],
+    feet: Box,
+    formula: Box,
+    observer: Box,
+    network: Box,
+    torque: Box,
+    detector: Box,
+    reaction: Box,
+) -> list[tuple[str, str, str]]:
     """Draw the arrows between the blocks; return from, to and signal of each."""
     bus_x = 1.36
     y = observer.centre[1]
@@ -87,25 +93,39 @@ def _arrows(
     draw_path(axis, [(bus_x, low), (network.side(-1, 0)[0], low)])
     draw_path(axis, [feet.side(1, 0), (network.side(-1, 0)[0], feet.centre[1])], dashed=True)
     draw_path(axis, [observer.side(1, 0), (first[0] - SUM_RADIUS, y)], "residual", (3.37, y + 0.1))
-    draw_path(axis, [formula.side(1, 0), (first[0], high), (first[0], y + SUM_RADIUS)], "friction", (3.41, high + 0.1),
-              dashed=True)  # fmt: skip
+    draw_path(
+        axis,
+        [formula.side(1, 0), (first[0], high), (first[0], y + SUM_RADIUS)],
+        "friction",
+        (3.41, high + 0.1),
+        dashed=True,
+    )
     draw_path(axis, [(first[0] + SUM_RADIUS, y), (second[0] - SUM_RADIUS, y)])
     mean_y = network.centre[1] + 0.17
     sigma_y = network.centre[1] - 0.2
     right = network.side(1, 0)[0]
     draw_path(axis, [(right, mean_y), (second[0], mean_y), (second[0], y - SUM_RADIUS)], "mean", (3.75, mean_y + 0.1))
-    draw_path(axis, [(right, sigma_y), (torque.centre[0], sigma_y), torque.side(0, -1)], f"standard deviation {SIGMA}",
-              (4.17, sigma_y + 0.1))  # fmt: skip
+    draw_path(
+        axis,
+        [(right, sigma_y), (torque.centre[0], sigma_y), torque.side(0, -1)],
+        f"standard deviation {SIGMA}",
+        (4.17, sigma_y + 0.1),
+    )
     draw_path(axis, [(second[0] + SUM_RADIUS, y), torque.side(-1, 0)])
     draw_path(axis, [torque.side(1, 0), detector.side(-1, 0)])
     draw_path(axis, [detector.side(0, -1), reaction.side(0, 1)], "alarm, link", (6.37, 1.03), ha="right")
     sensed = [(name, to, "sensed") for name in inputs for to in ("momentum observer", "networks", "friction formula")]
     return [
-        *sensed, ("foot sensors", "networks", "label of the training"), ("momentum observer", "difference", "residual"),
-        ("friction formula", "difference", "friction"), ("networks", "difference", "mean"),
-        ("networks", "external torque", "standard deviation"), ("difference", "external torque", "estimate"),
-        ("external torque", "detector", "estimate"), ("detector", "reaction", "alarm, link"),
-    ]  # fmt: skip
+        *sensed,
+        ("foot sensors", "networks", "label of the training"),
+        ("momentum observer", "difference", "residual"),
+        ("friction formula", "difference", "friction"),
+        ("networks", "difference", "mean"),
+        ("networks", "external torque", "standard deviation"),
+        ("difference", "external torque", "estimate"),
+        ("external torque", "detector", "estimate"),
+        ("detector", "reaction", "alarm, link"),
+    ]
 
 
 def position_of(settings: Drawings, robot: RobotTable, layout: JointLayout) -> Array:

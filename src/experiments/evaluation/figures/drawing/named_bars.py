@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
-from experiments.evaluation.compare.errors import ZERO
+from experiments.evaluation.compare.curves import ZERO
 from experiments.evaluation.figures.style import looks
 from experiments.evaluation.number.number import Number
 
@@ -85,6 +85,7 @@ def draw_named_dots(axis: Axes, rows: Sequence[NamedBar], x_label: str, at: floa
     axis.set_axisbelow(True)
     axis.tick_params(axis="y", length=0.0)
     axis.set(ylim=(len(rows) - 0.4, -0.6), xlabel=x_label)
+    # Without a number there is nothing to make room for.
     if not np.isfinite(value).any():
         return
     for place, row in enumerate(rows):
@@ -92,10 +93,21 @@ def draw_named_dots(axis: Axes, rows: Sequence[NamedBar], x_label: str, at: floa
             ends = [[value[place] - low[place]], [high[place] - value[place]]]
             look = styles[row.method]
             axis.errorbar(
-                value[place], place, xerr=ends, marker=look.marker, markersize=3.5, color=look.colour,
-                ecolor="black", elinewidth=0.7, capsize=1.5, markeredgecolor="black", markeredgewidth=0.4, zorder=4,
-            )  # fmt: skip
+                value[place],
+                place,
+                xerr=ends,
+                marker=look.marker,
+                markersize=3.5,
+                color=look.colour,
+                ecolor="black",
+                elinewidth=0.7,
+                capsize=1.5,
+                markeredgecolor="black",
+                markeredgewidth=0.4,
+                zorder=4,
+            )
             _number(axis, row, place, high[place])
+    # Room for the text of the number whose interval ends farthest to the right.
     left, right = axis.get_xlim()
     axis.set_xlim(left, right + NUMBER_ROOM / 2 * (right - left))
 

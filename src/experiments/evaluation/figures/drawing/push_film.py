@@ -5,34 +5,70 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from PIL import Image
 
 from experiments.evaluation.compare.curves import TRUTH, TorqueCurve
-from experiments.evaluation.figures.drawing.motion import palette_of, save_drawing, save_still
-from experiments.evaluation.figures.drawing.push_frame import Course, Moment, draw_frame
+from experiments.evaluation.figures.drawing.push_frame import Moment, TorquePlot, draw_frame
 from experiments.evaluation.figures.drawing.pushed import standing
 from experiments.evaluation.figures.drawing.robot import projection
-from experiments.evaluation.measure.estimates.felt import Felt
-from experiments.evaluation.measure.estimates.told import Told, read_story
-from experiments.evaluation.number.files import write_csv
+from experiments.evaluation.measure.estimates.felt import PushResponse
+from experiments.evaluation.measure.push_scene import PushScene, read_story
+from experiments.evaluation.number.rows import write_csv
 from experiments.plan.detection import Detections
 from experiments.plan.runs import Run
 from experiments.settings.measures import Peaks
 from experiments.settings.pages import PushFilm, Story
 from mobnet.core.arrays import Array
-from mobnet.core.columns import SWING
+from mobnet.core.detections import Collision
+from mobnet.core.files import atomic_path
 from mobnet.core.joints import JointLayout
-from mobnet.robot.description import RobotDescription, describe
-from mobnet.robot.looks import dressed
+from mobnet.robot.description import RobotDescription, describe, dressed
 from mobnet.settings.parts import Looks
 from mobnet.settings.robot import RobotTable
 from mobnet.simulation.render import Pixels
 
+NEAR_WHITE = 251  # of 255
+EFFORT = {"quality": 50, "method": 3}  # of WebP without loss: more takes longer and saves nothing
 COLUMNS = ("method", "joint", "peak_share", "delay_ms", "rmse_nm")
 HEADS = ("", "share of the peak", "delay", "RMSE")
 EASED = 8  # frames in which the time axis takes another width
 ROOM = 0.06  # above and below the curves, share of their range
 MS = 1000.0
 Ends = tuple[float, float]
+
+
+def save_still(frame: Pixels, path: Path) -> None:
+    """Write one frame (height, width, 3) as a PNG, as a whole or not at all."""
+    with atomic_path(path) as temporary:
+        Image.fromarray(frame).save(temporary, "png", optimize=True)
+
+
+def palette_of(frame: Pixels, colours: int) -> Image.Image:
+    """Return an image with a palette of the main colours of a frame (height, width, 3); almost white is white."""
+    image = Image.fromarray(frame).quantize(colours)
+    palette = np.reshape(image.getpalette() or [], (-1, 3))
+    palette[palette.min(axis=1) >= NEAR_WHITE] = 255
+    image.putpalette(palette.ravel().tolist())
+    return image
+
+
+def save_drawing(frames: Sequence[Pixels], seen_s: Sequence[float], palette: Image.Image, out: Path) -> None:
+    """Write frames (height, width, 3), each seen for a time [s], as a WebP and a GIF that repeat.
+
+    Drawings have few colours: with those of a palette, WebP without loss is smaller than with it, and text is sharp.
+    """
+    flat = [Image.fromarray(frame).quantize(palette=palette, dither=Image.Dither.NONE) for frame in frames]
+    duration = [round(MS * time_s) for time_s in seen_s]
+    _save([image.convert("RGB") for image in flat], out.with_suffix(".webp"), duration, lossless=True, **EFFORT)
+    _save(flat, out.with_suffix(".gif"), duration)
+
+
+def _save(images: Sequence[Image.Image], path: Path, duration: Sequence[int], **options: int) -> None:
+    """Write images with their durations [ms] in the format of the path's ending."""
+    with atomic_path(path) as temporary:
+        first, *others = images
+        kind = path.suffix.removeprefix(".")
+        first.save(temporary, kind, save_all=True, append_images=others, duration=list(duration), loop=0, **options)
 
 
 @dataclass(frozen=True)
@@ -55,16 +91,26 @@ class Shot:
 
 
 def push_film(
-    settings: PushFilm, story: Story, peaks: Peaks, robot: RobotTable, looks: Looks | None, layout: JointLayout,
-    runs: Sequence[Run], detections: Detections, out: Path,
-) -> None:  # fmt: skip
+    settings: PushFilm,
+    story: Story,
+    peaks: Peaks,
+    robot: RobotTable,
+    looks: Looks | None,
+    layout: JointLayout,
+    runs: Sequence[Run],
+    detections: Detections,
+    out: Path,
+) -> None:
     """Write the film as WebP and GIF, a still of it as PNG, and the numbers in it as CSV, beside each other."""
-    told = read_story(story, peaks, layout, runs, detections, settings.kind)
-    rows = [
-        (method, story.joint, felt.share, felt.delay_ms, told.errors_nm[method]) for method, felt in told.felt.items()
-    ]
+    joint = story.joint
+    hit, push = read_story(story, layout, runs, detections[story.level], settings.kind)
+    torques = push.torques(joint)
+    felt = {method: push.felt(torque, joint, peaks) for method, torque in torques.items()}
+    errors_nm = {method: push.error_nm(torque, joint) for method, torque in torques.items()}
+    rows = [(method, joint, own.share, own.delay_ms, errors_nm[method]) for method, own in felt.items()]
     write_csv(out.with_suffix(".csv"), COLUMNS, rows)
-    stage = _Stage(settings, told, dressed(describe(robot), looks), layout)
+    course = course_of(settings, push, joint)
+    stage = _Stage(settings, dressed(describe(robot), looks), layout, hit, push, course, lines_of(felt, errors_nm))
     shots = shots_of(settings, story)
     still = stage.still()
     seen_s = [shot.seen_s for shot in shots]
@@ -109,7 +155,7 @@ def eased(start: Ends, end: Ends, k: int) -> Ends:
     return low, high
 
 
-def lines_of(felt: Mapping[str, Felt], errors_nm: Mapping[str, float]) -> list[tuple[str, ...]]:
+def lines_of(felt: Mapping[str, PushResponse], errors_nm: Mapping[str, float]) -> list[tuple[str, ...]]:
     """Return the lines of the table at the end: heads of columns, then what each method shows, the last one first."""
     rows = [
         (method, f"{100.0 * own.share:.0f} %", _late(own.delay_ms), f"{errors_nm[method]:.0f} N m")
@@ -126,16 +172,27 @@ def _late(delay_ms: float | None) -> str:
 class _Stage:
     """What all frames share."""
 
-    def __init__(self, settings: PushFilm, told: Told, robot: RobotDescription, layout: JointLayout) -> None:
+    def __init__(
+        self,
+        settings: PushFilm,
+        robot: RobotDescription,
+        layout: JointLayout,
+        hit: Collision,
+        push: PushScene,
+        course: TorquePlot,
+        told: Sequence[tuple[str, ...]],
+    ) -> None:
         self.settings = settings
-        self.told = told
         self.robot = robot
         self.layout = layout
-        heading = np.median(np.unwrap([yaw_of(q) for q in told.q]))
+        self.hit = hit
+        self.push = push
+        self.course = course
+        self.told = told
+        heading = np.median(np.unwrap([yaw_of(q) for q in push.q]))
         azimuth, elevation = settings.view_deg
         self.view = projection(float(np.rad2deg(heading)) + azimuth, elevation)
-        self.course = course_of(settings, told)
-        self.centre = np.array([*np.median(told.q[:, :2], axis=0), 0.0])
+        self.centre = np.array([*np.median(push.q[:, :2], axis=0), 0.0])
 
     def frame(self, shot: Shot) -> Pixels:
         """Draw a frame."""
@@ -144,24 +201,28 @@ class _Stage:
 
     def still(self) -> Pixels:
         """Draw the robot at the largest force, and all that is slowed of the torque."""
-        peak_s = float(self.told.time_s[np.linalg.norm(self.told.force, axis=1).argmax()])
+        peak_s = float(self.push.time_s[np.linalg.norm(self.push.force, axis=1).argmax()])
         moment = self.moment(peak_s, near_of(self.settings), slowed=True)
         return self._drawn(moment, self.settings.slow_s[1], told=True)
 
     def moment(self, time_s: float, ends_s: Ends, *, slowed: bool) -> Moment:
         """Return what a frame shows of the robot at a time [s]."""
-        told = self.told
-        k = min(int(np.searchsorted(self.told.time_s, time_s)), len(self.told.time_s) - 1)
-        found = told.detected
-        side = next(side for side, leg in self.layout.legs.items() if leg == told.collision.leg)
-        heard = found.delay_s is not None and time_s >= found.delay_s
-        said = f"detected: {side} {found.link}, {MS * (found.delay_s or 0.0):.0f} ms after contact" if heard else ""
+        push = self.push
+        times_s = push.time_s
+        k = min(int(np.searchsorted(times_s, time_s)), len(times_s) - 1)
+        side = next(side for side, leg in self.layout.legs.items() if leg == self.hit.leg)
+        alarm = push.alarm
+        found = ""
+        said = ""
+        if alarm and time_s >= alarm.delay_s:
+            found = f"{side}_{alarm.link}_{alarm.direction}"
+            said = f"detected: {side} {alarm.link}, {MS * alarm.delay_s:.0f} ms after contact"
         return Moment(
-            standing(self.robot, told.q[k]),
+            standing(self.robot, push.q[k]),
             self.centre,
-            f"{side}_{told.collision.link}_{told.collision.direction}",
-            told.force[k],
-            f"{side}_{found.link}_{found.direction}" if heard else "",
+            f"{side}_{self.hit.link}_{self.hit.direction}",
+            push.force[k],
+            found,
             said,
             time_s,
             ends_s,
@@ -169,22 +230,21 @@ class _Stage:
         )
 
     def _drawn(self, moment: Moment, drawn_s: float, *, told: bool) -> Pixels:
-        lines = lines_of(self.told.felt, self.told.errors_nm) if told else self.settings.opening
+        lines = self.told if told else self.settings.opening
         return draw_frame(self.robot, self.view, moment, self.course, drawn_s, lines)
 
 
-def course_of(settings: PushFilm, told: Told) -> Course:
-    """Return the curves of the story's joint while it is shown [N m]."""
-    curves = told.curves
-    rows = told.rows
-    stds = {method: None if std is None else std[rows, 0] for method, std in curves.stds.items()}
-    shown = {**{method: values[rows, 0] for method, values in curves.estimates.items()}, TRUTH: curves.truth[rows, 0]}
+def course_of(settings: PushFilm, push: PushScene, joint: str) -> TorquePlot:
+    """Return the curves of a joint while they are shown [N m]."""
+    k = push.joints.index(joint)
+    stds = {method: std[:, k] for method, std in push.stds.items()}
+    shown = {**push.torques(joint), TRUTH: push.truth[:, k]}
     low, high = (end(list(map(end, shown.values()))) for end in (np.min, np.max))
     room = ROOM * (high - low)
-    swing = curves.flags[SWING][rows]
     title = f"External torque of the {settings.joint} [N m]"
     drawn = [TorqueCurve(name, values, stds.get(name)) for name, values in shown.items()]
-    return Course(told.time_s, drawn, swing, title, settings.labels, (float(low - room), float(high + room)))
+    ends = (float(low - room), float(high + room))
+    return TorquePlot(push.time_s, drawn, push.flags["swing"], title, settings.labels, ends)
 
 
 def yaw_of(q: Array) -> float:

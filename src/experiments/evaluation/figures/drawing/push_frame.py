@@ -60,7 +60,7 @@ class Moment:
 
 
 @dataclass(frozen=True)
-class Course:
+class TorquePlot:
     """The torque of a joint: time (T,) [s], curves (T,) [N m], swing or not (T,), texts, and the axis' ends [N m]."""
 
     time_s: Array
@@ -72,9 +72,13 @@ class Course:
 
 
 def draw_frame(
-    robot: RobotDescription, view: Array, moment: Moment, course: Course, drawn_s: float,
+    robot: RobotDescription,
+    view: Array,
+    moment: Moment,
+    course: TorquePlot,
+    drawn_s: float,
     lines: Sequence[str | Sequence[str]],
-) -> Pixels:  # fmt: skip
+) -> Pixels:
     """Draw a frame (height, width, 3): the torque until `drawn_s` [s], and what stands below it.
 
     That is text, a line each, or a table: heads of columns, then lines with a method and texts.
@@ -93,19 +97,28 @@ def draw_frame(
     return np.asarray(canvas.buffer_rgba())[..., :3].copy()
 
 
-def _draw_legend(figure: Figure, course: Course) -> None:
+def _draw_legend(figure: Figure, course: TorquePlot) -> None:
     """Draw what the lines and the shade mean, in one row."""
     handles: list[Any] = [
         Line2D([], [], **_line(curve.label), label=course.labels[curve.label]) for curve in course.curves
     ]
     handles.append(Patch(color=SWING, label=course.labels["swing"]))
     figure.legend(
-        handles=handles, loc="lower left", bbox_to_anchor=(TEXT_X - 0.008, LEGEND_Y), ncols=len(handles), fontsize=10.5,
-        frameon=False, handlelength=1.1, columnspacing=0.9, handletextpad=0.4, borderpad=0.0, labelcolor=INK,
-    )  # fmt: skip
+        handles=handles,
+        loc="lower left",
+        bbox_to_anchor=(TEXT_X - 0.008, LEGEND_Y),
+        ncols=len(handles),
+        fontsize=10.5,
+        frameon=False,
+        handlelength=1.1,
+        columnspacing=0.9,
+        handletextpad=0.4,
+        borderpad=0.0,
+        labelcolor=INK,
+    )
 
 
-def _draw_lines(figure: Figure, course: Course, lines: Sequence[str | Sequence[str]]) -> None:
+def _draw_lines(figure: Figure, course: TorquePlot, lines: Sequence[str | Sequence[str]]) -> None:
     """Write lines of text, or a table whose lines but the first have the colours of their methods."""
     for row, line in enumerate(lines):
         y = LINE_Y - row * LINE_STEP
@@ -122,9 +135,7 @@ def _draw_lines(figure: Figure, course: Course, lines: Sequence[str | Sequence[s
 
 def _draw_scene(axis: Axes, robot: RobotDescription, view: Array, moment: Moment) -> None:
     """Draw the robot with what pushes it, the speed of time, and what the detector says."""
-    draw_pushed(
-        axis, robot, moment.q, moment.centre, view, point=moment.point, force=moment.force, felt=moment.felt
-    )  # fmt: skip
+    draw_pushed(axis, robot, moment.q, moment.centre, view, point=moment.point, force=moment.force, felt=moment.felt)
     x, y = view[:2] @ moment.centre
     axis.set(xlim=(x + ROOM_M[0], x + ROOM_M[1]), ylim=(y + ROOM_M[2], y + ROOM_M[3]))
     axis.text(0.05, 0.035, f"{moment.now_s:+.2f} s".replace("-", "\N{MINUS SIGN}"), color=INK, transform=axis.transAxes)
@@ -132,12 +143,20 @@ def _draw_scene(axis: Axes, robot: RobotDescription, view: Array, moment: Moment
     if moment.said:
         box = {"boxstyle": "round,pad=0.45", "facecolor": PUSH, "edgecolor": "none"}
         axis.text(
-            0.5, 0.94, moment.said, color="white", fontweight="bold", ha="center", va="center",
-            transform=axis.transAxes, bbox=box, zorder=9,
-        )  # fmt: skip
+            0.5,
+            0.94,
+            moment.said,
+            color="white",
+            fontweight="bold",
+            ha="center",
+            va="center",
+            transform=axis.transAxes,
+            bbox=box,
+            zorder=9,
+        )
 
 
-def _draw_torque(axis: Axes, moment: Moment, course: Course, drawn_s: float) -> None:
+def _draw_torque(axis: Axes, moment: Moment, course: TorquePlot, drawn_s: float) -> None:
     """Draw the torque until a time, with swing shaded and a mark at the present."""
     first, last = np.searchsorted(course.time_s, (moment.ends_s[0], drawn_s))
     rows = slice(max(int(first) - 1, 0), int(last) + 1)

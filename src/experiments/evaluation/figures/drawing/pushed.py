@@ -52,9 +52,19 @@ def draw_force(axis: Axes, place: Array, force: Array, view: Array) -> None:
     (x, y) = view[:2] @ place
     (from_x, from_y) = view[:2] @ (place - ARROW_M_N * force)
     arrow = FancyArrow(
-        from_x, from_y, x - from_x, y - from_y, width=WIDTH_M, head_width=3.2 * WIDTH_M, head_length=3.6 * WIDTH_M,
-        length_includes_head=True, facecolor=PUSH, edgecolor="white", linewidth=0.8, zorder=6,
-    )  # fmt: skip
+        from_x,
+        from_y,
+        x - from_x,
+        y - from_y,
+        width=WIDTH_M,
+        head_width=3.2 * WIDTH_M,
+        head_length=3.6 * WIDTH_M,
+        length_includes_head=True,
+        facecolor=PUSH,
+        edgecolor="white",
+        linewidth=0.8,
+        zorder=6,
+    )
     axis.add_patch(arrow)
     beside = (np.array([from_x, from_y]) - (x, y)) / max(float(np.hypot(x - from_x, y - from_y)), WIDTH_M)
     text_x, text_y = np.array([from_x, from_y]) + BESIDE_M * beside

@@ -83,6 +83,7 @@ def draw_hits(groups: Sequence[PushGroup], joint: str, source: str) -> Figure:
         draw_named_dots(delays, group.delays, "delay of the rise [ms]", group.observer_ms)
         for axis in (shares, delays):
             axis.tick_params(labelleft=False)
+    # Groups stand below one another to be compared, so a number has one scale in all of them.
     for name in NUMBERS:
         _one_scale([axes[f"{k}.{name}"] for k in range(len(groups))])
     legend(figure, list(axes.values()))

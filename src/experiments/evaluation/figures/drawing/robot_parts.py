@@ -14,8 +14,14 @@ from mobnet.core.arrays import Array
 from mobnet.robot.description import RobotDescription
 
 LIMBS: Mapping[str, str] = {  # limb -> its colour, none that a method has
-    "LL": "#6FB3E0", "RL": "#4A86BD", "W": "#A794C6", "LA": "#86C9A0", "RA": "#5DA27A", "V": "#E2B457", "N": "#B4BAC2",
-}  # fmt: skip
+    "LL": "#6FB3E0",
+    "RL": "#4A86BD",
+    "W": "#A794C6",
+    "LA": "#86C9A0",
+    "RA": "#5DA27A",
+    "V": "#E2B457",
+    "N": "#B4BAC2",
+}
 LEFT_AS_IT_IS = ("joint", "rubber", "glass", "lamp", "dark")  # tones that no limb colours
 AXIS_M = 0.13  # half length of the axis of a joint
 NAME_M = 0.05  # from an arrow to its name
@@ -25,7 +31,7 @@ HALO = [withStroke(linewidth=2.2, foreground="white")]
 
 def limbs_of(robot: RobotDescription) -> dict[str, str]:
     """Return body -> limb whose joint moves it, or the body that it hangs on; of a free base the virtual one."""
-    of_joint = {joint: limb for limb, joints in robot.layout.groups.items() for joint in joints}
+    of_joint = robot.layout.limb_of
     found: dict[str, str] = {}
     for body in robot.bodies:
         joint = robot.joint_of(body.name)
@@ -58,10 +64,19 @@ def draw_axes(axis: Axes, found: Mapping[str, tuple[Array, Array]], view: Array)
     """Draw the axes of joints as arrows with their names, in black on white, into axes in metres."""
     for joint, (point, direction) in found.items():
         start, end = (view[:2] @ (point + sign * AXIS_M * direction) for sign in (-1.0, 1.0))
-        axis.add_patch(FancyArrowPatch(
-            tuple(start), tuple(end), arrowstyle="-|>,head_length=3,head_width=1.6", mutation_scale=1.0, shrinkA=0.0,
-            shrinkB=0.0, color=INK, linewidth=0.9, zorder=5, path_effects=HALO,
-        ))  # fmt: skip
+        arrow = FancyArrowPatch(
+            tuple(start),
+            tuple(end),
+            arrowstyle="-|>,head_length=3,head_width=1.6",
+            mutation_scale=1.0,
+            shrinkA=0.0,
+            shrinkB=0.0,
+            color=INK,
+            linewidth=0.9,
+            zorder=5,
+            path_effects=HALO,
+        )
+        axis.add_patch(arrow)
         x, y = end + NAME_M * (end - start) / np.linalg.norm(end - start)
         axis.text(x, y, joint, ha="center", va="center", fontsize=6.5, zorder=8, path_effects=HALO)
 

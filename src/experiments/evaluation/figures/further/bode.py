@@ -12,17 +12,16 @@ from matplotlib.figure import Figure
 
 from experiments.evaluation.figures.style import LETTERS, Look, legend, looks, save_figure
 from experiments.evaluation.measure.estimates.bode import GAIN, PHASE, observer_response
-from experiments.evaluation.number.files import Field
-from experiments.evaluation.number.grid import Wanted
-from experiments.evaluation.number.lookup import Lookup, read_lookup
+from experiments.evaluation.number.grid import Lookup, Wanted, read_lookup
 from experiments.evaluation.number.number import Number
+from experiments.evaluation.number.rows import Field
 from experiments.settings.measures import Bode
 from experiments.settings.runs import Statistics
 from mobnet.core.columns import RESPONSE
 from mobnet.core.joints import JointLayout
 from mobnet.core.style import PAGE_INCH, STYLE, styled
 from mobnet.settings.data import Push
-from mobnet.settings.methods import Observer
+from mobnet.settings.methods import ObserverSettings
 from mobnet.settings.plant import Rates
 
 REFERENCE = "low-pass of (11)"  # the observer's response to what it sees without any error
@@ -45,9 +44,15 @@ class Answer:
 
 
 def bode(
-    settings: Bode, pushes: Mapping[str, Push], layout: JointLayout, observer: Observer, rates: Rates,
-    statistics: Statistics, scores: Sequence[Path], figure_dir: Path,
-) -> None:  # fmt: skip
+    settings: Bode,
+    pushes: Mapping[str, Push],
+    layout: JointLayout,
+    observer: ObserverSettings,
+    rates: Rates,
+    statistics: Statistics,
+    scores: Sequence[Path],
+    figure_dir: Path,
+) -> None:
     """Write gain [-] and phase [deg] over frequency [Hz] of each method, as PDF, PNG and CSV.
 
     `bode` has the joints that the settings show, `bode_all` every joint of the leg.
@@ -99,6 +104,7 @@ def draw_bode(
     blocks = -(-len(joints) // across)
     figure = Figure(figsize=(PAGE_INCH, row_inch * 2 * blocks + LEGEND_INCH), layout="constrained")
     axes = figure.subplots(2 * blocks, across, sharex=True, squeeze=False)
+    # The last block may have fewer joints than panels.
     for axis in axes.flat:
         axis.set_visible(False)
     for k, joint in enumerate(joints):

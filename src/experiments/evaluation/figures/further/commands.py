@@ -41,9 +41,12 @@ class Bars:
 
 
 def commands(
-    settings: CommandsFigure, commands: Commands, layout: JointLayout, sets: Mapping[str, Sequence[Path]],
+    settings: CommandsFigure,
+    commands: Commands,
+    layout: JointLayout,
+    sets: Mapping[str, Sequence[Path]],
     figure_dir: Path,
-) -> None:  # fmt: skip
+) -> None:
     """Write the histograms of the commands given (Table 2) in each data set's recordings, as PDF, PNG and CSV.
 
     The figure has the first set, the CSV file has all.
@@ -57,6 +60,7 @@ def commands(
         counts = {
             name: np.bincount(bin_of(values[:, column], edges), minlength=len(ends)) for name, values in found.items()
         }
+        # Percent of the steps, as sets have different numbers of them.
         first = next(iter(counts.values()))
         panels.append(Bars(label, edges, 100.0 * first / first.sum(), named_values(commands, column)))
         for name, own in counts.items():

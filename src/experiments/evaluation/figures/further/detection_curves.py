@@ -21,8 +21,8 @@ from experiments.evaluation.measure.detection.results import (
     owners,
     rows_of,
     tries_of,
-)  # fmt: skip
-from experiments.evaluation.number.clusters import Place, share_in
+)
+from experiments.evaluation.number.clusters import ClusterKey, share_in
 from experiments.evaluation.number.number import Number
 from experiments.settings.detection_tables import DetectionCurves
 from experiments.settings.runs import Statistics
@@ -86,22 +86,25 @@ def detection_curves(
         own: dict[str, list[CurvePoint]] = {}
         for robot, found in points.items():
             own[robot] = [row for row in found if row.detector == name]
-        courses += [*_over_rates(name, own, quiet, hours, statistics),
-                    _over_force(name, sweep[name], settings.force_bins, statistics)]  # fmt: skip
+        courses += _over_rates(name, own, quiet, hours, statistics)
+        courses.append(_over_force(name, sweep[name], settings.force_bins, statistics))
         hit = np.array([one.detected.ratio for one in hits[name]])
         area = area_of(hit, np.array([row.ratio for row in quiet]), statistics)
         rows.append((AREA, settings.level, name, None, *area.with_ends, len(hits[name]), "-"))
     for one in courses:
         unit = "ms" if one.panel == DELAY else "-"
-        rows += [(one.panel, settings.level, one.detector, x, *number.with_ends, count, unit)
-                 for x, number, count in zip(one.x, one.numbers, one.counts, strict=True)]  # fmt: skip
+        for x, number, count in zip(one.x, one.numbers, one.counts, strict=True):
+            rows.append((one.panel, settings.level, one.detector, x, *number.with_ends, count, unit))
     save_figure(draw_courses(courses), figure_dir / "detection_curves", COLUMNS, rows)
 
 
 def _over_rates(
-    name: str, points: Mapping[str, Sequence[CurvePoint]], quiet: Sequence[FreeSwing], hours: float,
+    name: str,
+    points: Mapping[str, Sequence[CurvePoint]],
+    quiet: Sequence[FreeSwing],
+    hours: float,
     statistics: Statistics,
-) -> list[DetectorLine]:  # fmt: skip
+) -> list[DetectorLine]:
     """Return the found share and the mean delay [ms] at multiples of the thresholds, over the false alarms [1/h].
 
     The points are those of each robot.
@@ -120,10 +123,11 @@ def _over_rates(
         found = sum(row.found for _, row in own)
         count = sum(row.collisions for _, row in own)
         flags: list[bool] = []
-        places: list[Place] = []
+        places: list[ClusterKey] = []
         for robot, row in own:
             flags += [True] * row.found + [False] * (row.collisions - row.found)
-            places += [Place(robot, 0)] * row.collisions  # a point is of all walks of a robot together: one cluster
+            # A point is of all walks of a robot together: one cluster.
+            places += [ClusterKey(robot, 0)] * row.collisions
         rates.append(alarms_in(quiet, factor) / hours if hours else 0.0)
         shares.append(share_in(flags, places, statistics))
         late = MS * sum(row.delay_sum_s for _, row in own) / found if found else None

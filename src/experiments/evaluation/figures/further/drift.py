@@ -7,9 +7,9 @@ from experiments.evaluation.compare.scene import STANCE, SWINGING
 from experiments.evaluation.figures.drawing.lines import Line, LinePanel, draw_lines
 from experiments.evaluation.figures.style import save_figure
 from experiments.evaluation.measure.estimates.drift import HELD_STEP
-from experiments.evaluation.number.files import Field
-from experiments.evaluation.number.lookup import Lookup, read_lookup
+from experiments.evaluation.number.grid import Lookup, read_lookup
 from experiments.evaluation.number.number import Number
+from experiments.evaluation.number.rows import Field
 from experiments.settings.measures import Drift
 from experiments.settings.runs import Runs, Statistics
 from mobnet.core.columns import DRIFT
@@ -30,10 +30,19 @@ def drift(settings: Drift, statistics: Statistics, scores: Sequence[Path], figur
         for phase in (SWINGING, STANCE):
             held = {method: held_by_step(lookup, settings, test, method, phase) for method in test.methods}
             lines = [Line(method, list(own), list(own.values())) for method, own in held.items() if own]
-            panels.append(
-                LinePanel(f"{title}, {phase}", X_LABEL, Y_LABEL, lines, guide=1.0, ends=ENDS, note=beyond(held),
-                          note_below=True, logarithmic=False, dodge=APART)
-            )  # fmt: skip
+            panel = LinePanel(
+                f"{title}, {phase}",
+                X_LABEL,
+                Y_LABEL,
+                lines,
+                guide=1.0,
+                ends=ENDS,
+                note=beyond(held),
+                note_below=True,
+                logarithmic=False,
+                dodge=APART,
+            )
+            panels.append(panel)
             for method, own in held.items():
                 place = title, test.scenario, test.level, method, phase
                 rows += [(*place, step, *number.with_ends, *number.spread) for step, number in own.items()]

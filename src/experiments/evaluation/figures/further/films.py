@@ -9,16 +9,14 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from experiments.evaluation.figures.drawing.robot import projection
-from experiments.evaluation.figures.drawing.scene import FORCE, draw_scene
+from experiments.evaluation.figures.drawing.robot import FORCE, draw_scene, projection
 from experiments.settings.reaction_tables import Films
 from mobnet.core.arrays import Array
 from mobnet.core.columns import ESTIMATED, EXTERNAL, STD
 from mobnet.core.course import StoredCourse, read_course
 from mobnet.core.store import read_array
 from mobnet.core.style import styled
-from mobnet.robot.description import RobotDescription, describe
-from mobnet.robot.looks import dressed
+from mobnet.robot.description import RobotDescription, describe, dressed
 from mobnet.settings.data import Obstacle
 from mobnet.settings.parts import Looks
 from mobnet.settings.robot import RobotTable
@@ -32,7 +30,7 @@ ROOM_M = (-1.0, 1.0, -0.1, 1.85)  # right of the base, and above the ground
 
 
 @dataclass(frozen=True)
-class Curves:
+class FilmCurves:
     """What scrolls below the robot: times from the first contact on [s], and signals over them (T,).
 
     Attributes:
@@ -53,9 +51,13 @@ class Curves:
 
 
 def films(
-    settings: Films, robot: RobotTable, looks: Looks | None, obstacles: Mapping[str, Obstacle],
-    courses: Mapping[str, Path], outs: Mapping[str, Path],
-) -> None:  # fmt: skip
+    settings: Films,
+    robot: RobotTable,
+    looks: Looks | None,
+    obstacles: Mapping[str, Obstacle],
+    courses: Mapping[str, Path],
+    outs: Mapping[str, Path],
+) -> None:
     """Write a film of the first walk of each case; its ending says of which kind."""
     description = dressed(describe(robot), looks)
     for case, out in outs.items():
@@ -65,7 +67,7 @@ def films(
         save_clip(seen, settings.frames_hz, out)
 
 
-def read_curves(stem: Path, course: StoredCourse, joint: str) -> Curves:
+def read_curves(stem: Path, course: StoredCourse, joint: str) -> FilmCurves:
     """Read what is shown of a joint in a course."""
     array, note = read_array(stem, [f"{signal}.{joint}" for signal in (ESTIMATED, STD, EXTERNAL)])
     first = course.at("contact_s") or 0
@@ -74,14 +76,18 @@ def read_curves(stem: Path, course: StoredCourse, joint: str) -> Curves:
     times = (np.arange(len(array)) - first) / rate_hz
     since = None if reacted is None else (reacted - first) / rate_hz
     estimated, std, true = array.T.astype(np.float64)
-    return Curves(times, np.linalg.norm(course.force, axis=1), estimated, std, true, since)
+    return FilmCurves(times, np.linalg.norm(course.force, axis=1), estimated, std, true, since)
 
 
 @styled
 def frames(
-    settings: Films, robot: RobotDescription, obstacles: Mapping[str, Obstacle], course: StoredCourse, curves: Curves,
+    settings: Films,
+    robot: RobotDescription,
+    obstacles: Mapping[str, Obstacle],
+    course: StoredCourse,
+    curves: FilmCurves,
     case: str,
-) -> Iterator[Pixels]:  # fmt: skip
+) -> Iterator[Pixels]:
     """Yield the frames of a film (height, width, 3)."""
     figure = Figure(figsize=SIZE_INCH, dpi=DPI)
     canvas = FigureCanvasAgg(figure)
@@ -91,10 +97,12 @@ def frames(
     step = 1.0 / (settings.frames_hz * settings.slower)
     for time_s in np.arange(*settings.shown_s, step):
         k = int(np.searchsorted(curves.time_s, time_s))
+        # The course may end before the time that a film shows.
         if k >= len(course.q):
             return
         for axis in axes:
             axis.clear()
+        # The picture goes along with the robot.
         centre = float((view @ course.q[k][:3])[0])
         draw_scene(axes[0], robot, obstacles, course, k, view)
         axes[0].set(xlim=(centre + ROOM_M[0], centre + ROOM_M[1]), ylim=ROOM_M[2:])
@@ -103,7 +111,7 @@ def frames(
         yield np.asarray(canvas.buffer_rgba())[..., :3].copy()
 
 
-def draw_curves(axes: Sequence[Axes], curves: Curves, settings: Films, case: str, k: int) -> None:
+def draw_curves(axes: Sequence[Axes], curves: FilmCurves, settings: Films, case: str, k: int) -> None:
     """Draw the force, the torque of the joint, and contact and reaction, until sample k."""
     now = curves.time_s[k]
     shown = slice(max(0, int(np.searchsorted(curves.time_s, now - settings.history_s))), k + 1)
@@ -117,6 +125,7 @@ def draw_curves(axes: Sequence[Axes], curves: Curves, settings: Films, case: str
     torque.fill_between(times, estimated - std, estimated + std, color="#0072B2", alpha=0.25, linewidth=0)
     torque.plot(times, estimated, color="#0072B2", label="estimate, one sigma")
     torque.plot(times, curves.true[shown], color="black", linewidth=0.7, label="truth")
+    # Scales are those of the whole walk: they must not jump while curves scroll.
     both = np.concatenate([curves.estimated, curves.true])
     torque.set(ylabel=f"{settings.joints[case]} [N m]", ylim=(both.min() - 1.0, both.max() + 1.0))
     torque.legend(loc="upper left", ncols=2, frameon=False)

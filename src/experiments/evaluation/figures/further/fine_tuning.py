@@ -40,11 +40,9 @@ def fine_tuning(
                 bands[label] = errors[0]
             else:
                 lines.append(Line(label, seconds, errors))
-            rows += [
-                (title, label, time, wanted.scenario, wanted.level, wanted.method, wanted.joint,
-                 *error.with_ends, *error.spread, error.unit)
-                for time, wanted, error in zip(seconds, shown, errors, strict=True)
-            ]  # fmt: skip
+            for time, wanted, error in zip(seconds, shown, errors, strict=True):
+                place = (title, label, time, wanted.scenario, wanted.level, wanted.method, wanted.joint)
+                rows.append((*place, *error.with_ends, *error.spread, error.unit))
         panels.append(LinePanel(title, X_LABEL, Y_LABEL, lines, bands, dodge=APART))
     figure = draw_lines(panels, min(COLUMNS, len(panels)), PANEL_INCH)
     save_figure(figure, figure_dir / "fine_tuning", TUNED, rows)

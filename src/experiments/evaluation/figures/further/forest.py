@@ -15,11 +15,29 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from experiments.evaluation.figures.style import save_figure
-from experiments.evaluation.measure.claims.places import BEYOND_BOUND, OVER_PAPER, Place, Statement, statements_of
+from experiments.evaluation.measure.claims.places import (
+    BEYOND_BOUND,
+    OVER_PAPER,
+    ClaimPosition,
+    StatementPosition,
+    statements_of,
+)
 from experiments.evaluation.measure.claims.verdicts import Judged
 from experiments.evaluation.number.number import Number
 from mobnet.core.claim_ranges import range_text
-from mobnet.core.columns import FOREST, SCORED, VERDICTS
+from mobnet.core.columns import (
+    FOREST,
+    NETWORKS,
+    NO_NUMBER,
+    NOT_MEASURED,
+    NOT_REPRODUCED,
+    OBSERVER,
+    OPEN,
+    OURS,
+    REPRODUCED,
+    SIGN_AT_LEAST,
+    SIGN_ONLY,
+)
 from mobnet.core.style import PAGE_INCH, STYLE
 
 STEMS = {OVER_PAPER: "claims", BEYOND_BOUND: "claims_own"}  # of the two figures
@@ -29,15 +47,21 @@ TICKS: Mapping[str, Mapping[float, str]] = {
     OVER_PAPER: {0.125: "1/8", 0.25: "1/4", 0.5: "1/2", 1.0: "1", 2.0: "2", 4.0: "4", 8.0: "8"},
     BEYOND_BOUND: {-1.0: "against", 0.0: "bound", 1.0: "for"},
 }
-HEADS: Mapping[str, str] = dict(
-    zip(SCORED, ("Statements of the paper about the observer", "Statements of the paper about networks",
-                 "Statements of the paper without a number", "Our own statements"), strict=True)
-)  # fmt: skip
-MARKS = (("#D55E00", "X", "\N{BALLOT X}"), ("#9A6700", "v", "\N{SOUTH EAST ARROW}"), ("0.35", "s", "?"),
-         ("#0072B2", "^", "\N{NORTH EAST ARROW}"), ("#00795A", "o", "\N{CHECK MARK}"),
-         ("0.45", "", "\N{EN DASH}"))  # fmt: skip
+HEADS: Mapping[str, str] = {
+    OBSERVER: "Statements of the paper about the observer",
+    NETWORKS: "Statements of the paper about networks",
+    NO_NUMBER: "Statements of the paper without a number",
+    OURS: "Our own statements",
+}
 # verdict -> colour, dark enough for text, marker, and sign before a text
-LOOKS: Mapping[str, tuple[str, str, str]] = dict(zip(VERDICTS, MARKS, strict=True))
+LOOKS: Mapping[str, tuple[str, str, str]] = {
+    NOT_REPRODUCED: ("#D55E00", "X", "\N{BALLOT X}"),
+    SIGN_ONLY: ("#9A6700", "v", "\N{SOUTH EAST ARROW}"),
+    OPEN: ("0.35", "s", "?"),
+    SIGN_AT_LEAST: ("#0072B2", "^", "\N{NORTH EAST ARROW}"),
+    REPRODUCED: ("#00795A", "o", "\N{CHECK MARK}"),
+    NOT_MEASURED: ("0.45", "", "\N{EN DASH}"),
+}
 POINTS, ROW_INCH, HEAD_INCH, KEY_INCH = 6.5, 0.13, 0.2, 0.5  # size of text; heights of a row, a head and the legend
 KEY_COLUMNS = 3
 AXIS_INCH = 0.33  # height below the last row, of an axis
@@ -54,7 +78,7 @@ def forest(judged: Sequence[Judged], confidence: float, figure_dir: Path) -> Non
         save_figure(figure, figure_dir / stem, FOREST, [each.record for each in own])
 
 
-def draw_forest(statements: Sequence[Statement], axis_name: str, interval: str) -> Figure:
+def draw_forest(statements: Sequence[StatementPosition], axis_name: str, interval: str) -> Figure:
     """Draw statements below one another, section by section, on one axis; the legend calls the interval so."""
     sections = [list(own) for _, own in groupby(statements, lambda each: each.worst.judged.score)]
     rows = ROW_INCH * len(statements) + HEAD_INCH * max(1, len(sections))
@@ -91,11 +115,11 @@ def _scale(axis: Axes, name: str, rows: float) -> None:
 
 def _text(axis: Axes, inch: float, row: float, text: str, **look: Any) -> None:
     """Write a text beside an axis, so far from the page's left side and from the first row's top [inch]."""
-    axis.text((inch - LEFT_INCH) / WIDTH_INCH, row, text, transform=axis.get_yaxis_transform(), va="center",
-              fontsize=POINTS, **look)  # fmt: skip
+    x = (inch - LEFT_INCH) / WIDTH_INCH
+    axis.text(x, row, text, transform=axis.get_yaxis_transform(), va="center", fontsize=POINTS, **look)
 
 
-def _head(axis: Axes, top: float, own: Sequence[Statement], name: str) -> None:
+def _head(axis: Axes, top: float, own: Sequence[StatementPosition], name: str) -> None:
     """Write the head of a section at its top [inch]."""
     middle = top + HEAD_INCH / 2.0
     says = f"{HEADS[own[0].worst.judged.score]} ({len(own)})"
@@ -107,7 +131,7 @@ def _head(axis: Axes, top: float, own: Sequence[Statement], name: str) -> None:
     axis.plot(ends, [top + HEAD_INCH - 0.02] * 2, **line)
 
 
-def _row(axis: Axes, row: float, statement: Statement) -> None:
+def _row(axis: Axes, row: float, statement: StatementPosition) -> None:
     """Draw a statement in its row [inch]: sign, text, interval and numbers."""
     place = statement.worst
     judged = place.judged
@@ -125,14 +149,14 @@ def _row(axis: Axes, row: float, statement: Statement) -> None:
     _place(axis, row, place)
 
 
-def text_of(statement: Statement) -> str:
+def text_of(statement: StatementPosition) -> str:
     """Return what the worst claim of a statement says, with its joint, and of how many claims it is one."""
     row = statement.worst.judged.row
     joint = f", {row.joint}" if row.joint else ""
     return row.claim.says.removesuffix(".") + joint + (f" (1 of {statement.claims})" if statement.claims > 1 else "")
 
 
-def _place(axis: Axes, row: float, place: Place) -> None:
+def _place(axis: Axes, row: float, place: ClaimPosition) -> None:
     """Draw the range where a claim is reproduced, our number and its interval, arrows where they leave the axis."""
     first, last = ENDS[place.axis]
     low, high = (edge if end is None else end for end, edge in zip(place.band, (first, last), strict=True))
@@ -147,23 +171,33 @@ def _place(axis: Axes, row: float, place: Place) -> None:
         ends = [min(max(end, first), last) for end in (low, high)]
         axis.plot(ends, [row, row], color=colour, linewidth=1.2, solid_capstyle="butt", zorder=3)
     look: dict[str, Any] = {"color": colour, "markeredgewidth": 0.0, "zorder": 4, "clip_on": False}
-    for end, outside, arrow in ((first, min(value, low or value) < first, "<"),
-                                (last, max(value, high or value) > last, ">")):  # fmt: skip
-        if outside:
-            axis.plot([end], [row], arrow, markersize=4.0, **look)
+    if min(value, low or value) < first:
+        axis.plot([first], [row], "<", markersize=4.0, **look)
+    if max(value, high or value) > last:
+        axis.plot([last], [row], ">", markersize=4.0, **look)
     if first <= value <= last:
         axis.plot([value], [row], marker, markersize=3.8, **look)
 
 
-def _key(figure: Figure, statements: Sequence[Statement], band: str) -> None:
+def _key(figure: Figure, statements: Sequence[StatementPosition], band: str) -> None:
     """Put what colours, signs and markers mean on top of a figure, with how many statements have each verdict."""
     counts = Counter(each.worst.judged.verdict for each in statements)
-    handles: list[Any] = [
-        mpl.lines.Line2D([], [], color=colour, marker=marker, markersize=4, linewidth=1.2 if marker else 0.0,
-                         label=f"{sign} {verdict} ({counts[verdict]})")
-        for verdict, (colour, marker, sign) in LOOKS.items()
-    ]  # fmt: skip
+    handles: list[Any] = []
+    for verdict, (colour, marker, sign) in LOOKS.items():
+        width = 1.2 if marker else 0.0
+        text = f"{sign} {verdict} ({counts[verdict]})"
+        line = mpl.lines.Line2D([], [], color=colour, marker=marker, markersize=4, linewidth=width, label=text)
+        handles.append(line)
     handles.append(mpl.patches.Patch(color="0.88", label=band))
-    figure.legend(handles=handles, loc="upper center", bbox_to_anchor=(0.5, 1.0), ncols=KEY_COLUMNS, frameon=False,
-                  fontsize=POINTS, borderaxespad=0.3, handlelength=1.4, columnspacing=1.0,
-                  handletextpad=0.4)  # fmt: skip
+    figure.legend(
+        handles=handles,
+        loc="upper center",
+        bbox_to_anchor=(0.5, 1.0),
+        ncols=KEY_COLUMNS,
+        frameon=False,
+        fontsize=POINTS,
+        borderaxespad=0.3,
+        handlelength=1.4,
+        columnspacing=1.0,
+        handletextpad=0.4,
+    )

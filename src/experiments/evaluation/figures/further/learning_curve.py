@@ -45,7 +45,7 @@ def learning_curve(settings: LearningCurve, kept: Path, figure_dir: Path) -> Non
 
 def curves_of(
     settings: LearningCurve, rows: Sequence[TrialError], place: Callable[[TrialError], float | None]
-) -> list[Line]:  # fmt: skip
+) -> list[Line]:
     """Return the errors of each method by each recipe: over the mean place of the networks of a length."""
     found: dict[str, dict[str, list[TrialError]]] = {}
     for row in sorted((row for row in rows if row.recipe), key=lambda row: row.steps or 0):

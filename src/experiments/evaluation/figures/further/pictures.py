@@ -16,9 +16,18 @@ from mobnet.settings.robot import RobotTable
 
 
 def pictures(
-    drawings: Drawings, film: PushFilm, story: Story, pushes: Mapping[str, Push], peaks: Peaks, robot: RobotTable,
-    looks: Looks | None, layout: JointLayout, runs: Sequence[Run], detections: Detections, figure_dir: Path,
-) -> None:  # fmt: skip
+    drawings: Drawings,
+    film: PushFilm,
+    story: Story,
+    pushes: Mapping[str, Push],
+    peaks: Peaks,
+    robot: RobotTable,
+    looks: Looks | None,
+    layout: JointLayout,
+    runs: Sequence[Run],
+    detections: Detections,
+    figure_dir: Path,
+) -> None:
     """Write `method` and `robot` as PDF, SVG, PNG and CSV, and `push` as WebP, GIF, PNG and CSV, into a folder.
 
     Without runs of the story there is no film.

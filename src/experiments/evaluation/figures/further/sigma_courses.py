@@ -13,9 +13,9 @@ from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter, StrMethodF
 
 from experiments.evaluation.figures.style import Look, entitle, legend, looks, save_figure
 from experiments.evaluation.measure.estimates.sigma import COVER, MEMORY, STD
-from experiments.evaluation.number.files import Field
-from experiments.evaluation.number.lookup import Lookup
+from experiments.evaluation.number.grid import Lookup
 from experiments.evaluation.number.number import Number
+from experiments.evaluation.number.rows import Field
 from experiments.settings.measures import Sigma
 from experiments.settings.runs import LimbRuns
 from mobnet.core.columns import SIGMA
@@ -75,7 +75,7 @@ def sigma_figure(settings: Sigma, lookup: Lookup, share: float, figure_dir: Path
 
 def courses_of(
     settings: Sigma, lookup: Lookup, titled: tuple[str, LimbRuns], method: str, limb: str
-) -> Iterator[SigmaLine]:  # fmt: skip
+) -> Iterator[SigmaLine]:
     """Yield the lines of a limb of a method in a test, those whose numbers are all there."""
     title, test = titled
 

@@ -5,14 +5,12 @@ from dataclasses import replace
 from itertools import groupby
 from pathlib import Path
 
-from experiments.evaluation.compare.curves import Panel, read_cycle
-from experiments.evaluation.compare.errors import compared, without_zero
+from experiments.evaluation.compare.curves import Panel, compared, read_cycle, without_zero
 from experiments.evaluation.figures.drawing.compared import bars_of, draw_stack, save_compared
 from experiments.evaluation.figures.drawing.named_bars import NamedBar
-from experiments.evaluation.measure.estimates.joint_errors import error_rows, joint_errors
-from experiments.evaluation.measure.estimates.run_errors import ERROR
-from experiments.evaluation.number.files import Field
-from experiments.evaluation.number.lookup import read_lookup
+from experiments.evaluation.measure.estimates.run_errors import ERROR, error_rows, joint_errors
+from experiments.evaluation.number.grid import read_lookup
+from experiments.evaluation.number.rows import Field
 from experiments.plan.runs import Run
 from experiments.settings.figures import Figure05
 from experiments.settings.published import PublishedTable
@@ -21,9 +19,15 @@ from mobnet.core.joints import JointLayout
 
 
 def figure_05(
-    settings: Figure05, start_s: float, layout: JointLayout, statistics: Statistics, published: PublishedTable,
-    runs: Sequence[Run], scores: Sequence[Path], figure_dir: Path,
-) -> None:  # fmt: skip
+    settings: Figure05,
+    start_s: float,
+    layout: JointLayout,
+    statistics: Statistics,
+    published: PublishedTable,
+    runs: Sequence[Run],
+    scores: Sequence[Path],
+    figure_dir: Path,
+) -> None:
     """Write Figure 5 as PDF, SVG, PNG and CSV: torque of one joint and errors over a gait cycle [N m] at each level.
 
     Its bars are errors over all walks.

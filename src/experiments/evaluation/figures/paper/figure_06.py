@@ -3,13 +3,13 @@
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from experiments.evaluation.compare.errors import compared, without_zero
+from experiments.evaluation.compare.curves import compared, without_zero
 from experiments.evaluation.compare.rmse import PUSHED
 from experiments.evaluation.figures.drawing.compared import bars_of, save_compared
 from experiments.evaluation.figures.drawing.pushes import draw_step
-from experiments.evaluation.measure.estimates.joint_errors import error_rows, joint_errors
 from experiments.evaluation.measure.estimates.pushes import read_pushes
-from experiments.evaluation.number.lookup import read_lookup
+from experiments.evaluation.measure.estimates.run_errors import error_rows, joint_errors
+from experiments.evaluation.number.grid import read_lookup
 from experiments.plan.runs import Run
 from experiments.settings.figures import Figure06
 from experiments.settings.published import PublishedTable
@@ -19,9 +19,16 @@ from mobnet.settings.data import Push, Scenario
 
 
 def figure_06(
-    settings: Figure06, published: PublishedTable, layout: JointLayout, statistics: Statistics, runs: Sequence[Run],
-    scenarios: Mapping[str, Scenario], pushes: Mapping[str, Push], scores: Sequence[Path], figure_dir: Path,
-) -> None:  # fmt: skip
+    settings: Figure06,
+    published: PublishedTable,
+    layout: JointLayout,
+    statistics: Statistics,
+    runs: Sequence[Run],
+    scenarios: Mapping[str, Scenario],
+    pushes: Mapping[str, Push],
+    scores: Sequence[Path],
+    figure_dir: Path,
+) -> None:
     """Write Figure 6, a step of torque on a swinging hip [N m]: curves around the first, errors around all.
 
     The runs are one of each method, all of one recording.

@@ -4,11 +4,10 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from experiments.evaluation.compare.curves import read_cycle
-from experiments.evaluation.compare.errors import Compared, compared
+from experiments.evaluation.compare.curves import Compared, compared, read_cycle
 from experiments.evaluation.figures.drawing.compared import draw_leg, save_compared
-from experiments.evaluation.measure.estimates.joint_errors import error_rows, joint_errors
-from experiments.evaluation.number.lookup import read_lookup
+from experiments.evaluation.measure.estimates.run_errors import error_rows, joint_errors
+from experiments.evaluation.number.grid import read_lookup
 from experiments.evaluation.number.number import Number
 from experiments.plan.runs import Run
 from experiments.settings.figures import Figure08
@@ -18,9 +17,15 @@ from mobnet.core.joints import JointLayout
 
 
 def figure_08(
-    settings: Figure08, start_s: float, layout: JointLayout, statistics: Statistics, published: PublishedTable,
-    runs: Sequence[Run], scores: Sequence[Path], figure_dir: Path,
-) -> None:  # fmt: skip
+    settings: Figure08,
+    start_s: float,
+    layout: JointLayout,
+    statistics: Statistics,
+    published: PublishedTable,
+    runs: Sequence[Run],
+    scores: Sequence[Path],
+    figure_dir: Path,
+) -> None:
     """Write Figure 8, uncertainty torque of a leg over one gait cycle [N m]: the target and what a network predicts.
 
     There is one run. The titles have the RMSE of the cycle and that over all walks and robots.

@@ -3,13 +3,12 @@
 from collections.abc import Sequence
 from pathlib import Path
 
-from experiments.evaluation.compare.curves import read_cycle
-from experiments.evaluation.compare.errors import compared, without_zero
+from experiments.evaluation.compare.curves import compared, read_cycle, without_zero
 from experiments.evaluation.figures.drawing.compared import bars_of, draw_columns, save_compared
 from experiments.evaluation.figures.drawing.curves import FROM_LIFT_OFF
 from experiments.evaluation.figures.drawing.named_bars import PAPER_LABEL
-from experiments.evaluation.measure.estimates.joint_errors import error_rows, joint_errors
-from experiments.evaluation.number.lookup import read_lookup
+from experiments.evaluation.measure.estimates.run_errors import error_rows, joint_errors
+from experiments.evaluation.number.grid import read_lookup
 from experiments.plan.runs import Run
 from experiments.settings.figures import Figure09
 from experiments.settings.published import PublishedTable
@@ -18,9 +17,15 @@ from mobnet.core.joints import JointLayout
 
 
 def figure_09(
-    settings: Figure09, start_s: float, layout: JointLayout, statistics: Statistics, published: PublishedTable,
-    runs: Sequence[Run], scores: Sequence[Path], figure_dir: Path,
-) -> None:  # fmt: skip
+    settings: Figure09,
+    start_s: float,
+    layout: JointLayout,
+    statistics: Statistics,
+    published: PublishedTable,
+    runs: Sequence[Run],
+    scores: Sequence[Path],
+    figure_dir: Path,
+) -> None:
     """Write Figure 9, external torque of a leg over one gait cycle [N m] by method, from runs of one recording.
 
     Some joints are drawn, the CSV has all; the bars are errors over all walks and robots.

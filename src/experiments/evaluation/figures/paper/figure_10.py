@@ -20,9 +20,9 @@ from experiments.evaluation.measure.estimates.pushes import (
     responses_of,
 )
 from experiments.evaluation.measure.estimates.run_errors import ERROR
-from experiments.evaluation.number.files import Field, write_csv
-from experiments.evaluation.number.lookup import read_lookup
+from experiments.evaluation.number.grid import read_lookup
 from experiments.evaluation.number.number import Number
+from experiments.evaluation.number.rows import Field, write_csv
 from experiments.plan.runs import Run
 from experiments.settings.figures import Figure10
 from experiments.settings.published import PublishedTable
@@ -32,9 +32,14 @@ from mobnet.core.joints import JointLayout
 
 
 def figure_10(
-    settings: Figure10, published: PublishedTable, layout: JointLayout, statistics: Statistics,
-    runs: Mapping[str, Sequence[Run]], scores: Sequence[Path], figure_dir: Path,
-) -> None:  # fmt: skip
+    settings: Figure10,
+    published: PublishedTable,
+    layout: JointLayout,
+    statistics: Statistics,
+    runs: Mapping[str, Sequence[Run]],
+    scores: Sequence[Path],
+    figure_dir: Path,
+) -> None:
     """Write Figure 10, pushes on the knee of a leg in the air and on the ground [N m]: curves and numbers by method.
 
     The title of a test leads to its runs, one of each method and all of one recording.

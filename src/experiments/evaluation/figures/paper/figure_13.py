@@ -16,15 +16,20 @@ from mobnet.core.errors import DataError, not_accepted
 from mobnet.core.recording import read_sensed
 from mobnet.core.store import read_array
 from mobnet.core.style import styled
-from mobnet.robot.description import RobotDescription, describe
-from mobnet.robot.looks import dressed
+from mobnet.robot.description import RobotDescription, describe, dressed
 from mobnet.settings.detection import Detection
 from mobnet.settings.parts import Looks
 from mobnet.settings.robot import RobotTable
 
 COLUMNS = (
-    "panel", "seed", "number", "time_s", "force_n", *(f"point_{a}_m" for a in "xyz"), *(f"force_{a}_n" for a in "xyz")
-)  # fmt: skip
+    "panel",
+    "seed",
+    "number",
+    "time_s",
+    "force_n",
+    *(f"point_{a}_m" for a in "xyz"),
+    *(f"force_{a}_n" for a in "xyz"),
+)
 HEIGHT_INCH = 3.4
 VIEW = 40.0, 10.0  # azimuth and elevation of the eye [deg], from ahead and the robot's left
 ARROW_M_N = 0.0035  # length of an arrow for each newton
@@ -33,9 +38,14 @@ ROOM_M = (-0.7, 0.7, -0.12, 1.75)  # of a panel: right of the robot's base, and 
 
 @styled
 def figure_13(
-    settings: Figure13, detection: Detection, robot: RobotTable, looks: Looks | None, detections: Detections,
-    recordings: Sequence[Path], figure_dir: Path,
-) -> None:  # fmt: skip
+    settings: Figure13,
+    detection: Detection,
+    robot: RobotTable,
+    looks: Looks | None,
+    detections: Detections,
+    recordings: Sequence[Path],
+    figure_dir: Path,
+) -> None:
     """Write Figure 13 as PDF, SVG, PNG and CSV: the first collision of each cell, when its force is largest."""
     description = dressed(describe(robot), looks)
     rows = []

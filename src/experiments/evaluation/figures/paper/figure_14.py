@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 
 from experiments.evaluation.figures.style import Look, beside, entitle, legend, looks, save_figure
 from experiments.evaluation.measure.detection.results import MS, Detections, owners, rows_of
-from experiments.evaluation.number.files import Field
+from experiments.evaluation.number.rows import Field
 from experiments.settings.detection_tables import Figure14
 from mobnet.core.detections import Collision
 from mobnet.core.style import styled
@@ -38,8 +38,8 @@ def figure_14(settings: Figure14, detection: Detection, detections: Detections, 
             counts = np.histogram(own[name], edges[name])[0]
             values = own[name]
             ends = float(values.mean()), float(values.min()), float(values.max())
-            rows += [(level, name, float(low), float(high), int(count), *ends, unit, PUBLISHED[name])
-                     for low, high, count in zip(edges[name], edges[name][1:], counts, strict=False)]  # fmt: skip
+            for low, high, count in zip(edges[name], edges[name][1:], counts, strict=False):
+                rows.append((level, name, float(low), float(high), int(count), *ends, unit, PUBLISHED[name]))
     save_figure(draw_histograms(found, edges), figure_dir / "figure_14", COLUMNS, rows)
 
 

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from experiments.evaluation.figures.drawing.curves import mark_flag
 from experiments.evaluation.figures.style import beside, entitle, legend, looks, save_figure
 from experiments.evaluation.measure.detection.results import Detections, rows_of
-from experiments.evaluation.number.files import Field
+from experiments.evaluation.number.rows import Field
 from experiments.settings.detection_tables import Figure15
 from mobnet.core.columns import PUSH, STD, SWING, foot_of, named
 from mobnet.core.detections import Collision, Threshold
@@ -36,9 +36,14 @@ class CollisionCourse:
 
 
 def figure_15(
-    settings: Figure15, detection: Detection, layout: JointLayout, detections: Detections,
-    recordings: Sequence[Path], estimates: Mapping[str, Sequence[Path]], figure_dir: Path,
-) -> None:  # fmt: skip
+    settings: Figure15,
+    detection: Detection,
+    layout: JointLayout,
+    detections: Detections,
+    recordings: Sequence[Path],
+    estimates: Mapping[str, Sequence[Path]],
+    figure_dir: Path,
+) -> None:
     """Write Figure 15 as PDF, SVG, PNG and CSV: the first collision of each cell."""
     collisions = rows_of(detections, [settings.level], "collisions", Collision)
     signal = f"{STD}.{settings.joint}"
@@ -48,8 +53,10 @@ def figure_15(
         if (row.kind, row.phase) == (settings.kind, 1)
     }
     thresholds = {method: found[name] for method, name in settings.detectors.items()}
-    courses = [_course(settings, detection, layout, collisions, cell, recordings, estimates, thresholds)
-               for cell in settings.cells]  # fmt: skip
+    courses = [
+        _course(settings, detection, layout, collisions, cell, recordings, estimates, thresholds)
+        for cell in settings.cells
+    ]
     rows: list[tuple[Field, ...]] = []
     for one in courses:
         for method, std in one.stds.items():
@@ -60,12 +67,21 @@ def figure_15(
 
 
 def _course(
-    settings: Figure15, detection: Detection, layout: JointLayout, collisions: Sequence[Collision], cell: str,
-    recordings: Sequence[Path], estimates: Mapping[str, Sequence[Path]], thresholds: Mapping[str, float],
-) -> CollisionCourse:  # fmt: skip
+    settings: Figure15,
+    detection: Detection,
+    layout: JointLayout,
+    collisions: Sequence[Collision],
+    cell: str,
+    recordings: Sequence[Path],
+    estimates: Mapping[str, Sequence[Path]],
+    thresholds: Mapping[str, float],
+) -> CollisionCourse:
     """Return the first collision of a cell over time."""
-    hit = next(row for row in collisions if (row.scenario, row.leg) == (detection.collisions, settings.leg)
-               and f"{row.link} {row.direction}" == cell)  # fmt: skip
+    hit = next(
+        row
+        for row in collisions
+        if (row.scenario, row.leg) == (detection.collisions, settings.leg) and f"{row.link} {row.direction}" == cell
+    )
     place = next(k for k, path in enumerate(recordings) if path.name == f"s{hit.seed}")
     names = [*named(PUSH, ("force_x", "force_y", "force_z")), f"{SWING}.{foot_of(layout, settings.joint)}"]
     array, meta = read_array(recordings[place], names)
@@ -90,16 +106,21 @@ def draw_courses(courses: Sequence[CollisionCourse], joint: str) -> Figure:
         for method in methods:
             axis.plot(course.time, course.stds[method], label=method, **styles[method].line)
             axis.axhline(
-                course.thresholds[method], color=styles[method].colour, linestyle=":", linewidth=0.9,
+                course.thresholds[method],
+                color=styles[method].colour,
+                linestyle=":",
+                linewidth=0.9,
                 label=f"threshold of {method}",
-            )  # fmt: skip
+            )
         mark_flag(axis, "swing", course.time, course.swing)
         behind = axis.twinx()
         behind.fill_between(course.time, course.force, color="0.75", linewidth=0.0, zorder=0, label="force")
+        # The force takes the lower half of each panel, by one scale in all of them.
         behind.set_ylim(0.0, 2.0 * max(float(one.force.max()) for one in courses))
         behind.spines["right"].set_visible(True)
         behind.set_ylabel("force [N]" if axis is axes[-1] else "")
         behind.tick_params(labelright=axis is axes[-1])
+        # An axis that is made later is drawn above: curves must lie before the force.
         axis.set_zorder(behind.get_zorder() + 1)
         axis.patch.set_visible(False)
         low, high = (float(course.time[end]) for end in (0, -1))

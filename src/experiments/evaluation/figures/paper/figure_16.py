@@ -18,8 +18,8 @@ from experiments.evaluation.measure.reaction.results import (
     read_trials,
     trials_of,
 )
-from experiments.evaluation.number.files import Field
 from experiments.evaluation.number.number import Number
+from experiments.evaluation.number.rows import Field
 from experiments.plan.reactions import Reactions
 from experiments.settings.published import PublishedContacts
 from experiments.settings.reaction_tables import Figure16
@@ -39,9 +39,14 @@ APART_MS = 4.0  # so that intervals of two cases do not cover each other
 
 
 def figure_16(
-    settings: Figure16, reaction: Reaction, statistics: Statistics, published: PublishedContacts,
-    reactions: Reactions, courses: Mapping[str, Path], figure_dir: Path,
-) -> None:  # fmt: skip
+    settings: Figure16,
+    reaction: Reaction,
+    statistics: Statistics,
+    published: PublishedContacts,
+    reactions: Reactions,
+    courses: Mapping[str, Path],
+    figure_dir: Path,
+) -> None:
     """Write Figure 16 as PDF, SVG, PNG and CSV.
 
     It has the force over time in one walk of each case, means over all walks, and the share of walks with a fall by how
@@ -99,9 +104,10 @@ def force_of(stem: Path, settings: Figure16) -> tuple[Array, Array, Mapping[str,
 @styled
 def draw(
     forces: Mapping[str, tuple[Array, Array, Mapping[str, float | None]]],
-    numbers: Mapping[str, Mapping[str, Number]], late: Mapping[str, Mapping[float, Number]],
+    numbers: Mapping[str, Mapping[str, Number]],
+    late: Mapping[str, Mapping[float, Number]],
     published: PublishedContacts,
-) -> Figure:  # fmt: skip
+) -> Figure:
     """Draw each case's force over time, means of each quantity beside the paper's, and falls of late reactions."""
     figure, axes = beside(len(forces) + len(LABELS) + 1, HEIGHT_INCH)
     for k, (axis, (case, (times, force, marks))) in enumerate(zip(axes, forces.items(), strict=False)):
@@ -141,8 +147,17 @@ def draw_means(axis: Axes, numbers: Mapping[str, Number], published: PublishedCo
     """Draw the mean of each case with its interval, and the paper's as a dot."""
     places = np.arange(len(numbers))
     value, low, high = np.array([number.range for number in numbers.values()], dtype=np.float64).T
-    axis.bar(places, value, 0.6, color=OURS, edgecolor="black", linewidth=0.4, label="ours",
-             yerr=[value - low, high - value], error_kw={"linewidth": 0.8, "capsize": 2.0})  # fmt: skip
+    axis.bar(
+        places,
+        value,
+        0.6,
+        color=OURS,
+        edgecolor="black",
+        linewidth=0.4,
+        label="ours",
+        yerr=[value - low, high - value],
+        error_kw={"linewidth": 0.8, "capsize": 2.0},
+    )
     printed = [printed_of(published, case, name) for case in numbers]
     axis.plot(places, [np.nan if one is None else one for one in printed], "kD", markersize=3, label="paper")
     axis.set_xticks(places, list(numbers))

@@ -77,5 +77,11 @@ def _draw(axis: Axes, row: float, loss: Loss, look: Look, *, hollow: bool) -> No
     axis.plot(loss.runs, [row] * len(loss.runs), "|", color=look.colour, markersize=7.0, markeredgewidth=0.7)
     filling = "white" if hollow else look.colour
     axis.plot([value], [row], marker=look.marker, color=look.colour, markersize=3.2, markerfacecolor=filling)
-    axis.annotate(loss.number.text(), (max(high, *loss.runs), row), (4.0, 0.0), textcoords="offset points",
-                  va="center", fontsize=NUMBER_POINTS)  # fmt: skip
+    axis.annotate(
+        loss.number.text(),
+        (max(high, *loss.runs), row),
+        (4.0, 0.0),
+        textcoords="offset points",
+        va="center",
+        fontsize=NUMBER_POINTS,
+    )

@@ -40,9 +40,13 @@ class LimbPanel:
 
 
 def figure_18(
-    settings: Figure18, windows: Mapping[str, PushWindow], layout: JointLayout, statistics: Statistics,
-    scores: Sequence[Path], figure_dir: Path,
-) -> None:  # fmt: skip
+    settings: Figure18,
+    windows: Mapping[str, PushWindow],
+    layout: JointLayout,
+    statistics: Statistics,
+    scores: Sequence[Path],
+    figure_dir: Path,
+) -> None:
     """Write Figure 18, mean RMSE [N m] over the joints of the upper body and of its limbs, as PDF, PNG and CSV.
 
     Of a test with a window around pushes, it is that of the windows.
@@ -112,8 +116,16 @@ def _draw(axis: Axes, panel: LimbPanel) -> None:
         axis.bar(x, value, 0.92 * width, label=method, **look)
         axis.vlines(x, low, high, color="black", linewidth=0.8)
         for place, number, top in zip(x, numbers, high, strict=True):
-            axis.annotate(number.text(1), (place, top), (0.0, 1.5), textcoords="offset points", ha="center",
-                          va="bottom", fontsize=NUMBER_POINTS)  # fmt: skip
+            axis.annotate(
+                number.text(1),
+                (place, top),
+                (0.0, 1.5),
+                textcoords="offset points",
+                ha="center",
+                va="bottom",
+                fontsize=NUMBER_POINTS,
+            )
+        # Room for the number above the highest interval of all methods.
         axis.set_ylim(0.0, max(axis.get_ylim()[1], ROOM * float(high.max(initial=0.0))))
     axis.set_xticks(places, panel.groups)
     axis.tick_params(axis="x", length=0.0)

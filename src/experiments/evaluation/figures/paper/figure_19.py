@@ -30,9 +30,13 @@ FINE = 20  # points along a cell's side for its outline
 
 
 def figure_19(
-    settings: Figure19, coverage: Coverage, layout: JointLayout, training: Mapping[str, Sequence[Path]],
-    tests: Sequence[Sequence[Path]], figure_dir: Path,
-) -> None:  # fmt: skip
+    settings: Figure19,
+    coverage: Coverage,
+    layout: JointLayout,
+    training: Mapping[str, Sequence[Path]],
+    tests: Sequence[Sequence[Path]],
+    figure_dir: Path,
+) -> None:
     """Write Figure 19, samples in the plane of velocity [rad/s] and desired torque [N m], as PDF, PNG and CSV.
 
     The training sets are those with and without random torque exploration; the tests are taken together, with equally
@@ -63,6 +67,7 @@ def draw_planes(planes: Sequence[Plane], outlined: float) -> Figure:
     """
     figure = Figure(figsize=(PAGE_INCH, 2 * ROW_INCH + LEGEND_INCH), layout="constrained")
     axes = figure.subplots(2, len(planes), squeeze=False)
+    # One scale of colours in all planes; a few extreme bins must not wash out the others.
     most = max(float(np.quantile(np.abs(plane.difference), SHOWN)) for plane in planes) or 1.0
     for k, (plane, above, below) in enumerate(zip(planes, *axes, strict=True)):
         drawn = _plane(above, plane, most)
@@ -71,8 +76,9 @@ def draw_planes(planes: Sequence[Plane], outlined: float) -> Figure:
         entitle(above, k, plane.joint)
         above.set_xlabel("velocity [rad/s]")
         below.set(xlabel="phase of the gait [-]", xlim=(0.0, 1.0))
-        above.text(0.03, 0.97, f"{plane.common:.0f} % in common", transform=above.transAxes, va="top",
-                   fontsize=NOTE_POINTS)  # fmt: skip
+        above.text(
+            0.03, 0.97, f"{plane.common:.0f} % in common", transform=above.transAxes, va="top", fontsize=NOTE_POINTS
+        )
         if k == len(planes) - 1:
             figure.colorbar(drawn, ax=axes[0].tolist(), label=DIFFERENCE, fraction=0.03, pad=0.01, aspect=25)
     for axis in axes[:, 0]:
@@ -107,8 +113,9 @@ def _ranges(axis: Axes, plane: Plane) -> None:
             axis.stairs(end, edges, baseline=None, color=colour, linewidth=0.8)
     axis.axvline(HALF, color="0.6", linewidth=0.6, linestyle=(0, (2, 2)), zorder=0)
     for middle, name in ((HALF / 2.0, "swing"), ((1.0 + HALF) / 2.0, "stance")):
-        axis.text(middle, 1.0, name, transform=axis.get_xaxis_transform(), ha="center", va="bottom",
-                  fontsize=NOTE_POINTS)  # fmt: skip
+        axis.text(
+            middle, 1.0, name, transform=axis.get_xaxis_transform(), ha="center", va="bottom", fontsize=NOTE_POINTS
+        )
 
 
 def _key(figure: Figure, sets: Sequence[str], outlined: float) -> None:
@@ -118,5 +125,11 @@ def _key(figure: Figure, sets: Sequence[str], outlined: float) -> None:
         name: f"training {name}" if name != TESTS else f"{TESTS}; outline: {outlined:.0%} of them" for name in sets
     }
     handles = [Line2D([], [], color=colours[name], linewidth=1.5, label=names[name]) for name in sets]
-    figure.legend(handles=handles, loc="outside upper center", ncols=len(handles), frameon=False,
-                  fontsize=STYLE["legend.fontsize"], borderpad=0.0)  # fmt: skip
+    figure.legend(
+        handles=handles,
+        loc="outside upper center",
+        ncols=len(handles),
+        frameon=False,
+        fontsize=STYLE["legend.fontsize"],
+        borderpad=0.0,
+    )

@@ -27,10 +27,17 @@ def figure_20(sizes_of_networks: Sequence[SweptSize], statistics: Statistics, fi
             own = [size for size in sizes if (size.panel, size.base) == (panel, base)]
             if own:
                 lines.append(growth_line(own, base))
-        panels.append(
-            LinePanel(title, X_LABELS[panel], Y_LABEL, lines, guide=1.0, ends=(None, None), scale=panel,
-                      note="\n".join(printed_size(sizes, base) for base in bases))
-        )  # fmt: skip
+        drawn = LinePanel(
+            title,
+            X_LABELS[panel],
+            Y_LABEL,
+            lines,
+            guide=1.0,
+            ends=(None, None),
+            scale=panel,
+            note="\n".join(printed_size(sizes, base) for base in bases),
+        )
+        panels.append(drawn)
     save_figure(draw_lines(panels), figure_dir / "figure_20", SIZES, [size.record() for size in sizes])
 
 

@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Polygon
 
-from experiments.evaluation.figures.drawing.scene import PAD, draw_arrow, solid_of
+from experiments.evaluation.figures.drawing.robot import PAD, draw_arrow, solid_of
 from experiments.evaluation.figures.drawing.solids import outline_of
 from experiments.evaluation.figures.style import legend, save_figure
 from experiments.settings.reaction_tables import Figure21
@@ -97,10 +97,16 @@ def _draw(
         outline = corners @ np.array([[c, n], [-n, c]]) + place[:2]
         is_reacting = reacted is not None and k > reacted
         count += is_reacting
-        axis.add_patch(Polygon(
-            outline, closed=True, edgecolor=COLOURS[side], facecolor=COLOURS[side] if is_reacting else "none",
-            alpha=0.45 if is_reacting else 1.0, linewidth=0.8, label=f"{side} sole",
-        ))  # fmt: skip
+        sole = Polygon(
+            outline,
+            closed=True,
+            edgecolor=COLOURS[side],
+            facecolor=COLOURS[side] if is_reacting else "none",
+            alpha=0.45 if is_reacting else 1.0,
+            linewidth=0.8,
+            label=f"{side} sole",
+        )
+        axis.add_patch(sole)
         if is_reacting:
             heel = outline[[1, 2]].mean(axis=0)
             toe = outline[[0, 3]].mean(axis=0)

@@ -5,23 +5,25 @@ from pathlib import Path
 
 from matplotlib.figure import Figure
 
-from experiments.evaluation.figures.drawing.robot import projection
-from experiments.evaluation.figures.drawing.scene import draw_scene
+from experiments.evaluation.figures.drawing.robot import draw_scene, projection
 from experiments.evaluation.figures.style import entitle, save_figure
-from experiments.evaluation.number.files import Field
+from experiments.evaluation.number.rows import Field
 from experiments.settings.reaction_tables import Figure22
 from mobnet.core.course import StoredCourse, read_course
 from mobnet.core.style import PAGE_INCH, styled
-from mobnet.robot.description import describe
-from mobnet.robot.looks import dressed
+from mobnet.robot.description import describe, dressed
 from mobnet.settings.data import Obstacle
 from mobnet.settings.parts import Looks
 from mobnet.settings.robot import RobotTable
 
 COLUMNS = (
-    "case", "moment", "time_s", *(f"base_{a}_m" for a in "xyz"), *(f"point_{a}_m" for a in "xyz"),
+    "case",
+    "moment",
+    "time_s",
+    *(f"base_{a}_m" for a in "xyz"),
+    *(f"point_{a}_m" for a in "xyz"),
     *(f"force_{a}_n" for a in "xyz"),
-)  # fmt: skip
+)
 ROW_INCH = 2.1
 ROOM_M = (-0.75, 0.75, -0.1, 1.9)  # of a panel: right of the base's first place, and above the ground
 

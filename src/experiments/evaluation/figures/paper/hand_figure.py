@@ -3,12 +3,11 @@
 from collections.abc import Sequence
 from pathlib import Path
 
-from experiments.evaluation.compare.curves import read_curves
-from experiments.evaluation.compare.errors import compared, without_zero
+from experiments.evaluation.compare.curves import compared, read_curves, without_zero
 from experiments.evaluation.figures.drawing.compared import bars_of, draw_columns, save_compared
 from experiments.evaluation.figures.drawing.named_bars import PAPER_LABEL
-from experiments.evaluation.measure.estimates.joint_errors import error_rows, joint_errors
-from experiments.evaluation.number.lookup import read_lookup
+from experiments.evaluation.measure.estimates.run_errors import error_rows, joint_errors
+from experiments.evaluation.number.grid import read_lookup
 from experiments.plan.runs import Run
 from experiments.settings.figures import HandFigure
 from experiments.settings.fleet import Fleet
@@ -19,9 +18,16 @@ from mobnet.core.joints import JointLayout
 
 
 def hand_figure(
-    settings: HandFigure, name: str, layout: JointLayout, fleet: Fleet, statistics: Statistics,
-    published: PublishedTable, runs: Sequence[Run], scores: Sequence[Path], figure_dir: Path,
-) -> None:  # fmt: skip
+    settings: HandFigure,
+    name: str,
+    layout: JointLayout,
+    fleet: Fleet,
+    statistics: Statistics,
+    published: PublishedTable,
+    runs: Sequence[Run],
+    scores: Sequence[Path],
+    figure_dir: Path,
+) -> None:
     """Write a figure as PDF, SVG, PNG and CSV: external torque of joints [N m], force on the base [N], and errors.
 
     The runs are one of each method, all of one recording; the bars are errors over all recordings.

@@ -9,8 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from experiments.evaluation.measure.learning.trainings import MEASURES, TrainedNetwork, read_trainings, sound
-from experiments.evaluation.number.averages import column_of, members
-from experiments.evaluation.number.grid import Wanted, rows_of, run_grid
+from experiments.evaluation.number.grid import Wanted, column_of, members, rows_of, run_grid
 from experiments.evaluation.number.intervals import RunGrid
 from experiments.evaluation.number.number import Number
 from experiments.evaluation.number.rows import read_scores

@@ -16,7 +16,7 @@ OVER_PAPER, BEYOND_BOUND = "ours over the paper's", "beyond the bound"  # what a
 
 
 @dataclass(frozen=True)
-class Place:
+class ClaimPosition:
     """Where a claim stands on its axis [-]: our number with its interval, and the range of the claimed size or sign."""
 
     judged: Judged
@@ -26,10 +26,10 @@ class Place:
 
 
 @dataclass(frozen=True)
-class Statement:
+class StatementPosition:
     """A statement of the paper or of ours: its worst claim, whose verdict it has, of so many."""
 
-    worst: Place
+    worst: ClaimPosition
     claims: int
 
     @property
@@ -40,7 +40,7 @@ class Statement:
         return (*of, *self.worst.values, *self.worst.band)
 
 
-def statements_of(judged: Sequence[Judged]) -> list[Statement]:
+def statements_of(judged: Sequence[Judged]) -> list[StatementPosition]:
     """Return the statements of claims, score by score, those that count against us first."""
     found: dict[str, list[Judged]] = {}
     for each in judged:
@@ -48,15 +48,15 @@ def statements_of(judged: Sequence[Judged]) -> list[Statement]:
     worst = [(min(own, key=lambda each: WORST_FIRST.index(each.verdict)), len(own)) for own in found.values()]
     scores = list(dict.fromkeys(each.score for each in judged))
     ordered = sorted(worst, key=lambda each: (scores.index(each[0].score), VERDICTS.index(each[0].verdict)))
-    return [Statement(place_of(each), count) for each, count in ordered]
+    return [StatementPosition(place_of(each), count) for each, count in ordered]
 
 
-def place_of(judged: Judged) -> Place:
+def place_of(judged: Judged) -> ClaimPosition:
     """Return where a claim stands."""
     return beyond_bound(judged) if judged.row.claim.published is None else over_paper(judged)
 
 
-def over_paper(judged: Judged) -> Place:
+def over_paper(judged: Judged) -> ClaimPosition:
     """Return where our number is over the paper's [-]; of a cut, where what remains of an error is."""
     published = judged.row.claim.published or 1.0
     is_cut = judged.row.claim.quantity == "cut"
@@ -68,7 +68,7 @@ def over_paper(judged: Judged) -> Place:
 
     (value, low, high) = map(over, judged.ours.with_ends)
     (first, last) = map(over, judged.ranges.shown)
-    return Place(judged, OVER_PAPER, (value, *in_order(low, high, is_cut)), in_order(first, last, is_cut))
+    return ClaimPosition(judged, OVER_PAPER, (value, *in_order(low, high, is_cut)), in_order(first, last, is_cut))
 
 
 def in_order(low: float | None, high: float | None, turned: bool) -> tuple[float | None, float | None]:
@@ -76,7 +76,7 @@ def in_order(low: float | None, high: float | None, turned: bool) -> tuple[float
     return (high, low) if turned else (low, high)
 
 
-def beyond_bound(judged: Judged) -> Place:
+def beyond_bound(judged: Judged) -> ClaimPosition:
     """Return how far our number lies on the claimed side of its bound, as a share of the farthest end [-]."""
     found = [None if number is None else margin(number, judged.ranges.shown) for number in judged.ours.with_ends]
     held = [each for each in found if each is not None]
@@ -84,7 +84,7 @@ def beyond_bound(judged: Judged) -> Place:
     value, low, high = (None if each is None else each / scale for each in found)
     if value is not None and low is not None and high is not None:  # in a two-sided range the middle lies farthest in
         low, high = min(low, high), max(low, high, value)
-    return Place(judged, BEYOND_BOUND, (value, low, high), (0.0, None))
+    return ClaimPosition(judged, BEYOND_BOUND, (value, low, high), (0.0, None))
 
 
 def margin(number: float, bounds: Bounds) -> float:

@@ -55,7 +55,7 @@ class Row:
 
 
 @dataclass(frozen=True)
-class Found:
+class ClaimNumbers:
     """The numbers of a claim: our own, the one whose sign is claimed, and the one without the claim's cause, if any."""
 
     ours: Number
@@ -78,7 +78,7 @@ class Judged:
 
     row: Row
     score: str
-    found: Found
+    found: ClaimNumbers
     ranges: Ranges
     size: str
     sign: str
@@ -126,15 +126,15 @@ def judge(row: Row, results: Evidence, statistics: Statistics, methods: Mapping[
     return judged(row, found_of(row.claim, results, statistics), score_of(row.claim, methods))
 
 
-def found_of(claim: Claim, results: Evidence, statistics: Statistics) -> Found:
+def found_of(claim: Claim, results: Evidence, statistics: Statistics) -> ClaimNumbers:
     """Return the numbers that a claim needs [its unit]."""
     ours = made_number(claim, results, statistics, claim.unit)
     signed = made_number(claim.sign_of, results, statistics, claim.unit) if claim.sign_of else ours
     without = made_number(claim.cause.without, results, statistics, claim.unit) if claim.cause else None
-    return Found(replace(ours, published=claim.published), signed, without)
+    return ClaimNumbers(replace(ours, published=claim.published), signed, without)
 
 
-def judged(row: Row, found: Found, score: str) -> Judged:
+def judged(row: Row, found: ClaimNumbers, score: str) -> Judged:
     """Return a claim with the verdicts that follow from its numbers."""
     ranges = ranges_of(row.claim)
     size, sign, verdict = verdicts_of(found, ranges)
@@ -144,7 +144,7 @@ def judged(row: Row, found: Found, score: str) -> Judged:
     return Judged(row, score, found, ranges, size, sign, verdict, explained)
 
 
-def verdicts_of(found: Found, ranges: Ranges) -> tuple[str, str, str]:
+def verdicts_of(found: ClaimNumbers, ranges: Ranges) -> tuple[str, str, str]:
     """Return the verdict on the size, that on the sign, each empty where there is none, and both as one."""
     if found.ours.value is None:
         return "", "", NOT_MEASURED

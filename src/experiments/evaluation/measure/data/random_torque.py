@@ -5,7 +5,9 @@ and what remains of d some time later is the slope of the desired torque's chang
 steps. The gait changes the desired torque too, but not with the sign of d, so that it enters the noise alone.
 """
 
+import logging
 from collections.abc import Iterator, Sequence
+from dataclasses import astuple
 from pathlib import Path
 from typing import Any
 
@@ -14,13 +16,19 @@ from numpy.typing import NDArray
 
 from experiments.evaluation.compare.rmse import Spans
 from experiments.evaluation.compare.windows import FLAG
+from experiments.evaluation.number.rows import write_csv
 from mobnet.core.arrays import Array
-from mobnet.core.columns import DESIRED, FEET, RANDOM, SWING, named
+from mobnet.core.columns import DESIRED, FALLS, FEET, RANDOM, SWING, Falls, named
+from mobnet.core.errors import SimulationError
 from mobnet.core.joints import JointLayout
 from mobnet.core.store import read_array
+from mobnet.settings.walking import WalkSettings
+from mobnet.simulation.record import FALLS_MAX, record
+from mobnet.simulation.simulator import Simulator
 
 BEFORE, SETTLED = 2, 1  # samples before a step that must be still, and after it until its mean is the new torque's
 STEPS_MIN = 30  # fewer steps say nothing
+log = logging.getLogger(__name__)
 
 
 def torque_left(
@@ -80,3 +88,28 @@ def steps_of(random: NDArray[Any], air: NDArray[np.bool_], segments: Spans, afte
     grounded = np.concatenate([[0], np.cumsum(~air)])
     still = (moved[rows - 1] == moved[rows - BEFORE]) & (moved[rows + after] == moved[rows + SETTLED])
     return rows[still & (grounded[rows + after + 1] == grounded[rows - BEFORE])]
+
+
+def count_falls(settings: WalkSettings, seed: int, amplitudes_nm: Sequence[float], walked_s: float, out: Path) -> None:
+    """Write the CSV file `out`: falls of the same walk, of `walked_s` [s], with each largest random torque [N m]."""
+    rows: list[Falls] = []
+    for amplitude in amplitudes_nm:
+        rows.append(Falls(settings.level_name, amplitude, walked_s, falls_with(settings, seed, amplitude, walked_s)))
+        log.info("%g N m: %d falls in %g s", amplitude, rows[-1].falls, walked_s)
+    write_csv(out, FALLS, [astuple(row) for row in rows])
+
+
+def falls_with(settings: WalkSettings, seed: int, amplitude_nm: float, walked_s: float) -> int:
+    """Return the falls in `walked_s` [s] with a largest random torque on legs and waist [N m]; nothing is recorded.
+
+    A robot that cannot walk so ends with FALLS_MAX + 1.
+    """
+    torque = settings.random_torque.model_copy(update={"legs_waist_nm": amplitude_nm})
+    changed = settings.model_copy(update={"random_torque": torque})
+    rate_hz = settings.rates.data_hz
+    simulator = Simulator(changed, seed)
+    samples = round(walked_s * rate_hz)
+    try:
+        return record(simulator, samples, settings.recording, rate_hz, lambda _: None).falls
+    except SimulationError:
+        return FALLS_MAX + 1

@@ -23,7 +23,7 @@ from mobnet.core.errors import DataError
 from mobnet.core.estimator import Estimate
 from mobnet.core.recording import read_sensed
 from mobnet.core.store import read_array
-from mobnet.detection.contact import ContactFinder
+from mobnet.detection.contact import ContactLocator
 from mobnet.detection.watch import read_estimate
 from mobnet.estimation.low_pass import low_pass
 from mobnet.robot.description import RobotDescription
@@ -32,12 +32,12 @@ from mobnet.settings.detection import ContactPoint
 
 NAMED, NOTHING = "middle of the named link", "middle of the leg"  # guesses, which name no force
 FORCE = named(PUSH, ("force_x", "force_y", "force_z"))
-Finders = Mapping[tuple[str, bool], ContactFinder]  # leg, and whether its torques are taken alone
+Finders = Mapping[tuple[str, bool], ContactLocator]  # leg, and whether its torques are taken alone
 Alarms = Mapping[tuple[str, int], Detected]  # leg and number of a collision
 
 
 @dataclass(frozen=True)
-class Found:
+class ContactDeviation:
     """What a line of the table says of a collision.
 
     Attributes:
@@ -57,7 +57,7 @@ class Found:
     angle_deg: float | None = None
 
 
-class Walked(NamedTuple):
+class CollisionWalk(NamedTuple):
     """A recording with collisions: positions (T, nq), estimates by method, forces behind the low-pass (T, 3) [N].
 
     The true torque behind the low-pass is an estimate too, that of the method None.
@@ -72,7 +72,7 @@ class Walked(NamedTuple):
 def contacts_of(
     settings: ContactPoints, numbers: ContactPoint, robot: RobotDescription, gain_hz: float,
     pushes: Mapping[str, Push], runs: Sequence[Run], detections: Detections,
-) -> Iterator[Found]:  # fmt: skip
+) -> Iterator[ContactDeviation]:  # fmt: skip
     """Yield what each line of the table says of each collision that is hard enough and that the detector finds.
 
     Args:
@@ -88,11 +88,11 @@ def contacts_of(
         DataError: a file is missing or damaged, or a method does not give what a line takes.
     """
     joints = robot.layout.limbs(settings.limbs)
-    finders: dict[tuple[str, bool], ContactFinder] = {}
+    finders: dict[tuple[str, bool], ContactLocator] = {}
     for leg in settings.legs:
-        finders[leg, False] = ContactFinder.of(numbers, robot, leg, joints)
+        finders[leg, False] = ContactLocator.of(numbers, robot, leg, joints)
         # The hit leg alone, too: its torques are fewer than the unknowns of a hit above the foot (note 0044).
-        finders[leg, True] = ContactFinder.of(numbers, robot, leg, robot.layout.limb(leg))
+        finders[leg, True] = ContactLocator.of(numbers, robot, leg, robot.layout.limb(leg))
     for recording in dict.fromkeys(run.recording for run in runs):
         walked = _walked(robot, joints, gain_hz, [run for run in runs if run.recording == recording])
         alarms = _alarms(settings, detections, recording)
@@ -115,7 +115,7 @@ def _alarms(settings: ContactPoints, detections: Detections, recording: Path) ->
     return {(row.leg, row.number): row for row in found}
 
 
-def _walked(robot: RobotDescription, joints: Sequence[str], gain_hz: float, runs: Sequence[Run]) -> Walked:
+def _walked(robot: RobotDescription, joints: Sequence[str], gain_hz: float, runs: Sequence[Run]) -> CollisionWalk:
     """Read a recording, its truth and what its runs estimate of some joints."""
     read = read_sensed(runs[0].recording, robot.layout)
     estimates: dict[str | None, Estimate] = {
@@ -126,12 +126,12 @@ def _walked(robot: RobotDescription, joints: Sequence[str], gain_hz: float, runs
             raise DataError(f"{run.estimate}: some of {', '.join(joints)} are not estimated; accepted: all of them")
         estimates[run.method] = estimate
     force = low_pass(read_array(runs[0].recording, FORCE)[0], gain_hz, read.rate_hz)
-    return Walked(read.sensed.q, read.rate_hz, estimates, force)
+    return CollisionWalk(read.sensed.q, read.rate_hz, estimates, force)
 
 
 def _found(
-    settings: ContactPoints, finders: Finders, walked: Walked, hit: Hit, point: str, alarm: Detected
-) -> Iterator[Found]:  # fmt: skip
+    settings: ContactPoints, finders: Finders, walked: CollisionWalk, hit: Hit, point: str, alarm: Detected
+) -> Iterator[ContactDeviation]:  # fmt: skip
     """Yield what each line says of a collision at a point of the robot, and then the guesses."""
     cell = f"{hit.link} {hit.direction}"
     finder = finders[hit.leg, False]
@@ -155,15 +155,17 @@ def _found(
         contact = own.locate(walked.q[row], *_torques(walked, line, own, finder, row), () if line.alone else standing)
         if contact is not None:
             said = contact.spread_m, *_compared(contact.force, walked.force[row])
-            yield Found(title, cell, error_of(contact.place, row), *said)
+            yield ContactDeviation(title, cell, error_of(contact.place, row), *said)
     row = row_after(settings.after_s)
     named_body = points[f"{point.split('_')[0]}_{alarm.link}_{alarm.direction}"].body
-    yield Found(NAMED, cell, error_of(_middle(finder, walked.q[row], [named_body]), row))
-    yield Found(NOTHING, cell, error_of(_middle(finder, walked.q[row], {s.body for s in finder.surface.shapes}), row))
+    yield ContactDeviation(NAMED, cell, error_of(_middle(finder, walked.q[row], [named_body]), row))
+    yield ContactDeviation(
+        NOTHING, cell, error_of(_middle(finder, walked.q[row], {s.body for s in finder.surface.shapes}), row)
+    )
 
 
 def _torques(
-    walked: Walked, line: ContactLine, own: ContactFinder, whole: ContactFinder, row: int
+    walked: CollisionWalk, line: ContactLine, own: ContactLocator, whole: ContactLocator, row: int
 ) -> tuple[Array, Array]:  # fmt: skip
     """Return the torques of a finder's joints in a row by a line, and the standard deviations of their errors (n,).
 
@@ -188,7 +190,7 @@ def _compared(force: Array, true: Array) -> tuple[float, float]:
     return size / max(true_size, 1e-9) - 1.0, float(np.rad2deg(np.arccos(cosine)))
 
 
-def _middle(finder: ContactFinder, q: Array, bodies: Collection[str]) -> Array:
+def _middle(finder: ContactLocator, q: Array, bodies: Collection[str]) -> Array:
     """Return the middle of the surface of some bodies in the world (3,) [m], at a position q (nq,)."""
     surface = finder.surface
     whole = np.zeros(3)

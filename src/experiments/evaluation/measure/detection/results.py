@@ -7,11 +7,12 @@ from typing import TypeVar
 
 import numpy as np
 
-from experiments.evaluation.number.clusters import Place, mean_in, share_in
+from experiments.evaluation.number.clusters import ClusterKey, mean_in, share_in
 from experiments.evaluation.number.number import Number
 from experiments.plan.detection import Detections
-from experiments.settings.detection_tables import AlarmTable
+from experiments.settings.detection_tables import AlarmTable, SmallestForce
 from experiments.settings.runs import Statistics
+from mobnet.core.arrays import Array
 from mobnet.core.detections import Collision, Detected, FreeSwing, Promise
 from mobnet.core.errors import DataError, not_accepted
 from mobnet.core.rows import read_rows
@@ -21,6 +22,7 @@ MS = 1000.0
 LINKS, DIRECTIONS = ("foot", "ankle", "knee"), ("front", "side")  # in the paper's order
 CELLS = tuple(f"{link} {direction}" for link, direction in product(LINKS, DIRECTIONS))
 ALL = "all"  # cells together
+HALVES, STEPS = 120, 24  # laws along the force for one half, and along the steepness
 
 
 @dataclass(frozen=True)
@@ -32,9 +34,9 @@ class Try:
     detected: Detected
 
     @property
-    def place(self) -> Place:
+    def place(self) -> ClusterKey:
         """The robot and the walk, which collisions have in common."""
-        return Place(self.robot, self.collision.seed)
+        return ClusterKey(self.robot, self.collision.seed)
 
     @property
     def cell(self) -> str:
@@ -129,18 +131,6 @@ def median_of(values: Sequence[float], statistics: Statistics, unit: str) -> Num
     return Number(float(np.median(values)), low, high, unit=unit)
 
 
-def rate_of(alarms: int, hours: float, statistics: Statistics) -> Number:
-    """Return a rate [1/h] with the exact interval of Poisson's law (Garwood 1936)."""
-    if hours <= 0.0:
-        return Number(None, unit="1/h")
-    from scipy.stats import chi2  # here, as it takes a second to import
-
-    tail = (1.0 - statistics.confidence) / 2.0
-    low = chi2.ppf(tail, 2 * alarms) / 2.0 if alarms else 0.0
-    high = chi2.ppf(1.0 - tail, 2 * alarms + 2) / 2.0
-    return Number(alarms / hours, float(low) / hours, float(high) / hours, unit="1/h")
-
-
 def hours_per_swing(promises: Sequence[Promise]) -> float:
     """Return how long a swing of a walk takes [h], the other leg's and the steps between included."""
     return sum(row.hours for row in promises) / max(sum(row.swings for row in promises), 1)
@@ -149,3 +139,38 @@ def hours_per_swing(promises: Sequence[Promise]) -> float:
 def alarms_in(swings: Sequence[FreeSwing], over: float = 1.0) -> int:
     """Return in how many swings a signal lies above a multiple of the threshold for one false alarm an hour."""
     return sum(row.ratio > over for row in swings)
+
+
+# The found share is a logistic function of the logarithm of the force. Of many such laws, with forces for one half and
+# steepnesses spread evenly on a logarithmic scale, each counts as much as it makes what was found likely. The number is
+# the median over them, and the interval that of the nominal share in their middle. A likeliest law alone would not do:
+# where all collisions above a force are found and none below it, it is as steep as one allows.
+def smallest_force(force: Array, found: Array, settings: SmallestForce, statistics: Statistics) -> Number:
+    """Return the force of which a share of collisions is found [N], with its interval.
+
+    Forces (n,) [N] are the largest ones of the collisions, found (n,) is 1 or 0. Where the force lies below or above
+    all that were tried there is no number, but that end as `low` or as `high`; else the interval is cut there.
+    """
+    # (D23). A grid and no sampler: two unknowns, and the same bytes at every run.
+    halves = np.geomspace(*settings.halves_n, HALVES)
+    steepness = np.geomspace(*settings.steepness, STEPS)
+    half, steep = (grid.ravel() for grid in np.meshgrid(halves, steepness, indexing="ij"))
+    slope = steep * (np.log(force)[:, None] - np.log(half))
+    # The logarithm of a share near 0 or 1 would be lost in rounding if the share came first.
+    likely = -np.logaddexp(0.0, np.where(found[:, None] > 0, -slope, slope)).sum(axis=0)
+    wanted = half * (settings.share / (1.0 - settings.share)) ** (1.0 / steep)
+    tail = (1.0 - statistics.confidence) / 2.0
+    low, value, high = quantiles(wanted, np.exp(likely - likely.max()), (tail, 0.5, 1.0 - tail))
+    # Beyond the forces that were tried the number would be that of the assumed laws and not of the collisions.
+    least = float(force.min())
+    most = float(force.max())
+    if not least <= value <= most:
+        return Number(None, *((least, None) if value < least else (None, most)), unit="N")
+    return Number(value, max(low, least), min(high, most), unit="N")
+
+
+def quantiles(values: Array, weights: Array, shares: tuple[float, ...]) -> list[float]:
+    """Return below which of some values (n,) these shares of their weights (n,) lie."""
+    order = np.argsort(values)
+    sums = np.cumsum(weights[order])
+    return [float(values[order[np.searchsorted(sums, share * sums[-1])]]) for share in shares]

@@ -3,20 +3,14 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from experiments.evaluation.compare.pair import Pair
+from experiments.evaluation.compare.pair import Measured, Measures, Pair
 from experiments.evaluation.compare.scene import Scene, shown_pushes
-from experiments.evaluation.compare.values import Measured, Measures
 from experiments.evaluation.compare.windows import flagged_spans
 from experiments.settings.measures import Bode
-from experiments.settings.metrics import Metric
 from mobnet.core.arrays import Array
 from mobnet.estimation.low_pass import exact_pole
 
 GAIN, PHASE = "gain_{:g}hz", "phase_{:g}hz"  # with the frequency after which a band of lines is named
-METRICS = (
-    Metric(r"gain_[0-9]+(\.[0-9]+)?hz", "-"),
-    Metric(r"phase_[0-9]+(\.[0-9]+)?hz", "deg", low=-180.0, high=180.0),
-)
 
 
 def measure(pair: Pair, scene: Scene, settings: Bode) -> Measures:

@@ -3,14 +3,11 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from experiments.evaluation.compare.pair import Pair, read_std
+from experiments.evaluation.compare.pair import Measured, Measures, Pair, read_std
 from experiments.evaluation.compare.rmse import parts
 from experiments.evaluation.compare.scene import Scene
-from experiments.evaluation.compare.values import Measured, Measures
 from experiments.settings.measures import Changed
-from experiments.settings.metrics import Metric
-from mobnet.estimation.consistency import shares_inside
-from mobnet.learning.gaussian import half_width
+from mobnet.learning.calibration import half_width, shares_inside
 from mobnet.learning.swings import hanging
 
 KNOWN = "known_share"
@@ -18,7 +15,6 @@ FREE = "free_share"
 FLAGGED = "flagged_share"
 FLAGS = "flags"
 WATCHED = "watched"
-METRICS = (Metric("(known|free|flagged)_share", "-", high=1.0), Metric("flags", "-"), Metric("watched", "h"))
 HOUR_S = 3600.0
 
 

@@ -5,17 +5,14 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from experiments.evaluation.compare.pair import Pair
+from experiments.evaluation.compare.pair import Measured, Measures, Pair
 from experiments.evaluation.compare.rmse import Spans
 from experiments.evaluation.compare.scene import STANCE, SWINGING, Scene, shown_pushes
-from experiments.evaluation.compare.values import Measured, Measures
 from experiments.evaluation.compare.windows import flagged_spans, rows_in
 from experiments.settings.measures import Drift
-from experiments.settings.metrics import Metric
 
 HELD = "held_{}"  # phase: over the whole push
 HELD_STEP = "held_{}_{}"  # phase, and its number since the push began, from 1 on
-METRICS = (Metric("held_(swing|stance)(_[1-9][0-9]*)?", "-", low=None),)
 
 
 def measure(pair: Pair, scene: Scene, settings: Drift) -> Measures:

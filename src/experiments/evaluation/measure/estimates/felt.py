@@ -9,7 +9,7 @@ from mobnet.core.arrays import Array
 
 
 @dataclass(frozen=True)
-class Felt:
+class PushResponse:
     """What an estimate shows of one push at one joint.
 
     The table `peaks` has slopes over many pushes, which noise does not raise; of one push the peak is what can be seen.
@@ -25,7 +25,7 @@ class Felt:
     delay_ms: float | None
 
 
-def felt_of(push: Array, behind: Array, shown: Array, rate_hz: float) -> Felt:
+def felt_of(push: Array, behind: Array, shown: Array, rate_hz: float) -> PushResponse:
     """Return what is shown of a push (T,) [N m], which behind the observer's low-pass is `behind` (T,) [N m].
 
     All begin one row before the push.
@@ -34,6 +34,6 @@ def felt_of(push: Array, behind: Array, shown: Array, rate_hz: float) -> Felt:
     peak = float((np.sign(behind[largest]) * (shown - shown[0])).max())
     true = float(abs(behind[largest]))
     if not true:
-        return Felt(peak, 0.0, None)
+        return PushResponse(peak, 0.0, None)
     late = delays(push[:, None], shown[:, None], np.ones(1, dtype=bool))
-    return Felt(peak, peak / true, float(late[0]) * MS / rate_hz if peak >= HALF * np.abs(push).max() else None)
+    return PushResponse(peak, peak / true, float(late[0]) * MS / rate_hz if peak >= HALF * np.abs(push).max() else None)

@@ -6,13 +6,11 @@ import numpy as np
 import scipy  # pyright: ignore[reportMissingTypeStubs]  # its parts are imported where they are used first
 from numpy.typing import NDArray
 
-from experiments.evaluation.compare.pair import Pair
+from experiments.evaluation.compare.pair import Measured, Measures, Pair
 from experiments.evaluation.compare.rmse import Spans
 from experiments.evaluation.compare.scene import Scene, ShownPushes, shown_pushes
-from experiments.evaluation.compare.values import Measured, Measures
 from experiments.evaluation.compare.windows import flagged_spans
 from experiments.settings.measures import Peaks
-from experiments.settings.metrics import Metric
 from mobnet.core.arrays import Array
 
 SHARE = "push_share"
@@ -20,7 +18,6 @@ DELAY = "rise_delay"
 OBSERVER = "_observer"  # the delay of the push behind the observer's low-pass: what a perfect residual would show
 HALF = 0.5  # of the true peak, where the rise is timed
 MS = 1000.0
-METRICS = (Metric("push_share", "-", low=None), Metric("rise_delay(_observer)?", "ms", low=None))
 
 
 def measure(pair: Pair, scene: Scene, settings: Peaks) -> Measures:

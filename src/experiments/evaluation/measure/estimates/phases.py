@@ -3,13 +3,9 @@
 import numpy as np
 
 from experiments.evaluation.compare.masks import masked_mean, parts_of
-from experiments.evaluation.compare.pair import Pair
+from experiments.evaluation.compare.pair import Measured, Measures, Pair
 from experiments.evaluation.compare.scene import Scene
-from experiments.evaluation.compare.values import Measured, Measures
 from experiments.settings.measures import Phases
-from experiments.settings.metrics import Metric
-
-METRICS = (Metric("rmse_(swing|touch_down|stance|stuck|moving)"),)
 
 
 def measure(pair: Pair, scene: Scene, settings: Phases) -> Measures:

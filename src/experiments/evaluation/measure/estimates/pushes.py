@@ -10,9 +10,8 @@ from experiments.evaluation.compare.rmse import PUSH
 from experiments.evaluation.compare.windows import push_windows
 from experiments.evaluation.measure.estimates.peaks import DELAY, OBSERVER, SHARE
 from experiments.evaluation.measure.estimates.run_errors import ERROR
-from experiments.evaluation.number.grid import Wanted
+from experiments.evaluation.number.grid import AVERAGE, Lookup, Wanted
 from experiments.evaluation.number.intervals import Formula
-from experiments.evaluation.number.lookup import AVERAGE, Lookup
 from experiments.evaluation.number.number import Number, published_value
 from experiments.plan.runs import Run
 from experiments.settings.figures import Figure06, Figure10
@@ -31,8 +30,7 @@ Responses = Mapping[
 
 def wanted_of(layout: JointLayout, test: Runs, method: str, joint: str, metric: str = ERROR) -> Wanted:
     """Return which number of a joint of a test is wanted, an error [N m] if no metric is named."""
-    limb = next(name for name, joints in layout.groups.items() if joint in joints)
-    return Wanted(test.scenario, limb, test.level, method, joint, metric)
+    return Wanted(test.scenario, layout.limb_of[joint], test.level, method, joint, metric)
 
 
 def collision_errors(

@@ -1,30 +1,59 @@
 """Errors and other measures of estimates, a row for each joint, run and metric."""
 
+import importlib
 import logging
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import astuple
 from itertools import groupby
 from math import isnan
 from pathlib import Path
+from types import ModuleType
 
 import numpy as np
+from pydantic import ValidationError
 
-from experiments.evaluation.compare.pair import Pair, read_pair
+from experiments.evaluation.compare.pair import Measures, Pair, read_pair
 from experiments.evaluation.compare.scene import Scene
-from experiments.evaluation.compare.values import Measures
 from experiments.evaluation.measure.estimates import run_errors
-from experiments.evaluation.measure.registry import module_of, numbers_of
-from experiments.evaluation.number.files import write_csv
+from experiments.evaluation.number.rows import write_csv
 from experiments.plan.runs import Run
-from experiments.settings.measures import Scoring
-from experiments.settings.metrics import unit_of_metric
+from experiments.settings.measures import Measure, Scoring
+from experiments.settings.metrics import SECTIONS, unit_of_metric
+from experiments.settings.settings import Settings
 from mobnet.core.columns import SCORES, Score
+from mobnet.core.errors import not_accepted
 from mobnet.core.joints import JointLayout
 from mobnet.settings.base import Section
+from mobnet.settings.faults import problems
+from mobnet.settings.reading import Place
 
+ESTIMATES = "experiments.evaluation.measure.estimates"
 log = logging.getLogger(__name__)
-
 AVERAGE = "avg"
+
+
+def module_of(name: str) -> ModuleType:
+    """Return the module that measures what a section asks for."""
+    return importlib.import_module(f"{ESTIMATES}.{name}")
+
+
+def numbers_of(name: str, section: Section) -> Section:
+    """Return a section as its module takes it: of an entry of `measures`, the module's section `Options`."""
+    return module_of(name).Options.model_validate(section.options) if isinstance(section, Measure) else section
+
+
+def measure_problems(settings: Settings) -> Iterator[tuple[Place, str]]:
+    """Yield the place and the text of every entry of `measures` that names no module, or numbers that it refuses."""
+    for name, measure in settings.evaluation.measures.items():
+        place: Place = ("evaluation", "measures", name)
+        if name not in SECTIONS:
+            yield place, not_accepted("module of measures", name, SECTIONS)
+            continue
+        try:
+            numbers_of(name, measure)
+        except ValidationError as error:
+            found = problems(error, module_of(name).Options, measure.options)
+            yield from (((*place, "options", *inner), text) for inner, text in found)
 
 
 def score(layout: JointLayout, runs: Sequence[Run], asked: Scoring, out: Path) -> None:

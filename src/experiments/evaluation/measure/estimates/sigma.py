@@ -6,28 +6,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from experiments.evaluation.compare.masks import Masks, masked_mean, parts_of, push_parts
-from experiments.evaluation.compare.pair import Pair, read_std
+from experiments.evaluation.compare.pair import Measured, Measures, Pair, read_std
 from experiments.evaluation.compare.rmse import Spans, parts
 from experiments.evaluation.compare.scene import Scene
-from experiments.evaluation.compare.values import Measured, Measures
 from experiments.evaluation.compare.windows import rows_in
 from experiments.settings.measures import Sigma
-from experiments.settings.metrics import Metric
 from mobnet.core.arrays import Array
-from mobnet.learning.gaussian import half_width
+from mobnet.learning.calibration import half_width
 
 STD, COVER = "std", "cover"  # mean standard deviation [N m], V1..V3 [N], and share of errors in their interval [-]
 EXCURSION = "excursion"
 MEMORY = "acf_{:g}ms"
 FALLEN = np.exp(-1.0)  # correlation below which an excursion has ended
 MS = 1000.0
-METRICS = (
-    Metric("rmse_part_[1-9][0-9]*"),
-    Metric("std(_(swing|touch_down|stance|stuck|moving|pushed|calm|part_[1-9][0-9]*))?"),
-    Metric("cover(_(swing|touch_down|stance|stuck|moving|pushed|calm|part_[1-9][0-9]*))?", "-", high=1.0),
-    Metric("excursion", "ms"),
-    Metric("acf_[1-9][0-9]*ms", "-", low=-1.0, high=1.0),
-)
 
 
 def measure(pair: Pair, scene: Scene, settings: Sigma) -> Measures:

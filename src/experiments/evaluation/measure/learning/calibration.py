@@ -25,7 +25,7 @@ from mobnet.core.files import RUN
 from mobnet.core.joints import JointLayout
 from mobnet.core.notes import read_array_note
 from mobnet.core.store import NOTE, file_of
-from mobnet.learning.gaussian import Fit, fit_of
+from mobnet.learning.calibration import Fit, fit_of
 
 log = logging.getLogger(__name__)
 

@@ -56,7 +56,6 @@ def sizes_of(sweeps: Sequence[SweptSize], statistics: Statistics) -> list[Size]:
 
 
 def _samples(one: tuple[SweptSize, Sequence[TrainedNetwork]]) -> int:
-    """Return from how many samples trainings learned."""
     return one[1][0].samples
 
 

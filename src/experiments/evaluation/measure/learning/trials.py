@@ -11,11 +11,10 @@ from experiments.plan.runs import Tried, TriedTask
 from mobnet.core.arrays import Array
 from mobnet.core.columns import EXTERNAL_LP, named
 from mobnet.core.store import read_array
-from mobnet.estimation.estimate import Observed, rate_of, read_observed, run_segments
-from mobnet.estimation.methods import build_estimator
-from mobnet.estimation.recipe import Recipe
+from mobnet.estimation.estimate import ObservedRecording, rate_of, read_observed, run_segments
+from mobnet.estimation.recipe import Recipe, build_estimator
 from mobnet.robot.description import describe
-from mobnet.settings.methods import Observer
+from mobnet.settings.methods import ObserverSettings
 from mobnet.settings.robot import RobotTable
 from mobnet.settings.surrogate import Level
 
@@ -26,11 +25,11 @@ class Known:
 
     robot: RobotTable
     gravity_m_s2: float
-    observer: Observer
+    observer: ObserverSettings
 
 
 @dataclass(frozen=True)
-class Walks:
+class ObservedWalks:
     """Recordings that were observed, and the true torque of n joints behind the low-pass, (T_i, n) [N m].
 
     `level` says how wrong the observer's nominal model is.
@@ -38,12 +37,12 @@ class Walks:
 
     level: Level
     joints: Sequence[str]
-    read: Sequence[Observed]
+    read: Sequence[ObservedRecording]
     truths: Sequence[Array]
 
 
 @dataclass(frozen=True)
-class Outcome:
+class VariantResult:
     """A variant with the training of its network, if it has one, and its RMSE by walk and joint (w, n) [N m].
 
     `seconds` is the processor time of that training [s].
@@ -60,16 +59,16 @@ class Outcome:
         return float(self.errors.mean())
 
 
-def read_walks(known: Known, task: TriedTask, rate_hz: float) -> Walks:
+def read_walks(known: Known, task: TriedTask, rate_hz: float) -> ObservedWalks:
     """Read the walks on which methods are chosen, all at a rate [Hz]."""
     layout = describe(known.robot).layout
     read = [read_observed(layout, *pair, rate_hz) for pair in zip(task.recordings, task.residuals, strict=True)]
     names = named(EXTERNAL_LP, task.joints)
     truths = [read_array(residual, names)[0].astype(np.float64) for residual in task.residuals]
-    return Walks(task.level, task.joints, read, truths)
+    return ObservedWalks(task.level, task.joints, read, truths)
 
 
-def outcome_of(tried: Tried, known: Known, walks: Walks) -> Outcome:
+def outcome_of(tried: Tried, known: Known, walks: ObservedWalks) -> VariantResult:
     """Run a variant on all walks side by side."""
     given = known.robot, walks.level.nominal_mass_ratio, known.gravity_m_s2, known.observer
     recipe = Recipe(tried.name, tried.methods, *given, rate_of(walks.read), tried.networks, tried.fitted)
@@ -82,4 +81,4 @@ def outcome_of(tried: Tried, known: Known, walks: Walks) -> Outcome:
     ]
     folder = next(iter(tried.networks.values()), None)
     training, seconds = (read_training(folder), training_seconds(folder)) if folder else (None, None)
-    return Outcome(tried, training, seconds, np.array(errors))
+    return VariantResult(tried, training, seconds, np.array(errors))

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from experiments.evaluation.measure.detection.results import MS
 from experiments.evaluation.measure.estimates.changed import HOUR_S
-from experiments.evaluation.number.clusters import Place, mean_in, rate_in, share_in
+from experiments.evaluation.number.clusters import ClusterKey, mean_in, rate_in, share_in
 from experiments.evaluation.number.number import Number
 from experiments.plan.reactions import Reactions
 from experiments.settings.published import PublishedContacts
@@ -38,7 +38,7 @@ POWER = "power"
 
 
 @dataclass(frozen=True)
-class Outcome:
+class ReactionResult:
     """The trials of a detector in a case, those of all robots.
 
     Attributes:
@@ -53,7 +53,7 @@ class Outcome:
 
 
 @dataclass(frozen=True)
-class Walked:
+class FreeWalks:
     """What happened in free walks.
 
     Attributes:
@@ -120,12 +120,12 @@ def is_early(row: Trial) -> bool:
     return row.reacted_s is not None and (row.contact_s is None or row.reacted_s < row.contact_s)
 
 
-def place_of(row: Trial) -> Place:
+def place_of(row: Trial) -> ClusterKey:
     """Return the robot and the seed of a walk."""
-    return Place(row.level, row.seed)
+    return ClusterKey(row.level, row.seed)
 
 
-def outcome_of(trials: Sequence[Trial], settings: Safety, statistics: Statistics) -> Outcome:
+def outcome_of(trials: Sequence[Trial], settings: Safety, statistics: Statistics) -> ReactionResult:
     """Return what came of trials; intervals are over robots and walks.
 
     Impulses lie around two values, those of short contacts and those of a robot that leans on the obstacle, so that
@@ -149,10 +149,10 @@ def outcome_of(trials: Sequence[Trial], settings: Safety, statistics: Statistics
         BASE_WITHIN: _share(struck, lambda row: _is_within(row.base_angle_deg, settings.within_deg), statistics),
         EARLY: _share(asked, is_early, statistics),
     }
-    return Outcome(len(trials), len(struck), numbers)
+    return ReactionResult(len(trials), len(struck), numbers)
 
 
-def walked_of(trials: Sequence[Trial], statistics: Statistics) -> Walked:
+def walked_of(trials: Sequence[Trial], statistics: Statistics) -> FreeWalks:
     """Return what happened in free walks; intervals are over robots and walks."""
     flags = {
         FALLEN: [row.fell_s is not None for row in trials],
@@ -169,7 +169,7 @@ def walked_of(trials: Sequence[Trial], statistics: Statistics) -> Walked:
         TRACKING: _mean(trials, lambda row: MILLI * row.tracking_rmse_rad, statistics, "mrad"),
         POWER: _mean(trials, lambda row: row.power_w, statistics, "W"),
     }
-    return Walked(sum(hours), {name: sum(own) for name, own in flags.items()}, rates, means)
+    return FreeWalks(sum(hours), {name: sum(own) for name, own in flags.items()}, rates, means)
 
 
 def _mean(
@@ -187,17 +187,14 @@ def _share(trials: Sequence[Trial], is_so: Callable[[Trial], bool | None], stati
 
 
 def _delay_ms(row: Trial) -> float | None:
-    """Return the time from the contact to the alarm [ms]."""
     return None if row.alarm_s is None or row.contact_s is None else MS * (row.alarm_s - row.contact_s)
 
 
 def _is_over(impulse_ns: float | None, most_ns: float) -> bool | None:
-    """Return whether an impulse is larger than this [N s]; None where there is none."""
     return None if impulse_ns is None else impulse_ns > most_ns
 
 
 def _is_within(angle_deg: float | None, most_deg: float) -> bool | None:
-    """Return whether an angle is at most so large [deg]; None where there is none."""
     return None if angle_deg is None else angle_deg <= most_deg
 
 

@@ -30,14 +30,14 @@ class Group(NamedTuple):
         return f"# {self.title}\n{self.text.rstrip()}\n\n{menu(self.documents)}"
 
 
-class Section(NamedTuple):
+class IndexSection(NamedTuple):
     """A section of the index: its documents from the root, and its groups."""
 
     documents: tuple[str, ...]
     groups: tuple[Group, ...]
 
 
-def sections(index: str) -> dict[str, Section]:
+def sections(index: str) -> dict[str, IndexSection]:
     """Return title -> section of the index.
 
     Raises:
@@ -46,11 +46,11 @@ def sections(index: str) -> dict[str, Section]:
     _, *parts = SECTION.split(index)
     if not parts:
         raise DataError(f"{FOLDER}/{README}: no section is found; accepted: headings of level 2 with tables of links")
-    found: dict[str, Section] = {}
+    found: dict[str, IndexSection] = {}
     for title, text in zip(parts[::2], parts[1::2], strict=True):
         own, *grouped = GROUP.split(text)
         pairs = zip(grouped[::2], grouped[1::2], strict=True)
-        found[title] = Section(_documents(own), tuple(Group(name, part, _documents(part)) for name, part in pairs))
+        found[title] = IndexSection(_documents(own), tuple(Group(name, part, _documents(part)) for name, part in pairs))
     return found
 
 

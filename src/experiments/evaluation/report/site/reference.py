@@ -24,9 +24,13 @@ PUBLIC = {  # packages with an interface for others -> what it is for
     "export": "networks for programs without this project",
 }
 LIMITS = {
-    "exclusiveMinimum": "above {}", "minimum": "from {}", "exclusiveMaximum": "below {}", "maximum": "up to {}",
-    "minItems": "at least {} items", "maxItems": "at most {} items",
-}  # fmt: skip
+    "exclusiveMinimum": "above {}",
+    "minimum": "from {}",
+    "exclusiveMaximum": "below {}",
+    "maximum": "up to {}",
+    "minItems": "at least {} items",
+    "maxItems": "at most {} items",
+}
 TYPES = {"array": "list", "object": "mapping", "string": "text", "null": "nothing"}  # as YAML calls them
 REFERENCE = "#/$defs/"
 COMMAND = re.compile(r"^ {2}(\w+) {2,}\w", re.MULTILINE)  # in the list of commands
@@ -45,14 +49,14 @@ def reference_pages(modules: Mapping[str, Sequence[str]]) -> Iterator[tuple[str,
 
 def commands_page() -> str:
     """Return the page of all commands, each with its own help."""
-    overview = told("--help")
+    overview = printed_by("--help")
     parts = ["# Commands", f"```text\n{overview}\n```"]
     for name in COMMAND.findall(overview):
-        parts += [f"## ./reproduce {name}", f"```text\n{told(name, '--help')}\n```"]
+        parts += [f"## ./reproduce {name}", f"```text\n{printed_by(name, '--help')}\n```"]
     return "\n\n".join(parts) + "\n"
 
 
-def told(*words: str) -> str:
+def printed_by(*words: str) -> str:
     """Return what `./reproduce` prints, which this package must not import."""
     wide = {**os.environ, "COLUMNS": "100"}
     done = subprocess.run([sys.executable, "reproduce", *words], capture_output=True, text=True, check=True, env=wide)

@@ -1,6 +1,6 @@
 "use strict";
 
-// What Python stored: `told` has numbers and names, the text of #data every array, packed as explore_pack.py says.
+// What Python stored: `told` has numbers and names, the text of #data every array, packed as explore.py says.
 const told = JSON.parse(document.querySelector("#told").textContent);
 
 async function unpack(text) {

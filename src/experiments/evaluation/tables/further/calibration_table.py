@@ -4,9 +4,9 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from experiments.evaluation.measure.learning.calibration import STAGES, CoverageGrid
-from experiments.evaluation.number.files import Field
 from experiments.evaluation.number.intervals import RunGrid, summarise
 from experiments.evaluation.number.number import Number, interval_text
+from experiments.evaluation.number.rows import Field
 from experiments.evaluation.tables.layout import Table, in_blocks, write_table
 from experiments.settings.measures import CalibrationTable
 from experiments.settings.runs import Statistics
@@ -21,9 +21,12 @@ Trust = Mapping[tuple[str, float | None], tuple[Number, Number]]  # measure, nom
 
 
 def trust_table(
-    settings: CalibrationTable, learning: Learning, statistics: Statistics, grids: Sequence[CoverageGrid],
+    settings: CalibrationTable,
+    learning: Learning,
+    statistics: Statistics,
+    grids: Sequence[CoverageGrid],
     table_dir: Path,
-) -> None:  # fmt: skip
+) -> None:
     """Write calibration.csv, .tex and .md of held-out data and tests; texts hold the methods of `settings` only."""
     trusts = [(grid, trust_of(grid, learning.calibration_levels, statistics)) for grid in grids]
     records: list[tuple[Field, ...]] = []
@@ -57,10 +60,18 @@ def table_header(settings: CalibrationTable, learning: Learning, confidence: flo
     """Return the header: coverage of the bar's share uncalibrated, of each level scaled, then NLL [nats] and CRPS."""
     share = f"{learning.calibration_share:.0%}"
     return [
-        "Test", "Method", "Limb", f"{share}, uncalibrated", *(f"{level:.0%}" for level in learning.calibration_levels),
-        f"{confidence:.0%} of {share}", "NLL, uncalibrated", "NLL", "CRPS, uncalibrated", "CRPS",
+        "Test",
+        "Method",
+        "Limb",
+        f"{share}, uncalibrated",
+        *(f"{level:.0%}" for level in learning.calibration_levels),
+        f"{confidence:.0%} of {share}",
+        "NLL, uncalibrated",
+        "NLL",
+        "CRPS, uncalibrated",
+        "CRPS",
         f"{share} within {settings.tolerance:.0%}",
-    ]  # fmt: skip
+    ]
 
 
 def limb_texts(grid: CoverageGrid, trust: Trust, settings: CalibrationTable, learning: Learning) -> list[str]:
@@ -69,11 +80,13 @@ def limb_texts(grid: CoverageGrid, trust: Trust, settings: CalibrationTable, lea
     scaled = [trust[COVERAGE, level][1] for level in learning.calibration_levels]
     ends = [None if end is None else 100.0 * end for end in (bar.low, bar.high)]
     return [
-        *(f"{number.value:.1%}" for number in (learned, *scaled)), interval_text(*ends, digits=1),
-        *(number.text() for number in trust[NLL, None]), trust[CRPS, None][0].text(3),
+        *(f"{number.value:.1%}" for number in (learned, *scaled)),
+        interval_text(*ends, digits=1),
+        *(number.text() for number in trust[NLL, None]),
+        trust[CRPS, None][0].text(3),
         f"{trust[CRPS, None][1].value:.3f} {grid.unit}",
         verdict(grid, bar, learning.calibration_share, settings.tolerance),
-    ]  # fmt: skip
+    ]
 
 
 def verdict(grid: CoverageGrid, bar: Number, share: float, tolerance: float) -> str:

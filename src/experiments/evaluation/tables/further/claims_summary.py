@@ -30,8 +30,13 @@ from mobnet.core.rows import read_texts
 ALL = "all"  # verdicts together
 NEAR_FACTOR = 1.5
 USED = ("statement", "score", "quantity", "size", "sign", "verdict", "published", "value", "low", "high", "cause")
-SHOWN = {"observer": "observer", "networks": "networks", "no number": "no number", PAPER: "the paper's, all",
-         OURS: "our own"}  # fmt: skip
+SHOWN = {
+    "observer": "observer",
+    "networks": "networks",
+    "no number": "no number",
+    PAPER: "the paper's, all",
+    OURS: "our own",
+}
 Row = Mapping[str, str]
 Counts = Mapping[tuple[str, str], tuple[int, int, int]]  # score, outcome -> statements, by their first claim, claims
 

@@ -4,8 +4,8 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from experiments.evaluation.measure.claims.verdicts import Judged
-from experiments.evaluation.number.files import Field
 from experiments.evaluation.number.number import number_text
+from experiments.evaluation.number.rows import Field
 from experiments.evaluation.tables.layout import GAP, Line, Table, long_table, tex_escape, write_table
 from mobnet.core.claim_ranges import ANY, range_text
 from mobnet.core.columns import CLAIMS
@@ -35,10 +35,25 @@ def record_of(each: Judged) -> tuple[Field, ...]:
     signed = each.found.signed.with_ends if each.ranges.sign else (None, None, None)
     without = each.found.without.with_ends if each.found.without else (None, None, None)
     return (
-        row.name, row.statement, each.score, claim.printed, says(each), claim.quantity, ours.published, *ours.with_ends,
-        *ours.spread, ours.unit, *(each.ranges.size or ANY), *signed, *(each.ranges.sign or ANY), each.size, each.sign,
-        each.verdict, *without, each.cause,
-    )  # fmt: skip
+        row.name,
+        row.statement,
+        each.score,
+        claim.printed,
+        says(each),
+        claim.quantity,
+        ours.published,
+        *ours.with_ends,
+        *ours.spread,
+        ours.unit,
+        *(each.ranges.size or ANY),
+        *signed,
+        *(each.ranges.sign or ANY),
+        each.size,
+        each.sign,
+        each.verdict,
+        *without,
+        each.cause,
+    )
 
 
 def says(each: Judged) -> str:

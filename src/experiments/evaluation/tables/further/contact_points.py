@@ -5,10 +5,10 @@ from pathlib import Path
 
 import numpy as np
 
-from experiments.evaluation.measure.detection.contact_points import NAMED, NOTHING, Found, contacts_of
+from experiments.evaluation.measure.detection.contact_points import NAMED, NOTHING, ContactDeviation, contacts_of
 from experiments.evaluation.measure.detection.results import ALL, CELLS, Detections, median_of
-from experiments.evaluation.number.files import Field
 from experiments.evaluation.number.number import Number
+from experiments.evaluation.number.rows import Field
 from experiments.evaluation.tables.layout import RULE, Line, Table, write_table
 from experiments.plan.runs import Run
 from experiments.settings.detection_tables import ContactPoints
@@ -17,7 +17,7 @@ from mobnet.core.columns import DETECTION
 from mobnet.robot.description import describe
 from mobnet.settings.data import Push
 from mobnet.settings.detection import ContactPoint
-from mobnet.settings.methods import Observer
+from mobnet.settings.methods import ObserverSettings
 from mobnet.settings.robot import RobotTable
 
 CM = 100.0
@@ -31,9 +31,16 @@ ANGLE = "angle"
 
 
 def contact_points(
-    settings: ContactPoints, contact_point: ContactPoint, robot: RobotTable, observer: Observer, statistics: Statistics,
-    pushes: Mapping[str, Push], runs: Sequence[Run], detections: Detections, table_dir: Path,
-) -> None:  # fmt: skip
+    settings: ContactPoints,
+    contact_point: ContactPoint,
+    robot: RobotTable,
+    observer: ObserverSettings,
+    statistics: Statistics,
+    pushes: Mapping[str, Push],
+    runs: Sequence[Run],
+    detections: Detections,
+    table_dir: Path,
+) -> None:
     """Write contact_points.csv, .tex and .md: medians over collisions of what `contacts_of` says of them.
 
     Quantities are the distance to the true point [cm], its parts in the axes of the body that was hit, the distance
@@ -44,7 +51,9 @@ def contact_points(
     write_contacts(table_dir / "contact_points", settings, statistics, found)
 
 
-def write_contacts(stem: Path, settings: ContactPoints, statistics: Statistics, found: Sequence[Found]) -> None:
+def write_contacts(
+    stem: Path, settings: ContactPoints, statistics: Statistics, found: Sequence[ContactDeviation]
+) -> None:
     """Write the three files of the table from what each line says of each collision."""
     rows: list[Sequence[Field]] = []
     lines: list[Line] = []
@@ -54,8 +63,9 @@ def write_contacts(stem: Path, settings: ContactPoints, statistics: Statistics, 
             own = [one for one in found if one.line == title and cell in (one.cell, ALL)]
             numbers[cell] = {name: median_of(values, statistics, unit) for name, unit, values in _values(own)}
             place = settings.level, title, "+".join(settings.legs), settings.kind, cell
-            rows += [(*place, name, *number.with_ends, len(own), number.unit, None)
-                     for name, number in numbers[cell].items()]  # fmt: skip
+            rows += [
+                (*place, name, *number.with_ends, len(own), number.unit, None) for name, number in numbers[cell].items()
+            ]
         lines += [RULE] if title == NAMED else []
         lines.append([title, *_texts(numbers)])
     # the guesses are of every collision; a line has none of those in which it finds no contact
@@ -63,13 +73,18 @@ def write_contacts(stem: Path, settings: ContactPoints, statistics: Statistics, 
     counts = [str(hit.count(cell)) for cell in CELLS]
     lines = [["collisions", str(len(hit)), "", *counts, "", "", ""], RULE, *lines]
     header = [
-        "Point from", "error [cm]", f"{statistics.confidence:.0%}", *(f"{cell} [cm]" for cell in CELLS),
-        "expected [cm]", "force [%]", "angle [deg]",
-    ]  # fmt: skip
+        "Point from",
+        "error [cm]",
+        f"{statistics.confidence:.0%}",
+        *(f"{cell} [cm]" for cell in CELLS),
+        "expected [cm]",
+        "force [%]",
+        "angle [deg]",
+    ]
     write_table(stem, Table(DETECTION, rows, header, lines))
 
 
-def _values(found: Sequence[Found]) -> Iterator[tuple[str, str, list[float]]]:
+def _values(found: Sequence[ContactDeviation]) -> Iterator[tuple[str, str, list[float]]]:
     """Yield name, unit and values of each quantity of some collisions."""
     yield ERROR, "cm", [CM * float(np.linalg.norm(one.error_m)) for one in found]
     for axis, name in enumerate("xyz"):

@@ -14,9 +14,14 @@ from mobnet.settings.networks import Limb
 
 
 def coverage(
-    settings: Coverage, layout: JointLayout, ports: Limb, statistics: Statistics,
-    training: Mapping[str, Sequence[Path]], tests: Sequence[Sequence[Path]], table_dir: Path,
-) -> None:  # fmt: skip
+    settings: Coverage,
+    layout: JointLayout,
+    ports: Limb,
+    statistics: Statistics,
+    training: Mapping[str, Sequence[Path]],
+    tests: Sequence[Sequence[Path]],
+    table_dir: Path,
+) -> None:
     """Write coverage.csv and, joints together only, coverage.tex and .md.
 
     `training` has the recordings `without RTE` and those of each exploration with which they are compared, such as
@@ -28,10 +33,19 @@ def coverage(
             rows = covered(settings, layout, ports, statistics, explored, training[WITHOUT], tests)
             compared += [(name, row) for row in rows]
     records = [
-        (name, row.scenario, row.level, row.measure, row.joint, row.block_count, row.with_rte, row.without_rte,
-         *row.ratio.with_ends)
+        (
+            name,
+            row.scenario,
+            row.level,
+            row.measure,
+            row.joint,
+            row.block_count,
+            row.with_rte,
+            row.without_rte,
+            *row.ratio.with_ends,
+        )
         for name, row in compared
-    ]  # fmt: skip
+    ]
     header = ["Training", "Test", "Level", "Measure", "With", "Without", "Ratio", f"{statistics.confidence:.0%}"]
     lines = coverage_lines([(name, row) for name, row in compared if row.joint == ALL])
     write_table(table_dir / "coverage", Table(COVERAGE, records, header, lines, left=4))

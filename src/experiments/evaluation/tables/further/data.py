@@ -36,9 +36,16 @@ Facts = Mapping[tuple[str, str, str], Number]  # set, quantity, part (empty: the
 
 
 def data(
-    settings: DataTable, robot: RobotTable, walking: Walking, commands: Commands, terrain: Terrain,
-    recording: RecordingSettings, published: PublishedData, sets: Mapping[str, Sequence[Path]], table_dir: Path,
-) -> None:  # fmt: skip
+    settings: DataTable,
+    robot: RobotTable,
+    walking: Walking,
+    commands: Commands,
+    terrain: Terrain,
+    recording: RecordingSettings,
+    published: PublishedData,
+    sets: Mapping[str, Sequence[Path]],
+    table_dir: Path,
+) -> None:
     """Write data.csv, .tex and .md: what the recordings of each set hold, beside what the paper says of them.
 
     The text leaves out single joints, and sets that it is not asked to show.

@@ -7,12 +7,10 @@ from pathlib import Path
 import numpy as np
 
 from experiments.evaluation.compare.rmse import PERCENT
-from experiments.evaluation.number.averages import Column, columns_of
-from experiments.evaluation.number.files import Field
-from experiments.evaluation.number.grid import Wanted, run_grid
+from experiments.evaluation.number.grid import Column, Wanted, columns_of, run_grid
 from experiments.evaluation.number.intervals import Array, Formula, RunGrid, summarise
 from experiments.evaluation.number.number import Number
-from experiments.evaluation.number.rows import read_scores
+from experiments.evaluation.number.rows import Field, read_scores
 from experiments.evaluation.tables.layout import RULE, Line, Table, write_table
 from experiments.settings.runs import Statistics
 from experiments.settings.tables import BudgetRow, ErrorBudget
@@ -28,9 +26,12 @@ Cells = Mapping[tuple[str, str, str, str], Number]  # scenario, level, method, M
 
 
 def error_budget(
-    settings: ErrorBudget, statistics: Statistics, layout: JointLayout, scores: Sequence[Path],
+    settings: ErrorBudget,
+    statistics: Statistics,
+    layout: JointLayout,
+    scores: Sequence[Path],
     table_dir: Path,
-) -> None:  # fmt: skip
+) -> None:
     """Write error_budget.csv, .tex and .md: RMSE [N m] of joints with one source of error off, and the share [%] gone.
 
     The first test of `settings` has every source on.

@@ -5,8 +5,8 @@ from dataclasses import astuple
 from pathlib import Path
 from statistics import median_low
 
-from experiments.evaluation.measure.detection.results import rate_of
-from experiments.evaluation.number.files import Field
+from experiments.evaluation.number.rows import Field
+from experiments.evaluation.number.single import rate_of
 from experiments.evaluation.tables.layout import Table, write_table
 from experiments.settings.runs import Statistics
 from mobnet.core.columns import FALLEN, Falls
@@ -25,6 +25,7 @@ def falls(counted: Sequence[Path], statistics: Statistics, out: Path) -> None:
     """
     by_robot = [read_rows(path, Falls) for path in counted]
     together: list[Falls] = []
+    # Every robot walked with the same torques in the same order, so that rows of one place belong together.
     for own in zip(*by_robot, strict=True):
         walked_s = sum(row.walked_s for row in own)
         together.append(Falls(ALL, own[0].amplitude_nm, walked_s, sum(row.falls for row in own)))

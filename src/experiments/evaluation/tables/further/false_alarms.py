@@ -1,6 +1,6 @@
 """False alarms of detectors: what was promised, and what was measured in walks that calibrated nothing."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from experiments.evaluation.measure.detection.results import (
@@ -9,12 +9,12 @@ from experiments.evaluation.measure.detection.results import (
     alarms_in,
     hours_per_swing,
     owners,
-    rate_of,
     rows_of,
-)  # fmt: skip
-from experiments.evaluation.number.files import Field
+)
 from experiments.evaluation.number.number import Number
-from experiments.evaluation.tables.layout import RULE, Line, Table, write_table
+from experiments.evaluation.number.rows import Field
+from experiments.evaluation.number.single import rate_of
+from experiments.evaluation.tables.rows import NumberRow, Rows, View, ViewColumn
 from experiments.settings.detection_tables import AlarmTable
 from experiments.settings.runs import Statistics
 from mobnet.core.columns import DETECTION
@@ -26,6 +26,7 @@ PROMISED = "promised"
 MEASURED = "measured"
 WITHIN = "within"
 RANDOM, BETWEEN, COUNTED = "random", "between pushes", "held out"  # cells; the last one is the first two together
+PLACE = "in place"
 Cells = Mapping[str, Sequence[FreeSwing]]
 
 
@@ -38,27 +39,41 @@ def false_alarms(
     counted on swings held out, those between the collisions of a walk included, with the interval of Poisson's law.
     `within` says whether a number of false alarms was measured that the promised interval allows.
     """
-    rows: list[Sequence[Field]] = []
-    lines: list[Line] = []
+    rows = Rows(DETECTION)
     for level in settings.levels:
         names = owners(detections, level, settings.levels)
         leg = settings.leg
         swings = rows_of(detections, names, "swings", FreeSwing, leg=leg)
         promises = rows_of(detections, names, "promises", Promise, leg=leg)
-        lines += [RULE] if lines else []
         for name in settings.detectors:
             own = [row for row in promises if row.detector == name]
             if own:
                 cells = cells_of([row for row in swings if row.detector == name], detection)
-                made = list(_rows((level, name, leg), own, cells, statistics))
-                rows += made
-                lines.append(_line(made, level, name))
+                place = {"level": level, "title": level.replace("_", " "), "detector": name, "leg": leg}
+                _add_rates(rows, place, own, cells, statistics)
     share = f"{statistics.confidence:.0%}"
-    header = [
-        "Level", "Detector", "promised", share, "counted", share, "within", BETWEEN,
-        "paper's rule: in place", "random walking", BETWEEN,
-    ]  # fmt: skip
-    write_table(table_dir / "false_alarms", Table(DETECTION, rows, header, lines, left=2))
+    columns = [
+        ViewColumn("promised", _of(COLLISION, ALL, PROMISED), 1, ends=share),
+        ViewColumn("counted", _of(COLLISION, COUNTED), 1, ends=share),
+        ViewColumn("within", _of(COLLISION, COUNTED, WITHIN), text=_yes_or_no),
+        ViewColumn(BETWEEN, _of(COLLISION, BETWEEN), 1),
+        ViewColumn("paper's rule: in place", _of(LARGEST, PLACE), 0),
+        ViewColumn("random walking", _of(LARGEST, RANDOM), 0),
+        ViewColumn(BETWEEN, _of(LARGEST, BETWEEN), 0),
+    ]
+    # the level stands in every line, and a rule between levels
+    view = View({"title": "Level", "detector": "Detector"}, columns, blocks=("level",))
+    rows.write(table_dir / "false_alarms", view)
+
+
+def _of(kind: str, cell: str, quantity: str = MEASURED) -> dict[str, Field]:
+    """Return the fields of a number of a detector."""
+    return {"kind": kind, "cell": cell, "quantity": quantity}
+
+
+def _yes_or_no(row: NumberRow) -> str:
+    """Return whether what was measured is within what was promised."""
+    return "yes" if row.number.value else "no"
 
 
 def cells_of(swings: Sequence[FreeSwing], detection: Detection) -> dict[str, list[FreeSwing]]:
@@ -76,16 +91,16 @@ def cells_of(swings: Sequence[FreeSwing], detection: Detection) -> dict[str, lis
         COUNTED: random + between,
         RANDOM: random,
         **grounds,
-        "in place": [row for row in held if row.scenario == detection.place],
+        PLACE: [row for row in held if row.scenario == detection.place],
         BETWEEN: between,
         CALIBRATION: [row for row in swings if row.part == CALIBRATION and row.scenario == detection.random],
     }
 
 
-def _rows(
-    place: tuple[str, str, str], promises: Sequence[Promise], cells: Cells, statistics: Statistics
-) -> Iterator[Sequence[Field]]:  # fmt: skip
-    """Yield the rows of CSV of a detector: rates by rule and where they were counted."""
+def _add_rates(
+    rows: Rows, place: Mapping[str, Field], promises: Sequence[Promise], cells: Cells, statistics: Statistics
+) -> None:
+    """Add the rates of a detector [1/h], by rule of thresholds and where they were counted."""
     by_kind: dict[str, list[Promise]] = {}
     for row in promises:
         by_kind.setdefault(row.kind, []).append(row)
@@ -93,21 +108,20 @@ def _rows(
     swing_h = hours_per_swing(promises)
     for kind, own in by_kind.items():
         promised = _promised(own)
+        rows.add(promised, **place, **_of(kind, ALL, PROMISED), count=sum(row.swings for row in own))
         # ratios are over the threshold for one false alarm an hour, of which that of another kind is a multiple
         over = _mean([row.factor for row in own]) / _mean([row.factor for row in of_collision])
-        yield (*place, kind, ALL, PROMISED, *promised.with_ends, sum(row.swings for row in own), "1/h", None)
         for cell, swings in cells.items():
             hours = len(swings) * swing_h
             alarms = alarms_in(swings, over)
-            measured = rate_of(alarms, hours, statistics)
-            yield (*place, kind, cell, MEASURED, *measured.with_ends, alarms, "1/h", None)
+            rows.add(rate_of(alarms, hours, statistics), **place, **_of(kind, cell), count=alarms)
             if cell in (COUNTED, RANDOM, BETWEEN):
-                yield (*place, kind, cell, WITHIN, _is_within(promised, hours, alarms, statistics), None, None,
-                       len(swings), "-", None)  # fmt: skip
+                within = Number(_is_within(promised, hours, alarms, statistics))
+                rows.add(within, **place, **_of(kind, cell, WITHIN), count=len(swings))
     for cell, swings in cells.items():
         alarms = sum(row.ratio_largest > 1.0 for row in swings)
         measured = rate_of(alarms, len(swings) * swing_h, statistics)
-        yield (*place, LARGEST, cell, MEASURED, *measured.with_ends, alarms, "1/h", None)
+        rows.add(measured, **place, **_of(LARGEST, cell), count=alarms)
 
 
 def _promised(promises: Sequence[Promise]) -> Number:
@@ -115,7 +129,7 @@ def _promised(promises: Sequence[Promise]) -> Number:
     rate = _mean([row.rate_per_h for row in promises])
     low = _mean([row.low for row in promises])
     high = _mean([row.high for row in promises])
-    return Number(rate, low, high)
+    return Number(rate, low, high, unit="1/h")
 
 
 def _is_within(promised: Number, hours: float, alarms: int, statistics: Statistics) -> float:
@@ -123,23 +137,6 @@ def _is_within(promised: Number, hours: float, alarms: int, statistics: Statisti
     rate = Calibrated(0.0, promised.value or 0.0, promised.low or 0.0, promised.high or 0.0)
     low, high = expected_counts(rate, hours, statistics.confidence)
     return float(low <= alarms <= high)
-
-
-def _line(rows: Sequence[Sequence[Field]], level: str, name: str) -> list[str]:
-    """Return the line of a detector in the texts."""
-    found = {row[3:6]: row for row in rows}
-
-    def number(kind: str, cell: str, quantity: str = MEASURED) -> Number:
-        value, low, high = (None if isinstance(field, str) else field for field in found[kind, cell, quantity][6:9])
-        return Number(value, low, high)
-
-    promised = number(COLLISION, ALL, PROMISED)
-    counted = number(COLLISION, COUNTED)
-    within = "yes" if number(COLLISION, COUNTED, WITHIN).value else "no"
-    paper = [number(LARGEST, cell).text(0) for cell in ("in place", RANDOM, BETWEEN)]
-    between = number(COLLISION, BETWEEN).text(1)
-    return [level.replace("_", " "), name, promised.text(1), promised.interval(1), counted.text(1), counted.interval(1),
-            within, between, *paper]  # fmt: skip
 
 
 def _mean(values: Sequence[float]) -> float:

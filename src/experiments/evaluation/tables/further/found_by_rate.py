@@ -11,9 +11,9 @@ from experiments.evaluation.measure.detection.results import (
     mean_of,
     shown_tries,
 )
-from experiments.evaluation.number.files import Field
 from experiments.evaluation.number.number import Number
-from experiments.evaluation.tables.layout import Table, in_blocks, percent, write_table
+from experiments.evaluation.tables.layout import percent
+from experiments.evaluation.tables.rows import Rows, View, ViewColumn
 from experiments.settings.detection_tables import FoundByRate
 from experiments.settings.runs import Statistics
 from mobnet.core.columns import DETECTION
@@ -34,33 +34,31 @@ def found_by_rate(
     """
     rates = sorted(detection.thresholds.rates_per_h.items(), key=lambda row: row[1])
     tries = {kind: dict(shown_tries(settings, detections, detection.collisions, kind)) for kind, _ in rates}
-    rows: list[Sequence[Field]] = []
-    blocks: list[tuple[list[str], list[list[str]]]] = []
+    rows = Rows(DETECTION)
+    for level in settings.levels:
+        for name in tries[rates[0][0]][level]:
+            for kind, _ in rates:
+                own = tries[kind][level][name]
+                place = {"level": level, "detector": name, "leg": settings.leg, "kind": kind, "cell": ALL}
+                late = mean_of(own, delay_of, statistics)
+                rows.add(found_share(own, statistics), **place, quantity=FOUND, count=len(own))
+                rows.add(late, **place, quantity=DELAY, count=sum(one.is_found for one in own))
     sentences: list[str] = []
     for level in settings.levels:
         shares = dict[str, list[Number]]()
-        lines = list[list[str]]()
         for name in tries[rates[0][0]][level]:
-            lines.append([name])
-            for kind, _ in rates:
-                own = tries[kind][level][name]
-                found = found_share(own, statistics)
-                late = mean_of(own, delay_of, statistics)
-                place = level, name, settings.leg, kind, ALL
-                rows.append((*place, FOUND, *found.with_ends, len(own), "-", None))
-                rows.append((*place, DELAY, *late.with_ends, sum(one.is_found for one in own), "ms", None))
-                lines[-1] += [found.text(), found.interval(), late.text(1)]
-                shares.setdefault(name, []).append(found)
-        shown = level.replace("_", " ")
-        blocks.append(([shown], lines))
+            shares[name] = [rows.number(level=level, detector=name, kind=kind, quantity=FOUND) for kind, _ in rates]
         if shares:
-            sentences.append(f"{shown.capitalize()}: {gain_text([rate for _, rate in rates], shares, settings.beside)}")
+            gain = gain_text([rate for _, rate in rates], shares, settings.beside)
+            sentences.append(f"{level.replace('_', ' ').capitalize()}: {gain}")
     share = f"{statistics.confidence:.0%}"
-    heads: list[str] = []
-    for _, rate in rates:
-        heads += [f"found at {rate:g}/h", share, "delay [ms]"]
-    table = Table(DETECTION, rows, ["Level", "Detector", *heads], in_blocks(blocks), left=2, note=" ".join(sentences))
-    write_table(table_dir / "found_by_rate", table)
+    columns: list[ViewColumn] = []
+    for kind, rate in rates:
+        columns.append(ViewColumn(f"found at {rate:g}/h", {"kind": kind, "quantity": FOUND}, ends=share))
+        columns.append(ViewColumn("delay [ms]", {"kind": kind, "quantity": DELAY}, digits=1))
+    labels = {"level": "Level", "detector": "Detector"}
+    view = View(labels, columns, blocks=("level",), note=" ".join(sentences))
+    rows.write(table_dir / "found_by_rate", view)
 
 
 def gain_text(rates: Sequence[float], shares: Shares, beside: str) -> str:

@@ -4,10 +4,9 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
 from experiments.evaluation.measure.estimates.changed import FLAGS, HOUR_S, WATCHED
-from experiments.evaluation.number.grid import Wanted
-from experiments.evaluation.number.lookup import AVERAGE, Lookup, read_lookup
-from experiments.evaluation.number.single import rate
-from experiments.evaluation.tables.layout import Table, write_table
+from experiments.evaluation.number.grid import AVERAGE, Lookup, Wanted, read_lookup
+from experiments.evaluation.number.single import rate_of
+from experiments.evaluation.tables.rows import Rows, View, ViewColumn, field_text
 from experiments.settings.measures import Changed
 from experiments.settings.runs import LegRuns, Statistics
 from experiments.settings.tables import Hourly
@@ -22,20 +21,26 @@ Counted = tuple[str, str, str, float, int]  # event, walks, method, time [h], nu
 
 
 def hourly(
-    settings: Hourly, changed: Changed, statistics: Statistics, walks: Mapping[str, Sequence[Path]],
-    scores: Sequence[Path], table_dir: Path,
-) -> None:  # fmt: skip
+    settings: Hourly,
+    changed: Changed,
+    statistics: Statistics,
+    walks: Mapping[str, Sequence[Path]],
+    scores: Sequence[Path],
+    table_dir: Path,
+) -> None:
     """Write hourly.csv, .tex and .md: how often a robot falls and the check is wrong, counted and in an hour [1/h]."""
     tests = {title: changed.tests[title] for title in settings.known}
-    rows = [*falls(walks), *flags(read_lookup(scores, statistics), tests)]
-    records = []
-    lines = []
-    for event, walked, method, hours, count in rows:
-        found = rate(count, hours, statistics)
-        records.append((event, walked, method, hours, count, *found.with_ends, found.unit))
-        lines.append([event, walked, method, f"{hours:.2f}", str(count), found.text(), found.interval()])
-    header = ["Event", "Walks", "Method", "Hours", "Events", "In an hour", f"{statistics.confidence:.0%}"]
-    write_table(table_dir / "hourly", Table(HOURLY, records, header, lines, left=3))
+    rows = Rows(HOURLY)
+    for event, walked, method, hours, count in (*falls(walks), *flags(read_lookup(scores, statistics), tests)):
+        found = rate_of(count, hours, statistics)
+        rows.add(found, event=event, walks=walked, method=method, hours=hours, count=count)
+    columns = [
+        ViewColumn("Hours", text=field_text("hours", ".2f")),
+        ViewColumn("Events", text=field_text("count")),
+        ViewColumn("In an hour", ends=f"{statistics.confidence:.0%}"),
+    ]
+    labels = {"event": "Event", "walks": "Walks", "method": "Method"}
+    rows.write(table_dir / "hourly", View(labels, columns))
 
 
 def falls(walks: Mapping[str, Sequence[Path]]) -> Iterator[Counted]:

@@ -15,9 +15,9 @@ from experiments.evaluation.measure.learning.trainings import (
     read_trainings,
     sound,
 )
-from experiments.evaluation.number.files import Field
 from experiments.evaluation.number.intervals import RunGrid, summarise
 from experiments.evaluation.number.number import Number, number_text
+from experiments.evaluation.number.rows import Field
 from experiments.evaluation.tables.layout import GAP, RULE, Line, Table, with_intervals, write_table
 from experiments.settings.figures import Figure17
 from experiments.settings.published import PublishedKinds
@@ -26,17 +26,32 @@ from experiments.settings.tables import Kinds
 from mobnet.core.columns import KINDS
 
 ORDERED_BY = "validation loss"
-HEADER = ["Order", "Paper", "Network", "Parameters", "Paper", "Runs", "Val. loss", "RMSE [N m]",
-          "On windows", "Train. loss, end", "Val. loss, end"]  # fmt: skip
+HEADER = [
+    "Order",
+    "Paper",
+    "Network",
+    "Parameters",
+    "Paper",
+    "Runs",
+    "Val. loss",
+    "RMSE [N m]",
+    "On windows",
+    "Train. loss, end",
+    "Val. loss, end",
+]
 LEFT = 3  # columns of text
 
 Traits = Mapping[str, Number]  # `order`, `parameters`, `runs`, `diverged` or a name of `MEASURES` -> of a kind
 
 
 def kinds(
-    settings: Kinds, figure_17: Figure17, statistics: Statistics, published: PublishedKinds,
-    folders: Sequence[Path], table_dir: Path,
-) -> None:  # fmt: skip
+    settings: Kinds,
+    figure_17: Figure17,
+    statistics: Statistics,
+    published: PublishedKinds,
+    folders: Sequence[Path],
+    table_dir: Path,
+) -> None:
     """Write kinds.csv, .tex and .md: mean over runs of loss (22) [-] and RMSE [N m], best kind first.
 
     The kinds of Figure 17, which are the paper's, stand in an order of their own by each of its recipes; below them

@@ -5,8 +5,8 @@ from pathlib import Path
 
 import numpy as np
 
-from experiments.evaluation.number.number import number_text
-from experiments.evaluation.tables.layout import Table, in_blocks, write_table
+from experiments.evaluation.number.number import Number
+from experiments.evaluation.tables.rows import Rows, View, ViewColumn
 from experiments.settings.tables import LabelError
 from mobnet.core.arrays import Array
 from mobnet.core.columns import EXTERNAL_LP, FEET, LABEL_ERROR, foot_of, named
@@ -17,7 +17,7 @@ from mobnet.estimation.label import foot_label
 from mobnet.estimation.observe import read_wrenches
 from mobnet.robot.description import describe
 from mobnet.robot.nominal import NominalModel
-from mobnet.settings.methods import Observer
+from mobnet.settings.methods import ObserverSettings
 from mobnet.settings.robot import RobotTable
 
 LABELS = {"as read": False, "without the plate": True}  # label -> whether the plate's inertia is taken off
@@ -26,9 +26,13 @@ AVERAGE = "avg"
 
 
 def label_error(
-    settings: LabelError, robot: RobotTable, observer: Observer, layout: JointLayout,
-    walks: Mapping[str, tuple[Path, Path]], table_dir: Path,
-) -> None:  # fmt: skip
+    settings: LabelError,
+    robot: RobotTable,
+    observer: ObserverSettings,
+    layout: JointLayout,
+    walks: Mapping[str, tuple[Path, Path]],
+    table_dir: Path,
+) -> None:
     """Write label_error.csv, .tex and .md: RMSE of the labels of a leg's joints [N m] in a walk of each robot.
 
     `walks` has a recording of each robot, with labels by foot sensors, and its residual.
@@ -48,23 +52,16 @@ def label_error(
             square = (torque[:, columns] - truth) ** 2
             for phase, rows in zip(PHASES, (np.ones_like(air), air, ~air), strict=True):
                 found[owner, label, phase] = np.sqrt(square[rows].mean(axis=0))
-    records: list[tuple[str, str, str, str, float, str]] = []
-    for key, values in found.items():
-        records += [(*key, joint, value, "N m") for joint, value in with_mean(joints, values)]
-    header = ["Robot", "Label", *joints, AVERAGE, *(f"{AVERAGE}, {phase}" for phase in (SWING, GROUND))]
-    blocks: list[tuple[list[str], list[list[str]]]] = []
-    for owner in walks:
-        lines = [line(found, owner, label) for label in LABELS]
-        blocks.append(([owner.replace("_", " ")], lines))
-    write_table(table_dir / "label_error", Table(LABEL_ERROR, records, header, in_blocks(blocks), left=2))
+    rows = Rows(LABEL_ERROR)
+    for (owner, label, phase), values in found.items():
+        for joint, value in with_mean(joints, values):
+            rows.add(Number(value, unit="N m"), robot=owner, label=label, phase=phase, joint=joint)
+    columns = [ViewColumn(joint, {"phase": WALK, "joint": joint}) for joint in (*joints, AVERAGE)]
+    columns += [ViewColumn(f"{AVERAGE}, {phase}", {"phase": phase, "joint": AVERAGE}) for phase in (SWING, GROUND)]
+    view = View({"robot": "Robot", "label": "Label"}, columns, blocks=("robot",))
+    rows.write(table_dir / "label_error", view)
 
 
 def with_mean(joints: Sequence[str], values: Array) -> list[tuple[str, float]]:
     """Return joints with their values (n,), and their mean."""
     return [*zip(joints, values.tolist(), strict=True), (AVERAGE, float(values.mean()))]
-
-
-def line(found: Mapping[tuple[str, str, str], Array], owner: str, label: str) -> list[str]:
-    """Return the cells of a robot's label: errors of the joints in the walk, and means of it and its phases [N m]."""
-    means = [float(found[owner, label, phase].mean()) for phase in PHASES]
-    return [label, *(number_text(value) for value in (*found[owner, label, WALK].tolist(), *means))]

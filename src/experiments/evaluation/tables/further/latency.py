@@ -26,9 +26,14 @@ MS = 1e3
 
 
 def latency(
-    settings: Latency, statistics: Statistics, rates: Rates, layout: JointLayout, seed: int,
-    networks: Mapping[str, Path], table_dir: Path,
-) -> None:  # fmt: skip
+    settings: Latency,
+    statistics: Statistics,
+    rates: Rates,
+    layout: JointLayout,
+    seed: int,
+    networks: Mapping[str, Path],
+    table_dir: Path,
+) -> None:
     """Write latency.csv, .tex and .md: the share of stretches of ticks whose median is within a tick [-].
 
     A tick is the time between two samples.

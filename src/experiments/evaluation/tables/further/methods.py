@@ -5,11 +5,10 @@ from dataclasses import replace
 from pathlib import Path
 
 from experiments.evaluation.compare.rmse import RAW
-from experiments.evaluation.number.files import Field
-from experiments.evaluation.number.grid import Wanted
-from experiments.evaluation.number.lookup import AVERAGE, Lookup, read_lookup
+from experiments.evaluation.number.grid import AVERAGE, Lookup, Wanted, read_lookup
 from experiments.evaluation.number.number import Number
 from experiments.evaluation.number.quantities import CUT
+from experiments.evaluation.number.rows import Field
 from experiments.evaluation.tables.layout import Line, Table, in_blocks, long_table, write_table
 from experiments.settings.runs import Statistics
 from experiments.settings.tables import MethodsRow
@@ -76,9 +75,11 @@ def number_of(lookup: Lookup, test: MethodsRow, method: str, metric: str, place:
 
 
 def method_lines(
-    settings: Sequence[MethodsRow], rows: Mapping[Row, Mapping[Place, Number]], places: Sequence[Place],
+    settings: Sequence[MethodsRow],
+    rows: Mapping[Row, Mapping[Place, Number]],
+    places: Sequence[Place],
     confidence: float,
-) -> list[Line]:  # fmt: skip
+) -> list[Line]:
     """Return the rows of text, test by test: errors [N m] with intervals, errors against the raw truth, and skill.
 
     A test that does not ask for a place, a limb and a joint, has a dash there.

@@ -8,8 +8,7 @@ import math
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from experiments.evaluation.number.averages import Column, columns_of
-from experiments.evaluation.number.grid import Wanted, number_of
+from experiments.evaluation.number.grid import Column, Wanted, columns_of, number_of
 from experiments.evaluation.number.number import Number, number_text, published_row
 from experiments.evaluation.number.rows import read_scores
 from experiments.evaluation.tables.layout import RULE, Line, Table, write_table
@@ -26,9 +25,13 @@ Readings = Mapping[str, tuple[Sequence[Number], Mapping[str, Number]]]  # label 
 
 
 def noise(
-    settings: NoiseTable, statistics: Statistics, layout: JointLayout, printed: Mapping[str, PublishedTable],
-    scores: Sequence[Path], table_dir: Path,
-) -> None:  # fmt: skip
+    settings: NoiseTable,
+    statistics: Statistics,
+    layout: JointLayout,
+    printed: Mapping[str, PublishedTable],
+    scores: Sequence[Path],
+    table_dir: Path,
+) -> None:
     """Write noise.csv, .tex and .md: RMSE [N m] of each joint by reading, V1..V3 [N], and each reading's factors [-].
 
     Raises:
@@ -37,6 +40,7 @@ def noise(
     read = read_scores(*scores)
     columns = columns_of(layout, settings.joints)
     readings = {}
+    # A reading of the noise is a level of its own, with one method.
     records = []
     for test in settings.tests:
         run = test.scenario, test.level, test.methods[0]

@@ -1,15 +1,16 @@
 """Table of pushes: how much of them an estimate shows, and how late."""
 
 from collections.abc import Sequence
-from functools import partial
 from pathlib import Path
 
 from experiments.evaluation.measure.estimates.peaks import DELAY, OBSERVER, SHARE
-from experiments.evaluation.number.lookup import Lookup, read_lookup
+from experiments.evaluation.number.grid import Lookup, read_lookup
 from experiments.evaluation.number.number import Number
-from experiments.evaluation.tables.layout import write_measured
+from experiments.evaluation.tables.layout import Table, in_blocks, write_table
+from experiments.evaluation.tables.rows import measured
 from experiments.settings.measures import Peaks
 from experiments.settings.runs import LimbRuns, Statistics
+from mobnet.core.columns import METHODS
 from mobnet.core.joints import JointLayout
 
 REFERENCE = "low-pass of (11)"  # what a residual without any error would show
@@ -24,11 +25,14 @@ def peaks(
     that the pushes turn.
     """
     lookup = read_lookup(scores, statistics)
-    metrics = [SHARE, DELAY, DELAY + OBSERVER]
     tests = [(test.scenario.replace("_", " "), test) for test in settings.tests]
     confidence = f"{statistics.confidence:.0%}"
     header = ["Push", "Limb", "Method", "Share", confidence, "Delay [ms]", confidence]
-    write_measured(table_dir / "peaks", lookup, layout, tests, metrics, header, partial(lines_of, lookup))
+    rows = measured(lookup, layout, tests, [SHARE, DELAY, DELAY + OBSERVER])
+    blocks: list[tuple[list[str], list[list[str]]]] = []
+    for title, test in tests:
+        blocks += [([title, limb], lines_of(lookup, test, limb)) for limb in test.limbs]
+    write_table(table_dir / "peaks", Table(METHODS, rows.records, header, in_blocks(blocks), left=3))
 
 
 def lines_of(lookup: Lookup, test: LimbRuns, limb: str) -> list[list[str]]:

@@ -5,10 +5,10 @@ from pathlib import Path
 
 from experiments.evaluation.compare.masks import MOVING, STUCK
 from experiments.evaluation.compare.scene import STANCE, SWINGING, TOUCH_DOWN
-from experiments.evaluation.number.lookup import read_lookup
-from experiments.evaluation.tables.layout import write_measured
+from experiments.evaluation.number.grid import read_lookup
+from experiments.evaluation.tables.rows import ViewColumn, average, by_limb, measured
 from experiments.settings.measures import Phases
-from experiments.settings.runs import LimbRuns, Statistics
+from experiments.settings.runs import Statistics
 from mobnet.core.joints import JointLayout
 
 WHOLE = "rmse"
@@ -16,20 +16,12 @@ PARTS = {SWINGING: "swing", TOUCH_DOWN: "touch-down", STANCE: "stance", STUCK: "
 
 
 def phases(
-    settings: Phases, layout: JointLayout, statistics: Statistics, scores: Sequence[Path],
-    table_dir: Path,
-) -> None:  # fmt: skip
+    settings: Phases, layout: JointLayout, statistics: Statistics, scores: Sequence[Path], table_dir: Path
+) -> None:
     """Write phases.csv, with every joint and intervals, and phases.tex and .md: RMSE [N m] in parts of a walk."""
     lookup = read_lookup(scores, statistics)
-    metrics = [WHOLE, *(f"{WHOLE}_{part}" for part in PARTS)]
-
-    def lines_of(test: LimbRuns, limb: str) -> list[list[str]]:
-        lines = []
-        for name in test.methods:
-            errors = [lookup.average(test, name, limb, metric) for metric in metrics]
-            lines.append([name, *(error.text() for error in errors)])
-        return lines
-
     tests = [(test.scenario.replace("_", " "), test) for test in settings.tests]
-    header = ["Test", "Limb", "Method", "all", *PARTS.values()]
-    write_measured(table_dir / "phases", lookup, layout, tests, metrics, header, lines_of)
+    shown = {WHOLE: "all", **{f"{WHOLE}_{part}": head for part, head in PARTS.items()}}
+    rows = measured(lookup, layout, tests, list(shown))
+    columns = [ViewColumn(head, average(metric)) for metric, head in shown.items()]
+    rows.write(table_dir / "phases", by_limb("Test", columns))

@@ -1,6 +1,5 @@
 """What a reaction is worth: falls, forces and impulses of robots that walk into obstacles."""
 
-from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from experiments.evaluation.measure.detection.results import MS
@@ -19,17 +18,13 @@ from experiments.evaluation.measure.reaction.results import (
     outcome_of,
     printed_of,
     read_trials,
-)  # fmt: skip
-from experiments.evaluation.number.files import Field
-from experiments.evaluation.number.number import Number
-from experiments.evaluation.tables.layout import RULE, Line, Table, write_table
+)
+from experiments.evaluation.tables.rows import Rows, View, ViewColumn, field_text
 from experiments.plan.reactions import Reactions
 from experiments.settings.published import PublishedContacts
 from experiments.settings.reaction_tables import Safety
 from experiments.settings.runs import Statistics
 from mobnet.core.columns import SAFETY
-
-DIGITS = {FALLS: 2, PEAK: 0, FIRST: 1, IMPULSE: 1, MEDIAN: 1, HEAVY: 2, ALARM: 0, WITHIN: 2, BASE_WITHIN: 2, EARLY: 2}
 
 
 def safety(
@@ -41,35 +36,36 @@ def safety(
     the alarm [ms] and directions are of walks that met the obstacle before any reaction. Intervals are over robots and
     walks.
     """
-    rows: list[Sequence[Field]] = []
-    lines: list[Line] = []
-    before = ""
+    rows = Rows(SAFETY)
     for (case, detector, rule, wait_s, *_), trials in groups_of(read_trials(reactions, settings.cases)).items():
         outcome = outcome_of(trials, settings, statistics)
+        line = f"{detector}, {MS * wait_s:.0f} ms later" if wait_s else detector
+        place = {
+            "case": case,
+            "detector": detector,
+            "thresholds": rule,
+            "wait_s": wait_s,
+            "line": line,
+            "walks": outcome.walks,
+            "touched": outcome.touched,
+        }
+        hit = f"{outcome.touched} of {outcome.walks}"
         for measure, number in outcome.numbers.items():
             printed = printed_of(published, case, measure)
-            counts = outcome.walks, outcome.touched
-            rows.append((case, detector, rule, wait_s, measure, *number.with_ends, *counts, number.unit, printed))
-        lines += [RULE] if before and before != case else []
-        numbers = [f"{outcome.touched} of {outcome.walks}", *_texts(outcome.numbers)]
-        later = f"{detector}, {MS * wait_s:.0f} ms later" if wait_s else detector
-        lines.append([case if case != before else "", later, rule, *numbers])
-        before = case
+            rows.add(number, **place, hit=hit, measure=measure, published=printed)
     share = f"{statistics.confidence:.0%}"
-    header = [
-        "Case", "Detector", "thresholds", "touched", "falls", share, "first peak [N]", share, "its impulse [N s]",
-        "all contacts [N s]", share, "median", f"above {settings.heavy_ns:g} N s", "alarm [ms]",
-        f"within {settings.within_deg:g} deg", "by (24)", "before contact",
-    ]  # fmt: skip
-    write_table(table_dir / "safety", Table(SAFETY, rows, header, lines, left=3))
-
-
-def _texts(numbers: Mapping[str, Number]) -> list[str]:
-    """Return the cells of a line."""
-    with_interval = (FALLS, PEAK, IMPULSE)
-    found = list[str]()
-    for measure, number in numbers.items():
-        found.append(number.text(DIGITS[measure]))
-        if measure in with_interval:
-            found.append(number.interval(DIGITS[measure]))
-    return found
+    columns = [
+        ViewColumn("touched", text=field_text("hit")),
+        ViewColumn("falls", {"measure": FALLS}, ends=share),
+        ViewColumn("first peak [N]", {"measure": PEAK}, 0, ends=share),
+        ViewColumn("its impulse [N s]", {"measure": FIRST}, 1),
+        ViewColumn("all contacts [N s]", {"measure": IMPULSE}, 1, ends=share),
+        ViewColumn("median", {"measure": MEDIAN}, 1),
+        ViewColumn(f"above {settings.heavy_ns:g} N s", {"measure": HEAVY}),
+        ViewColumn("alarm [ms]", {"measure": ALARM}, 0),
+        ViewColumn(f"within {settings.within_deg:g} deg", {"measure": WITHIN}),
+        ViewColumn("by (24)", {"measure": BASE_WITHIN}),
+        ViewColumn("before contact", {"measure": EARLY}),
+    ]
+    labels = {"case": "Case", "line": "Detector", "thresholds": "thresholds"}
+    rows.write(table_dir / "safety", View(labels, columns, blocks=("case",)))

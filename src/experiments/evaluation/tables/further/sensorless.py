@@ -1,11 +1,18 @@
 """Walking with what is estimated in place of force sensors: falls, reactions to nothing, the base's velocity."""
 
-from collections.abc import Sequence
 from pathlib import Path
 
-from experiments.evaluation.measure.reaction.results import groups_of, read_trials, walked_of
-from experiments.evaluation.number.files import Field
-from experiments.evaluation.tables.layout import Line, Table, write_table
+from experiments.evaluation.measure.reaction.results import (
+    FALLEN,
+    POWER,
+    REACTED,
+    TRACKING,
+    VELOCITY,
+    groups_of,
+    read_trials,
+    walked_of,
+)
+from experiments.evaluation.tables.rows import NumberRow, Rows, View, ViewColumn, field_text
 from experiments.plan.reactions import Reactions
 from experiments.settings.reaction_tables import Sensorless
 from experiments.settings.runs import Statistics
@@ -21,23 +28,37 @@ def sensorless(settings: Sensorless, statistics: Statistics, reactions: Reaction
     base's velocity [mm/s] and of the joints of the leg that swings [mrad], and the power of the motors [W]. Intervals
     are over robots and walks.
     """
-    rows: list[Sequence[Field]] = []
-    lines: list[Line] = []
+    rows = Rows(SENSORLESS)
     for (case, detector, rule, _, wrench, fed), trials in groups_of(read_trials(reactions, settings.cases)).items():
         walked = walked_of(trials, statistics)
-        place = (case, wrench, detector, rule, fed)
-        line = [wrench, detector, rule, f"{fed:g}", f"{MINUTES * walked.hours:.1f}"]
+        place = {
+            "case": case,
+            "wrench": wrench,
+            "detector": detector,
+            "thresholds": rule,
+            "feed_forward": fed,
+            "hours": walked.hours,
+            "walks": len(trials),
+        }
         for event, count in walked.events.items():
-            found = walked.rates[event]
-            rows.append((*place, event, walked.hours, count, *found.with_ends, len(trials), found.unit))
-            line += [str(count), found.text(1), found.interval(1)]
+            rows.add(walked.rates[event], **place, event=event, events=count)
         for name, mean in walked.means.items():
-            rows.append((*place, name, walked.hours, None, *mean.with_ends, len(trials), mean.unit))
-            line.append(mean.text(1))
-        lines.append(line)
+            rows.add(mean, **place, event=name, events=None)
     share = f"{statistics.confidence:.0%}"
-    header = [
-        "Feet's wrench", "Detector", "thresholds", "fed", "minutes", "falls", "in an hour", share, "reactions",
-        "in an hour", share, "base's velocity [mm/s]", "swing leg [mrad]", "power [W]",
-    ]  # fmt: skip
-    write_table(table_dir / "sensorless", Table(SENSORLESS, rows, header, lines, left=3))
+    columns = [
+        ViewColumn("minutes", text=_minutes),
+        ViewColumn("falls", {"event": FALLEN}, text=field_text("events")),
+        ViewColumn("in an hour", {"event": FALLEN}, 1, ends=share),
+        ViewColumn("reactions", {"event": REACTED}, text=field_text("events")),
+        ViewColumn("in an hour", {"event": REACTED}, 1, ends=share),
+        ViewColumn("base's velocity [mm/s]", {"event": VELOCITY}, 1),
+        ViewColumn("swing leg [mrad]", {"event": TRACKING}, 1),
+        ViewColumn("power [W]", {"event": POWER}, 1),
+    ]
+    labels = {"wrench": "Feet's wrench", "detector": "Detector", "thresholds": "thresholds", "feed_forward": "fed"}
+    rows.write(table_dir / "sensorless", View(labels, columns, left=3))
+
+
+def _minutes(row: NumberRow) -> str:
+    """Return for how long the robots of a row walked [min]."""
+    return f"{MINUTES * float(row.place['hours'] or 0.0):.1f}"

@@ -1,16 +1,14 @@
 """The smallest force that detectors find, by what is hit from where."""
 
-from collections.abc import Sequence
 from itertools import product
 from pathlib import Path
 
 import numpy as np
 
 from experiments.evaluation.measure.detection.results import CELLS, Detections, Try, shown_tries
-from experiments.evaluation.measure.detection.smallest_force import smallest_force as force_of
-from experiments.evaluation.number.files import Field
+from experiments.evaluation.measure.detection.results import smallest_force as force_of
 from experiments.evaluation.number.number import Number
-from experiments.evaluation.tables.layout import Table, in_blocks, write_table
+from experiments.evaluation.tables.rows import NumberRow, Rows, View, ViewColumn
 from experiments.settings.detection_tables import SmallestForce
 from experiments.settings.runs import Statistics
 from mobnet.core.columns import DETECTION
@@ -26,33 +24,29 @@ def smallest_force(
 
     It is that of which the share of section `smallest_force` is found, by detector, rule of thresholds and cell.
     """
-    rows: list[Sequence[Field]] = []
-    blocks: list[tuple[list[str], list[list[str]]]] = []
+    rows = Rows(DETECTION)
     # read kind by kind, shown level by level
     shown: dict[tuple[str, str], dict[str, list[Try]]] = {}
     for kind in settings.kinds:
         for level, tries in shown_tries(settings, detections, detection.sweep, kind):
             shown[level, kind] = tries
     for level, kind in product(settings.levels, settings.kinds):
-        lines = list[list[str]]()
         for name, tries in shown[level, kind].items():
-            lines.append([name])
             for cell in CELLS:
                 own = [one for one in tries if one.cell == cell]
                 force = np.array([one.collision.force_n for one in own])
                 found = np.array([one.is_found for one in own], dtype=np.float64)
-                number = force_of(force, found, settings, statistics) if len(own) else Number(None, unit="N")
-                place = level, name, settings.leg, kind, cell, QUANTITY
-                rows.append((*place, *number.with_ends, len(own), number.unit, None))
-                lines[-1].append(_text(number))
-        if lines:
-            blocks.append(([level.replace("_", " "), kind], lines))
-    header = ["Level", "Rule", "Detector", *(f"{cell} [N]" for cell in CELLS)]
-    write_table(table_dir / "smallest_force", Table(DETECTION, rows, header, in_blocks(blocks, nested=True), left=3))
+                number = force_of(force, found, settings, statistics) if own else Number(None, unit="N")
+                place = {"level": level, "detector": name, "leg": settings.leg, "kind": kind, "cell": cell}
+                rows.add(number, **place, quantity=QUANTITY, count=len(own))
+    columns = [ViewColumn(f"{cell} [N]", {"cell": cell}, text=_text) for cell in CELLS]
+    labels = {"level": "Level", "kind": "Rule", "detector": "Detector"}
+    rows.write(table_dir / "smallest_force", View(labels, columns, blocks=("level", "kind"), nested=True))
 
 
-def _text(number: Number) -> str:
+def _text(row: NumberRow) -> str:
     """Return a force with its interval as text; where it lies beyond all that were tried, beyond which of them."""
+    number = row.number
     if number.value is None:
         return f"< {number.low:.0f}" if number.low is not None else f"> {number.high:.0f}" if number.high else "-"
     return f"{number.text(0)} {number.interval(0)}"

@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 
 from experiments.evaluation.measure.data.steps import UNITS, Array, WalkedSteps, bin_edges, bin_of, read_steps
-from experiments.evaluation.number.files import Field
 from experiments.evaluation.number.number import number_text
+from experiments.evaluation.number.rows import Field
 from experiments.evaluation.tables.layout import Table, in_blocks, write_table
 from experiments.settings.tables import Steps as StepsTable
 from mobnet.core.columns import COMMAND, STEPS
@@ -51,9 +51,13 @@ class Followed:
 
 
 def steps(
-    settings: StepsTable, robot: RobotTable, walking: Walking, commands: Commands,
-    sets: Mapping[str, Sequence[Path]], table_dir: Path,
-) -> None:  # fmt: skip
+    settings: StepsTable,
+    robot: RobotTable,
+    walking: Walking,
+    commands: Commands,
+    sets: Mapping[str, Sequence[Path]],
+    table_dir: Path,
+) -> None:
     """Write the table of measured against commanded steps, by bins of the command, as CSV, TeX and Markdown."""
     nominal = NominalModel(describe(robot))
     rows: dict[tuple[str, int], list[Followed]] = {}

@@ -8,13 +8,13 @@ from pathlib import Path
 import numpy as np
 
 from experiments.evaluation.measure.estimates.scores import AVERAGE
-from experiments.evaluation.measure.learning.trials import Known, Outcome, outcome_of, read_walks
+from experiments.evaluation.measure.learning.trials import Known, VariantResult, outcome_of, read_walks
 from experiments.evaluation.number.number import number_text
 from experiments.evaluation.tables.layout import Line, Table, in_blocks, write_table
 from experiments.plan.runs import TriedTask
 from experiments.settings.trials import EXPERIMENT, RECIPE
 from mobnet.core.columns import TRIALS, TrialError
-from mobnet.settings.methods import Observer
+from mobnet.settings.methods import ObserverSettings
 from mobnet.settings.robot import RobotTable
 
 BEST = "best"
@@ -24,9 +24,13 @@ log = logging.getLogger(__name__)
 
 
 def trials(
-    robot: RobotTable, gravity_m_s2: float, observer: Observer, tasks: Mapping[str, TriedTask], rate_hz: float,
+    robot: RobotTable,
+    gravity_m_s2: float,
+    observer: ObserverSettings,
+    tasks: Mapping[str, TriedTask],
+    rate_hz: float,
     out: Path,
-) -> None:  # fmt: skip
+) -> None:
     """Write a CSV, .tex and .md: RMSE [N m] of each variant at each task, means over its development walks.
 
     The CSV has every joint and network, the text means over the joints. Recordings and residuals, at a rate [Hz], and
@@ -37,7 +41,7 @@ def trials(
     lines = list[Line]()
     for name, task in tasks.items():
         walks = read_walks(known, task, rate_hz)
-        outcomes = list[Outcome]()
+        outcomes = list[VariantResult]()
         for tried in task.tried:
             outcomes.append(outcome_of(tried, known, walks))
             log.info("%s, %s, network %d: %.3f N m", name, tried.name, tried.network_seed, outcomes[-1].average)
@@ -48,7 +52,7 @@ def trials(
     write_table(out, Table(TRIALS, [astuple(row) for row in rows], HEADER, lines, left=3))
 
 
-def is_best(outcome: Outcome, outcomes: Sequence[Outcome]) -> bool:
+def is_best(outcome: VariantResult, outcomes: Sequence[VariantResult]) -> bool:
     """Return whether a variant has the smallest mean error of its method, among those of its length where they differ.
 
     The mean is over its networks. A method that is not changed is no choice.
@@ -60,12 +64,14 @@ def is_best(outcome: Outcome, outcomes: Sequence[Outcome]) -> bool:
     return bool(outcome.tried.changes) and outcome.tried.name == min(rivals, key=lambda name: np.mean(rivals[name]))
 
 
-def _kind_of(outcome: Outcome) -> tuple[str, object]:
+def _kind_of(outcome: VariantResult) -> tuple[str, object]:
     """Return the method of which a variant is, and its length if that is what is tried."""
     return outcome.tried.base, outcome.tried.changes.get(EXPERIMENT)
 
 
-def rows_of(task: str, joints: Sequence[str], outcome: Outcome, outcomes: Sequence[Outcome]) -> Iterator[TrialError]:
+def rows_of(
+    task: str, joints: Sequence[str], outcome: VariantResult, outcomes: Sequence[VariantResult]
+) -> Iterator[TrialError]:
     """Yield the rows of a variant: each joint, then their mean; with the standard deviation over the walks [N m]."""
     by_walk = np.column_stack([outcome.errors, outcome.errors.mean(axis=1)])
     changes, steps, loss, state = facts_of(outcome)
@@ -73,9 +79,21 @@ def rows_of(task: str, joints: Sequence[str], outcome: Outcome, outcomes: Sequen
     for joint, errors in zip((*joints, AVERAGE), by_walk.T, strict=True):
         std = float(errors.std(ddof=1)) if len(errors) > 1 else None
         yield TrialError(
-            task, outcome.tried.base, changes, recipe, outcome.tried.network_seed, steps, outcome.seconds, state, loss,
-            joint, float(errors.mean()), std, len(errors), int(is_best(outcome, outcomes)),
-        )  # fmt: skip
+            task,
+            outcome.tried.base,
+            changes,
+            recipe,
+            outcome.tried.network_seed,
+            steps,
+            outcome.seconds,
+            state,
+            loss,
+            joint,
+            float(errors.mean()),
+            std,
+            len(errors),
+            int(is_best(outcome, outcomes)),
+        )
 
 
 HEADER = [
@@ -92,9 +110,9 @@ HEADER = [
 ]
 
 
-def trial_lines(task: str, outcomes: Sequence[Outcome]) -> list[Line]:
+def trial_lines(task: str, outcomes: Sequence[VariantResult]) -> list[Line]:
     """Return the rows of text of a task, method by method, each variant with the mean of its networks."""
-    variants: dict[tuple[str, str], list[Outcome]] = {}
+    variants: dict[tuple[str, str], list[VariantResult]] = {}
     for one in outcomes:
         variants.setdefault((one.tried.base, one.tried.name), []).append(one)
     blocks: dict[str, list[list[str]]] = {}
@@ -103,7 +121,7 @@ def trial_lines(task: str, outcomes: Sequence[Outcome]) -> list[Line]:
     return in_blocks(([task, method], cells) for method, cells in blocks.items())
 
 
-def _cells(networks: Sequence[Outcome], outcomes: Sequence[Outcome]) -> list[str]:
+def _cells(networks: Sequence[VariantResult], outcomes: Sequence[VariantResult]) -> list[str]:
     """Return the cells of a variant after its method: means over its networks, and their spread [N m]."""
     facts = [facts_of(one) for one in networks]
     changes, steps, _, _ = facts[0]
@@ -129,7 +147,7 @@ def _mean(values: Sequence[float | None]) -> float | None:
     return float(np.mean(known)) if known else None
 
 
-def facts_of(outcome: Outcome) -> tuple[str, int | None, float | None, str]:
+def facts_of(outcome: VariantResult) -> tuple[str, int | None, float | None, str]:
     """Return what is changed, such as `loss squared, rate_first 0.005`, and what came of the training.
 
     That is how many time steps the network has learned from, the validation loss (22) of the epoch kept, and in a word

@@ -20,9 +20,14 @@ Record = tuple[str, str, str, float, str, float | None, float | None, str]  # a 
 
 
 def uncertainty(
-    settings: Uncertainty, networks: Mapping[str, NetworkRow], layout: JointLayout, published: PublishedUncertainty,
-    sets: Mapping[str, Sequence[Path]], robots: Mapping[str, Mapping[str, Sequence[Path]]], table_dir: Path,
-) -> None:  # fmt: skip
+    settings: Uncertainty,
+    networks: Mapping[str, NetworkRow],
+    layout: JointLayout,
+    published: PublishedUncertainty,
+    sets: Mapping[str, Sequence[Path]],
+    robots: Mapping[str, Mapping[str, Sequence[Path]]],
+    table_dir: Path,
+) -> None:
     """Write uncertainty.csv, .tex and .md: standard deviation of the learning target of each joint [N m], V1..V3 [N].
 
     `sets` has the residuals of each training set, `robots` those of each surrogate robot's own sets of the same names.

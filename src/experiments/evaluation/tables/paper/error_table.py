@@ -7,11 +7,9 @@ from pathlib import Path
 
 from experiments.evaluation.compare.rmse import RAW
 from experiments.evaluation.measure.estimates.scores import AVERAGE
-from experiments.evaluation.number.averages import Column, columns_of
-from experiments.evaluation.number.files import Field
-from experiments.evaluation.number.grid import Wanted, number_of
+from experiments.evaluation.number.grid import Column, Wanted, columns_of, number_of
 from experiments.evaluation.number.number import Number, number_text, published_row
-from experiments.evaluation.number.rows import read_scores
+from experiments.evaluation.number.rows import Field, read_scores
 from experiments.evaluation.tables.layout import PART, Line, Table, in_blocks, text_table, write_table
 from experiments.settings.published import Floor, PublishedTable
 from experiments.settings.runs import Statistics
@@ -62,9 +60,14 @@ class TableLook:
 
 
 def error_table(
-    settings: ErrorTable, name: str, statistics: Statistics, layout: JointLayout,
-    published: PublishedTable | None, scores: Sequence[Path], table_dir: Path,
-) -> None:  # fmt: skip
+    settings: ErrorTable,
+    name: str,
+    statistics: Statistics,
+    layout: JointLayout,
+    published: PublishedTable | None,
+    scores: Sequence[Path],
+    table_dir: Path,
+) -> None:
     """Write a table of errors by test, method and joint [N m], as CSV, TeX and Markdown.
 
     Raises:
@@ -120,9 +123,14 @@ def cut(numbers: Mapping[Column, Number], first: int, end: int) -> dict[Column, 
 
 
 def numbers_of(
-    columns: Sequence[Column], run: tuple[str, str, str], metric: str, scores: Sequence[Score], statistics: Statistics,
-    printed: Mapping[str, float | None], ending: str = "",
-) -> dict[Column, Number]:  # fmt: skip
+    columns: Sequence[Column],
+    run: tuple[str, str, str],
+    metric: str,
+    scores: Sequence[Score],
+    statistics: Statistics,
+    printed: Mapping[str, float | None],
+    ending: str = "",
+) -> dict[Column, Number]:
     """Return the number of each column [N m], as `cell_of` does; `printed` is a column's name -> the paper's number."""
     numbers = {}
     for column in columns:
@@ -131,9 +139,14 @@ def numbers_of(
 
 
 def cell_of(
-    column: Column, run: tuple[str, str, str], metric: str, scores: Sequence[Score], statistics: Statistics,
-    published: float | None, ending: str = "",
-) -> Number:  # fmt: skip
+    column: Column,
+    run: tuple[str, str, str],
+    metric: str,
+    scores: Sequence[Score],
+    statistics: Statistics,
+    published: float | None,
+    ending: str = "",
+) -> Number:
     """Return the number of a column [N m] over the runs of a method in a test; none where a run has too few pushes.
 
     The ending chooses the truth that errors are taken against.
@@ -182,10 +195,14 @@ def row_lines(row: TableRow, over: TableRow | None, look: TableLook, stacked: bo
     share = f"{look.confidence:.0%}"
     lines = [[OURS[look.robot], *with_increase(row, over, "value")]]
     if not row.short and any(number.low is not None for number in ours):
-        lines += [
-            [f"{share} from", *(number_text(number.low) for number in ours)],
-            [f"{share} to", *(number_text(number.high) for number in ours)],
-        ] if stacked else [[share, *(number.interval() for number in ours)]]  # fmt: skip
+        lines += (
+            [
+                [f"{share} from", *(number_text(number.low) for number in ours)],
+                [f"{share} to", *(number_text(number.high) for number in ours)],
+            ]
+            if stacked
+            else [[share, *(number.interval() for number in ours)]]
+        )
     if row.raw:
         lines.append([RAW_LABEL, *(number_text(number.value) for number in row.raw.values())])
     if any(number.published is not None for number in ours):

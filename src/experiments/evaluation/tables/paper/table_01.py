@@ -4,7 +4,7 @@ import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from experiments.evaluation.number.files import Field
+from experiments.evaluation.number.rows import Field
 from experiments.evaluation.tables.layout import Table, tex_escape, tex_table, write_table
 from experiments.settings.published import PublishedNetwork, PublishedNetworks
 from mobnet.core.columns import TABLE_01
@@ -15,8 +15,18 @@ from mobnet.settings.methods import Target
 from mobnet.settings.networks import Learning, Network
 
 HEADER = ["Network", "Input", "Numbers", "Target", "Architecture", "Parameters", "Paper", "Horizon", "Paper", "Data"]
-SHOWN = ("limb", "inputs", "input_count", "target", "architecture", "parameters", "parameters_published",
-         "horizon_steps", "horizon_published", "data")  # fmt: skip
+SHOWN = (
+    "limb",
+    "inputs",
+    "input_count",
+    "target",
+    "architecture",
+    "parameters",
+    "parameters_published",
+    "horizon_steps",
+    "horizon_published",
+    "data",
+)
 COLUMNS = "llrllrrrrl"
 LEFT = 5  # columns of text
 TARGETS = {"uncertainty": "r^{limb} - tau_ext^{limb}", "external": "tau_ext^{limb}"}  # eq. (15), both low-passed alike
@@ -24,9 +34,14 @@ TEX_TAU = r"\tilde\tau_{\mathrm{ext}}"
 
 
 def table_01(
-    networks: Mapping[str, Network], target: Target, layout: JointLayout, learning: Learning, seed: int,
-    published: PublishedNetworks, table_dir: Path,
-) -> None:  # fmt: skip
+    networks: Mapping[str, Network],
+    target: Target,
+    layout: JointLayout,
+    learning: Learning,
+    seed: int,
+    published: PublishedNetworks,
+    table_dir: Path,
+) -> None:
     """Write Table 1 as CSV, TeX and Markdown, each limb's network built and its parameters counted."""
     records = [
         describe(limb, networks[limb], TARGETS[target].format(limb=limb), layout, learning.std_min, seed, printed)

@@ -13,9 +13,9 @@ from experiments.evaluation.measure.detection.results import (
     found_share,
     mean_of,
     shown_tries,
-)  # fmt: skip
-from experiments.evaluation.number.files import Field
+)
 from experiments.evaluation.number.number import number_text, published_row
+from experiments.evaluation.number.rows import Field
 from experiments.evaluation.tables.layout import PART, RULE, Line, Table, text_table, write_table
 from experiments.settings.detection_tables import DetectorTable
 from experiments.settings.published import PublishedTable
@@ -32,9 +32,13 @@ TRIED = 10  # collisions of each cell in the paper
 
 
 def table_09(
-    settings: DetectorTable, detection: Detection, statistics: Statistics, published: PublishedTable,
-    detections: Detections, table_dir: Path,
-) -> None:  # fmt: skip
+    settings: DetectorTable,
+    detection: Detection,
+    statistics: Statistics,
+    published: PublishedTable,
+    detections: Detections,
+    table_dir: Path,
+) -> None:
     """Write table_09.csv, .tex and .md: found collisions, and delays [ms], with intervals over robots.
 
     A delay is the mean of a cell over the collisions that are found; of all together it is that of the cells, as the
@@ -99,8 +103,10 @@ def _onset_delay(one: Try) -> float | None:
 
 
 DELAYS: Mapping[str, Callable[[Try], float | None]] = {  # of a collision that was found [s]
-    DELAY: delay_of, ONSET: _onset_delay, PERFECT: lambda one: one.detected.perfect_s,
-}  # fmt: skip
+    DELAY: delay_of,
+    ONSET: _onset_delay,
+    PERFECT: lambda one: one.detected.perfect_s,
+}
 
 
 def _delays(tries: Sequence[Try], quantity: str = DELAY) -> list[float]:
@@ -110,9 +116,13 @@ def _delays(tries: Sequence[Try], quantity: str = DELAY) -> list[float]:
 
 
 def _rows(
-    level: str, name: str, settings: DetectorTable, tries: Sequence[Try], statistics: Statistics,
+    level: str,
+    name: str,
+    settings: DetectorTable,
+    tries: Sequence[Try],
+    statistics: Statistics,
     published: PublishedTable,
-) -> Iterator[Sequence[Field]]:  # fmt: skip
+) -> Iterator[Sequence[Field]]:
     printed = {place: published_row(published, place, name) for place in (DETECTED, DELAY_MS)}
     for cell, own in {**_in_cells(tries), ALL: list(tries)}.items():
         place = level, name, settings.leg, settings.kind, cell
@@ -126,15 +136,28 @@ def _rows(
             number = mean_of([one for one in own if one.is_found], delay, statistics)
             paper = printed[DELAY_MS].get(cell) if quantity == DELAY and cell != ALL else None
             yield (*place, quantity, *number.with_ends, len(values), "ms", paper)
+    # The paper's average is that of its four cells, however many collisions each of them found.
     cells = [mean for own in _in_cells(tries).values() if (mean := _mean(_delays(own)))]
     average = sum(cells) / len(cells) if cells else None
-    yield (level, name, settings.leg, settings.kind, "cells", DELAY, average, None, None, len(cells), "ms",
-           printed[DELAY_MS].get(ALL))  # fmt: skip
+    yield (
+        level,
+        name,
+        settings.leg,
+        settings.kind,
+        "cells",
+        DELAY,
+        average,
+        None,
+        None,
+        len(cells),
+        "ms",
+        printed[DELAY_MS].get(ALL),
+    )
 
 
 def _lines(
     level: str, name: str, tries: Sequence[Try], statistics: Statistics, published: PublishedTable
-) -> Iterator[Line]:  # fmt: skip
+) -> Iterator[Line]:
     """Yield what a detector finds in each cell and how late, and below it what the paper prints."""
     in_cells = _in_cells(tries)
     counts = [str(len(_delays(own))) for own in in_cells.values()]

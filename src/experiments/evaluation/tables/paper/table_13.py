@@ -6,8 +6,8 @@ from itertools import product
 from pathlib import Path
 
 from experiments.evaluation.measure.detection.results import Detections, owners, rows_of
-from experiments.evaluation.number.files import Field
 from experiments.evaluation.number.number import number_text, published_row
+from experiments.evaluation.number.rows import Field
 from experiments.evaluation.tables.layout import OUTSIDE, Table, in_blocks, write_table
 from experiments.settings.detection_tables import ThresholdTable
 from experiments.settings.published import PublishedTable

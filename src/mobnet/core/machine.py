@@ -1,10 +1,13 @@
-"""How many GPUs a machine has for torch, without importing it, and one of them for each process.
+"""The GPUs of a machine, one of them for each process, and the threads of matrix products: one.
 
 Standard library only: rules ask before any job starts.
 """
 
+import ctypes
 import logging
 import os
+import re
+import sys
 from collections.abc import Mapping, Sequence
 from itertools import takewhile
 from pathlib import Path
@@ -14,6 +17,9 @@ from mobnet.core.lock import opened, taken
 log = logging.getLogger(__name__)
 CHOSEN, HIDDEN = "CUDA_VISIBLE_DEVICES", ("", "-1")  # variable that lists GPUs for torch, and what ends the list
 CPU_BUILD = "+cpu"  # in the version of torch
+LOADED = Path("/proc/self/maps")
+LIBRARY = re.compile(r"/\S.*openblas.*\.so.*$", re.MULTILINE)  # NumPy's and SciPy's bring one each
+SET = ("scipy_openblas_set_num_threads64_", "scipy_openblas_set_num_threads", "openblas_set_num_threads")
 
 
 def gpus_seen(torch_version: str, environment: Mapping[str, str], devices: Path = Path("/dev")) -> int:
@@ -40,3 +46,17 @@ def claimed(names: Sequence[str], folder: Path) -> int:
         os.close(lock)
     log.warning("every GPU here is in use by other jobs of this project; this one shares the GPU %s", names[0])
     return 0
+
+
+# Networks have small matrices: their products take longer in two threads than in one, 36 times longer where a core is
+# shared, and give other numbers. Whoever builds a network therefore calls `one_thread`, so that a script of a user's
+# own has the speed of a job. The limit holds for the process from then on.
+def one_thread() -> None:
+    """Let products of NumPy, SciPy and torch run in one thread, of those that this process has loaded."""
+    if torch := sys.modules.get("torch"):
+        torch.set_num_threads(1)
+    loaded = LOADED.read_text(encoding="utf-8") if LOADED.exists() else ""
+    for path in set(LIBRARY.findall(loaded)):
+        library = ctypes.CDLL(path)
+        if name := next((name for name in SET if hasattr(library, name)), None):
+            library[name](ctypes.c_int(1))
