@@ -5,7 +5,7 @@ import re
 import pytest
 
 from experiments.commands.words import COMMANDS, TRIALS, in_order, parse
-from experiments.plan.targets import nearest, one_of, scale_of, scale_of_targets
+from experiments.running.words import nearest, one_of, scale_of, scale_of_targets
 from mobnet.core.errors import CommandError, ConfigError
 
 

@@ -6,7 +6,7 @@ import signal
 import subprocess
 import sys
 
-from mobnet.core.lock import opened, taken, warn_of_missing_locks
+from mobnet.core.files import opened, taken, warn_of_missing_locks
 
 HOLD = """
 import fcntl, sys, time

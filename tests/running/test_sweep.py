@@ -1,6 +1,6 @@
 """Of a killed run only unfinished files are removed."""
 
-from experiments.running.sweep import sweep
+from experiments.running.environment import sweep
 
 
 def test_only_unfinished_files_are_removed(tmp_path):

@@ -17,12 +17,11 @@ from experiments.plan.plan import make_plan
 from experiments.plan.products import shown as report_of
 from experiments.plan.precision import record_precision, with_precision
 from experiments.plan.room import Sizes, check_room
-from experiments.plan.targets import in_set, nearest, one_of, scale_of_targets
+from experiments.running.words import in_set, nearest, one_of, scale_of_targets
 from experiments.settings.checks.claims import text_problems
 from experiments.running.cluster import LIMITED, failed_jobs, warm_cache
-from experiments.running.environment import fault_of_process, quieten
+from experiments.running.environment import fault_of_process, quieten, sweep
 from experiments.running.follow import follow_trainings
-from experiments.running.sweep import sweep
 from experiments.settings.load import load_settings
 from mobnet.core.code import code_hash
 from mobnet.core.detections import FILES

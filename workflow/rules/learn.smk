@@ -14,7 +14,7 @@ rule fit:
         runtime=10,
     params:
         given=JOBS.fit,
-        code=lambda w: code_hash("experiments.jobs.fitting", *JOBS.kinds(w, [w.method])),
+        code=lambda w: code_hash("experiments.jobs.fitting", *JOBS.modules_of(w, [w.method])),
     script:
         "../scripts/fit.py"
 

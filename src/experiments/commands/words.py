@@ -7,8 +7,15 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from experiments.commands.install import BUILDS
-from experiments.plan.targets import MAIN
-from experiments.running.words import RESULTS, bench_parser, check_parser, cost_parser, demo_parser, results_parser
+from experiments.running.words import (
+    MAIN,
+    RESULTS,
+    bench_parser,
+    check_parser,
+    cost_parser,
+    demo_parser,
+    results_parser,
+)
 from mobnet.commands import COMMANDS as LAB
 from mobnet.core.errors import CommandError, unknown_command
 

@@ -191,7 +191,7 @@ class Jobs:
             "walked_s": trial.walked_s,
         }
 
-    def kinds(self, w: Any, methods: Iterable[str]) -> list[str]:
+    def modules_of(self, w: Any, methods: Iterable[str]) -> list[str]:
         """Return the modules that methods import by name: their kinds and those of the methods they run on."""
         catalogue = self.files(w).catalogue
         found: dict[str, None] = {}
@@ -202,12 +202,12 @@ class Jobs:
 
     def estimated_by(self, w: Any) -> list[str]:
         """Return the modules of the methods of a test."""
-        return self.kinds(w, self.files(w).catalogue.tests[w.scenario][w.level])
+        return self.modules_of(w, self.files(w).catalogue.tests[w.scenario][w.level])
 
     def watched_by(self, w: Any) -> list[str]:
         """Return the modules of the methods that run in a case, or in the loop of every case."""
         cases = [w.case] if hasattr(w, "case") else []
-        return self.kinds(w, methods_of(self.files(w), cases))
+        return self.modules_of(w, methods_of(self.files(w), cases))
 
     def measured_by(self, w: Any) -> list[str]:
         """Return the modules that measure what products show of a test."""

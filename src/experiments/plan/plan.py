@@ -6,15 +6,15 @@ from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
-from experiments.plan.call import Call
 from experiments.plan.detection import level_of_detectors
 from experiments.plan.files import PLANT, Files, made_by_jobs
 from experiments.plan.jobs import Jobs
 from experiments.plan.products import CAPTIONS, Folders, Product, Products
 from experiments.plan.reactions import courses_of, is_pushed
-from experiments.plan.targets import MAIN
 from experiments.plan.trials import trial_products
+from experiments.running.words import MAIN
 from experiments.settings.catalogue import Catalogue
+from experiments.settings.products import Call
 from experiments.settings.settings import Settings
 from mobnet.core.errors import ConfigError, not_accepted
 

@@ -9,7 +9,11 @@ import shlex
 import sys
 from pathlib import Path
 
+from mobnet.core.files import PARTIAL
+
 REFUSED = re.compile(r'[:{}"\\\x00-\x1f]')  # in the project's path: a colon parts PATH, others are signs for tools
+WRITTEN = ("results", "tables", "figures", "paper")  # folders of a project in which jobs write
+ANY = "[a-z0-9_]" * 8  # what tempfile puts into the name of a file
 LONGEST_TEMPORARY = 70  # characters; the path of a Unix socket below it must not pass 108
 THREADED = ("OMP", "OPENBLAS", "MKL", "NUMEXPR", "NUMBA")
 CACHES = {
@@ -79,3 +83,10 @@ def fault_of_process(root: Path) -> str | None:
         return fault_of_place(root)
     remedy = f"`cd {shlex.quote(str(root))}; ./reproduce setup; . .venv/bin/activate`"
     return f"{sys.executable}: runs {found or 'no code of a project'} in place of {source}; accepted: {remedy}"
+
+
+def sweep(root: Path) -> None:
+    """Remove the unfinished files that a killed run left in a project's folder; the caller knows that nobody writes."""
+    for folder in WRITTEN:
+        for path in list((root / folder).glob(f"**/{PARTIAL}{ANY}.*")):
+            path.unlink(missing_ok=True)
