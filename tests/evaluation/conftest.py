@@ -23,12 +23,12 @@ from made_scores import (
     table_scores,
 )
 
+from experiments.plan.call import call_of
 from experiments.plan.products import function_of
 from experiments.plan.runs import Run
 from experiments.settings.claims import Claim
 from experiments.settings.evaluation import Evaluation
 from experiments.settings.measures import CalibrationTest
-from experiments.settings.products import call_of
 from experiments.settings.settings import Settings
 from mobnet.core.columns import Epoch, Score
 from mobnet.core.files import write_json

@@ -7,8 +7,7 @@ from typing import Any
 import pytest
 from jobs_of import arguments, network, reads
 
-from experiments.plan.plan import Plan, make_plan
-from experiments.plan.precision import with_precision
+from experiments.plan.plan import Plan, make_plan, with_precision
 from experiments.settings.load import load_settings
 from mobnet.core.errors import ConfigError
 

@@ -11,6 +11,7 @@ from typing import Any
 import pytest
 from jobs_of import arguments, network, reads
 
+from experiments.plan.call import Call, call_of, parameters
 from experiments.plan.files import files_in, made_by_jobs
 from experiments.plan.needs import needs_of
 from experiments.plan.plan import Plan, make_plan
@@ -18,7 +19,7 @@ from experiments.plan.products import Shown, shown
 from experiments.plan.runs import SweptSize
 from experiments.settings.evaluation import PRODUCTS
 from experiments.settings.load import load_settings
-from experiments.settings.products import Call, MadeBy, call_of, parameters
+from experiments.settings.products import MadeBy
 from experiments.settings.settings import Settings
 from mobnet.core.errors import ConfigError
 
@@ -305,7 +306,7 @@ def test_a_caption_is_optional() -> None:
 def test_a_call_takes_what_the_signature_names() -> None:
     call = call_of("experiments.plan.plan:make_plan", {"settings": 1, "other": 2})
     assert call.arguments == {"settings": 1}
-    assert parameters("experiments.settings.products:call_of") == (("function", "available"), ())
+    assert parameters("experiments.plan.call:call_of") == (("function", "available"), ())
     with pytest.raises(ConfigError, match="make_plan: parameter: 'settings' is not accepted; accepted: other"):
         call_of("experiments.plan.plan:make_plan", {"other": 2})
     with pytest.raises(

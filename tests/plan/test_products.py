@@ -5,10 +5,10 @@ from pathlib import Path
 
 import pytest
 
+from experiments.plan.call import parameters
 from experiments.plan.needs import NEEDS
 from experiments.plan.products import function_of, quoted, sources
 from experiments.settings.evaluation import ENTRIES, PRODUCTS
-from experiments.settings.products import parameters
 from experiments.settings.settings import Settings
 
 ROOT = Path(__file__).parents[2]

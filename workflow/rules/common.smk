@@ -13,9 +13,8 @@ from experiments.evaluation.measure.estimates.scores import measure_problems
 from experiments.evaluation.report.paper import missing_packages
 from experiments.jobs.method_problems import method_problems
 from experiments.plan.files import made_by_jobs
-from experiments.plan.plan import make_plan
+from experiments.plan.plan import make_plan, record_precision, with_precision
 from experiments.plan.products import shown as report_of
-from experiments.plan.precision import record_precision, with_precision
 from experiments.plan.room import Sizes, check_room
 from experiments.running.words import in_set, nearest, one_of, scale_of_targets
 from experiments.settings.checks.claims import text_problems

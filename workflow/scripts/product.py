@@ -1,4 +1,4 @@
-from experiments.settings.products import Call
+from experiments.plan.call import Call
 from experiments.running.logs import job
 
 with job(snakemake.log[0]):

@@ -1,4 +1,9 @@
-"""The whole plan of a scale: its files, what its jobs get, and its products."""
+"""The whole plan of a scale: its files, what its jobs get, and its products.
+
+Which number format `learning.precision: auto` stands for is decided once for the results of a scale, and recorded: the
+machine that starts the first run decides. A training gets the format by its name, so that it is part of what the
+training is, and a node of another kind of processor makes the same network.
+"""
 
 import shutil
 from collections.abc import Iterator
@@ -6,6 +11,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
+from experiments.plan.call import Call
 from experiments.plan.detection import level_of_detectors
 from experiments.plan.files import PLANT, Files, made_by_jobs
 from experiments.plan.jobs import Jobs
@@ -14,10 +20,13 @@ from experiments.plan.reactions import courses_of, is_pushed
 from experiments.plan.trials import trial_products
 from experiments.running.words import MAIN
 from experiments.settings.catalogue import Catalogue
-from experiments.settings.products import Call
 from experiments.settings.settings import Settings
 from mobnet.core.errors import ConfigError, not_accepted
+from mobnet.core.files import read_json, write_json
+from mobnet.core.notes import Note, checked
+from mobnet.learning.precision import AUTO, Precision, in_precision, of_processor
 
+PRECISION = Path("state") / "precision.json"  # below the results of a scale
 ROOT = ("README.md", "CONTRIBUTING.md", "CHANGELOG.md", "CITATION.cff", "paper/README.md")
 DOCUMENTS = "docs/**/*.*"
 # All of them: docstrings and settings are shown, which the hash of the code leaves out.
@@ -185,3 +194,37 @@ def make_plan(settings: Settings, *, with_pdf: bool) -> Plan:
         tables=tuple(products.table_names),
         figures=tuple(products.figure_names),
     )
+
+
+class PrecisionNote(Note):
+    """The file in which the format is recorded."""
+
+    auto: Precision
+
+
+def with_precision(settings: Settings, results: Path) -> Settings:
+    """Return the settings with a number format in place of every `auto`: the recorded one, or else this machine's.
+
+    Raises:
+        DataError: the record is damaged.
+    """
+    name = _recorded_precision(results) or of_processor()
+    methods = {
+        method: row.model_copy(update={"learning": {**row.learning, "precision": name}})
+        for method, row in settings.methods.items()
+        if row.learning.get("precision") == AUTO
+    }
+    learning = in_precision(settings.learning, name)
+    return settings.model_copy(update={"learning": learning, "methods": {**settings.methods, **methods}})
+
+
+def record_precision(results: Path) -> None:
+    """Record what `auto` stands for in the results of a scale, if it is not recorded yet."""
+    if _recorded_precision(results) is None:
+        write_json(results / PRECISION, {"auto": of_processor()})
+
+
+def _recorded_precision(results: Path) -> Precision | None:
+    """Return the recorded format, if there is one."""
+    path = results / PRECISION
+    return checked(path, read_json(path), PrecisionNote).auto if path.exists() else None

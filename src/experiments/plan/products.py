@@ -7,13 +7,14 @@ from fnmatch import fnmatch
 from pathlib import Path
 from typing import Any
 
+from experiments.plan.call import Call, call_of, parameters
 from experiments.plan.demo import FOLDER, demo_needs, demo_outputs
 from experiments.plan.detection import all_detections
 from experiments.plan.files import Files, made_by_jobs
 from experiments.plan.needs import explore_needs, needs_of
 from experiments.settings.claims import numbers_of
 from experiments.settings.evaluation import ENTRIES, PRODUCTS, Evaluation, row_of
-from experiments.settings.products import Call, MadeBy, call_of, parameters
+from experiments.settings.products import MadeBy
 from experiments.settings.runs import Runs
 from experiments.settings.settings import Settings
 from mobnet.core.code import code_hash

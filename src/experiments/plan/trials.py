@@ -4,11 +4,11 @@ from collections import defaultdict
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
+from experiments.plan.call import Call
 from experiments.plan.files import Files, made_by_jobs
 from experiments.plan.jobs import KINDS
 from experiments.plan.products import TABLE, Product
 from experiments.plan.runs import Tried, TriedTask
-from experiments.settings.products import Call
 from experiments.settings.trials import MethodVariant, compared, references, tuned
 
 

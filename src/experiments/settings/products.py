@@ -1,16 +1,11 @@
-"""What is said of a table or a figure beside its section, its function by name, and what does not fit in a section."""
+"""What is said of a table or a figure beside its section, and what a section says itself of what does not fit."""
 
-import ast
-import functools
-import importlib
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, cast
 
 from pydantic import BaseModel
 
-from mobnet.core.code import start_of
-from mobnet.core.errors import ConfigError, not_accepted
 from mobnet.settings.base import Section
 from mobnet.settings.reading import Place, Problem
 
@@ -63,51 +58,6 @@ class MadeBy:
     clustered: bool = False
     trials: "Trials | None" = None
     hours: "Hours | None" = None
-
-
-@dataclass(frozen=True)
-class Call:
-    """A call of a function of this package, `module:name`, with arguments by name: sections, names, paths."""
-
-    function: str
-    arguments: Mapping[str, object]
-
-    @property
-    def module(self) -> str:
-        """Dotted name of the function's module."""
-        return self.function.split(":")[0]
-
-    def run(self) -> None:
-        """Import the function and call it."""
-        getattr(importlib.import_module(self.module), self.function.split(":")[1])(**self.arguments)
-
-
-def call_of(function: str, available: Mapping[str, object]) -> Call:
-    """Return a call whose arguments are those of the available values that the function's signature names.
-
-    Raises:
-        ConfigError: the function asks for something else.
-    """
-    required, optional = parameters(function)
-    missing = [name for name in required if name not in available]
-    if missing:
-        raise ConfigError(not_accepted(f"{function}: parameter", missing[0], available))
-    return Call(function, {name: available[name] for name in (*required, *optional) if name in available})
-
-
-@functools.cache
-def parameters(function: str) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """Return the names of a function's parameters, those without a default and those with one; nothing is imported."""
-    module, name = function.split(":")
-    tree = ast.parse(start_of(module).read_text(encoding="utf-8"))
-    for node in tree.body:
-        if isinstance(node, ast.FunctionDef) and node.name == name:
-            names = [argument.arg for argument in node.args.args]
-            plain = len(names) - len(node.args.defaults)
-            return tuple(names[:plain]), tuple(names[plain:])
-    raise ConfigError(
-        not_accepted(f"function of {module}", name, [n.name for n in tree.body if isinstance(n, ast.FunctionDef)])
-    )
 
 
 class Checked(Section):

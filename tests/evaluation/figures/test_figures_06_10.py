@@ -10,10 +10,10 @@ from csv_files import check_golden, read_table, write_rows
 from experiments.evaluation.figures.paper.figure_06 import figure_06
 from experiments.evaluation.figures.paper.figure_10 import figure_10
 from experiments.evaluation.measure.estimates.pushes import read_pushes
+from experiments.plan.call import call_of
 from experiments.plan.runs import Run
 from experiments.settings.evaluation import Evaluation
 from experiments.settings.figures import Figure06, Figure10
-from experiments.settings.products import call_of
 from experiments.settings.settings import Settings
 from mobnet.core.columns import Score
 from mobnet.core.joints import JointLayout

@@ -12,10 +12,10 @@ import pytest
 from csv_files import check_golden, read_table, write_rows
 
 from experiments.evaluation.figures.paper.figure_05 import read_panel
+from experiments.plan.call import call_of
 from experiments.plan.products import function_of
 from experiments.plan.runs import Run
 from experiments.settings.evaluation import Evaluation
-from experiments.settings.products import call_of
 from experiments.settings.settings import Settings
 from mobnet.core.columns import Score
 from mobnet.core.joints import JointLayout
