@@ -129,7 +129,8 @@ def test_a_mistyped_target_is_one_line(snakemake, target, line):
 
 
 def test_resources_are_asked_for_by_the_name_of_a_rule(snakemake, planned):
-    done = snakemake("-n", "--forceall", "--config", "scale=smoke", "--set-resources", "train:mem_mb=777")
+    words = ("-n", "--quiet", "host", "--forceall", "--config", "scale=smoke", "--set-resources", "train:mem_mb=777")
+    done = snakemake(*words)
     assert (done.stdout + done.stderr).count("mem_mb=777,") == len([j for j in planned("smoke") if j.rule == "train"])
 
 
