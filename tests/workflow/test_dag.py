@@ -58,10 +58,25 @@ def test_the_list_of_rules_is_the_same_at_every_scale_and_a_page(snakemake):
     assert len(lists[0]) <= MOST_RULES
 
 
+def drawn_in(graph):
+    """Return rule -> all rules behind it, of a graph in the words of dot or in the picture that dot makes of it."""
+    names = re.findall(r'^\s*(\d+)\[label = "(\w+)"', graph, re.MULTILINE)
+    names += re.findall(r"<title>(\d+)</title>.*?<text[^>]*>(\w+)</text>", graph, re.DOTALL)
+    names = dict(names)
+    behind = {name: set() for name in names.values()}
+    for first, last in re.findall(r"\b(\d+) ?(?:->|&#45;&gt;) ?(\d+)\b", graph):
+        behind[names[last]].add(names[first])
+    for _ in names:
+        for found in behind.values():
+            found.update(*(behind[earlier] for earlier in list(found)))
+    return behind
+
+
 def test_the_graph_of_rules_is_a_page(snakemake):
     """That of a table of errors is the way from a motion to its numbers."""
     whole = snakemake("all", "--config", "scale=default", "--rulegraph").stdout
     assert 0 < whole.count("->") <= MOST_ARROWS
+    assert drawn_in((ROOT / "docs" / "rules.svg").read_text()) == drawn_in(whole)
     boxes = re.findall(r'label = "(\w+)"', snakemake("tables/smoke/table_06.tex", "--rulegraph").stdout)
     assert set(boxes) == {"motion", "collect", "observe", "fit", "train", "estimate", "score", "table"}
 
