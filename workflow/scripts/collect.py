@@ -1,3 +1,5 @@
+"""Recordings of a scenario, one for each seed."""
+
 from pathlib import Path
 
 from experiments.jobs.walks import collect_walks

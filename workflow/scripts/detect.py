@@ -1,3 +1,5 @@
+"""The calibration and the trial of the detectors of a robot."""
+
 from pathlib import Path
 
 from experiments.jobs.detect import detect

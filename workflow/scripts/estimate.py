@@ -1,3 +1,5 @@
+"""The external torque of a test by all of its methods."""
+
 from pathlib import Path
 
 from experiments.jobs.estimates import estimate

@@ -1,3 +1,5 @@
+"""How often a robot falls with each random torque."""
+
 from pathlib import Path
 
 from experiments.evaluation.measure.data.random_torque import count_falls

@@ -1,3 +1,5 @@
+"""A fit of a formula of friction."""
+
 from pathlib import Path
 
 from experiments.jobs.fitting import write_fit

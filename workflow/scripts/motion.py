@@ -1,3 +1,5 @@
+"""A random motion of the upper body."""
+
 from pathlib import Path
 
 from experiments.jobs.motions import make_motion

@@ -1,3 +1,5 @@
+"""The observer's residuals of recordings."""
+
 from pathlib import Path
 
 from experiments.jobs.observing import observe_walks

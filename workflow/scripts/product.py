@@ -1,3 +1,5 @@
+"""A table, a figure or a text: the call that the plan makes for it."""
+
 from experiments.plan.call import Call
 from experiments.running.logs import job
 

@@ -1,3 +1,5 @@
+"""The walks of a robot in a case."""
+
 from pathlib import Path
 
 from experiments.jobs.react import react

@@ -1,3 +1,5 @@
+"""The errors of estimates."""
+
 from pathlib import Path
 
 from experiments.evaluation.measure.estimates.scores import score

@@ -1,3 +1,5 @@
+"""The training of a network."""
+
 from pathlib import Path
 
 from experiments.jobs.trainings import train

@@ -1,3 +1,5 @@
+"""The training of a network on what a fit leaves."""
+
 from pathlib import Path
 
 from experiments.jobs.train_gray import train_gray

@@ -1,3 +1,5 @@
+"""The thresholds of limbs that are watched all the time."""
+
 from pathlib import Path
 
 from experiments.jobs.calm import watch
