@@ -144,7 +144,7 @@ def shown(figure):
 
 
 def flagged(name):
-    """Mark an output of a product that no other one shares a rule with: a folder, or a file with its caption."""
+    """Mark an output of a product whose rule makes nothing else, as a folder or a file with its caption."""
     output = name if Path(name).suffix else directory(name)
     how = report_of(name)
     if how is None:
