@@ -4,6 +4,7 @@ import os
 import shlex
 import signal
 import sys
+import threading
 import time
 from importlib.metadata import version
 
@@ -29,6 +30,7 @@ from mobnet.core.machine import gpus_seen
 
 ROOT = Path(workflow.current_basedir).parent.parent
 STARTED_S = time.time()
+STOPPED = threading.Event()  # by Ctrl-C
 
 if fault := fault_of_process(ROOT):
     sys.exit(fault)
@@ -110,7 +112,7 @@ onstart:
 
 
 onerror:
-    if not workflow.local_exec:
+    if not workflow.local_exec and not STOPPED.is_set():
         had = {
             job.rule.name: {name: job.resources.get(name) for name in LIMITED}
             for job in workflow.dag.needrun_jobs()
@@ -171,6 +173,7 @@ def answer_interrupts():
     """Let Ctrl-C, which `./reproduce` blocks until here, say how to go on before Snakemake ends its jobs."""
 
     def stop(number, frame):
+        STOPPED.set()
         sys.stderr.write("stopped; the same command goes on from here\n")
         raise KeyboardInterrupt
 
