@@ -40,7 +40,7 @@ def follower_of(results: Path) -> Follower:
 
 def train(results: Path, epochs: int, *, done: bool = False) -> Path:
     """Write what a training has written after some epochs; of the checkpoint only its time counts."""
-    state = results / "state" / NAME
+    state = results / "plant" / "state" / NAME
     state.mkdir(parents=True, exist_ok=True)
     joints = [JOINT_ERROR.format(joint) for joint in JOINTS]
     rows = [f"{k},{-k},{-k - 1},{3.0 / k},0.01,9,1,{2.0 / k},{4.0 / k}" for k in range(1, epochs + 1)]
@@ -116,7 +116,7 @@ def test_runs_of_finished_trainings_take_the_place_of_live_ones(
 
 
 def test_the_process_ends_with_a_killed_run(tmp_path: Path) -> None:
-    script = f"{STARTS} print(follow(Path({str(tmp_path)!r}), Path({str(tmp_path / 'log')!r})).pid, flush=True);"
+    script = f"{STARTS} print(follow(sys.executable, Path({str(tmp_path)!r}), Path({str(tmp_path / 'log')!r})).pid, flush=True);"
     with subprocess.Popen([sys.executable, "-c", f"{script} time.sleep(600)"], stdout=subprocess.PIPE) as run:
         assert run.stdout is not None
         process = psutil.Process(int(run.stdout.readline()))

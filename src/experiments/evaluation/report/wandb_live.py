@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from wandb import Run
 
 RUNS = "wandb"  # folder of the runs, below that of results
-TRAININGS = (f"state/*/{CHECKPOINT}", f"*/state/*/{CHECKPOINT}")  # below the results, those of robots too
+TRAININGS = f"*/state/*/{CHECKPOINT}"  # below the results, in the folder of the plant or of a robot
 PAUSE_S = 2.0  # between two looks at the trainings
 NICENESS = 10
 
@@ -85,10 +85,9 @@ class Follower:
     def _checkpoints(self) -> set[tuple[Path, int]]:
         """Return the checkpoints that there are, and their times [ns]."""
         found = set[tuple[Path, int]]()
-        for pattern in TRAININGS:
-            for path in self._results.glob(pattern):
-                with contextlib.suppress(FileNotFoundError):  # that training has just ended
-                    found.add((path, path.stat().st_mtime_ns))
+        for path in self._results.glob(TRAININGS):
+            with contextlib.suppress(FileNotFoundError):  # that training has just ended
+                found.add((path, path.stat().st_mtime_ns))
         return found
 
     def _begin(self, name: str) -> Live:
