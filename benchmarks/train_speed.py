@@ -13,10 +13,10 @@ from typing import get_args
 
 import numpy as np
 import torch
-from experiments.plan.precision import with_precision
 from torch import Tensor, nn
 from torch.utils.data import DataLoader, TensorDataset
 
+from experiments.plan.plan import with_precision
 from experiments.settings.catalogue import Catalogue
 from experiments.settings.load import load_settings
 from mobnet.core.machine import one_thread
