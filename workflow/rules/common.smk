@@ -21,7 +21,7 @@ from experiments.running.words import in_set, nearest, one_of, scale_of_targets
 from experiments.settings.checks.claims import text_problems
 from experiments.running.cluster import LIMITED, failed_jobs, warm_cache
 from experiments.running.environment import fault_of_process, quieten, sweep
-from experiments.running.follow import follow_trainings
+from experiments.running.processes import PREFIX, end_jobs, follow_trainings
 from experiments.settings.load import load_settings
 from mobnet.core.code import code_hash
 from mobnet.core.detections import FILES
@@ -30,13 +30,14 @@ from mobnet.core.machine import gpus_seen
 
 ROOT = Path(workflow.current_basedir).parent.parent
 STARTED_S = time.time()
-STOPPED = threading.Event()  # by Ctrl-C
+BEGUN, STOPPED = threading.Event(), threading.Event()  # of the jobs; by Ctrl-C
 
 if fault := fault_of_process(ROOT):
     sys.exit(fault)
 quieten(ROOT)
 PYTHON = sys.executable
 sys.executable = shlex.quote(PYTHON)  # Snakemake writes it into shell commands as it is
+shell.prefix(PREFIX)
 
 
 def is_main():
@@ -94,6 +95,7 @@ wildcard_constraints:
 
 
 onstart:
+    BEGUN.set()
     try:
         sweep(ROOT)  # Snakemake holds its lock: no other run writes here
         record_precision(PLAN.folders.results)
@@ -170,12 +172,14 @@ def is_made(target):
 
 
 def answer_interrupts():
-    """Let Ctrl-C, which `./reproduce` blocks until here, say how to go on before Snakemake ends its jobs."""
+    """Let Ctrl-C, which `./reproduce` blocks until here, say how to go on before Snakemake ends its jobs, if any."""
 
     def stop(number, frame):
         STOPPED.set()
         sys.stderr.write("stopped; the same command goes on from here\n")
-        raise KeyboardInterrupt
+        if workflow.local_exec:
+            end_jobs()
+        raise KeyboardInterrupt if BEGUN.is_set() else SystemExit(128 + number)
 
     if workflow.is_main_process:
         signal.signal(signal.SIGINT, stop)

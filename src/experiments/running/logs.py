@@ -144,6 +144,8 @@ def terminable() -> Iterator[None]:
     """Turn Ctrl-C and the signal to terminate into an exit without a traceback: files are whole or not there."""
 
     def leave(number: int, frame: object) -> None:
+        for other in (signal.SIGINT, signal.SIGTERM):
+            signal.signal(other, signal.SIG_IGN)  # one signal is enough, a second one would cut short what follows
         raise SystemExit(128 + number)
 
     if threading.current_thread() is not threading.main_thread():

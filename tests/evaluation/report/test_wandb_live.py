@@ -20,7 +20,7 @@ NAME = "MOB-Net-LL-s0"
 HEAD = "epoch,train_loss,validation_loss,validation_rmse,rate,gradient_norm,stride"
 JOINTS = ("LL1", "LL2")
 IMPORTS = "import sys, time; from pathlib import Path"
-STARTS = f"{IMPORTS}; from experiments.running.follow import follow_trainings as follow;"
+STARTS = f"{IMPORTS}; from experiments.running.processes import follow_trainings as follow;"
 
 pytestmark = pytest.mark.slow
 

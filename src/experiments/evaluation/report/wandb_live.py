@@ -1,6 +1,6 @@
 """Offline wandb runs of trainings that are under way: what their metrics.csv hold, as these grow.
 
-The workflow starts this as a process of its own (`experiments.running.follow`), so that a training neither waits for
+The workflow starts this as a process of its own (`experiments.running.processes`), so that a training neither waits for
 wandb nor depends on its version. A training that was killed and goes on is logged from its first epoch again, into a
 file that takes the place of the old one. When all trainings are done, `wandb_runs` writes all runs once more.
 """
@@ -9,7 +9,6 @@ import contextlib
 import logging
 import os
 import select
-import signal
 import sys
 import tempfile
 from collections.abc import Callable
@@ -118,7 +117,6 @@ def follow(results: Path, ended: Callable[[], bool]) -> None:
 
 def main(results: str) -> None:
     """Follow the trainings until the standard input ends, as it does with the process that holds its other end."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
     logging.basicConfig(level=logging.INFO, format="%(message)s", stream=sys.stderr)
     os.nice(NICENESS)
     follow(Path(results), lambda: bool(select.select([sys.stdin], [], [], PAUSE_S)[0]))
