@@ -5,7 +5,10 @@ from experiments.running.environment import sweep
 
 def test_only_unfinished_files_are_removed(tmp_path):
     kept = ["results/a.parquet", "results/.partial.md", "results/.mine.parquet", "configs/.partial.abcdefgh.x"]
-    gone = ["results/smoke/.partial.ab_12345.s1.parquet", "tables/.partial.abcdefgh.t.csv"]
+    gone = [
+        "results/smoke/.partial.ab_12345.s1.parquet", "tables/.partial.abcdefgh.t.csv",
+        "results/.partial.abcdefgh.wandb/run", ".snakemake/scripts/tmpabc.train.py",
+    ]  # fmt: skip
     for name in (*kept, *gone):
         (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / name).touch()

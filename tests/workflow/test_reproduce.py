@@ -1,6 +1,7 @@
 """The entry script on a bare machine, and in folders that were copied, moved, or are named as nobody expects."""
 
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -121,7 +122,7 @@ def test_foreign_packages_never_reach_a_run(copied, tmp_path):
     ):
         done = call(*words, folder=copied, PYTHONPATH=str(tmp_path))
         assert done.returncode == 0, done.stdout
-        assert "table_05" in done.stdout
+        assert re.search(r"^table +1$", done.stdout, re.MULTILINE)
 
 
 def test_another_python_is_refused_with_one_line(make_project, snakemake, monkeypatch):

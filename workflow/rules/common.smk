@@ -23,9 +23,10 @@ from experiments.running.cluster import LIMITED, failed_jobs, warm_cache
 from experiments.running.environment import fault_of_process, quieten, sweep
 from experiments.running.processes import PREFIX, end_jobs, follow_trainings
 from experiments.settings.load import load_settings
-from mobnet.core.code import code_hash
+from mobnet.core.code import UNKNOWN, code_hash, commit
 from mobnet.core.detections import FILES
 from mobnet.core.errors import MobnetError
+from mobnet.core.files import check_room as check_folder
 from mobnet.core.machine import gpus_seen
 
 ROOT = Path(workflow.current_basedir).parent.parent
@@ -59,6 +60,9 @@ def what_other_packages_know(settings):
 
 
 try:
+    if is_main():
+        for name in (".snakemake", ".cache"):  # Snakemake and packages write there
+            check_folder(ROOT / name)
     TARGETS = targets_of(sys.argv[1:]) if is_main() else []
     if scale := scale_of_targets(TARGETS, config.get("scale")):
         config["scale"] = scale
@@ -101,6 +105,10 @@ onstart:
         record_precision(PLAN.folders.results)
         waiting = list(workflow.dag.needrun_jobs())
         check_room(waiting)
+        if commit() == UNKNOWN:
+            sys.stderr.write(
+                f"{ROOT}: git knows no commit here, so results will not say which code made them (commit: unknown)\n"
+            )
         if not workflow.local_exec:
             warm_cache(PYTHON, ROOT, jobs=len(waiting))
         if any(job.rule.name.startswith("train") for job in waiting):

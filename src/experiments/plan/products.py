@@ -36,6 +36,7 @@ TESTS = (  # scenario and level of those whose errors the page of trainings show
     "changed_walk/*",
 )  # fmt: skip
 MAIN_TABLES = ("legs", "limbs", "detectors")  # of the paper's main text, made with its numbers
+LOOKED_THROUGH = ("accounts", "results", "beside")  # arguments that are folders, of whatever stands there then
 KEPT = "kept"  # parameter of a figure that shows a file of the repository
 TIMES = "TIMES.sha256"  # beside the manifest: the list of files that hold times, and so differ between equal runs
 CAPTIONS = Path("workflow/report")
@@ -307,7 +308,7 @@ class Products:
     def _product(self, name: str, function: str, needs: Mapping[str, object], outputs: list[Path]) -> Product:
         """Return a product; its function gets what its signature names."""
         call = call_of(function, {**self._shared, **self._own(name), **needs, "out": outputs[0]})
-        read = {key: value for key, value in needs.items() if key != "accounts"}  # jobs write these without being asked
+        read = {key: value for key, value in needs.items() if key not in LOOKED_THROUGH}
         return Product(name, call, tuple(made_by_jobs(read)), tuple(map(str, outputs)))
 
     @functools.cached_property

@@ -16,6 +16,7 @@ NUMBER_BYTES = 4
 STORED = 0.6  # of the bytes of an array remain after compression: of recordings 0.46, of residuals 0.54
 MB = 1e6
 RESOURCE = "disk_mb"
+OTHER_MB = 0.5  # of a file that is in no set: the largest are weights and figures
 
 
 @dataclass(frozen=True)
@@ -66,7 +67,7 @@ def check_room(jobs: Iterable[Any]) -> None:
     for job in jobs:
         folders = {_nearest(Path(output)) for output in job.output}
         for folder in folders:
-            size_mb = job.resources.get(RESOURCE) or 0
+            size_mb = job.resources.get(RESOURCE) or OTHER_MB * len(job.output)
             needed[folder] = needed.get(folder, 0.0) + float(size_mb) / len(folders)
     disks: dict[int, list[Path]] = {}
     for folder in needed:

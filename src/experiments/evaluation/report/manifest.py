@@ -10,7 +10,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
 from mobnet.core.errors import DataError
-from mobnet.core.files import read_text, write_text
+from mobnet.core.files import PARTIAL, read_text, write_text
 
 LINE = re.compile(r"([0-9a-f]{64})  (.+)")
 TIMES = "TIMES.sha256"  # beside the manifest
@@ -93,7 +93,8 @@ def too_many(names: Iterable[str]) -> list[Path]:
 
 def is_listed(path: Path) -> bool:
     """Return whether a list has a file below a scale's results; a robot's states lie in the folder of the robot."""
-    return path.parts[0] not in UNLISTED and path.parts[1:2] != (STATE,)
+    is_unfinished = any(part.startswith(PARTIAL) for part in path.parts)
+    return path.parts[0] not in UNLISTED and path.parts[1:2] != (STATE,) and not is_unfinished
 
 
 def _fault(name: str, expected: str) -> str | None:
