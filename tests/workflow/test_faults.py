@@ -102,7 +102,7 @@ def test_a_killed_run_says_what_to_type_and_what_it_left_is_removed(project):
     assert foreign.exists()
 
 
-FULL, READ_ONLY = r"needed: \S+ MB, free: ", "cannot be written: Read-only file system"
+FULL, READ_ONLY = r"needed: \S+ Mi?B, free: ", "cannot be written: Read-only file system"
 
 
 @pytest.mark.parametrize(("folder", "size", "how", "target", "told"), [
