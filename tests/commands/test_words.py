@@ -1,11 +1,13 @@
 """The words of ./reproduce: commands, targets and their order; the scale that targets name."""
 
 import re
+from pathlib import Path
 
 import pytest
 
 from experiments.commands.words import COMMANDS, TRIALS, in_order, parse
 from experiments.running.words import nearest, one_of, scale_of, scale_of_targets
+from mobnet.commands import main as lab
 from mobnet.core.errors import CommandError, ConfigError
 
 
@@ -103,3 +105,27 @@ def test_help_of_every_command_does_nothing_else(command, word, capsys):
     with pytest.raises(SystemExit, match="0"):
         parse([command, word])
     assert f"./reproduce {command}" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(("words", "missing"), [
+    (("learn", "logs"), "logs"),
+    (("detect", "log.csv", "--thresholds", "limb.yaml"), "log.csv"),
+    (("calibrate", "here", "logs", "--limb", "LL"), "logs"),
+    (("observe", "here", "--map", "map.yaml"), "map.yaml"),
+    (("robot", "arm.urdf"), "arm.urdf"),
+])  # fmt: skip
+def test_a_lab_s_file_that_is_not_there_is_told_before_anything_is_loaded(words, missing, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    Path("here").touch()
+    with pytest.raises(CommandError, match=f"^{missing}: no such file or folder$"):
+        parse(words)
+    with pytest.raises(SystemExit, match=f"^{missing}: no such file or folder$"):
+        lab(words)
+
+
+def test_an_array_may_be_named_without_its_ending(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    for name in ("recording", "estimate"):
+        Path(f"{name}.parquet").touch()
+    words = ["calibrate", "--recording", "recording", "--estimate", "estimate"]
+    assert parse(words).extra == words[1:]
