@@ -16,7 +16,7 @@ import numpy as np
 import pinocchio as pin
 from benchmarks.jobs import run
 
-from experiments.jobs.walks import observe
+from experiments.jobs.observing import observe
 from experiments.settings.load import load_settings
 from experiments.settings.settings import Settings
 from mobnet.core.arrays import Array

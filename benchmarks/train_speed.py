@@ -16,7 +16,7 @@ import torch
 from torch import Tensor, nn
 from torch.utils.data import DataLoader, TensorDataset
 
-from experiments.plan.precision import with_precision
+from experiments.plan.plan import with_precision
 from experiments.settings.catalogue import Catalogue
 from experiments.settings.load import load_settings
 from mobnet.core.machine import one_thread

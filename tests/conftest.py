@@ -14,8 +14,7 @@ from once import once
 from patience import hear_ctrl_c
 
 from experiments.evaluation.report.docs import docs
-from experiments.plan.plan import make_plan
-from experiments.plan.precision import with_precision
+from experiments.plan.plan import make_plan, with_precision
 from experiments.settings.catalogue import Catalogue
 from experiments.settings.load import load_settings
 from mobnet.core.columns import residual_columns
@@ -194,7 +193,7 @@ def site(tmp_path_factory):
         with pytest.MonkeyPatch.context() as patch:
             patch.chdir(ROOT)
             (product,) = make_plan(load_settings(overrides={"scale": "smoke"}), with_pdf=False).docs
-            docs(**{**product.job.call.arguments, "out": folder})
+            docs(**{**product.call.arguments, "out": folder})
 
     return once(tmp_path_factory, "site", build)
 

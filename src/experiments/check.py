@@ -1,10 +1,8 @@
 """Check files from outside before anything reads them: `./reproduce check FILE...` (docs/robots.md).
 
-Readers of jobs ask for the same contract; here all columns of a file are looked at, in the memory of a minute of it. A
-file below results/ must also be the one that its job makes (`experiments.running.stamp`).
+Readers of jobs ask for the same contract; here all columns of a file are looked at, in the memory of a minute of it.
 """
 
-import functools
 import logging
 import math
 import sys
@@ -19,13 +17,9 @@ from experiments.evaluation.measure.learning.trainings import TrainingNote, read
 from experiments.evaluation.measure.reaction.results import read_file
 from experiments.evaluation.number.rows import read_detections, read_scores
 from experiments.jobs.method_problems import method_problems
-from experiments.plan.places import scale_of
-from experiments.plan.plan import Stamped, make_plan
-from experiments.plan.precision import with_precision
 from experiments.running.logs import AccountNote, read_account
 from experiments.running.words import KINDS, check_parser
 from experiments.settings.load import load_settings
-from mobnet.core.code import ROOT
 from mobnet.core.columns import (
     EPOCHS,
     EXTERNAL,
@@ -40,7 +34,7 @@ from mobnet.core.columns import (
 from mobnet.core.detections import FILES as DETECTION_FILES
 from mobnet.core.detections import columns_of
 from mobnet.core.epochs import read_epochs
-from mobnet.core.errors import DataError, MobnetError, not_accepted, refuse, refuse_lines
+from mobnet.core.errors import DataError, MobnetError, not_accepted, refuse
 from mobnet.core.files import METRICS, RUN, check_regular, read_json, read_text
 from mobnet.core.joints import JointLayout
 from mobnet.core.notes import ArrayNote, read_array_note, read_note
@@ -85,19 +79,6 @@ class LogError(UnknownKindError):
         DataError.__init__(self, f"{path}: a log; accepted: {KINDS}; what is wrong with it says `./reproduce observe`")
 
 
-@functools.cache
-def known_scales() -> frozenset[str]:
-    """Return the scales of the configuration, which takes a second to read."""
-    return frozenset(load_settings().scales)
-
-
-@functools.cache
-def stamped_at(scale: str) -> Stamped:
-    """Return the files that the plan of a scale makes."""
-    settings = load_settings(overrides={"scale": scale})
-    return Stamped(make_plan(with_precision(settings, ROOT / "results" / scale), with_pdf=False), ROOT)
-
-
 @dataclass(frozen=True)
 class Against:
     """What files are compared with: a robot's table and a rate [Hz], those of the configuration where none is given."""
@@ -125,20 +106,8 @@ def check(path: Path, against: Against) -> str:
     """Return what a file is, in a few words.
 
     Raises:
-        MobnetError: the file is not accepted, or is not the one that its job makes; one line for each fault.
+        MobnetError: the file is not accepted; one line for each fault.
     """
-    kind = _kind(path, against)
-    place = path.absolute()
-    if place.is_relative_to(ROOT / "results"):
-        name = str(place.relative_to(ROOT))
-        scale = scale_of(name)
-        if scale in known_scales():
-            refuse_lines(stamped_at(scale).foreign([name]))
-    return kind
-
-
-def _kind(path: Path, against: Against) -> str:
-    """Return what a file is by itself, in a few words."""
     if path.is_dir():
         raise UnknownKindError(path, "folder without any of these", path.name)
     check_regular(path)

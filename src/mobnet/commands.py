@@ -17,6 +17,7 @@ from mobnet.core.options import (
     identify_parser,
     import_parser,
     learn_parser,
+    missing_input,
     motion_parser,
     observe_parser,
 )
@@ -87,6 +88,9 @@ def main(words: Sequence[str] | None = None) -> int:
         overview(commands).error(unknown_command(first, commands))
     if {"-h", "--help"} & set(others):
         commands[first].parser().parse_args(["--help"])
+    # Here, as what a command imports takes seconds.
+    if line := missing_input(commands[first].parser().parse_args(others)):
+        sys.exit(line)
     try:
         module = with_extra(commands[first].module)
     except ConfigError as error:

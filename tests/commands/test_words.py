@@ -1,33 +1,36 @@
-"""The words of ./reproduce: commands, targets, their order and their scale."""
+"""The words of ./reproduce: commands, targets and their order; the scale that targets name."""
+
+import re
+from pathlib import Path
 
 import pytest
 
-from experiments.commands.words import APART, COMMANDS, in_order, parse
-from experiments.plan.places import check_scale, scale_of
+from experiments.commands.words import COMMANDS, TRIALS, in_order, parse
+from experiments.running.words import nearest, one_of, scale_of, scale_of_targets
+from mobnet.commands import main as lab
 from mobnet.core.errors import CommandError, ConfigError
 
 
 @pytest.mark.parametrize(("words", "handed"), [
     (["all", "-n"], ["all", "-n"]),
     (["-n"], ["-n"]),
-    (["tables/table_05.tex"], ["tables/table_05.tex", "--config", "scale=default"]),
-    (["tables/smoke/table_05.tex", "-n"], ["tables/smoke/table_05.tex", "--config", "scale=smoke", "-n"]),
-    (["./results/paper/runs.html"], ["./results/paper/runs.html", "--config", "scale=paper"]),
+    (["tables/table_05.tex"], ["tables/table_05.tex"]),
     (["report.html"], ["report.html"]),
     (
         ["all", "--config", "scale=smoke", "seed=1", "tables/smoke/table_05.tex", "-n"],
         ["all", "tables/smoke/table_05.tex", "--config", "scale=smoke", "seed=1", "-n"],
     ),
-    (["tables/smoke/x.md", "--config", "seed=1"], ["tables/smoke/x.md", "--config", "scale=smoke", "seed=1"]),
     (["all", "--config", "scale=smoke", "--", "x.md"], ["all", "--config", "scale=smoke", "--", "x.md"]),
 ])  # fmt: skip
-def test_targets_come_first_and_name_the_scale(words, handed):
+def test_targets_come_first(words, handed):
     assert parse(words)[::2] == ("all", handed)
 
 
-@pytest.mark.parametrize("command", APART)
-def test_trials_are_targets_of_their_own(command):
-    assert parse([command, "--config", "scale=smoke"])[::2] == (command, [command, "--config", "scale=smoke"])
+@pytest.mark.parametrize("command", TRIALS)
+def test_the_table_of_a_trial_is_a_target(command):
+    smoke = ["--config", "scale=smoke"]
+    assert parse([command, *smoke])[::2] == (command, [f"results/smoke/trials/{command}.md", *smoke])
+    assert parse([command, "-n"]).extra == [f"results/default/trials/{command}.md", "-n"]
 
 
 @pytest.mark.parametrize(("words", "message"), [
@@ -36,9 +39,8 @@ def test_trials_are_targets_of_their_own(command):
         for word in ("1x=3", "=3", "x=3", "observer.gain_hz=50", "a b=1")
     ),
     (["--config", "seed"], "--config: seed is not accepted; accepted: KEY=VALUE"),
-    (["tables/table_05.tex", "tables/smoke/table_05.tex"], "targets of the scales default, smoke: one scale"),
 ])  # fmt: skip
-def test_words_that_name_no_key_or_two_scales_are_refused(words, message):
+def test_words_that_name_no_key_are_refused(words, message):
     with pytest.raises(CommandError, match=message):
         in_order(words)
 
@@ -56,10 +58,30 @@ def test_a_path_tells_its_scale(target, scale):
     assert scale_of(target) == scale
 
 
-def test_a_target_of_another_scale_is_not_accepted():
-    check_scale(["-n", "tables/table_05.tex", "results/default/x"], "default")
+def test_targets_name_the_scale():
+    assert scale_of_targets(["tables/smoke/table_05.tex", "all"]) == "smoke"
+    assert scale_of_targets(["./results/paper/runs.html"]) == "paper"
+    assert scale_of_targets(["all"]) is None
+    assert scale_of_targets(["all"], "quick") == "quick"
+    assert scale_of_targets(["tables/table_05.tex", "results/default/x"], "default") == "default"
+    with pytest.raises(ConfigError, match="targets of the scales default, smoke: one scale"):
+        scale_of_targets(["tables/table_05.tex", "tables/smoke/table_05.tex"])
     with pytest.raises(ConfigError, match="is not made at scale=smoke; accepted: --config scale=default"):
-        check_scale(["-n", "tables/table_05.tex"], "smoke")
+        scale_of_targets(["tables/table_05.tex"], "smoke")
+
+
+def test_what_is_no_target_is_told_with_the_nearest():
+    known = ["tables/smoke/table_05.tex", "tables/smoke/table_06.tex", "train", "figures"]
+    assert nearest("tabels/smoke/table_5.tex", known).startswith(
+        "tabels/smoke/table_5.tex: is no target; did you mean tables/smoke/table_05.tex"
+    )
+    assert nearest("xyz", known) == "xyz: is no target; --list says which there are"
+
+
+def test_a_wildcard_stands_for_the_names_alone():
+    assert re.fullmatch(one_of(["a.b", "c"]), "a.b")
+    assert not re.fullmatch(one_of(["a.b", "c"]), "axb")
+    assert not re.fullmatch(one_of([]), "")
 
 
 @pytest.mark.parametrize("words", [["al"], ["clean", "--al"], ["clean", "-a"], ["clean", "all"], ["clean", "--scale"]])
@@ -83,3 +105,27 @@ def test_help_of_every_command_does_nothing_else(command, word, capsys):
     with pytest.raises(SystemExit, match="0"):
         parse([command, word])
     assert f"./reproduce {command}" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(("words", "missing"), [
+    (("learn", "logs"), "logs"),
+    (("detect", "log.csv", "--thresholds", "limb.yaml"), "log.csv"),
+    (("calibrate", "here", "logs", "--limb", "LL"), "logs"),
+    (("observe", "here", "--map", "map.yaml"), "map.yaml"),
+    (("robot", "arm.urdf"), "arm.urdf"),
+])  # fmt: skip
+def test_a_lab_s_file_that_is_not_there_is_told_before_anything_is_loaded(words, missing, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    Path("here").touch()
+    with pytest.raises(CommandError, match=f"^{missing}: no such file or folder$"):
+        parse(words)
+    with pytest.raises(SystemExit, match=f"^{missing}: no such file or folder$"):
+        lab(words)
+
+
+def test_an_array_may_be_named_without_its_ending(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    for name in ("recording", "estimate"):
+        Path(f"{name}.parquet").touch()
+    words = ["calibrate", "--recording", "recording", "--estimate", "estimate"]
+    assert parse(words).extra == words[1:]

@@ -35,13 +35,14 @@ from experiments.evaluation.measure.estimates import run_errors
 from experiments.evaluation.measure.estimates.scores import measured
 from experiments.evaluation.measure.estimates.scores import measure_problems
 from experiments.plan.plan import make_plan
+from types import SimpleNamespace
 from experiments.settings.load import load_settings
 
 golden, example, names = Path(sys.argv[1]), sys.argv[2], sys.argv[3:]
 settings = load_settings(Path("configs"), {"scale": "smoke"})
 plan = make_plan(settings, with_pdf=False)
 products = {product.name: product for product in plan.products}
-for call in (products[name].job.call for name in names):
+for call in (products[name].call for name in names):
     for folder in (plan.folders.tables, plan.folders.figures, Path("tested")):
         folder.mkdir(parents=True, exist_ok=True)
     replace(call, arguments={**call.arguments, "scores": [golden / "scores.csv"]}).run()
@@ -51,25 +52,35 @@ module.__file__ = str(golden.parent / example.removeprefix("tests/"))
 spec.loader.exec_module(module)
 for name in [name for name in vars(module) if name.startswith("test_")]:
     getattr(module, name)(settings, Path("tested"))
-score = next(step.job for step in plan.steps if "scores/forward_walk/all_uncertainty" in step.outputs[0])
-run = next(run for run in score.call.arguments["runs"] if run.method == "MOB")
+def wildcards(scenario, robot="plant", level="all_uncertainty"):
+    return SimpleNamespace(robot=robot, scenario=scenario, level=level)
+
+
+score = plan.jobs.score(wildcards("forward_walk"))
+run = next(run for run in score["runs"] if run.method == "MOB")
 pair = Pair(run, ("LL1", "LL2"), np.full((200, 2), [3.0, 4.0]), np.ones((200, 2)), ((0, 200),), 100.0)
-asked = score.call.arguments["asked"]
+asked = score["asked"]
 asked = asked.model_copy(update={"sections": {"bias": asked.sections["bias"]}})
 scene = Scene(run.recording, settings.layout, asked)
+estimated = {}
+for own in plan.files.owners:
+    for scenario, levels in own.catalogue.tests.items():
+        for level in filter(own.has, levels):
+            runs = plan.jobs.estimate(wildcards(scenario, own.robot or "plant", level))["runs"]
+            estimated.setdefault(scenario, []).extend(run.method for run in runs)
 run_errors.measure = lambda *_: iter(())
 _, (_, measures) = measured(pair, scene)
 WRONG = {"evaluation": {"measures": {"bias": {"options": {"after_s": -1.0}}}}}
 print(json.dumps({
     "bias": [(metric, values.tolist(), metric_of(metric).units) for metric, values, _ in measures],
-    "modules": score.modules,
-    "methods_of_table_07": products["table_07"].job.call.arguments["settings"].rows[0].further,
+    "modules": plan.jobs.measured_by(wildcards("forward_walk")),
+    "methods_of_table_07": products["table_07"].call.arguments["settings"].rows[0].further,
     "refused": list(measure_problems(load_settings(Path("configs"), {"scale": "smoke", **WRONG}))),
-    "stored": plan.stored,
-    "recorded": next(
-        step.job.call.arguments["duration_s"] for step in plan.steps if "/plates_walk/" in step.outputs[0]
-    ),
-    "products": {product.name: [product.job.inputs, product.outputs] for product in plan.products},
+    "estimated": estimated,
+    "recorded_s": plan.jobs.collect(wildcards("plates_walk"))["duration_s"],
+    "recorded": list(plan.jobs.collect(wildcards("plates_walk"))["motions"]),
+    "observed": list(map(str, plan.jobs.observe(wildcards("plates_walk"))["recordings"])),
+    "products": {product.name: [product.inputs, product.outputs] for product in plan.products},
 }))
 """
 
@@ -157,9 +168,7 @@ def test_each_task_of_the_guide_touches_few_files():
 
 
 def test_one_word_shows_a_new_method_in_table_07_and_runs_it(told):
-    estimates = [file for file in told["stored"] if f"/estimates/{NAME}/" in file]
-    assert estimates
-    assert all("/walk_test/" in file for file in estimates)
+    assert [scenario for scenario, methods in told["estimated"].items() if NAME in methods] == ["walk_test"]
     assert NAME in told["methods_of_table_07"]
 
 
@@ -172,9 +181,9 @@ def test_the_measure_is_taken_where_its_entry_says(told):
 
 
 def test_the_training_set_is_recorded(told):
-    for kind in ("recordings", "residuals"):
-        assert f"results/smoke/{kind}/plates_walk/all_uncertainty/s1000.parquet" in told["stored"]
-    assert told["recorded"] == 20.0
+    assert told["recorded"] == [1000]
+    assert told["observed"] == ["results/smoke/plant/recordings/plates_walk/all_uncertainty/s1000"]
+    assert told["recorded_s"] == 20.0
 
 
 @pytest.mark.parametrize(("name", "files"), [

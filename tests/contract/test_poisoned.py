@@ -13,7 +13,6 @@ import pytest
 from experiments.jobs.estimates import estimate
 from experiments.jobs.observing import observe
 from experiments.plan.parts import MethodRun
-from experiments.running.stage import Stage
 from experiments.settings.catalogue import Catalogue
 from experiments.settings.load import load_settings
 from mobnet.core.columns import EXTERNAL_LP, FEET, SWING, named, recording_columns
@@ -80,10 +79,9 @@ def run(settings, learned):
     def estimated(method, folder):
         networks, fitted = files[method] = files.get(method) or learned(method)
         given = settings.robot, settings.levels[LEVEL], settings.plant.gravity_m_s2, settings.observer
-        read, residual, out = (folder / name for name in ("recording", "residual", "estimate"))
-        runs = [MethodRun(method, Catalogue(settings).all_methods, networks, fitted, (out,))]
-        estimate(*given, runs, [read], [residual], Stage(folder / "stage", method))
-        return read_array(folder / "estimate")[0]
+        runs = [MethodRun(method, Catalogue(settings).all_methods, networks, fitted, 0)]
+        estimate(*given, runs, [folder / "recording"], [folder / "residual"], folder / "estimates")
+        return read_array(folder / "estimates" / method / "n0" / "recording")[0]
 
     return estimated
 

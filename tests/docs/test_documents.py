@@ -49,7 +49,9 @@ def made():
         patch.chdir(ROOT)
         plan = make_plan(load_settings(overrides={"scale": "default"}), with_pdf=True)
     products = (*plan.products, *plan.trials, *plan.films, *plan.docs)
-    files = {*plan.stored, *(name for product in products for name in product.outputs)}
+    files: set[str] = set()
+    for product in products:
+        files.update((*product.inputs, *product.outputs))
     return files | {str(Path(name).parent) for name in files}
 
 

@@ -12,7 +12,6 @@ from experiments.jobs import estimates as estimates_module
 from experiments.jobs.estimates import estimate
 from experiments.jobs.observing import observe
 from experiments.plan.parts import MethodRun
-from experiments.running.stage import Stage
 from mobnet.core.errors import ConfigError, DataError
 from mobnet.core.estimator import Estimate
 from mobnet.core.files import WEIGHTS
@@ -24,16 +23,13 @@ from mobnet.learning.deployed.weights import NOTE, STD_SCALE, Z_SCORES, std_scal
 
 @pytest.fixture
 def run_methods(settings, tmp_path):
-    """Return a function that runs methods on recordings and their residuals: name -> where its estimates are written.
+    """Return a function that runs MOB on recordings and their residuals, and returns where its estimates are."""
 
-    A method that is not there fails when its turn comes.
-    """
-
-    def run(recordings, residuals, outs, joints=None):
+    def run(recordings, residuals, joints=None):
         level, gravity = settings.levels["all_uncertainty"], settings.plant.gravity_m_s2
-        runs = [MethodRun(name, settings.methods, {}, None, tuple(own), joints) for name, own in outs.items()]
-        stage = Stage(tmp_path / "stage", "given", tuple(f"{stem}.parquet" for stem in recordings))
-        estimate(settings.robot, level, gravity, settings.observer, runs, recordings, residuals, stage)
+        runs, out = [MethodRun("MOB", settings.methods, {}, None, 3, joints)], tmp_path / "estimates"
+        estimate(settings.robot, level, gravity, settings.observer, runs, recordings, residuals, out)
+        return [out / "MOB" / "n3" / stem.name for stem in recordings]
 
     return run
 
@@ -43,8 +39,8 @@ def test_each_segment_starts_from_a_fresh_state(settings, recipe_of, tmp_path, m
     stem, _ = write_pair(tmp_path, recording)
     given = settings.robot, settings.levels["all_uncertainty"], settings.plant.gravity_m_s2, settings.observer
     observe(*given, stem, tmp_path / "residual")
-    run_methods([stem], [tmp_path / "residual"], {"MOB": [tmp_path / "out"]})
-    array, meta = read_array(tmp_path / "out")
+    (out,) = run_methods([stem], [tmp_path / "residual"])
+    array, meta = read_array(out)
     estimator = build_estimator(recipe_of("MOB"))
     for span in recording.spans():
         alone = estimator.estimate(recording.sensed[span]).tau_ext
@@ -57,28 +53,12 @@ def test_each_segment_starts_from_a_fresh_state(settings, recipe_of, tmp_path, m
 
 def test_an_estimate_holds_the_joints_asked_for(tmp_path, made_up, write_pair, run_methods):
     stem, residual = write_pair(tmp_path, made_up(0, 0.2))
-    files = [stem], [residual], {"MOB": [tmp_path / "out"]}
-    run_methods(*files, joints=("LL4", "W1"))
-    array, meta = read_array(tmp_path / "out")
+    (out,) = run_methods([stem], [residual], joints=("LL4", "W1"))
+    array, meta = read_array(out)
     assert [column["name"] for column in meta["columns"]] == ["tau_ext.LL4", "tau_ext.W1"]
     np.testing.assert_array_equal(array, read_array(residual, ["r.LL4", "r.W1"])[0])
     with pytest.raises(ConfigError, match="joint to estimate: 'LL9' is not accepted; accepted: "):
-        run_methods(*files, joints=("LL9",))
-
-
-def test_a_job_that_failed_goes_on_with_the_method_that_it_was_at(tmp_path, made_up, write_pair, run_methods):
-    """Nothing stands in its place before all of it is there, and what is there is not made again."""
-    stem, residual = write_pair(tmp_path, made_up(0, 0.2))
-    outs = {name: [tmp_path / name] for name in ("MOB", "none")}
-    with pytest.raises(ConfigError, match="method: 'none' is not accepted"):
-        run_methods([stem], [residual], outs)
-    assert not (tmp_path / "MOB.parquet").exists()
-    (kept,) = (tmp_path / "stage").rglob("MOB.parquet")
-    written = kept.stat().st_mtime_ns
-    run_methods([stem], [residual], {"MOB": outs["MOB"], "zero": [tmp_path / "zero"]})
-    assert (tmp_path / "MOB.parquet").stat().st_mtime_ns == written
-    assert (tmp_path / "zero.json").exists()
-    assert not (tmp_path / "stage").exists()
+        run_methods([stem], [residual], joints=("LL9",))
 
 
 def test_std_columns_follow_if_there_are_any(layout):
@@ -104,9 +84,8 @@ def test_recordings_side_by_side_and_in_batches_are_those_alone(
     """Of different lengths, with falls, more of them than are held in memory at once."""
     recordings = [made_up(k, seconds, segments=k) for k, seconds in ((1, 0.3), (2, 0.5), (3, 0.2))]
     pairs = [write_pair(tmp_path, recording) for recording in recordings]
-    outs = [tmp_path / f"out{k}" for k in range(3)]
     monkeypatch.setattr(estimates_module, "TOGETHER_S", 0.8)
-    run_methods(*map(list, zip(*pairs, strict=True)), {"MOB": outs})
+    outs = run_methods(*map(list, zip(*pairs, strict=True)))
     for recording, (_, residual), out in zip(recordings, pairs, outs, strict=True):
         array, meta = read_array(out)
         assert meta["segments"] == [list(span) for span in recording.segments]

@@ -1,16 +1,15 @@
 """A gray box learns what its friction model leaves, and the fit reaches nothing else of the training."""
 
 import json
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from made_steps import maker
+from jobs_of import network, reads
 
 from experiments.jobs.fitting import write_fit
 from experiments.jobs.train_gray import filtered_friction, train_gray
-from experiments.plan.parts import Repetition
 from experiments.plan.plan import make_plan
-from experiments.running.stage import Stage
 from experiments.settings.catalogue import Catalogue
 from mobnet.estimation.kinds.friction import read_friction
 from mobnet.estimation.recipe import build_estimator
@@ -69,22 +68,23 @@ def test_it_trains(settings, pair, fitted, tmp_path):
         "learning": training.learning.model_copy(update={"stream_s": 0.5, "batch_size": 4}),
         "epochs": 1, "epoch_samples": None,
     }  # fmt: skip
-    network = Repetition(training.model_copy(update=small), 0, tmp_path / "out", tmp_path / "state")
-    given = settings.layout, settings.observer, [network], [pair[0]], [pair[1]]
-    train_gray(1, *given, fitted, Stage(tmp_path / "stage", "given"))
+    given = settings.layout, settings.observer, training.model_copy(update=small), 0, [pair[0]], [pair[1]], fitted
+    train_gray(1, *given, tmp_path / "state", tmp_path / "out")
     note = json.loads((tmp_path / "out" / "run.json").read_text())
     assert (note["method"], note["target"]) == (METHOD, "uncertainty")
 
 
 def test_a_training_reads_the_fit_that_it_builds_upon_and_no_other_does(settings):
     plan = make_plan(settings, with_pdf=False)
-    gray, plain = (
-        maker(plan, "networks", f"{method}-{LIMB}-s0", "weights.safetensors").job for method in (METHOD, "MOB-Net")
-    )
-    assert [name for name in gray.inputs if "/fits/" in name] == ["results/smoke/fits/MOB-fric-load.json"]
-    assert not [name for name in plain.inputs if "/fits/" in name]
-    assert (gray.call.module, plain.call.module) == ("experiments.jobs.train_gray", "experiments.jobs.trainings")
-    estimate = maker(plan, "estimates", METHOD, "n0/hip_pitch_step/all_uncertainty/s101.parquet").job
-    assert "results/smoke/fits/MOB-fric-load.json" in estimate.inputs
-    assert "results/smoke/networks/MOB-Net-gray-LL-s0/weights.safetensors" in estimate.inputs
-    assert {"mobnet.estimation.kinds.gray", "mobnet.estimation.kinds.friction"} <= set(estimate.modules)
+    gray = reads(plan, "train_gray", **network(f"{METHOD}-{LIMB}-s0"))
+    plain = reads(plan, "train", **network(f"MOB-Net-{LIMB}-s0"))
+    assert [name for name in gray if "/fits/" in name] == ["results/smoke/plant/fits/MOB-fric-load.json"]
+    assert not [name for name in plain if "/fits/" in name]
+    assert METHOD in plan.trained_gray
+    assert "MOB-Net" in plan.trained
+    test = {"robot": "plant", "scenario": "hip_pitch_step", "level": "all_uncertainty"}
+    estimated = reads(plan, "estimate", **test)
+    assert "results/smoke/plant/fits/MOB-fric-load.json" in estimated
+    assert "results/smoke/plant/networks/MOB-Net-gray-LL-s0/weights.safetensors" in estimated
+    modules = plan.jobs.estimated_by(SimpleNamespace(**test))
+    assert {"mobnet.estimation.kinds.gray", "mobnet.estimation.kinds.friction"} <= set(modules)

@@ -5,9 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from experiments.jobs.trainings import train_all
-from experiments.plan.parts import Repetition
-from experiments.running.stage import Stage
+from experiments.jobs.trainings import train
 from experiments.settings.catalogue import Catalogue
 from experiments.settings.settings import Settings
 from mobnet.learning.dataset import load_limb_data
@@ -41,12 +39,20 @@ class Small:
         return load_limb_data(self.layout, training.network, training.target, self.recordings, self.residuals)
 
     def arguments(self, training, folder, start=None):
-        network = Repetition(training, 0, folder / "out", folder / "state", start)
-        data = {"recordings": self.recordings, "residuals": self.residuals}
-        return {"root_seed": 1, "layout": self.layout, "networks": [network], **data, "stage": Stage(folder / "s", "")}
+        return {
+            "root_seed": 1,
+            "layout": self.layout,
+            "training": training,
+            "seed": 0,
+            "recordings": self.recordings,
+            "residuals": self.residuals,
+            "state": folder / "state",
+            "out": folder / "out",
+            "start": start,
+        }
 
     def train(self, training, folder):
-        train_all(**self.arguments(training, folder))
+        train(**self.arguments(training, folder))
         return folder / "out"
 
 

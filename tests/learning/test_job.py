@@ -94,6 +94,6 @@ def test_a_named_format_is_that_format_and_a_gpu_computes_in_float32(name):
 
 
 def test_auto_names_no_format_of_a_training():
-    """What it stands for is decided once for all trainings (`experiments.plan.precision`)."""
+    """What it stands for is decided once for all trainings (`experiments.plan.plan`)."""
     with pytest.raises(ConfigError, match=r"precision of a training: 'auto' is not accepted; accepted: bfloat"):
         precision_of("auto", CPU)

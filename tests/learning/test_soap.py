@@ -1,5 +1,8 @@
 """SOAP follows its paper, is Adam where nothing is to be turned, and comes back from a checkpoint as it was."""
 
+import subprocess
+import sys
+
 import numpy as np
 import pytest
 import torch
@@ -149,3 +152,12 @@ def test_a_gradient_that_is_not_finite_does_not_stop_it():
     weight.grad = torch.full((2, 2), torch.nan)
     optimizer.step()
     assert torch.equal(weight, torch.ones(2, 2))
+
+
+def test_a_training_with_soap_does_not_wait_for_torch_s_compiler() -> None:
+    """An optimiser of torch imports it when it is made, which takes as long as the rest of torch."""
+    made = "import sys, torch; from mobnet.learning.soap import Soap; "
+    made += "Soap([torch.nn.Parameter(torch.ones(2, 2))], [], 1, (0.9, 0.9), 0.9, 2).zero_grad(); "
+    asked = "print('torch._dynamo' in sys.modules)"
+    done = subprocess.run([sys.executable, "-c", made + asked], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "False"

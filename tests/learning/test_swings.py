@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import torch
 
-from experiments.jobs.trainings import train_all
+from experiments.jobs.trainings import train
 from experiments.settings.catalogue import Catalogue
 from mobnet.core.errors import DataError
 from mobnet.core.files import WEIGHTS
@@ -126,6 +126,6 @@ def test_a_network_of_another_size_is_refused(small, trained, data):
 def test_swings_alone_train_and_calibrate_a_network(small, trained, walked, tmp_path):
     training = small.training(epochs=2, labels="swing", batch_size=2, validation_share=0.5)
     arguments = small.arguments(training, tmp_path / "tuned", trained) | {"margins": MARGINS}
-    train_all(**arguments | {"recordings": [walked[0]], "residuals": [walked[1]]})
+    train(**arguments | {"recordings": [walked[0]], "residuals": [walked[1]]})
     tensors, _ = read_weights(tmp_path / "tuned/out" / WEIGHTS)
     assert all(np.isfinite(tensor).all() for tensor in tensors.values())

@@ -17,7 +17,7 @@ from mobnet.core.files import CHECKPOINT, METRICS, RUN, WEIGHTS
 from mobnet.learning.deployed.networks import load_network
 from mobnet.learning.job import precision_name, precision_of
 
-SCRIPT = "import pickle, sys; from experiments.jobs.trainings import train_all as a; a(**pickle.load(sys.stdin.buffer))"
+SCRIPT = "import pickle, sys; from experiments.jobs.trainings import train as a; a(**pickle.load(sys.stdin.buffer))"
 
 
 def kill_after(small, training, folder, epochs):

@@ -23,7 +23,6 @@ from tests.outside.conftest import (
 from experiments.check import check
 from experiments.jobs.estimates import estimate
 from experiments.plan.parts import MethodRun
-from experiments.running.stage import Stage
 from experiments.settings.catalogue import Catalogue
 from mobnet.core.columns import recording_columns, recording_width
 from mobnet.core.errors import DataError
@@ -266,10 +265,10 @@ def test_a_residual_of_another_recording_trains_no_network(change, says, copied,
 def test_networks_and_observers_take_recordings_of_the_configured_rate_alone(copied, settings):
     changed_note(copied / "recording", set_at("rate_hz", 900.0))
     level, gravity = settings.levels["all_uncertainty"], settings.plant.gravity_m_s2
-    runs = [MethodRun("MOB", {"MOB": Catalogue(settings).method("MOB")}, {}, None, (copied / "out",))]
-    files, stage = ([copied / "recording"], [copied / "residual"]), Stage(copied / "stage", "given")
+    runs = [MethodRun("MOB", {"MOB": Catalogue(settings).method("MOB")}, {}, None, 0)]
+    files = [copied / "recording"], [copied / "residual"]
     with pytest.raises(DataError, match=r"rate_hz: 900.0 is not accepted; accepted: 1000, `rates.data_hz`"):
-        estimate(settings.robot, level, gravity, settings.observer, runs, *files, stage, RATE_HZ)
+        estimate(settings.robot, level, gravity, settings.observer, runs, *files, copied / "out", RATE_HZ)
     limb = Catalogue(settings).network("MOB-Net", "LL")
     with pytest.raises(DataError, match=r"rate_hz: 900\.0 is not accepted"):
         load_limb_data(settings.layout, limb, "external", *files, RATE_HZ)

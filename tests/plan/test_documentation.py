@@ -26,9 +26,9 @@ def product(plan: Plan) -> Product:
 
 def test_no_product_needs_it_and_it_needs_none(plan: Plan, product: Product) -> None:
     assert product.outputs == ("results/smoke/docs",)
-    made = {*plan.stored, *(name for one in plan.products for name in one.outputs)}
-    assert not made & set(product.job.inputs)
-    assert not [one.name for one in plan.products if set(one.job.inputs) & set(product.outputs)]
+    made = {name for one in plan.products for name in one.outputs}
+    assert not made & set(product.inputs)
+    assert not [one.name for one in plan.products if set(one.inputs) & set(product.outputs)]
 
 
 def test_it_is_made_again_when_a_document_a_caption_a_result_or_a_docstring_changes(product: Product) -> None:
@@ -36,5 +36,5 @@ def test_it_is_made_again_when_a_document_a_caption_a_result_or_a_docstring_chan
         "README.md", "docs/README.md", "docs/conf.py", "docs/notes/0034-observer.md", "docs/results/figure_06.png",
         "docs/results/claims.csv", "workflow/report/tables/table_05.rst", "src/mobnet/settings/base.py",
     )  # fmt: skip
-    assert [name for name in wanted if name not in product.job.inputs] == []
-    assert [name for name in product.job.inputs if not (ROOT / name).is_file()] == []
+    assert [name for name in wanted if name not in product.inputs] == []
+    assert [name for name in product.inputs if not (ROOT / name).is_file()] == []

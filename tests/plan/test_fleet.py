@@ -5,10 +5,9 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from made_steps import arguments, maker, recording
+from jobs_of import arguments, network, reads
 
-from experiments.plan.plan import Plan, make_plan
-from experiments.plan.precision import with_precision
+from experiments.plan.plan import Plan, make_plan, with_precision
 from experiments.settings.load import load_settings
 from mobnet.core.errors import ConfigError
 
@@ -45,7 +44,7 @@ def test_a_variant_is_another_plant_for_the_same_networks(plan: Plan) -> None:
     assert [run.recording.parts[-2] for run in runs] == [f"{robot}_robots_other" for robot in ROBOTS]
 
     def level(robot: str, name: str) -> Any:
-        return arguments(plan, recording("changed_walk", f"{robot}_{name}", 101, robot))["settings"].level
+        return arguments(plan, "collect", robot, scenario="changed_walk", level=f"{robot}_{name}")["settings"].level
 
     assert [level(robot, "robots_other").surrogate.seed for robot in ROBOTS] == [2, 3, 4]
     law = level("robot_1", "robots_law")
@@ -59,9 +58,9 @@ def test_a_variant_is_another_plant_for_the_same_networks(plan: Plan) -> None:
 
 def test_a_variant_may_walk_otherwise_or_carry_more(plan: Plan) -> None:
     """In training as in tests: its gait replaces the scenario's, its gains are a share of all robots'."""
-    for scenario, seed in (("changed_walk", 101), ("robot_walk", 1000)):
+    for scenario in ("changed_walk", "robot_walk"):
         own, gains, gait, payload = (
-            arguments(plan, recording(scenario, f"robot_2{name}", seed, "robot_2"))["settings"]
+            arguments(plan, "collect", "robot_2", scenario=scenario, level=f"robot_2{name}")["settings"]
             for name in ("", "_robots_gains", "_robots_gait", "_robots_payload")
         )
         soft, stiff = gains.walking.leg_stiffness_nm_rad, own.walking.leg_stiffness_nm_rad
@@ -76,10 +75,11 @@ def test_a_variant_may_walk_otherwise_or_carry_more(plan: Plan) -> None:
 @pytest.mark.parametrize("robot", ROBOTS)
 def test_a_robot_learns_from_its_own_recordings(plan: Plan, robot: str) -> None:
     """Networks and fits; what it walks on is that of the set which takes the place of the one that a network names."""
-    training = maker(plan, robot, "networks", f"MOB-Net-LL-s{101 + ROBOTS.index(robot)}", "weights.safetensors").job
-    for job in (training, maker(plan, robot, "fits", "MOB-fric.json").job):
-        assert {Path(name).relative_to(RESULTS).parts[0] for name in job.inputs} == {robot}
-    assert all("/robot_walk/" in name for name in training.inputs)
+    training = reads(plan, "train", robot, **network(f"MOB-Net-LL-s{101 + ROBOTS.index(robot)}"))
+    for read in (training, reads(plan, "fit", robot, method="MOB-fric")):
+        sets = [Path(name) for name in read if "/state/" not in name]
+        assert folders(sets) == {robot}
+    assert all("/robot_walk/" in name for name in training if "/state/" not in name)
 
 
 def test_a_level_of_one_robot_is_walked_by_it_alone(plan: Plan) -> None:
@@ -89,45 +89,38 @@ def test_a_level_of_one_robot_is_walked_by_it_alone(plan: Plan) -> None:
     assert {run.estimate for run in runs} >= {plan.files.runs("motion_test", "robots", ["MOB-Net"])[0].estimate}
     trained = [{method for method, _ in plan.files.robots[robot].learned} for robot in ROBOTS]
     assert ["MOB-Net-Single" in methods for methods in trained] == [True, False, False]
-    training = maker(plan, "robot_1/networks/MOB-Net-plain-LL-s101/weights.safetensors")
-    read = {Path(name).parts[2] for name in training.job.inputs}
-    assert read == {"robot_1"}
+    read = reads(plan, "train", "robot_1", **network("MOB-Net-plain-LL-s101"))
+    assert {Path(name).parts[2] for name in read} == {"robot_1"}
     assert {path.parts[2] for path in plan.files.training("recordings", "robot_walk_plain")} == set(ROBOTS)
 
 
 def test_a_fine_tuning_begins_with_the_robot_s_own_network_and_learns_from_the_changed_one(plan: Plan) -> None:
-    def given(method: str) -> tuple[Any, Any]:
-        """Return the arguments of the job that trains a method's network, and the network among them."""
-        place = f"robot_2/networks/{method}-LL-s102"
-        found = arguments(plan, place, "weights.safetensors")
-        (own,) = [network for network in found["networks"] if network.out == RESULTS / place]
-        return found, own
+    def given(method: str) -> Any:
+        return arguments(plan, "train", "robot_2", **network(f"{method}-LL-s102"))
 
-    tuned, network = given("MOB-Net-other-swing-data-s-60")
-    assert network.start == RESULTS / "robot_2/networks/MOB-Net-LL-s102/weights.safetensors"
-    assert str(network.start) in maker(plan, str(network.out.relative_to(RESULTS)), "weights.safetensors").job.inputs
+    tuned = given("MOB-Net-other-swing-data-s-60")
+    assert tuned["start"] == RESULTS / "robot_2/networks/MOB-Net-LL-s102/weights.safetensors"
     assert tuned["recordings"] == (RESULTS / "robot_2/recordings/robot_walk/robot_2_robots_other/s1000",)
     swings = plan.settings.evaluation.changed
     assert tuned["margins"] == (swings.lift_off_s, swings.landing_s)
-    learning = network.training.learning
+    learning = tuned["training"].learning
     assert (learning.data_s, learning.labels) == (60, "swing")
-    assert "margins" not in given("MOB-Net-other-data-s-60")[0]
-    assert given("MOB-Net")[1].start is None
+    assert "margins" not in given("MOB-Net-other-data-s-60")
+    assert "start" not in given("MOB-Net")
 
 
 def test_names_of_networks_differ_and_motions_are_shared(plan: Plan) -> None:
     networks = plan.files.all_networks()
     assert len({folder.name for folder in networks}) == len(networks)
-    assert {folder.relative_to(RESULTS).parts[0] for folder in networks} == {"networks", *ROBOTS}
+    assert {folder.relative_to(RESULTS).parts[0] for folder in networks} == {"plant", *ROBOTS}
     motions = {path for own in plan.files.robots.values() for path in own.motion("random_motion", 1000)}
     assert motions == set(plan.files.motion("random_motion", 1000))
 
 
-def test_every_run_of_a_test_is_scored_and_stored(plan: Plan) -> None:
-    """A file of scores has all robots of a level; all that its runs read is made."""
-    read = maker(plan, "scores/walk_test/robots.csv").job.inputs
-    assert {Path(name).relative_to(RESULTS).parts[0] for name in read} >= set(ROBOTS)
-    assert set(read) <= set(plan.stored)
+def test_every_run_of_a_test_is_scored(plan: Plan) -> None:
+    """A file of scores has all robots of a level."""
+    read = reads(plan, "score", scenario="walk_test", level="robots")
+    assert folders([Path(name) for name in read]) == set(ROBOTS)
 
 
 def test_a_scale_may_have_fewer_robots() -> None:
@@ -144,7 +137,7 @@ def test_products_can_show_the_fleet(plan: Plan) -> None:
     trained = plan.files.network_folders(["GRU-adam"], "LL", "robots")
     assert {folder.relative_to(RESULTS).parts[0] for folder in trained} == {*ROBOTS}
     shown = next(product for product in plan.products if product.name == "figure_17")
-    assert folders([Path(name) for name in shown.job.inputs]) == set(ROBOTS)
+    assert folders([Path(name) for name in shown.inputs]) == set(ROBOTS)
 
 
 @pytest.mark.parametrize(("sections", "text"), [

@@ -3,10 +3,9 @@
 from pathlib import Path
 
 import pytest
-from made_steps import arguments
+from jobs_of import arguments, network
 
-from experiments.plan.plan import make_plan
-from experiments.plan.precision import PLACE, record_precision, with_precision
+from experiments.plan.plan import PRECISION, make_plan, record_precision, with_precision
 from experiments.settings.catalogue import Catalogue
 from experiments.settings.load import load_settings
 from experiments.settings.settings import Settings
@@ -50,20 +49,22 @@ def test_a_named_format_stays_and_that_of_a_method_is_named_too(asked: Settings,
     named = load_settings(
         overrides={"learning": {"precision": "float32"}, "methods": {"GRU": {"learning": {"precision": "auto"}}}}
     )
-    (tmp_path / PLACE).parent.mkdir()
-    (tmp_path / PLACE).write_text('{"auto": "bfloat16"}')
+    (tmp_path / PRECISION).parent.mkdir()
+    (tmp_path / PRECISION).write_text('{"auto": "bfloat16"}')
     found = Catalogue(with_precision(named, tmp_path))
     assert (found.learned("MOB-Net").precision, found.learned("GRU").precision) == ("float32", "bfloat16")
 
 
 def test_a_training_of_the_plan_has_a_named_format(asked: Settings, tmp_path: Path) -> None:
     plan = make_plan(with_precision(asked, tmp_path), with_pdf=False)
-    (network, *_) = arguments(plan, "networks/MOB-Net-LL-s0/weights.safetensors")["networks"]
-    assert network.training.learning.precision in ("float32", "bfloat16")
+    assert arguments(plan, "train", **network("MOB-Net-LL-s0"))["training"].learning.precision in (
+        "float32",
+        "bfloat16",
+    )
 
 
 def test_a_damaged_record_is_named(asked: Settings, tmp_path: Path) -> None:
-    (tmp_path / PLACE).parent.mkdir()
-    (tmp_path / PLACE).write_text('{"auto": "float8"}')
+    (tmp_path / PRECISION).parent.mkdir()
+    (tmp_path / PRECISION).write_text('{"auto": "float8"}')
     with pytest.raises(DataError, match=r"precision.json: auto: 'float8' is not accepted"):
         with_precision(asked, tmp_path)

@@ -4,8 +4,9 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from jobs_of import arguments
 
-from experiments.commands.words import APART
+from experiments.commands.words import TRIALS
 from experiments.evaluation.tables.further.falls import ALL
 from experiments.plan.plan import Plan, make_plan
 from experiments.plan.products import Product
@@ -63,16 +64,18 @@ def test_a_trial_changes_what_it_says_and_its_length(plan: Plan) -> None:
 def test_trials_read_development_walks_and_no_test(plan: Plan, products: dict[str, Product]) -> None:
     tasks = plan.settings.development
     for product in (product for name, product in products.items() if name != "random_torque"):
-        recorded = [Path(name) for name in product.job.inputs if "/recordings/" in name or "/residuals/" in name]
-        assert {path.parts[-3] for path in recorded} <= {walk.scenario for walk in tasks.values()}
-        assert all(501 <= int(path.stem.removeprefix("s")) < 1000 for path in recorded)
+        recorded = [Path(name) for name in product.inputs if "/recordings/" in name or "/residuals/" in name]
+        assert {path.parts[-2] for path in recorded} <= {walk.scenario for walk in tasks.values()}
+        for path in recorded:
+            assert (
+                501 <= min(plan.files.seeds_of(*path.parts[-2:])) <= max(plan.files.seeds_of(*path.parts[-2:])) < 1000
+            )
 
 
 def test_no_product_of_a_run_needs_a_trial_and_none_is_stored(plan: Plan) -> None:
     made = {name for product in plan.trials for name in product.outputs}
-    tried = [name for name in plan.stored if any(f"/{trial}-LL-s" in name for trial in plan.files.catalogue.tried)]
-    assert not tried
-    assert not made & {name for product in plan.products for name in (*product.job.inputs, *product.outputs)}
+    assert not {method for own in plan.files.owners for method, _ in own.learned} & set(plan.files.catalogue.tried)
+    assert not made & {name for product in plan.products for name in (*product.inputs, *product.outputs)}
 
 
 def test_tables_of_trials_are_results_of_their_scale(products: dict[str, Product]) -> None:
@@ -81,19 +84,16 @@ def test_tables_of_trials_are_results_of_their_scale(products: dict[str, Product
         trials = make_plan(load_settings(overrides={"scale": scale}), with_pdf=False).trials
         folder = f"results/{scale}/trials"
         assert {name for one in trials for name in one.outputs} == {
-            f"{folder}/{name}.{ending}"
-            for name in APART
-            if name not in ("films", "docs")
-            for ending in ("csv", "tex", "md")
+            f"{folder}/{name}.{ending}" for name in TRIALS for ending in ("csv", "tex", "md")
         }
 
 
 def test_falls_are_counted_of_every_robot_in_walks_of_no_training_and_no_test(plan: Plan) -> None:
     """The first robot has the first seed; nothing but the largest torque differs between its walks."""
-    steps = {step.outputs[0]: step.job.call.arguments for step in plan.trial_steps if step.rule.startswith("falls")}
-    assert list(steps) == [f"results/default/{robot}/falls.csv" for robot in plan.files.robots]
-    assert next(one for one in plan.trials if one.name == "random_torque").job.inputs == tuple(steps)
-    seeds: list[Any] = [given["seed"] for given in steps.values()]
+    robots = list(plan.files.robots)
+    counted = tuple(f"results/default/{robot}/falls.csv" for robot in robots)
+    assert plan.product("random_torque").inputs == counted
+    seeds: list[Any] = [arguments(plan, "falls", robot)["seed"] for robot in robots]
     assert seeds == [701, 702, 703]
     assert max(plan.files.development_seeds) < min(seeds)
     assert max(seeds) < FIRST_TRAINING_SEED
@@ -107,12 +107,12 @@ def test_the_random_torque_on_legs_is_the_one_that_the_trial_chose(plan: Plan) -
 
 
 def test_a_gray_box_is_tried_on_its_fit_and_a_filter_without_networks(products: dict[str, Product]) -> None:
-    tried: Any = products["tuning"].job.call.arguments["tasks"]["plant_leg"].tried
+    tried: Any = products["tuning"].arguments["tasks"]["plant_leg"].tried
     gray = next(one for one in tried if one.base == "MOB-Net-gray")
     kalman = next(one for one in tried if one.base == "MOB-Kalman")
     assert [path.name for path in (gray.fitted, kalman.fitted)] == ["MOB-fric-load.json"] * 2
     assert (list(gray.networks), kalman.networks) == (["LL"], {})
-    assert {"mobnet.estimation.kinds.kalman", "mobnet.estimation.kinds.gray"} <= set(products["tuning"].job.modules)
+    assert {"mobnet.estimation.kinds.kalman", "mobnet.estimation.kinds.gray"} <= set(products["tuning"].modules)
 
 
 def test_the_learning_curve_is_drawn_where_its_data_are(plan: Plan, monkeypatch: Any, tmp_path: Path) -> None:
@@ -121,4 +121,4 @@ def test_the_learning_curve_is_drawn_where_its_data_are(plan: Plan, monkeypatch:
     (tmp_path / "docs/trials").mkdir(parents=True)
     (tmp_path / "docs/trials/lengths.csv").touch()
     products = {product.name: product for product in make_plan(plan.settings, with_pdf=False).products}
-    assert products["learning_curve"].job.inputs == ("docs/trials/lengths.csv",)
+    assert products["learning_curve"].inputs == ("docs/trials/lengths.csv",)

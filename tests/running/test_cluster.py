@@ -1,6 +1,7 @@
 """A job that failed on a cluster is told in one line."""
 
 import os
+import sys
 
 import pytest
 
@@ -99,7 +100,7 @@ def test_code_is_compiled_before_many_jobs_and_not_before_few(tmp_path):
     script = tmp_path / "workflow" / "scripts" / "warm.py"
     script.parent.mkdir(parents=True)
     script.write_text("from pathlib import Path\nPath('compiled').touch()\n")
-    warm_cache(tmp_path, FEW)
+    warm_cache(sys.executable, tmp_path, FEW)
     assert not (tmp_path / "compiled").exists()
-    warm_cache(tmp_path, FEW + 1)
+    warm_cache(sys.executable, tmp_path, FEW + 1)
     assert (tmp_path / "compiled").exists()

@@ -5,7 +5,7 @@ import os
 
 import pytest
 
-from mobnet.core.lock import opened, taken
+from mobnet.core.files import opened, taken
 from mobnet.core.machine import claimed, gpus_seen
 
 CUDA, CPU = "2.13.0", "2.13.0+cpu"

@@ -300,27 +300,5 @@ def test_a_run_refuses_within_seconds_in_one_line(words: list[str], line: str) -
     assert after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime < LONGEST_S
 
 
-def test_a_configuration_file_for_snakemake_is_refused(tmp_path: Path) -> None:
-    """Snakemake's own reader runs code; `./reproduce` replaces it."""
-    code = "__use_yte__: true\nx: ?open('ran', 'w')\n"
-    path = tmp_path / "config.yaml"
-    deep = f"x: {'[' * 20_000}"
-    for text, words, message in (
-        ("scale: smoke\n", ["--configfile", str(path)], "--configfile: "),
-        (code, [f"--configfiles={path}"], "--configfile: "),
-        (code, ["--configf", "missing.yaml"], "--configfile: missing.yaml "),
-        (code, ["--configfile"], "--configfile: nothing "),
-        (code, ["--profile", str(tmp_path)], f"{path}: "),
-        (deep, ["--profile", str(tmp_path)], f"{path}: "),
-    ):
-        path.write_text(text)
-        run = [sys.executable, "-m", "experiments.running.run", "-n", *words]
-        done = subprocess.run(run, cwd=ROOT, capture_output=True, text=True, check=False)
-        assert done.returncode == 1
-        assert any(line.startswith(message) and "accepted: " in line for line in done.stderr.splitlines())
-        assert "Traceback" not in done.stderr
-    assert not (ROOT / "ran").exists()
-
-
 def test_settings_of_what_is_accepted_come_back() -> None:
     assert load_settings(overrides={"observer": {"gain_hz": "50"}}).observer.gain_hz == 50.0

@@ -2,17 +2,16 @@
 
 import hashlib
 import os
-import re
 import shutil
 import subprocess
 import sys
 from functools import cache
 from pathlib import Path
-from typing import NamedTuple
 
 import pytest
 from once import once
 
+from experiments.plan.dry_run import dry_run
 from mobnet.core.compilation import cache_root
 
 ROOT = Path(__file__).parents[2]
@@ -21,15 +20,6 @@ PARTS = (
     "README.md", "CONTRIBUTING.md", "CHANGELOG.md", "CITATION.cff",
 )  # fmt: skip
 COMPILED = Path(".cache") / "numba"
-JOB = re.compile(r"^ *(?:local)?rule (\w+):\n((?: {4,}\w+: .*\n)*)", re.MULTILINE)
-
-
-class Job(NamedTuple):
-    """A job as a dry run tells it: its rule, its outputs and its resources."""
-
-    rule: str
-    outputs: list[str]
-    resources: dict[str, str]
 
 
 @pytest.fixture(scope="session")
@@ -45,29 +35,22 @@ def snakemake():
 
 
 @pytest.fixture(scope="session")
-def planned(snakemake):
+def planned():
     """Return a function of a scale that returns all jobs of a dry run of everything."""
-
-    @cache
-    def jobs(scale):
-        done = snakemake("-n", "--forceall", "--quiet", "host", "--config", f"scale={scale}")
-        assert done.returncode == 0, done.stderr
-        return [job_of(*found) for found in JOB.findall(done.stdout + done.stderr)]
-
-    return jobs
-
-
-def job_of(rule, text):
-    """Return a job of what a dry run tells of it."""
-    told = dict(line.strip().split(": ", 1) for line in text.splitlines() if ": " in line)
-    outputs, resources = (told[key].split(", ") if key in told else [] for key in ("output", "resources"))
-    return Job(rule, outputs, dict(pair.split("=", 1) for pair in resources))
+    return cache(lambda scale: dry_run(["all"], [f"scale={scale}"], from_nothing=True))
 
 
 @pytest.fixture(scope="session")
 def outputs(planned):
     """Return a function of a scale that returns file -> rule of everything the workflow makes."""
-    return lambda scale: {name: job.rule for job in planned(scale) for name in job.outputs}
+
+    def made(scale):
+        found = {}
+        for job in planned(scale):
+            found |= dict.fromkeys(filter(None, job.outputs), job.rule)
+        return found
+
+    return made
 
 
 @pytest.fixture(scope="session")

@@ -14,10 +14,10 @@ from .cluster import cluster_in
 SMOKE = ("--config", "scale=smoke")
 SOON = ("--slurm-init-seconds-before-status-checks", "1", "--latency-wait", "5")  # jobs take seconds here
 PROFILE = ("--profile", "workflow/profiles/slurm", *SOON)
-NETWORK = Path("results/smoke/networks/MOB-Net-LA-s0")
+NETWORK = Path("results/smoke/plant/networks/MOB-Net-LA-s0")
 TARGETS = tuple(str(NETWORK / name) for name in (WEIGHTS, METRICS, RUN))
-COLLECTED = "results/smoke/recordings/random_walk/all_uncertainty/s1000.parquet"
-JOB = NETWORK.name  # it trains this network first, and those of other limbs after it
+COLLECTED = "results/smoke/plant/recordings/random_walk/all_uncertainty"
+JOB = f"plant/{NETWORK.name}"
 
 pytestmark = [pytest.mark.slow, pytest.mark.sim]
 
@@ -42,7 +42,7 @@ def project(make_project, trained):
     """A copy of the project with the data of the network, which is not trained."""
     folder = make_project("project")
     for part in ("recordings", "residuals"):
-        subprocess.run(["cp", "-a", "--parents", f"results/smoke/{part}", str(folder)], cwd=trained, check=True)
+        subprocess.run(["cp", "-a", "--parents", f"results/smoke/plant/{part}", str(folder)], cwd=trained, check=True)
     subprocess.run(["cp", "-a", ".snakemake", str(folder)], cwd=trained, check=True)
     return folder
 
@@ -106,8 +106,11 @@ def test_a_controller_that_fails_and_returns_is_waited_for(cluster, project, tra
 def test_a_killed_run_started_again_ends_the_same(cluster, project, trained):
     run = start(cluster, project)
     wait_for_training(cluster, project)
-    cluster.ask("pkill", "-KILL", "-f", "experiments.running.run")
+    cluster.ask("pkill", "-KILL", "-f", "snakemake --cores")
     run.wait(HANGS_S)
+    cluster.ask("scancel", "--user", "root")
+    unlock = [sys.executable, str(project / "reproduce"), "all", *SMOKE, "--unlock"]
+    subprocess.run(unlock, cwd=project, check=True, capture_output=True)
     again = start(cluster, project)
     assert_ends_the_same(again, cluster, project, trained)
 
@@ -115,7 +118,7 @@ def test_a_killed_run_started_again_ends_the_same(cluster, project, trained):
 def test_ctrl_c_empties_the_queue(cluster, project):
     run = start(cluster, project)
     wait_for_training(cluster, project)
-    cluster.ask("pkill", "-INT", "-f", "experiments.running.run")
+    cluster.ask("pkill", "-INT", "-f", "snakemake --cores")
     assert ended(run, cluster, project) != 0
     said = told(project)
     assert said.count("stopped; the same command goes on from here") == 1

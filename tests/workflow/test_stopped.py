@@ -1,29 +1,28 @@
 """A run that was killed and went on is one run: the same bytes, and results of one commit, which a snapshot accepts."""
 
 import os
+import shutil
 import signal
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
 from patience import wait_for
 
 from .conftest import PARTS
 
-TARGET = "results/smoke/residuals/forward_walk/ideal/s101.parquet"
+TARGET = "results/smoke/plant/residuals/forward_walk/ideal"
 ARRAYS = ("recordings", "residuals")
 CHECK = """
 import sys
 from pathlib import Path
 from mobnet.core.errors import DataError
-from experiments.evaluation.report.manifest import is_listed, manifest
+from experiments.evaluation.report.manifest import manifest
 from experiments.evaluation.report.snapshot import check_fingerprints, check_run
 
 results = Path("results/smoke")
-made = [path for path in results.rglob("*") if path.is_file() and is_listed(path.relative_to(results))]
 listed = Path("listed.sha256")
-manifest(made, [], listed)
+manifest(results, [], [], listed)
 try:
     check_run(results, listed)
     check_fingerprints(*sys.argv[1:])
@@ -34,8 +33,12 @@ except DataError as error:
 pytestmark = [pytest.mark.slow, pytest.mark.sim]
 
 
+def command(folder):
+    return [sys.executable, str(folder / "reproduce"), TARGET]
+
+
 def start(folder):
-    words = [sys.executable, str(folder / "reproduce"), TARGET, "--cores", "1"]
+    words = [*command(folder), "--cores", "1"]
     with (folder / "out.log").open("ab") as out:
         return subprocess.Popen(words, cwd=folder, stdout=out, stderr=out, start_new_session=True)
 
@@ -48,8 +51,8 @@ def kill_when(run, began):
 
 
 def arrays(folder):
-    places = [folder / "results" / "smoke" / kind for kind in ARRAYS]
-    return {str(path): path.read_bytes() for place in places for path in place.rglob("*") if path.is_file()}
+    places = [folder / "results" / "smoke" / "plant" / kind for kind in ARRAYS]
+    return {str(path): path.read_bytes() for place in places for path in place.rglob("s*.*") if path.is_file()}
 
 
 def git(folder, *words):
@@ -71,17 +74,20 @@ def test_a_killed_run_that_went_on_is_one_run(make_project):
     git(folder, "init", "--quiet")
     git(folder, "add", *PARTS)
     git(folder, "commit", "--quiet", "-m", "all")
-    log = folder / "results" / "smoke" / "logs" / "collect" / "forward_walk-ideal-s101.log"
+    log = folder / "results" / "smoke" / "logs" / "collect" / "plant" / "forward_walk-ideal.log"
     kill_when(start(folder), log)
     assert not (folder / TARGET).exists()
+    assert start(folder).wait() != 0
+    assert "--unlock" in (folder / "out.log").read_text()
+    subprocess.run([*command(folder), "--unlock"], cwd=folder, check=True, capture_output=True)
     assert start(folder).wait() == 0, (folder / "out.log").read_text()
     resumed = arrays(folder)
     assert refusal(folder) == ""
-    places = [str(folder / "results/smoke" / kind) for kind in ARRAYS]
+    places = [str(folder / "results/smoke/plant" / kind) for kind in ARRAYS]
     check = [sys.executable, str(folder / "reproduce"), "check", *places]
     assert subprocess.run(check, cwd=folder, check=False, capture_output=True).returncode == 0
-    for path in map(Path, resumed):
-        path.unlink()
+    for kind in ARRAYS:
+        shutil.rmtree(folder / "results/smoke/plant" / kind)
     assert start(folder).wait() == 0
     assert arrays(folder) == resumed
     assert "jobs would run again, which is not accepted" in refusal(folder, "observer={gain_hz: 50}")
@@ -89,5 +95,5 @@ def test_a_killed_run_that_went_on_is_one_run(make_project):
     assert "-changed: is not accepted; accepted: a checkout without changed files" in refusal(folder)
     git(folder, "commit", "--quiet", "--all", "-m", "another")
     (line,) = refusal(folder).splitlines()
-    assert line.startswith("results/smoke/logs/collect/forward_walk-ideal-s101.json: commit ")
+    assert line.startswith("results/smoke/logs/collect/plant/forward_walk-ideal.json: commit ")
     assert "further files" in line

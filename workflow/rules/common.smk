@@ -1,38 +1,55 @@
-"""What the rules share: the checked configuration, the plan that follows from it, and what each rule depends on."""
+# What the rules share: the checked configuration, the plan that follows from it, and what each job depends on.
 
 import os
+import shlex
+import signal
 import sys
+import threading
 import time
 from importlib.metadata import version
-from pathlib import Path
-from typing import NamedTuple
 
-from snakemake.logging import logger as snakemake_logger
-from snakemake.settings.enums import RerunTrigger
+from snakemake.cli import get_argument_parser
 
 from experiments.evaluation.measure.estimates.scores import measure_problems
 from experiments.evaluation.report.paper import missing_packages
 from experiments.jobs.method_problems import method_problems
-from experiments.plan.disk import check_places, check_space
-from experiments.plan.places import check_scale
-from experiments.plan.plan import make_plan
-from experiments.plan.precision import record_precision, with_precision
-from experiments.plan.products import shown
-from experiments.plan.plan import Stamped
+from experiments.plan.files import made_by_jobs
+from experiments.plan.plan import make_plan, record_precision, with_precision
+from experiments.plan.products import shown as report_of
+from experiments.plan.room import Sizes, check_room
+from experiments.running.words import in_set, nearest, one_of, scale_of_targets
 from experiments.settings.checks.claims import text_problems
 from experiments.running.cluster import LIMITED, failed_jobs, warm_cache
-from experiments.running.environment import quieten
-from experiments.running.follow import follow_trainings
-from experiments.running.patches import by_kind, drop_rate_limit, quote_python, set_resources_by_kind
-from experiments.running.run import is_stopped, refuse_configfiles, start_jobs
+from experiments.running.environment import fault_of_process, quieten, sweep
+from experiments.running.processes import PREFIX, end_jobs, follow_trainings
 from experiments.settings.load import load_settings
-from mobnet.core.errors import MobnetError, refuse_lines
+from mobnet.core.code import UNKNOWN, code_hash, commit
+from mobnet.core.detections import FILES
+from mobnet.core.errors import MobnetError
+from mobnet.core.files import check_room as check_folder
 from mobnet.core.machine import gpus_seen
-from mobnet.core.lock import job_prefix
 
-ROOT, STARTED_S = Path(workflow.basedir), time.time()
+ROOT = Path(workflow.current_basedir).parent.parent
+STARTED_S = time.time()
+BEGUN, STOPPED = threading.Event(), threading.Event()  # of the jobs; by Ctrl-C
+
+if fault := fault_of_process(ROOT):
+    sys.exit(fault)
 quieten(ROOT)
-shell.prefix(job_prefix(ROOT))
+PYTHON = sys.executable
+sys.executable = shlex.quote(PYTHON)  # Snakemake writes it into shell commands as it is
+shell.prefix(PREFIX)
+
+
+def is_main():
+    """Return whether the words of the call are meant for these rules: not in a job, nor in a module of others."""
+    return workflow.is_main_process and Path(workflow.main_snakefile).parent == ROOT
+
+
+def targets_of(words):
+    """Return the targets among the words of a call."""
+    known, _ = get_argument_parser().parse_known_args(words)
+    return [str(target) for target in known.targets]
 
 
 def what_other_packages_know(settings):
@@ -42,47 +59,70 @@ def what_other_packages_know(settings):
     yield from text_problems(settings, ROOT / "paper" / "main.tex")
 
 
-quote_python()
-
 try:
-    refuse_configfiles(workflow.overwrite_configfiles)
+    if is_main():
+        for name in (".snakemake", ".cache"):  # Snakemake and packages write there
+            check_folder(ROOT / name)
+    TARGETS = targets_of(sys.argv[1:]) if is_main() else []
+    if scale := scale_of_targets(TARGETS, config.get("scale")):
+        config["scale"] = scale
     SETTINGS = load_settings(ROOT / "configs", config, what_other_packages_know)
     SETTINGS = with_precision(SETTINGS, Path("results") / SETTINGS.scale)
     PLAN = make_plan(SETTINGS, with_pdf=not missing_packages())
-    check_scale(sys.argv[1:], SETTINGS.scale)
-    check_places(PLAN)
 except MobnetError as error:
     sys.exit(str(error))
 
+JOBS = PLAN.jobs
+SIZES = Sizes(JOBS)
 config["scale"] = SETTINGS.scale  # the report names it
-LOGS = PLAN.folders.results / "logs"
 # Jobs that use a GPU wait for those of this machine; on a cluster they ask for one by --set-resources train:gpu=1.
 GPUS = gpus_seen(version("torch"), os.environ) if workflow.nodes is None else 0
 if GPUS and "gpu" not in workflow.global_resources:
     workflow.register_resource("gpu", GPUS)
 
 
+pathvars:
+    results=str(PLAN.folders.results),
+    logs=str(PLAN.folders.results / "logs"),
+    tables=str(PLAN.folders.tables),
+    figures=str(PLAN.folders.figures),
+
+
+wildcard_constraints:
+    robot=one_of(PLAN.robots),
+    scenario=one_of(SETTINGS.scenarios),
+    level=one_of(PLAN.levels),
+    motion=one_of(SETTINGS.motions),
+    limb=one_of(SETTINGS.networks),
+    method=one_of(PLAN.methods),
+    seed=r"\d+",
+
+
 onstart:
-    if workflow.local_exec:
-        drop_rate_limit(workflow)
+    BEGUN.set()
     try:
-        start_jobs(ROOT, are_here=workflow.local_exec)
+        sweep(ROOT)  # Snakemake holds its lock: no other run writes here
         record_precision(PLAN.folders.results)
-        made = {str(path) for job in workflow.dag.needrun_jobs() for path in job.output}
-        check_space(PLAN, made)
-        read = {str(path) for job in workflow.dag.needrun_jobs() for path in job.input}
-        if RerunTrigger.PARAMS in workflow.dag_settings.rerun_triggers:  # else what other code has made is wanted
-            refuse_lines(Stamped(PLAN).foreign(sorted(read - made)))
+        waiting = list(workflow.dag.needrun_jobs())
+        check_room(waiting)
+        if commit() == UNKNOWN:
+            sys.stderr.write(
+                f"{ROOT}: git knows no commit here, so results will not say which code made them (commit: unknown)\n"
+            )
         if not workflow.local_exec:
-            warm_cache(ROOT, jobs=len(list(workflow.dag.needrun_jobs())))
-        if any(KINDS_OF_RULES.get(job.rule.name) == "train" for job in workflow.dag.needrun_jobs()):
-            follow_trainings(PLAN.folders.results, Path(".cache") / "wandb_live.log")
+            warm_cache(PYTHON, ROOT, jobs=len(waiting))
+        if any(job.rule.name.startswith("train") for job in waiting):
+            follow_trainings(PYTHON, PLAN.folders.results, Path(".cache") / "wandb_live.log")
     except MobnetError as error:
         sys.exit(str(error))
+    if workflow.local_exec:
+        # The number of cores limits the rate. Snakemake looks at all ready jobs in every timespan, once for each job
+        # that has ended: half of a core after 100 jobs (its pull request 3744).
+        workflow.scheduler.job_rate_limiter = None
 
 
 onerror:
-    if not workflow.local_exec and not is_stopped():
+    if not workflow.local_exec and not STOPPED.is_set():
         had = {
             job.rule.name: {name: job.resources.get(name) for name in LIMITED}
             for job in workflow.dag.needrun_jobs()
@@ -91,20 +131,14 @@ onerror:
             sys.stderr.write(f"{line}\n")
 
 
-class Kind(NamedTuple):
-    """What rules of a kind have in common: their group on a cluster, priority, memory [MB], time [min] and GPUs."""
-
-    group: str
-    priority: int
-    mem_mb: int
-    runtime: int
-    gpus: int = 0
+def needed(job, *names):
+    """Return a function of wildcards: what other jobs make of the files behind arguments that a job gets."""
+    return lambda w: made_by_jobs([job(w).get(name) for name in names])
 
 
-STEPS = {step.rule: step for step in (*PLAN.steps, *PLAN.trial_steps)}
-KINDS_OF_RULES = {name: step.work.kind for name, step in STEPS.items()}
-snakemake_logger.addFilter(by_kind(KINDS_OF_RULES))
-set_resources_by_kind(workflow, KINDS_OF_RULES)
+def code(module):
+    """Return what a job reruns on besides its files and arguments: the code of a module and of all that it imports."""
+    return lambda w: code_hash(module)
 
 
 def growing(memory_mb):
@@ -112,10 +146,49 @@ def growing(memory_mb):
     return lambda wildcards, attempt: attempt * memory_mb
 
 
+def shown(figure):
+    """Mark the picture of a figure for the report."""
+
+    def labels(w):
+        return {"file": w.figure, "shows": PLAN.title(w.figure)}
+
+    return report(figure, caption=ROOT / "workflow" / "report" / "figure.rst", category="Figures", labels=labels)
+
+
 def flagged(name):
-    """Mark an output for Snakemake: a folder, or a file that the report shows with its caption."""
-    output, how = ensure(name, non_empty=True) if Path(name).suffix else directory(name), shown(name)
+    """Mark an output of a product whose rule makes nothing else, as a folder or a file with its caption."""
+    output = name if Path(name).suffix else directory(name)
+    how = report_of(name)
     if how is None:
         return output
     labels = {"file": Path(name).stem, "shows": how.title}
     return report(output, caption=how.caption and ROOT / how.caption, category=how.category, labels=labels)
+
+
+def check_targets():
+    """End with one line where a target is none; Snakemake would say so after it has worked out the whole graph."""
+    names = [rule.name for rule in workflow.rules]
+    for target in TARGETS:
+        if target not in names and not is_made(target):
+            (folder,) = made_by_jobs([Path(target)])
+            sys.exit(in_set(target, folder) if is_made(folder) else nearest(target, [*names, *PLAN.shown]))
+
+
+def is_made(target):
+    """Return whether a rule makes a file or a folder."""
+    return any(rule.is_producer(target.rstrip("/")) for rule in workflow.rules)
+
+
+def answer_interrupts():
+    """Let Ctrl-C, which `./reproduce` blocks until here, say how to go on before Snakemake ends its jobs, if any."""
+
+    def stop(number, frame):
+        STOPPED.set()
+        sys.stderr.write("stopped; the same command goes on from here\n")
+        if workflow.local_exec:
+            end_jobs()
+        raise KeyboardInterrupt if BEGUN.is_set() else SystemExit(128 + number)
+
+    if workflow.is_main_process:
+        signal.signal(signal.SIGINT, stop)
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})

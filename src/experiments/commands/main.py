@@ -81,7 +81,7 @@ def environment(root: Path) -> dict[str, str]:
 
 
 def run_workflow(python: str, words: Sequence[str]) -> int:
-    """Become snakemake; Ctrl-C waits until it can be answered."""
+    """Become snakemake; Ctrl-C waits until its Snakefile is read, and would be a traceback of imports before."""
     cores = [] if any(re.match(r"(-j|-c|--cores|--jobs)", word) for word in words) else ["--cores", "2"]
     signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
-    os.execv(python, [python, "-m", "experiments.running.run", *cores, *words])
+    os.execv(python, [python, "-m", "snakemake", *cores, *words])

@@ -15,7 +15,7 @@ from experiments.commands.clean import remove, sizes_of
 from experiments.commands.install import CONSTRAINTS, costs, install, make_venv, wanted_build
 from experiments.commands.tell import in_gb, say
 from experiments.commands.tools import LOG, Tools
-from mobnet.core.lock import taken
+from mobnet.core.files import taken
 
 LOCKS = ("environment.lock", CONSTRAINTS)
 STAMP = "installed"

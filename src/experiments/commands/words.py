@@ -7,10 +7,18 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from experiments.commands.install import BUILDS
-from experiments.plan.places import scale_of
-from experiments.running.words import RESULTS, bench_parser, check_parser, cost_parser, demo_parser, results_parser
+from experiments.running.words import (
+    MAIN,
+    RESULTS,
+    bench_parser,
+    check_parser,
+    cost_parser,
+    demo_parser,
+    results_parser,
+)
 from mobnet.commands import COMMANDS as LAB
 from mobnet.core.errors import CommandError, unknown_command
+from mobnet.core.options import missing_input
 
 COMMANDS = {
     "all": "make every table, figure and the paper (snakemake --cores 2 all); further options go to snakemake",
@@ -39,8 +47,8 @@ EXAMPLES = """
   ./reproduce all --config scale=quick   every table and figure in about an hour, with shorter walks and trainings
   ./reproduce tables/table_05.tex        make one file and what it needs; tables/smoke/table_05.tex at that scale"""
 OWN = {"clean", "setup"}  # commands with options of their own
-APART = ("tuning", "recipes", "lengths", "random_torque", "films", "docs")  # rules that `all` does not ask for
-TARGETS = {"all": "all", "report": "all", **{name: name for name in APART}}  # command -> rule of the workflow
+TRIALS = ("tuning", "recipes", "lengths", "random_torque")  # tables of trials, which `all` does not ask for
+TARGETS = {"all": "all", "report": "all", "films": "films", "docs": "docs"}  # command -> rule of the workflow
 HELP = {"-h", "--help"}
 PARSERS = {
     "bench": bench_parser,
@@ -51,6 +59,7 @@ PARSERS = {
     **{name: functools.partial(results_parser, name) for name in RESULTS},
 }  # of commands whose module has words of its own
 CONFIG = {"-C", "--config"}
+SCALE = "scale="  # the key of the configuration that every target follows
 KEY = re.compile(r"[a-zA-Z_]\w+")  # as Snakemake takes it: of two signs or more
 
 
@@ -77,8 +86,18 @@ def parse(words: Sequence[str]) -> Words:
         return Words(first, options.parse_args(words[1:]), [])
     if HELP & set(words[1:]):
         options.parse_args(["--help"])
+    if first in LAB and (line := missing_input(options.parse_args(words[1:]))):
+        raise CommandError(line)
+    if first in TRIALS:
+        return Words(first, argparse.Namespace(), [table_of(first, words), *in_order(words[1:])])
     extra = [TARGETS[first], *in_order(words[1:])] if first in TARGETS else list(words[1:])
     return Words(first, argparse.Namespace(), extra)
+
+
+def table_of(trial: str, words: Sequence[str]) -> str:
+    """Return the table of a trial at the scale that the words name."""
+    given = [word.removeprefix(SCALE) for word in words if word.startswith(SCALE)]
+    return f"results/{given[-1] if given else MAIN}/trials/{trial}.md"
 
 
 def overview() -> argparse.ArgumentParser:
@@ -113,12 +132,10 @@ def parser_of(command: str) -> argparse.ArgumentParser:
 
 
 def in_order(words: Sequence[str]) -> list[str]:
-    """Return words in the order that Snakemake needs, with `--config scale=` where targets name their scale.
-
-    Targets come before `--config`, which would take those behind it for values.
+    """Return words in the order that Snakemake needs: targets before `--config`, which would take them for values.
 
     Raises:
-        CommandError: targets belong to several scales, or what replaces a key of the configuration does not name one.
+        CommandError: what replaces a key of the configuration does not name one.
     """
     targets: list[str] = []
     others: list[str] = []
@@ -131,20 +148,4 @@ def in_order(words: Sequence[str]) -> list[str]:
         taking = word in CONFIG or (taking and not word.startswith("-"))
     if others and others[-1] in CONFIG:
         raise CommandError(f"{others[-1]}: {' '.join(targets) or 'nothing'} is not accepted; accepted: KEY=VALUE")
-    ordered = [*targets, *others]
-    return ordered if any(word.startswith("scale=") for word in words) else with_scale(ordered)
-
-
-def with_scale(words: list[str]) -> list[str]:
-    """Add the scale that the paths of targets name."""
-    scales = sorted({scale for scale in map(scale_of, words) if scale})
-    if not scales:
-        return words
-    if len(scales) > 1:
-        raise CommandError(f"targets of the scales {', '.join(scales)}: one scale can be made at a time")
-    named = f"scale={scales[0]}"
-    given = next((place for place, word in enumerate(words) if word in CONFIG), None)
-    if given is not None:
-        return [*words[: given + 1], named, *words[given + 1 :]]
-    first = next((place for place, word in enumerate(words) if word.startswith("-")), len(words))
-    return [*words[:first], "--config", named, *words[first:]]
+    return [*targets, *others]

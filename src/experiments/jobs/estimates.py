@@ -3,12 +3,10 @@
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from experiments.plan.parts import MethodRun
-from experiments.plan.work import TOGETHER_S
-from experiments.running.stage import Stage
+from experiments.plan.parts import TOGETHER_S, MethodRun
 from mobnet.core.files import WEIGHTS
 from mobnet.core.notes import read_array_note
-from mobnet.core.store import NOTE, file_of, files_of
+from mobnet.core.store import NOTE, file_of
 from mobnet.estimation.estimate import ObservedRecording, only, rate_of, read_observed, run_segments, write_estimate
 from mobnet.estimation.recipe import Recipe, build_estimator
 from mobnet.learning.deployed.weights import std_scales
@@ -26,7 +24,7 @@ def estimate(
     runs: Sequence[MethodRun],
     recordings: Sequence[Path],
     residuals: Sequence[Path],
-    stage: Stage,
+    out: Path,
     rate_hz: float | None = None,
 ) -> None:
     """Write the external torque of recordings made at an uncertainty level by several methods, as Table 5 scores it.
@@ -34,32 +32,22 @@ def estimate(
     Columns are `tau_ext.<joint>` [N, N m] and, where the method gives it, `std.<joint>`; segments are the recording's,
     and each is run from a fresh state. Recordings, read once for all methods, and their residuals are paths without a
     suffix, in the same order. Networks run at the rate [Hz] of their training alone; without it, any single one is
-    accepted. A job that was killed goes on with the method that it was at.
+    accepted. In the folder `out` those of a method with the networks of seed 1 stand below `METHOD/n1`, by the names of
+    the recordings.
 
     Raises:
         ConfigError: a method's kind is unknown, it has no such networks, or they do not estimate a joint.
         DataError: a recording, a residual, a network or the fit is damaged, or the rates differ.
     """
-    stage.begin()
     layout = describe(robot).layout
     for some in batches(recordings):
-        waiting = [run for run in runs if not _has_all(stage, run.outs[some])]
         pairs = zip(recordings[some], residuals[some], strict=True)
-        read = [read_observed(layout, recording, residual, rate_hz) for recording, residual in pairs] if waiting else []
-        for run in waiting:
+        read = [read_observed(layout, recording, residual, rate_hz) for recording, residual in pairs]
+        for run in runs:
             known = robot, level.nominal_mass_ratio, gravity_m_s2, observer
             recipe = Recipe(run.method, run.methods, *known, rate_of(read), run.networks, run.fitted)
-            _estimate(recipe, read, [stage.place(out) for out in run.outs[some]], run.joints)
-    files: list[Path] = []
-    for run in runs:
-        for out in run.outs:
-            files += files_of(out)
-    stage.publish(files)
-
-
-def _has_all(stage: Stage, outs: Sequence[Path]) -> bool:
-    """Return whether a job that was killed has written all of some estimates."""
-    return all(stage.has(files_of(out)) for out in outs)
+            folder = out / run.method / f"n{run.network_seed}"
+            _estimate(recipe, read, [folder / recording.name for recording in recordings[some]], run.joints)
 
 
 def _estimate(

@@ -1,4 +1,4 @@
-"""The rule `motion`: random motions of the upper body, one for each recording that walks with it (section 4.3).
+"""The rule `motion`: a random motion of the upper body for a recording that walks with it (section 4.3).
 
 Training seeds count from `FIRST_TRAINING_SEED`: each is one variant of one part of the base motion, and the variants of
 a part share its targets.
@@ -6,15 +6,13 @@ a part share its targets.
 
 import logging
 import zlib
-from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
 
 from experiments.plan.seeds import FIRST_TRAINING_SEED
-from experiments.running.stage import Stage
 from mobnet.core.code import provenance
-from mobnet.core.store import files_of, write_array
+from mobnet.core.store import write_array
 from mobnet.robot.description import describe, for_walking
 from mobnet.settings.data import Motion
 from mobnet.settings.robot import RobotTable
@@ -22,26 +20,6 @@ from mobnet.simulation.motion import measured, plan, working_range
 from mobnet.simulation.reaching import Reacher
 
 log = logging.getLogger(__name__)
-
-
-def make_motions(
-    root_seed: int,
-    robot: RobotTable,
-    motion: Motion,
-    name: str,
-    motions: Sequence[tuple[int, float, Path]],
-    stage: Stage,
-) -> None:
-    """Make several random motions by one job: seed, duration [s] and place without ending of each.
-
-    Raises:
-        SimulationError: a motion comes too near to the robot itself.
-    """
-    stage.begin()
-    for seed, duration_s, out in motions:
-        if not stage.has(files_of(out)):
-            make_motion(root_seed, robot, motion, name, seed, duration_s, stage.place(out))
-    stage.publish(file for _, _, out in motions for file in files_of(out))
 
 
 def make_motion(

@@ -1,6 +1,7 @@
-"""What rule `collect` makes of a recording: the observer's residual and the torque it should have followed."""
+"""The rule `observe`: the observer's residual of recordings, and the torque that it should have followed."""
 
 import logging
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -16,6 +17,24 @@ from mobnet.settings.robot import RobotTable
 from mobnet.settings.surrogate import Level
 
 log = logging.getLogger(__name__)
+
+
+def observe_walks(
+    robot: RobotTable,
+    level: Level,
+    gravity_m_s2: float,
+    observer: ObserverSettings,
+    rate_hz: float,
+    recordings: Sequence[Path],
+    out: Path,
+) -> None:
+    """Observe recordings one after another; the folder `out` gets a residual by the name of each of them.
+
+    Raises:
+        DataError: a recording is damaged.
+    """
+    for recording in recordings:
+        observe(robot, level, gravity_m_s2, observer, recording, out / recording.name, rate_hz)
 
 
 def observe(

@@ -39,9 +39,10 @@ def react(
     observer: ObserverSettings,
     runs: Mapping[str, MethodRun],
     thresholds: Sequence[Path],
-    walks: Sequence[CaseWalks],
+    walks: CaseWalks,
+    out: Path,
 ) -> None:
-    """Write the trials of cases with a robot, rows of `Trial`, and the course of the first walk of each.
+    """Write the trials of a case with a robot, rows of `Trial`, and where something pushes it the first walk's course.
 
     Args:
         reaction: numbers of the pipeline, and the cases.
@@ -49,7 +50,8 @@ def react(
         observer: the observer's settings.
         runs: networks and fit of the method in the loop, and of those of detectors.
         thresholds: files of the robot's thresholds, by rules `detect` and `watch`.
-        walks: the walks of each case, and where they are written; a course as `course_columns` says.
+        walks: the walks of the case.
+        out: file of the trials; the course, as `course_columns` says, stands beside it by its name without an ending.
 
     Raises:
         DataError: a file is missing or damaged.
@@ -57,24 +59,17 @@ def react(
     rows: list[Threshold] = []
     for path in thresholds:
         rows += read_rows(path, Threshold)
-    robot_walks = CaseWalker(ReactingRobot(walks[0].settings, reaction, detection, observer, runs), rows)
-    for one in walks:
-        _walk(robot_walks, one)
-
-
-def _walk(walks: "CaseWalker", one: CaseWalks) -> None:
-    """Make the walks of a case, with our detector and with what is compared."""
-    reaction = walks.robot.reaction
+    robot_walks = CaseWalker(ReactingRobot(walks.settings, reaction, detection, observer, runs), rows)
     trials = list[Trial]()
-    ours, *others = watches_of(reaction, one.case)
-    for watch, seeds in [(ours, one.seeds), *((other, one.seeds[: one.sizes.compared]) for other in others)]:
+    ours, *others = watches_of(reaction, walks.case)
+    for watch, seeds in [(ours, walks.seeds), *((other, walks.seeds[: walks.sizes.compared]) for other in others)]:
         for seed in seeds:
-            trial, walked = walks.walk(one, watch, seed)
-            if not trials and one.course is not None:
-                write_course(walked, trial, walks, one.course)
+            trial, walked = robot_walks.walk(walks, watch, seed)
+            if not trials and walks.is_pushed:
+                write_course(walked, trial, robot_walks, out.with_suffix(""))
             trials.append(trial)
-        log.info("%s, %s, %s: %d walks", one.case, watch.detector, watch.rule, len(seeds))
-    write_text(one.out, csv_text(TRIALS, [astuple(trial) for trial in trials]))
+        log.info("%s, %s, %s: %d walks", walks.case, watch.detector, watch.rule, len(seeds))
+    write_text(out, csv_text(TRIALS, [astuple(trial) for trial in trials]))
 
 
 @dataclass(frozen=True)

@@ -1,13 +1,11 @@
-"""Training of gray boxes: the target is what a fitted friction model leaves of the uncertainty."""
+"""The rule `train_gray`: the target is what a fitted friction model leaves of the uncertainty."""
 
 from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
 
-from experiments.jobs.trainings import train_all
-from experiments.plan.parts import Repetition
-from experiments.running.stage import Stage
+from experiments.jobs.trainings import train
 from mobnet.core.arrays import Array
 from mobnet.core.columns import MOTOR, VELOCITY, named
 from mobnet.core.joints import JointLayout
@@ -15,24 +13,27 @@ from mobnet.core.store import read_array, spans_and_rate
 from mobnet.estimation.kinds.friction import FittedFriction, read_friction
 from mobnet.estimation.low_pass import low_pass
 from mobnet.settings.methods import ObserverSettings
+from mobnet.settings.networks import Training
 
 
 def train_gray(
     root_seed: int,
     layout: JointLayout,
     observer: ObserverSettings,
-    networks: Sequence[Repetition],
+    training: Training,
+    seed: int,
     recordings: Sequence[Path],
     residuals: Sequence[Path],
     fitted: Path,
-    stage: Stage,
+    state: Path,
+    out: Path,
     rate_hz: float | None = None,
 ) -> None:
-    """Train networks on r - tau_e - friction, where `fitted` is what rule `fit` wrote; else as `train_all`.
+    """Train a network on r - tau_e - friction, where `fitted` is what rule `fit` wrote; else as `train`.
 
     Raises:
         DataError: a recording, a residual or the fit is damaged.
-        TrainingError: a loss diverged, where `learning.may_diverge` does not allow it.
+        TrainingError: the loss diverged, where `learning.may_diverge` does not allow it.
     """
     friction = read_friction(fitted, layout.actuated)
 
@@ -40,7 +41,7 @@ def train_gray(
     def known(recording: Path, joints: Sequence[str]) -> Array:
         return filtered_friction(layout, friction, observer.gain_hz, recording, joints)
 
-    train_all(root_seed, layout, networks, recordings, residuals, stage, rate_hz, known)
+    train(root_seed, layout, training, seed, recordings, residuals, state, out, rate_hz, known=known)
 
 
 def filtered_friction(

@@ -1,17 +1,13 @@
-"""A job as a value: a function of this package by its dotted name, and the arguments that it gets."""
+"""A call as a value: a function of this package by its dotted name, and the arguments that it gets."""
 
 import ast
 import functools
-import hashlib
 import importlib
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
-from experiments.running.stamp import Stamps
-from mobnet.core.code import SHORT, code_hash, start_of
+from mobnet.core.code import start_of
 from mobnet.core.errors import ConfigError, not_accepted
-
-STAGE = "stage"  # argument that says where a job keeps its parts
 
 
 @dataclass(frozen=True)
@@ -26,45 +22,9 @@ class Call:
         """Dotted name of the function's module."""
         return self.function.split(":")[0]
 
-    @property
-    def fingerprint(self) -> str:
-        """Short hash of the function's name and of every argument."""
-        return hashlib.sha256(repr(self).encode()).hexdigest()[:SHORT]
-
     def run(self) -> None:
         """Import the function and call it."""
         getattr(importlib.import_module(self.module), self.function.split(":")[1])(**self.arguments)
-
-
-@dataclass(frozen=True)
-class Job:
-    """A call, and what it reads and makes.
-
-    Attributes:
-        call: the call.
-        inputs: files that it reads.
-        modules: those that it imports by name only.
-        own: note, or file of rows, that it makes -> what of the arguments and of the modules is for this file alone.
-        parts: names of the arguments that list what it makes one after another.
-    """
-
-    call: Call
-    inputs: tuple[str, ...]
-    modules: tuple[str, ...] = ()
-    own: Mapping[str, object] = field(default_factory=dict[str, object])
-    parts: tuple[str, ...] = ()
-
-    @property
-    def given(self) -> str:
-        """What the job reruns on besides its files: its arguments and the code behind it."""
-        return self.call.fingerprint + code_hash(self.call.module, *self.modules)
-
-    @functools.cached_property
-    def stamps(self) -> Stamps:
-        """What is stamped on each file, the same however the parts are divided among jobs."""
-        shared = {name: value for name, value in self.call.arguments.items() if name not in (*self.parts, STAGE)}
-        common = Call(self.call.function, shared).fingerprint + code_hash(self.call.module)
-        return Stamps({name: Call(common, {"own": own}).fingerprint for name, own in self.own.items()})
 
 
 def call_of(function: str, available: Mapping[str, object]) -> Call:

@@ -4,7 +4,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, fields, is_dataclass, replace
 from functools import cached_property
 from pathlib import Path
-from typing import NamedTuple, Self, cast
+from typing import NamedTuple, cast
 
 from experiments.plan.runs import Run, SweptSize
 from experiments.plan.seeds import Seeds
@@ -15,7 +15,9 @@ from mobnet.core.files import METRICS, RUN, WEIGHTS
 from mobnet.settings.methods import swept_name, swept_names
 
 ARRAY, NOTE = ".parquet", ".json"  # endings of the two files of an array
-COURSE = (RUN, METRICS)  # files of a trained network that say how its training went
+TRAINED = (WEIGHTS, METRICS, RUN)  # files of a trained network
+PLANT = "plant"  # folder of the plant of section 5.1
+SETS = ("recordings", "residuals", "estimates")  # folders of sets, ROBOT/KIND/SCENARIO/LEVEL
 NETWORKS = "networks"
 Place = tuple[str, str, int]  # of a recording: scenario, level and seed
 
@@ -32,19 +34,17 @@ class NetworkName(NamedTuple):
 class Files(Seeds):
     """Where the files of a scale stand; tables, figures and the paper stand elsewhere.
 
-    Each robot of the fleet has files of its own in a folder of its name, but the motions that all share.
+    The plant of section 5.1 and each robot of the fleet have a folder of their own, beside what all share. A set of
+    recordings, of residuals or of estimates is a folder, and one job makes it.
     """
 
-    def owner_of(self, path: Path) -> tuple[Self, tuple[str, ...]]:
-        """Return whose file it is, this or a robot's, and its place below that folder; ("",) if it is nobody's."""
-        for owner in (*self.robots.values(), self):
-            if path.is_relative_to(owner.results):
-                return owner, path.relative_to(owner.results).parts
-        return self, ("",)
-
-    def array(self, kind: str, scenario: str, level: str, seed: int | str) -> Path:
-        """Return a recording, residual or estimate without its ending; `{seed}` and so on make a pattern."""
+    def array(self, kind: str, scenario: str, level: str, seed: int) -> Path:
+        """Return a recording or residual without its ending."""
         return self.results / kind / scenario / level / f"s{seed}"
+
+    def estimate(self, scenario: str, level: str, method: str, network_seed: int, seed: int) -> Path:
+        """Return what a method with the networks of a seed estimates of a recording, without its ending."""
+        return self.results / "estimates" / scenario / level / method / f"n{network_seed}" / f"s{seed}"
 
     def motion(self, scenario: str, seed: int) -> list[Path]:
         """Return the motion of the upper body in a recording; none where it is still."""
@@ -53,8 +53,7 @@ class Files(Seeds):
 
     def motion_place(self, motion: str, seed: int) -> Path:
         """Return a motion of the upper body, which all robots share."""
-        shared = self.results.parent if self.robot else self.results
-        return shared / "motions" / motion / f"s{seed}"
+        return self.shared / "motions" / motion / f"s{seed}"
 
     def training(self, kind: str, name: str) -> tuple[Path, ...]:
         """Return the recordings or residuals of a training set, of all robots that learn from it where it is theirs."""
@@ -70,7 +69,7 @@ class Files(Seeds):
         return tuple(found)
 
     def tests(self, scenario: str, level: str, kind: str = "recordings") -> tuple[Path, ...]:
-        """Return the recordings of a test, or their residuals or estimates."""
+        """Return the recordings of a test, or their residuals."""
         return tuple(self.array(kind, scenario, level, seed) for seed in self.test_seeds)
 
     def development(self, kind: str, task: str) -> tuple[Path, ...]:
@@ -91,10 +90,6 @@ class Files(Seeds):
         for scenario, levels in self.catalogue.tests.items():
             for level in filter(self.has, levels):
                 yield from ((scenario, level, seed) for seed in self.test_seeds)
-
-    def array_s(self, path: Path) -> float:
-        """Return the duration of a recording, or of what is made from it [s], by its place."""
-        return self.duration_s([path.parts[-3]], int(path.stem.removeprefix("s")))
 
     def run_seeds(self, method: str, scenario: str, level: str) -> tuple[int, ...]:
         """Return the seeds with which a method runs in a test: those of the limb with the most among the test's."""
@@ -191,29 +186,6 @@ class Files(Seeds):
         return tuple(files.network(*name) for files in self.owners for name in files.own_networks)
 
     @cached_property
-    def tried_networks(self) -> tuple[NetworkName, ...]:
-        """The networks of these files' own tasks that the trials train."""
-        names: list[NetworkName] = []
-        for trial in self.catalogue.trials:
-            if self.has(self.settings.development[trial.task].level):
-                for limb in trial.method.limbs:
-                    names += [NetworkName(trial.name, limb, seed) for seed in self.network_seeds(trial.name, limb)]
-        # Tables of comparisons share variants, which are trained once.
-        return tuple(dict.fromkeys(names))
-
-    @cached_property
-    def own_fits(self) -> tuple[str, ...]:
-        """The methods that are fitted of the plant of section 5.1, or of a robot: for a test, or for a network."""
-        named: list[str] = []
-        for levels in self.catalogue.tests.values():
-            for level in filter(self.has, levels):
-                named += levels[level]
-        # A network may learn what a fit leaves of the uncertainty, so that its training needs the fit too.
-        named += [name.method for name in self.own_networks]
-        sources = dict.fromkeys(map(self.catalogue.source_of, named))
-        return tuple(name for name in sources if self.catalogue.method(name).fitted)
-
-    @cached_property
     def learned_sets(self) -> tuple[str, ...]:
         """Names of the training sets that networks and fits learn from, in the configuration's order."""
         settings = self.settings
@@ -263,9 +235,10 @@ class Files(Seeds):
     def _runs_of(self, scenario: str, level: str, method: str, network_seed: int) -> Iterator[Run]:
         """Yield the runs of a method with the networks of a seed on every recording of a test."""
         repeated = self.repeated(method, network_seed)
-        kinds = "recordings", "residuals", f"estimates/{method}/n{network_seed}"
         for seed in self.test_seeds:
-            recording, residual, estimate = (self.array(kind, scenario, level, seed) for kind in kinds)
+            recording = self.array("recordings", scenario, level, seed)
+            residual = self.array("residuals", scenario, level, seed)
+            estimate = self.estimate(scenario, level, method, network_seed, seed)
             yield Run(scenario, level, method, network_seed, seed, recording, residual, estimate, repeated)
 
     def first_runs(self, test: Runs) -> tuple[Run, ...]:
@@ -294,7 +267,7 @@ class Files(Seeds):
 
     def scores(self, shown: Iterable[tuple[str, str]]) -> tuple[Path, ...]:
         """Return the files of scores of some tests, each at a level; each file once."""
-        return tuple(self.results / "scores" / scenario / f"{level}.csv" for scenario, level in dict.fromkeys(shown))
+        return tuple(self.shared / "scores" / scenario / f"{level}.csv" for scenario, level in dict.fromkeys(shown))
 
     def swept_sizes(self) -> tuple[SweptSize, ...]:
         """Return the sizes of Figure 20; the network of all data is that of Table 1's size."""
@@ -311,6 +284,16 @@ class Files(Seeds):
                     SweptSize(panel, base, self.network_folders([name], figure.limb, figure.level)) for name in names
                 ]
         return tuple(found)
+
+
+def made_by_jobs(needs: object) -> list[str]:
+    """Return what jobs make of the files behind some arguments: the folder of a set in place of the files in it."""
+    found: dict[str, None] = {}
+    for path in files_in(needs):
+        kind = next((place for place, part in enumerate(path.parts) if part in SETS), None)
+        made = path if kind is None else Path(*path.parts[: kind + len(("kind", "scenario", "level"))])
+        found[str(made)] = None
+    return list(found)
 
 
 def files_in(needs: object) -> Iterator[Path]:
@@ -330,10 +313,10 @@ def files_in(needs: object) -> Iterator[Path]:
 
 
 def _files_of(place: Path) -> Iterator[Path]:
-    """Yield the files of a place: a file, the course of a network's training, or an array."""
+    """Yield the files of a place: a file, those of a trained network, or an array."""
     if place.suffix:
         yield place
     elif place.parent.name == NETWORKS:
-        yield from (place / name for name in COURSE)
+        yield from (place / name for name in TRAINED)
     else:
         yield place.with_suffix(ARRAY)

@@ -1,4 +1,4 @@
-"""The parts of jobs that make several things one after another: recordings, networks, estimates, walks."""
+"""What jobs get that run several methods or make several walks."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -8,44 +8,9 @@ from experiments.plan.runs import Run
 from experiments.settings.scales import ReactionSizes
 from mobnet.settings.data import Push
 from mobnet.settings.methods import Method
-from mobnet.settings.networks import Training
 from mobnet.settings.walking import WalkSettings
 
-
-@dataclass(frozen=True)
-class Shard:
-    """A recording to make, and the observer's residual of it; both are named without the ending of their files.
-
-    Attributes:
-        seed: of its random numbers.
-        recording: where it is written.
-        residual: where its residual is written.
-        motion: of the upper body; None where that holds its posture.
-    """
-
-    seed: int
-    recording: Path
-    residual: Path
-    motion: Path | None
-
-
-@dataclass(frozen=True)
-class Repetition:
-    """A network to train.
-
-    Attributes:
-        training: all that the training takes.
-        seed: number of the repetition.
-        out: folder of the network.
-        state: folder of its checkpoint.
-        start: weights from which it is fine-tuned; None of one that learns from the first.
-    """
-
-    training: Training
-    seed: int
-    out: Path
-    state: Path
-    start: Path | None = None
+TOGETHER_S = 960.0  # recordings of so long are held in memory and run side by side [s]: 1.3 GB
 
 
 @dataclass(frozen=True)
@@ -57,7 +22,7 @@ class MethodRun:
         methods: its row and, if it runs on another method, that one too, by name.
         networks: folders of its networks by limb, which may be some of the method's.
         fitted: what rule `fit` wrote; None for a method that is not fitted.
-        outs: where the estimate of each recording is written, without an ending.
+        network_seed: of its networks.
         joints: those that the files hold; all that the method estimates without them.
     """
 
@@ -65,7 +30,7 @@ class MethodRun:
     methods: Mapping[str, Method]
     networks: Mapping[str, Path]
     fitted: Path | None
-    outs: tuple[Path, ...]
+    network_seed: int
     joints: tuple[str, ...] | None = None
 
 
@@ -78,16 +43,14 @@ class CaseWalks:
         settings: its scenario on a robot.
         seeds: of the walks; the first `sizes.compared` of them also with what the case compares.
         sizes: numbers of walks, and the longest duration of one.
-        out: file of the trials.
-        course: where the course of the first walk is written, without an ending; None where nothing pushes.
+        is_pushed: whether the robot walks into something, or something pushes it.
     """
 
     case: str
     settings: WalkSettings
     seeds: Sequence[int]
     sizes: ReactionSizes
-    out: Path
-    course: Path | None
+    is_pushed: bool
 
 
 @dataclass(frozen=True)

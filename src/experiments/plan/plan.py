@@ -1,30 +1,36 @@
-"""The whole plan of a scale: its files, its jobs and its products."""
+"""The whole plan of a scale: its files, what its jobs get, and its products.
+
+Which number format `learning.precision: auto` stands for is decided once for the results of a scale, and recorded: the
+machine that starts the first run decides. A training gets the format by its name, so that it is part of what the
+training is, and a node of another kind of processor makes the same network.
+"""
 
 import shutil
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
-from experiments.plan.call import Call, Job
+from experiments.plan.call import Call
 from experiments.plan.detection import level_of_detectors
-from experiments.plan.files import ARRAY, Files, files_in
-from experiments.plan.places import MAIN
+from experiments.plan.files import PLANT, Files, made_by_jobs
+from experiments.plan.jobs import Jobs
 from experiments.plan.products import CAPTIONS, Folders, Product, Products
-from experiments.plan.reactions import courses_of
-from experiments.plan.steps import Step, all_steps, trial_steps
+from experiments.plan.reactions import courses_of, is_pushed
 from experiments.plan.trials import trial_products
-from experiments.plan.work import SECONDS, Work
-from experiments.running.logs import LOGS
+from experiments.running.words import MAIN
 from experiments.settings.catalogue import Catalogue
 from experiments.settings.settings import Settings
+from mobnet.core.errors import ConfigError, not_accepted
+from mobnet.core.files import read_json, write_json
+from mobnet.core.notes import Note, checked
+from mobnet.learning.precision import AUTO, Precision, in_precision, of_processor
 
+PRECISION = Path("state") / "precision.json"  # below the results of a scale
 ROOT = ("README.md", "CONTRIBUTING.md", "CHANGELOG.md", "CITATION.cff", "paper/README.md")
 DOCUMENTS = "docs/**/*.*"
 # All of them: docstrings and settings are shown, which the hash of the code leaves out.
 MODULES = ("src/mobnet/**/*.py", "src/experiments/**/*.py")
-RECORDED = ("recordings", "residuals", "estimates")  # kinds of arrays whose duration says how much there is to do
-FOREIGN = "made by another configuration or code, which is not accepted; accepted:"
 
 
 def film_products(files: Files) -> Iterator[Product]:
@@ -34,15 +40,14 @@ def film_products(files: Files) -> Iterator[Product]:
     settings = files.settings
     section = settings.evaluation.films
     ending = "mp4" if shutil.which("ffmpeg") else "webp"
-    outs = {case: files.results / "films" / f"{case}.{ending}" for case in section.joints}
+    outs = {case: files.shared / "films" / f"{case}.{ending}" for case in section.joints}
     courses = courses_of(files, section.joints)
     arguments = {
         "settings": section, "robot": settings.robot, "looks": settings.robot.looks, "obstacles": settings.obstacles,
         "courses": courses, "outs": outs,
     }  # fmt: skip
-    inputs = tuple(map(str, files_in(courses)))
-    job = Job(Call("experiments.evaluation.figures.further.films:films", arguments), inputs)
-    yield Product("films", job, tuple(map(str, outs.values())))
+    call = Call("experiments.evaluation.figures.further.films:films", arguments)
+    yield Product("films", call, tuple(made_by_jobs(courses)), tuple(map(str, outs.values())))
 
 
 def documentation(files: Files) -> Iterator[Product]:
@@ -55,9 +60,9 @@ def documentation(files: Files) -> Iterator[Product]:
         "captions": [*_found(f"{CAPTIONS}/figures/*.rst"), *_found(f"{CAPTIONS}/tables/*.rst")],
         "modules": modules,
     }
-    out = files.results / "docs"
+    out = files.shared / "docs"
     call = Call("experiments.evaluation.report.docs:docs", {**given, "claims": files.settings.claims, "out": out})
-    yield Product("docs", Job(call, tuple(map(str, files_in(given)))), (str(out),))
+    yield Product("docs", call, tuple(made_by_jobs(given)), (str(out),))
 
 
 def _found(pattern: str) -> list[Path]:
@@ -67,44 +72,106 @@ def _found(pattern: str) -> list[Path]:
 
 @dataclass(frozen=True)
 class Plan:
-    """What the workflow makes at the chosen scale: steps, and products, each after those that it needs.
+    """What the workflow makes at the chosen scale.
 
-    The trials are products that are made on their own, by steps of their own; films and the documentation are made on
-    their own too, by none.
+    Of the products, `all` makes the first ones; trials, films and the documentation are made on their own.
     """
 
     settings: Settings
     folders: Folders
     files: Files
-    steps: tuple[Step, ...]
     products: tuple[Product, ...]
-    trial_steps: tuple[Step, ...]
     trials: tuple[Product, ...]
     films: tuple[Product, ...]
     docs: tuple[Product, ...]
+    tables: tuple[str, ...]
+    figures: tuple[str, ...]
 
     @property
-    def stored(self) -> tuple[str, ...]:
-        """Every file that products are made from, also those that could be made again."""
-        return tuple(name for step in self.steps for name in step.outputs)
+    def jobs(self) -> Jobs:
+        """What the jobs of the steps before products get."""
+        return Jobs(self.files)
 
     @property
-    def rules(self) -> dict[str, tuple[Work, tuple[str, ...]]]:
-        """Rule -> the work of its job, and the files that it makes; not those of the trials."""
-        steps = {step.rule: (step.work, step.outputs) for step in self.steps}
-        return {**steps, **{product.name: (self._work_of(product), product.outputs) for product in self.products}}
+    def robots(self) -> list[str]:
+        """Folders of the plant of section 5.1 and of each robot."""
+        return [PLANT, *self.files.robots]
 
     @property
-    def work(self) -> tuple[Work, ...]:
-        """The work of every job but the trials'."""
-        return tuple(work for work, _ in self.rules.values())
+    def levels(self) -> list[str]:
+        """Levels of uncertainty, those of each robot among them."""
+        found = dict.fromkeys(self.settings.levels)
+        for own in self.files.owners:
+            found |= dict.fromkeys(own.settings.levels)
+        return [*found, *self.settings.fleet.levels]
 
-    def _work_of(self, product: Product) -> Work:
-        """Return the work of a product: the duration of all recordings, residuals and estimates that it reads [s]."""
-        arrays = [path for path in map(Path, product.job.inputs) if path.suffix == ARRAY]
-        owned = [(path, *self.files.owner_of(path)) for path in arrays]
-        seconds = sum(files.array_s(path) for path, files, (kind, *_) in owned if kind in RECORDED)
-        return Work(product.name, product.name, {SECONDS: seconds} if seconds else {}, seconds)
+    @cached_property
+    def methods(self) -> list[str]:
+        """Methods, and variants of them in sweeps and trials."""
+        catalogue = self.files.catalogue
+        return [*catalogue.all_methods, *catalogue.tried]
+
+    @property
+    def trained(self) -> list[str]:
+        """Methods whose networks learn the uncertainty or the external torque itself."""
+        return [name for name in self.methods if name not in self.trained_gray]
+
+    @cached_property
+    def trained_gray(self) -> list[str]:
+        """Methods whose networks learn what is left by a fit."""
+        return [name for name in self.methods if self.files.fit(name)]
+
+    @property
+    def pushed_cases(self) -> list[str]:
+        """Cases of reactions in which a robot walks into something, or is pushed."""
+        return [case for case in self.settings.reaction.cases if is_pushed(self.files, case)]
+
+    @property
+    def free_cases(self) -> list[str]:
+        """Cases of reactions in which nothing is in the way."""
+        return [case for case in self.settings.reaction.cases if not is_pushed(self.files, case)]
+
+    @cached_property
+    def _by_name(self) -> dict[str, Product]:
+        every = (*self.products, *self.trials, *self.films, *self.docs)
+        return {product.name: product for product in every}
+
+    def product(self, name: str) -> Product:
+        """Return a table, a figure or a text by its name.
+
+        Raises:
+            ConfigError: there is none.
+        """
+        if name not in self._by_name:
+            raise ConfigError(not_accepted("table, figure or text", name, self._by_name))
+        return self._by_name[name]
+
+    @property
+    def shown(self) -> list[str]:
+        """Files of all products."""
+        found: list[str] = []
+        for product in self._by_name.values():
+            found += product.outputs
+        return found
+
+    def title(self, figure: str) -> str:
+        """Return the first line of a figure's caption, or its name."""
+        return self.caption(figure).partition("\n")[0] or figure
+
+    def caption(self, figure: str) -> str:
+        """Return the caption of a figure; nothing where it has none."""
+        path = CAPTIONS / "figures" / f"{figure}.rst"
+        return path.read_text(encoding="utf-8") if path.is_file() else ""
+
+    def made_by(self, rule: str) -> list[str]:
+        """Return the names of the products that a rule makes."""
+        trials = {product.name for product in self.trials}
+        found: list[str] = []
+        for product in self._by_name.values():
+            own = "trial" if product.name in trials else product.rule
+            if own == rule:
+                found.append(product.name)
+        return found
 
 
 def make_plan(settings: Settings, *, with_pdf: bool) -> Plan:
@@ -114,49 +181,50 @@ def make_plan(settings: Settings, *, with_pdf: bool) -> Plan:
     part = "" if scale == MAIN else scale
     paper, manifest = (Path("paper"), results.parent) if scale == MAIN else (results / "paper", results)
     folders = Folders(results, Path("tables") / part, Path("figures") / part, paper, manifest / "MANIFEST.sha256")
-    files = Files(Catalogue(settings), results)
-    steps = tuple(all_steps(files))
-    trials = tuple(trial_products(files))
-    films = tuple(film_products(files))
-    docs = tuple(documentation(files))
-    products = Products(settings, files, folders, with_pdf, tuple(name for step in steps for name in step.outputs))
-    return Plan(settings, folders, files, steps, tuple(products.all()), tuple(trial_steps(files)), trials, films, docs)
+    files = Files(Catalogue(settings), results / PLANT)
+    products = Products(settings, files, folders, with_pdf)
+    return Plan(
+        settings=settings,
+        folders=folders,
+        files=files,
+        products=tuple(products.all()),
+        trials=tuple(trial_products(files)),
+        films=tuple(film_products(files)),
+        docs=tuple(documentation(files)),
+        tables=tuple(products.table_names),
+        figures=tuple(products.figure_names),
+    )
 
 
-@dataclass(frozen=True)
-class Stamped:
-    """The files of a plan that have stamps, below the folder of the project."""
+class PrecisionNote(Note):
+    """The file in which the format is recorded."""
 
-    plan: Plan
-    root: Path = Path()
+    auto: Precision
 
-    @cached_property
-    def steps(self) -> Mapping[str, Step]:
-        """File -> the step that makes it."""
-        found: dict[str, Step] = {}
-        for step in (*self.plan.trial_steps, *self.plan.steps):
-            found |= dict.fromkeys(step.outputs, step)
-        return found
 
-    @cached_property
-    def folders(self) -> frozenset[str]:
-        """Folders of results in which every file has a step."""
-        return frozenset(map(self._folder, self.steps))
+def with_precision(settings: Settings, results: Path) -> Settings:
+    """Return the settings with a number format in place of every `auto`: the recorded one, or else this machine's.
 
-    def foreign(self, names: Iterable[str]) -> Iterator[str]:
-        """Yield a line for each file, by its name below the project, that is not what its step makes.
+    Raises:
+        DataError: the record is damaged.
+    """
+    name = _recorded_precision(results) or of_processor()
+    methods = {
+        method: row.model_copy(update={"learning": {**row.learning, "precision": name}})
+        for method, row in settings.methods.items()
+        if row.learning.get("precision") == AUTO
+    }
+    learning = in_precision(settings.learning, name)
+    return settings.model_copy(update={"learning": learning, "methods": {**settings.methods, **methods}})
 
-        Tables, figures and what else products make have no stamps, and are left out.
-        """
-        for name in names:
-            step = self.steps.get(name)
-            if step is None and self._folder(name) in self.folders:
-                yield f"{name}: {FOREIGN} a file that a job of this configuration makes"
-            elif step and not step.job.stamps.fit(self.root, self._account(step), name):
-                yield f"{name}: {FOREIGN} what `./reproduce {name} --force` makes"
 
-    def _folder(self, name: str) -> str:
-        return self.plan.files.owner_of(Path(name))[1][0]
+def record_precision(results: Path) -> None:
+    """Record what `auto` stands for in the results of a scale, if it is not recorded yet."""
+    if _recorded_precision(results) is None:
+        write_json(results / PRECISION, {"auto": of_processor()})
 
-    def _account(self, step: Step) -> str:
-        return f"{self.plan.folders.results}/{LOGS}/{step.work.job}.json"
+
+def _recorded_precision(results: Path) -> Precision | None:
+    """Return the recorded format, if there is one."""
+    path = results / PRECISION
+    return checked(path, read_json(path), PrecisionNote).auto if path.exists() else None

@@ -1,21 +1,23 @@
 """Every table, figure and text: what makes it, what it needs and what it writes."""
 
 import functools
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from fnmatch import fnmatch
 from pathlib import Path
+from typing import Any
 
-from experiments.plan.call import Job, call_of, parameters
+from experiments.plan.call import Call, call_of, parameters
 from experiments.plan.demo import FOLDER, demo_needs, demo_outputs
 from experiments.plan.detection import all_detections
-from experiments.plan.files import Files, files_in
+from experiments.plan.files import Files, made_by_jobs
 from experiments.plan.needs import explore_needs, needs_of
 from experiments.settings.claims import numbers_of
 from experiments.settings.evaluation import ENTRIES, PRODUCTS, Evaluation, row_of
 from experiments.settings.products import MadeBy
 from experiments.settings.runs import Runs
 from experiments.settings.settings import Settings
+from mobnet.core.code import code_hash
 
 EVALUATION = "experiments.evaluation"
 PAPER = "tables.paper"  # modules of the tables that the paper has
@@ -34,9 +36,9 @@ TESTS = (  # scenario and level of those whose errors the page of trainings show
     "changed_walk/*",
 )  # fmt: skip
 MAIN_TABLES = ("legs", "limbs", "detectors")  # of the paper's main text, made with its numbers
+LOOKED_THROUGH = ("accounts", "results", "beside")  # arguments that are folders, of whatever stands there then
 KEPT = "kept"  # parameter of a figure that shows a file of the repository
 TIMES = "TIMES.sha256"  # beside the manifest: the list of files that hold times, and so differ between equal runs
-TIMED = ("runs.html", "main.pdf", "compute.html")  # they show what jobs took, as the table of compute does
 CAPTIONS = Path("workflow/report")
 HEADINGS = {
     "index.html": "start", "runs.html": "trainings", "explore.html": "explore", "main.pdf": "paper",
@@ -59,11 +61,64 @@ class Folders:
 
 @dataclass(frozen=True)
 class Product:
-    """A table, a figure, or a part of the paper or report: the files that one rule makes, and how it makes them."""
+    """A table, a figure, or a part of the paper or report: the files that one job makes, and how it makes them.
+
+    Attributes:
+        name: its name.
+        call: the call of its function.
+        inputs: what it reads.
+        outputs: files, or the one folder, that it makes.
+        modules: those that the function imports by name only.
+    """
 
     name: str
-    job: Job
+    call: Call
+    inputs: tuple[str, ...]
     outputs: tuple[str, ...]
+    modules: tuple[str, ...] = ()
+
+    @property
+    def function(self) -> str:
+        """Name of its function, `module:name`."""
+        return self.call.function
+
+    @property
+    def arguments(self) -> dict[str, object]:
+        """What the function gets; Snakemake compares a dictionary with that of the last run."""
+        return dict(self.call.arguments)
+
+    @property
+    def code(self) -> str:
+        """Hash of the code behind it."""
+        return code_hash(self.call.module, *self.modules)
+
+    @property
+    def params(self) -> dict[str, Callable[[Any], object]]:
+        """The parameters of a rule for this product alone, worked out late: a hash of code takes its time."""
+        return {
+            "function": lambda w: self.function,
+            "given": lambda w: self.arguments,
+            "code": lambda w: self.code,
+        }
+
+    def reads(self, argument: str) -> list[str]:
+        """Return the files behind an argument."""
+        return made_by_jobs(self.call.arguments[argument])
+
+    @property
+    def rule(self) -> str:
+        """The rule that makes it: products with files of the same layout share one, others have one of their name."""
+        places = [(Path(output).parts[0], Path(output).name) for output in self.outputs]
+        drawn = [("figures", f"{self.name}.{ending}") for ending in FIGURE]
+        bars = [("figures", f"{self.name}_bars.csv")]
+        written = [("tables", f"{self.name}.{ending}") for ending in TABLE]
+        layouts = {
+            "table": written,
+            "figure": drawn,
+            "figure_with_bars": [*drawn, *bars],
+            "figure_with_table": [*drawn, *written],
+        }
+        return next((rule for rule, layout in layouts.items() if places == layout), self.name)
 
 
 @dataclass(frozen=True)
@@ -82,13 +137,12 @@ class Shown:
 
 @dataclass(frozen=True)
 class Products:
-    """All products at one scale, from the files `stored`; with the paper's PDF only where TeX is there to build it."""
+    """All products at one scale; with the paper's PDF only where TeX is there to build it."""
 
     settings: Settings
     files: Files
     folders: Folders
     with_pdf: bool
-    stored: tuple[str, ...]
 
     @property
     def table_names(self) -> list[str]:
@@ -121,7 +175,7 @@ class Products:
     def all(self) -> list[Product]:
         """Return every product, each after those that it needs."""
         made = [*self._tables_and_figures(), self._pictures(), *self._texts()]
-        return [*made, *self._report(made)]
+        return [*made, *self._report()]
 
     def _tables_and_figures(self) -> Iterator[Product]:
         """Yield all tables and figures."""
@@ -203,17 +257,12 @@ class Products:
         scenes = explore_needs(self.files)
         yield self._report_product("explore", {**scenes, "templates": EXPLORE}, [results / "explore.html"])
 
-    def _report(self, made: list[Product]) -> Iterator[Product]:
+    def _report(self) -> Iterator[Product]:
         """Yield what looks at all other products: compute, the paper, the pages of the report and the manifest."""
         tables = self.folders.tables
         results = self.folders.results
         paper = self.folders.paper
-        outputs: list[Path] = []
-        for product in made:
-            # The folder of wandb's runs holds nothing but what the files of trainings say.
-            if product.name != "wandb_runs":
-                outputs += map(Path, product.outputs)
-        accounts = {"accounts": results / "logs", "after": [*map(Path, self.stored), *outputs]}
+        accounts = {"accounts": results / "logs"}
         compute = [results / f"compute.{ending}" for ending in TABLE]
         yield self._report_product("compute", accounts, compute)
         names = (*self.table_names, "numbers", "captions", "deviations")
@@ -227,12 +276,9 @@ class Products:
         captions = [found.caption for page in pages if (found := shown(str(page)))]
         pages.append(results / "pages" / "index.html")
         yield self._report_product("pages", {"tables": listed, "captions": captions, **self._first_page()}, pages)
-        results_of_all = [*map(Path, self.stored), *outputs, *compute, *built, *pages]
-        # What equal runs differ in has a list of its own, so that their manifests are equal.
-        timed = [*compute, *(path for path in results_of_all if path.name in TIMED)]
-        equal = [path for path in results_of_all if path not in timed]
         listed = [self.folders.manifest, self.folders.manifest.with_name(TIMES)]
-        yield self._report_product("manifest", {"files": equal, "timed": timed}, listed)
+        needs = {"results": results, "beside": [tables, self.folders.figures], "built": built}
+        yield self._report_product("manifest", needs, listed)
 
     def _first_page(self) -> dict[str, object]:
         """Return what the page on which the report opens needs, and the templates of all pages."""
@@ -262,9 +308,8 @@ class Products:
     def _product(self, name: str, function: str, needs: Mapping[str, object], outputs: list[Path]) -> Product:
         """Return a product; its function gets what its signature names."""
         call = call_of(function, {**self._shared, **self._own(name), **needs, "out": outputs[0]})
-        read = {key: value for key, value in needs.items() if key != "accounts"}  # jobs write these without being asked
-        files = dict.fromkeys(map(str, files_in(read)))
-        return Product(name, Job(call, tuple(files)), tuple(map(str, outputs)))
+        read = {key: value for key, value in needs.items() if key not in LOOKED_THROUGH}
+        return Product(name, call, tuple(made_by_jobs(read)), tuple(map(str, outputs)))
 
     @functools.cached_property
     def _shared(self) -> dict[str, object]:

@@ -9,6 +9,7 @@ from typing import Self
 from experiments.settings.catalogue import Catalogue
 from experiments.settings.fleet import as_robot
 from experiments.settings.settings import Settings
+from mobnet.core.errors import ConfigError
 from mobnet.settings.data import Recordings
 
 # Recordings and motions of development and of training count from these seeds; those of tests, from their scale's
@@ -19,7 +20,13 @@ FIRST_TRAINING_SEED = 1000
 
 @dataclass(frozen=True)
 class Seeds:
-    """Seeds and durations of the plant of section 5.1 or, by its name, of a robot of the fleet, below `results`."""
+    """Seeds and durations of the plant of section 5.1 or, by its name, of a robot of the fleet.
+
+    Attributes:
+        catalogue: the configuration, of a robot as it has it.
+        results: folder of its files, beside those of the others.
+        robot: its name; nothing for the plant of section 5.1.
+    """
 
     catalogue: Catalogue
     results: Path
@@ -34,7 +41,12 @@ class Seeds:
     def robots(self) -> Mapping[str, Self]:
         """Robot of the fleet -> its files; a robot has none below its own."""
         named = self.settings.fleet.robots[: self.settings.sizes.fleet]
-        return {name: type(self)(as_robot(self.catalogue, name), self.results / name, name) for name in named}
+        return {name: type(self)(as_robot(self.catalogue, name), self.shared / name, name) for name in named}
+
+    @property
+    def shared(self) -> Path:
+        """Folder of what all robots share: motions, scores, and a folder for each of them."""
+        return self.results.parent
 
     @property
     def owners(self) -> tuple[Self, ...]:
@@ -62,6 +74,28 @@ class Seeds:
     def training_size(self, name: str) -> Recordings:
         """Return number and duration of a training set's recordings."""
         return self.settings.training_sets[name].sizes[self.settings.scale]
+
+    def seeds_of(self, scenario: str, level: str) -> list[int]:
+        """Return the seeds of a set of recordings: no scenario and level serve tests, development and training alike.
+
+        Training sets of one scenario at one level count from the same seed: the largest of them has all recordings.
+
+        Raises:
+            ConfigError: nothing is recorded of the scenario at the level.
+        """
+        if level in self.catalogue.tests.get(scenario, ()):
+            return self.test_seeds
+        walks = self.settings.development.values()
+        if (scenario, level) in [(walk.scenario, walk.level) for walk in walks]:
+            return list(self.development_seeds)
+        found: list[int] = []
+        for name, row in self.settings.training_sets.items():
+            seeds = self.training_seeds(name)
+            if (row.scenario, row.level) == (scenario, level) and len(seeds) > len(found):
+                found = seeds
+        if not found:
+            raise ConfigError(f"{scenario} at level {level}: no test, training or trial of the configuration has it")
+        return found
 
     @property
     def development_seeds(self) -> range:

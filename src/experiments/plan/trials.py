@@ -4,13 +4,12 @@ from collections import defaultdict
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
-from experiments.plan.call import Call, Job
-from experiments.plan.files import Files, files_in
+from experiments.plan.call import Call
+from experiments.plan.files import Files, made_by_jobs
 from experiments.plan.jobs import KINDS
 from experiments.plan.products import TABLE, Product
 from experiments.plan.runs import Tried, TriedTask
 from experiments.settings.trials import MethodVariant, compared, references, tuned
-from mobnet.core.files import WEIGHTS
 
 
 def trial_products(files: Files) -> Iterator[Product]:
@@ -28,12 +27,12 @@ def trial_products(files: Files) -> Iterator[Product]:
             tables[name] += references(*given, task)
         tables[name] += trials
     for name, trials in tables.items():
-        yield _product(files, files.results / "trials" / name, trials)
+        yield _product(files, files.shared / "trials" / name, trials)
     counted = tuple(own.falls for own in files.robots.values())
-    out = files.results / "trials" / "random_torque"
+    out = files.shared / "trials" / "random_torque"
     arguments = {"counted": counted, "statistics": settings.evaluation.statistics, "out": out}
-    job = Job(Call("experiments.evaluation.tables.further.falls:falls", arguments), tuple(map(str, counted)))
-    yield _table(out, job)
+    call = Call("experiments.evaluation.tables.further.falls:falls", arguments)
+    yield _table(out, call, made_by_jobs(counted))
 
 
 def _product(files: Files, out: Path, trials: Sequence[MethodVariant]) -> Product:
@@ -51,20 +50,17 @@ def _product(files: Files, out: Path, trials: Sequence[MethodVariant]) -> Produc
         "rate_hz": settings.rates.data_hz,
         "out": out,
     }
-    weights: list[Path] = []
-    kinds: list[str] = []
+    kinds: dict[str, None] = {}
     for task in tasks.values():
         for one in task.tried:
-            weights += [folder / WEIGHTS for folder in one.networks.values()]
-            kinds += [f"{KINDS}.{row.kind}" for row in one.methods.values()]
-    inputs = dict.fromkeys(map(str, files_in([list(tasks.values()), weights])))
+            kinds |= dict.fromkeys(f"{KINDS}.{row.kind}" for row in one.methods.values())
     call = Call("experiments.evaluation.tables.further.trials:trials", arguments)
-    return _table(out, Job(call, tuple(inputs), tuple(dict.fromkeys(kinds))))
+    return _table(out, call, made_by_jobs(tasks), kinds)
 
 
-def _table(out: Path, job: Job) -> Product:
-    """Return the product of a job that writes a table."""
-    return Product(out.name, job, tuple(f"{out}.{ending}" for ending in TABLE))
+def _table(out: Path, call: Call, inputs: Iterable[str], modules: Iterable[str] = ()) -> Product:
+    """Return the product of a call that writes a table."""
+    return Product(out.name, call, tuple(inputs), tuple(f"{out}.{ending}" for ending in TABLE), tuple(modules))
 
 
 def _task(files: Files, name: str, trials: Iterable[MethodVariant]) -> TriedTask:

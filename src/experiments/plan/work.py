@@ -1,14 +1,19 @@
-"""How much each job of a plan has to do: what a run will cost follows from it and from what jobs took before."""
+"""How much each job has to do: what a run will cost follows from it and from what jobs took before."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
 
-from experiments.plan.files import Files, NetworkName
+from experiments.plan.dry_run import PlannedJob
+from experiments.plan.files import SETS, Files
+from experiments.plan.parts import TOGETHER_S
+from experiments.plan.plan import Plan
+from experiments.plan.reactions import walks_in
 from mobnet.settings.networks import Network
 
 SECONDS = "s"
 INPUTS_PER_JOINT, BASE_INPUTS = 2, 12  # of a network: position and velocity; rotation, turn and acceleration
-TOGETHER_S = 960.0  # recordings of so long are held in memory and run side by side [s]: 1.3 GB
 Amounts = dict[str, float]
 
 
@@ -30,6 +35,39 @@ class Work:
     held: float
 
 
+def works_of(plan: Plan, planned: Iterable[PlannedJob]) -> list[Work]:
+    """Return the work of each job that a run would start, but for rules that only name targets."""
+    return [work_of(plan, job) for job in planned if job.name != job.rule or job.outputs[0]]
+
+
+def work_of(plan: Plan, job: PlannedJob) -> Work:
+    """Return the work of a job: of a step by its kind, of a product by all that it reads of recordings and their like.
+
+    The first part of a job's name is its kind; products are kinds of their own.
+    """
+    kind = job.name.partition("/")[0]
+    if kind in STEPS:
+        return Work(job.name, kind, *STEPS[kind](plan, job.w))
+    name = job.name.rpartition("/")[2]
+    seconds = sum(set_s(plan, Path(read)) for read in plan.product(name).inputs)
+    return Work(job.name, name, {SECONDS: seconds} if seconds else {}, seconds)
+
+
+def set_s(plan: Plan, folder: Path) -> float:
+    """Return the duration of all recordings of a set, of residuals or estimates too [s]; 0 of what is none."""
+    parts = folder.parts
+    if len(parts) < len(("robot", "kind", "scenario", "level")) or parts[-3] not in SETS:
+        return 0.0
+    robot, _, scenario, level = parts[-4:]
+    return whole_s(plan.jobs.files_of(robot), scenario, level)
+
+
+def whole_s(files: Files, scenario: str, level: str) -> float:
+    """Return the duration of all recordings of a set [s]."""
+    seeds = files.seeds_of(scenario, level)
+    return len(seeds) * files.duration_s([scenario], seeds[0])
+
+
 def total(amounts: Iterable[Mapping[str, float]]) -> Amounts:
     """Return the sum of amounts, name by name."""
     found: Amounts = {}
@@ -39,65 +77,117 @@ def total(amounts: Iterable[Mapping[str, float]]) -> Amounts:
     return found
 
 
-def walked(files: Files, scenario: str, seeds: Sequence[int]) -> tuple[Amounts, float]:
+def moved(plan: Plan, w: Any) -> tuple[Amounts, float]:
+    """Return the work of a motion."""
+    return {SECONDS: plan.files.motion_s(w.motion, int(w.seed))}, 0.0
+
+
+def walked(plan: Plan, w: Any) -> tuple[Amounts, float]:
     """Return the work of recordings that are made one after another, and the longest of them [s]."""
-    seconds = files.duration_s([scenario], seeds[0])
+    files = plan.jobs.files(w)
+    seeds = files.seeds_of(w.scenario, w.level)
+    seconds = files.duration_s([w.scenario], seeds[0])
     return {"surrogate s" if files.robot else SECONDS: seconds * len(seeds), "walk": len(seeds)}, seconds
 
 
-def trained(files: Files, networks: Sequence[NetworkName]) -> tuple[Amounts, float]:
-    """Return the work of trainings one after another, and the most numbers of training data that one of them holds."""
+def observed(plan: Plan, w: Any) -> tuple[Amounts, float]:
+    """Return the work of the observer, and the longest recording [s]."""
+    files = plan.jobs.files(w)
+    seeds = files.seeds_of(w.scenario, w.level)
+    return {SECONDS: whole_s(files, w.scenario, w.level)}, files.duration_s([w.scenario], seeds[0])
+
+
+def trained(plan: Plan, w: Any) -> tuple[Amounts, float]:
+    """Return the work of a training, and the numbers of training data that it holds."""
+    files = plan.jobs.files(w)
     rate_hz = files.settings.rates.data_hz
-    found = list[Amounts]()
-    held = list[float]()
-    for name in networks:
-        training = files.catalogue.training(name.method, name.limb)
-        network = training.network
-        hidden = training.network.hidden or 0
-        ways = {"windows": training.learning.sequences == "windows", "spectral": network.spectral}
-        cell = " ".join([network.cell, *(way for way, is_so in ways.items() if is_so)])
-        steps = steps_of(files, name)
-        read = training_s(files, network.data)
-        grown = {"step": steps, "step x unit": steps * hidden, "step x unit^2": steps * hidden**2}
-        found.append({SECONDS: read, "network": 1.0, **{f"{cell} {name}": amount for name, amount in grown.items()}})
-        held.append(read * rate_hz * _width(files, network))
-    return total(found), max(held)
+    training = files.catalogue.training(w.method, w.limb)
+    network = training.network
+    hidden = training.network.hidden or 0
+    ways = {"windows": training.learning.sequences == "windows", "spectral": network.spectral}
+    cell = " ".join([network.cell, *(way for way, is_so in ways.items() if is_so)])
+    steps = steps_of(files, w.method, w.limb)
+    read = training_s(files, network.data)
+    grown = {"step": steps, "step x unit": steps * hidden, "step x unit^2": steps * hidden**2}
+    amounts = {SECONDS: read, **{f"{cell} {name}": amount for name, amount in grown.items()}}
+    return amounts, read * rate_hz * _width(files, network)
 
 
-def steps_of(files: Files, name: NetworkName) -> float:
+def steps_of(files: Files, method: str, limb: str) -> float:
     """Return the time steps that a network learns from, over all epochs; 0 of one without inputs."""
-    training = files.catalogue.training(name.method, name.limb)
+    training = files.catalogue.training(method, limb)
     if not (training.network.Q or training.network.T):
         return 0.0
     read = training_s(files, training.network.data) * files.settings.rates.data_hz / training.learning.data_parts
     return training.epochs * (training.epoch_samples or read)
 
 
-def estimated(files: Files, scenario: str, level: str) -> tuple[Amounts, float]:
+def estimated(plan: Plan, w: Any) -> tuple[Amounts, float]:
     """Return the work of all methods of a test at a level, and the seconds [s] that run side by side."""
+    files = plan.jobs.files(w)
     catalogue = files.catalogue
-    seconds = files.settings.test_s(scenario)
+    seconds = files.settings.test_s(w.scenario)
     whole = seconds * len(files.test_seeds)
     found: list[Mapping[str, float]] = [{SECONDS: whole}]
-    for method in catalogue.tests[scenario][level]:
+    for method in catalogue.tests[w.scenario][w.level]:
         kind = catalogue.method(method).kind
-        for seed in files.run_seeds(method, scenario, level):
-            steps = seconds * files.settings.rates.data_hz * len(files.networks(method, seed, scenario, level))
+        for seed in files.run_seeds(method, w.scenario, w.level):
+            networks = files.networks(method, seed, w.scenario, w.level)
+            steps = seconds * files.settings.rates.data_hz * len(networks)
             found.append({"run": 1.0, f"{kind} s": whole, f"{kind} step": steps})
     return total(found), max(seconds, min(whole, TOGETHER_S))
 
 
-def fitted(files: Files, method: str) -> tuple[Amounts, float]:
+def fitted(plan: Plan, w: Any) -> tuple[Amounts, float]:
     """Return the work of a fit, which reads the training set of one limb after the other, and the longest set [s]."""
-    limbs = files.catalogue.method(method).fitted
-    read = [training_s(files, files.catalogue.network(method, limb).data) for limb in limbs]
+    files = plan.jobs.files(w)
+    limbs = files.catalogue.method(w.method).fitted
+    read = [training_s(files, files.catalogue.network(w.method, limb).data) for limb in limbs]
     return {SECONDS: sum(read)}, max(read)
 
 
-def detected(files: Files) -> tuple[Amounts, float]:
+def detected(plan: Plan, w: Any) -> tuple[Amounts, float]:
     """Return the work of detectors, and the duration of all recordings of their longest test [s]."""
+    files = plan.jobs.files(w)
     seconds = [files.settings.test_s(name) * len(files.test_seeds) for name in files.settings.detection_walks]
     return {SECONDS: sum(seconds)}, max(seconds)
+
+
+def watched(plan: Plan, w: Any) -> tuple[Amounts, float]:
+    """Return the work of the thresholds of a robot's limbs."""
+    return {SECONDS: plan.jobs.files(w).settings.reaction.calm_s}, 0.0
+
+
+def reacted(plan: Plan, w: Any) -> tuple[Amounts, float]:
+    """Return the work of a robot's walks in a case."""
+    return {"walk": walks_in(plan.jobs.files(w), w.case)}, 0.0
+
+
+def scored(plan: Plan, w: Any) -> tuple[Amounts, float]:
+    """Return the work of the scores of a test at a level."""
+    runs = len(plan.files.scored_runs(w.scenario, w.level))
+    return {SECONDS: plan.settings.test_s(w.scenario) * runs}, 0.0
+
+
+def fallen(plan: Plan, w: Any) -> tuple[Amounts, float]:
+    """Return the work of a robot's walks in the trial of random torques."""
+    trial = plan.settings.trials.random_torque
+    return {"surrogate s": trial.walked_s * len(trial.amplitudes_nm)}, 0.0
+
+
+STEPS: Mapping[str, Callable[[Plan, Any], tuple[Amounts, float]]] = {  # kind -> amounts, and what is held
+    "motion": moved,
+    "collect": walked,
+    "observe": observed,
+    "fit": fitted,
+    "train": trained,
+    "estimate": estimated,
+    "score": scored,
+    "detect": detected,
+    "watch": watched,
+    "react": reacted,
+    "falls": fallen,
+}
 
 
 def training_s(files: Files, name: str) -> float:

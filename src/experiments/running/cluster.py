@@ -11,7 +11,6 @@ from pathlib import Path
 from typing import NamedTuple
 
 from experiments.running.logs import LOGS as OWN_LOGS
-from experiments.running.patches import python
 
 LOGS = Path(".snakemake") / "slurm_logs"  # of jobs that failed: rule_NAME or group_NAMES / wildcards / NUMBER.log
 FEW = 10  # jobs of a run, which compile for themselves
@@ -36,14 +35,14 @@ LIMITED = tuple(dict.fromkeys(limit.resource for limit in LIMITS.values()))
 Had = Mapping[str, Mapping[str, int]]  # rule -> resource -> what its jobs asked for
 
 
-def warm_cache(root: Path, jobs: int) -> None:
+def warm_cache(python: str, root: Path, jobs: int) -> None:
     """Compile here what jobs run, so that the nodes, if they have this processor, find it in the cache.
 
     A run of few jobs leaves it to them. A fault is told by the process that compiles, and by the jobs if they meet it.
     """
     if jobs <= FEW:
         return
-    subprocess.run([python(), "workflow/scripts/warm.py"], cwd=root, check=False)
+    subprocess.run([python, "workflow/scripts/warm.py"], cwd=root, check=False)
 
 
 def failed_jobs(root: Path, since_s: float, had: Had) -> Iterator[str]:

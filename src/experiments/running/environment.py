@@ -6,10 +6,16 @@ Standard library only: `reproduce` reads it before anything is installed.
 import os
 import re
 import shlex
+import shutil
 import sys
 from pathlib import Path
 
+from mobnet.core.files import PARTIAL
+
 REFUSED = re.compile(r'[:{}"\\\x00-\x1f]')  # in the project's path: a colon parts PATH, others are signs for tools
+WRITTEN = ("results", "tables", "figures", "paper")  # folders of a project in which jobs write
+SCRIPTS = Path(".snakemake") / "scripts"  # what Snakemake runs in a job, removed with the end of the job
+ANY = "[a-z0-9_]" * 8  # what tempfile puts into the name of a file
 LONGEST_TEMPORARY = 70  # characters; the path of a Unix socket below it must not pass 108
 THREADED = ("OMP", "OPENBLAS", "MKL", "NUMEXPR", "NUMBA")
 CACHES = {
@@ -65,7 +71,7 @@ def fault_of_place(root: Path) -> str | None:
 def fault_of_process(root: Path) -> str | None:
     """Return why this Python must not run a project: it, and so its jobs, would take code from elsewhere.
 
-    The caller has put the project's `src` at the front of `sys.path`.
+    The caller has put the project's `src` into `sys.path`, before all places of packages.
     """
     source = root / "src"
     foreign = [place for place in os.environ.get("PYTHONPATH", "").split(os.pathsep) if place and Path(place) != source]
@@ -73,9 +79,23 @@ def fault_of_process(root: Path) -> str | None:
         return (
             f"PYTHONPATH: {foreign[0]!r} holds packages of other software; accepted: `unset PYTHONPATH`, or ./reproduce"
         )
-    places = (Path(place) for place in sys.path[1:])
+    places = [Path(place) for place in sys.path]
+    if source in places:
+        places.remove(source)
     found = next((place for place in places if (place / "mobnet" / "__init__.py").is_file()), None)
     if found is not None and found.resolve() == source.resolve():
         return fault_of_place(root)
     remedy = f"`cd {shlex.quote(str(root))}; ./reproduce setup; . .venv/bin/activate`"
     return f"{sys.executable}: runs {found or 'no code of a project'} in place of {source}; accepted: {remedy}"
+
+
+def sweep(root: Path) -> None:
+    """Remove what a killed run left unfinished in a project's folder; the caller knows that nobody writes."""
+    left = list((root / SCRIPTS).glob("*"))
+    for folder in WRITTEN:
+        left += (root / folder).glob(f"**/{PARTIAL}{ANY}.*")
+    for path in left:
+        if path.is_dir():
+            shutil.rmtree(path, ignore_errors=True)
+        else:
+            path.unlink(missing_ok=True)

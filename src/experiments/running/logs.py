@@ -11,11 +11,11 @@ import sys
 import tempfile
 import threading
 import time
-from collections.abc import Iterator, Mapping
-from dataclasses import asdict, dataclass, field
+from collections.abc import Iterator
+from dataclasses import asdict, dataclass
 from pathlib import Path
 
-from pydantic import ConfigDict, Field
+from pydantic import ConfigDict
 
 from mobnet.core.code import PACKAGES, UNKNOWN, commit
 from mobnet.core.errors import DataError, MobnetError, not_accepted, refuse
@@ -36,7 +36,7 @@ class Account:
     `job` is the name of its log below the folder of logs, of which the first part is that of its rule. Start and end
     are in seconds since 1970, UTC; `wall_s` is by a clock that nobody sets. Processor time and peak memory include the
     children that it waited for. `succeeded` is False where it failed or was interrupted; `commit` is that of the code,
-    as results note it, `stamps` those of files of rows that it made (`experiments.running.stamp`).
+    as results note it.
     """
 
     job: str
@@ -47,21 +47,18 @@ class Account:
     peak_mib: float
     succeeded: bool
     commit: str = UNKNOWN
-    stamps: Mapping[str, str] = field(default_factory=dict[str, str])
 
 
 @contextlib.contextmanager
-def job(log_file: Path | str) -> Iterator[dict[str, str]]:
+def job(log_file: Path | str) -> Iterator[None]:
     """Log a job to its file and to the terminal, and write its account beside the log, as JSON, when it ends.
-
-    What is yielded takes the stamps of the files of rows.
 
     Raises:
         SystemExit: the job raised a MobnetError, whose message is the last line of the log, or was terminated.
     """
     path = Path(log_file)
-    with terminable(), accounted(path) as stamps, logged(path):
-        yield stamps
+    with terminable(), accounted(path), logged(path):
+        yield
 
 
 @contextlib.contextmanager
@@ -112,27 +109,31 @@ def fullest() -> str:
     return min((place for place in places if Path(place).is_dir()), key=lambda place: shutil.disk_usage(place).free)
 
 
-@contextlib.contextmanager
-def accounted(log_path: Path) -> Iterator[dict[str, str]]:
-    """Write what happens meanwhile took beside a log; a job that is killed outright leaves no account."""
-    stamps = dict[str, str]()
-    account = log_path.with_suffix(".json")
+def account_name(log_path: Path) -> str:
+    """Return the name of a job by its log: its place below the folder of logs."""
     below = log_path.with_suffix("").parts
+    return "/".join(below[below.index(LOGS) + 1 :] if LOGS in below else below[-1:])
+
+
+@contextlib.contextmanager
+def accounted(log_path: Path) -> Iterator[None]:
+    """Write what happens meanwhile took beside a log; a job that is killed outright leaves no account."""
+    account = log_path.with_suffix(".json")
     with contextlib.suppress(OSError):
         account.unlink(missing_ok=True)
     made_by = commit()
-    name = "/".join(below[below.index(LOGS) + 1 :] if LOGS in below else below[-1:])
+    name = account_name(log_path)
     start_s = time.time()
     begin = time.monotonic()
     used_s = cpu_s()
     succeeded = False
     try:
-        yield stamps
+        yield
         succeeded = True
     finally:
         wall_s = time.monotonic() - begin
         used_s = cpu_s() - used_s
-        told = Account(name, start_s, time.time(), wall_s, used_s, peak_mib(), succeeded, made_by, stamps)
+        told = Account(name, start_s, time.time(), wall_s, used_s, peak_mib(), succeeded, made_by)
         rounded = {key: round(value, 3) for key, value in asdict(told).items() if isinstance(value, float)}
         with contextlib.suppress(DataError):  # on a full disk
             write_json(account, asdict(told) | rounded)
@@ -140,19 +141,22 @@ def accounted(log_path: Path) -> Iterator[dict[str, str]]:
 
 @contextlib.contextmanager
 def terminable() -> Iterator[None]:
-    """Turn the signal to terminate into an exit, so that a terminated job ends as an interrupted one does."""
+    """Turn Ctrl-C and the signal to terminate into an exit without a traceback: files are whole or not there."""
 
     def leave(number: int, frame: object) -> None:
+        for other in (signal.SIGINT, signal.SIGTERM):
+            signal.signal(other, signal.SIG_IGN)  # one signal is enough, a second one would cut short what follows
         raise SystemExit(128 + number)
 
     if threading.current_thread() is not threading.main_thread():
         yield  # other threads get no signals
         return
-    before = signal.signal(signal.SIGTERM, leave)
+    before = {number: signal.signal(number, leave) for number in (signal.SIGINT, signal.SIGTERM)}
     try:
         yield
     finally:
-        signal.signal(signal.SIGTERM, before)
+        for number, handler in before.items():
+            signal.signal(number, handler)
 
 
 def cpu_s() -> float:
@@ -184,7 +188,6 @@ class AccountNote(Note):
     peak_mib: NotNegative
     succeeded: bool
     commit: Text = UNKNOWN
-    stamps: dict[str, Text] = Field(default_factory=dict)
 
 
 def read_account(path: Path) -> Account:

@@ -1,9 +1,14 @@
-"""Writing files so that a reader finds either the old or the complete new one, and reading text and JSON."""
+"""Writing files so that a reader finds either the old or the complete new one, reading text and JSON, and locks.
+
+Standard library only. The system frees a lock when its process ends, however it ends.
+"""
 
 import contextlib
 import errno
 import fcntl
+import functools
 import json
+import logging
 import math
 import os
 import shutil
@@ -14,10 +19,12 @@ from typing import Any
 
 from mobnet.core.errors import DataError, not_accepted, refuse
 
+log = logging.getLogger(__name__)
 WEIGHTS, METRICS, RUN = "weights.safetensors", "metrics.csv", "run.json"  # files of a trained network
 CHECKPOINT = "checkpoint.safetensors"  # of a training that is under way, in a folder of its own with METRICS
 TIME = "time.json"  # beside the checkpoint of a network: what its training took [s]
 PARTIAL = ".partial."  # first characters of the name of a file that is being written
+LOCKLESS = {errno.ENOLCK, errno.ENOSYS, errno.EOPNOTSUPP}  # what a file system says that has no locks
 FULL = frozenset({errno.ENOSPC, errno.EDQUOT})
 REFUSALS = FULL | {
     errno.EACCES,
@@ -188,3 +195,35 @@ def _not_finite(value: object, *place: str) -> Iterator[str]:
     elif isinstance(value, dict | list):
         for key, inner in value.items() if isinstance(value, dict) else enumerate(value):
             yield from _not_finite(inner, *place, str(key))
+
+
+def opened(path: Path) -> int:
+    """Return the descriptor of a lock's file, which nothing closes before this process ends.
+
+    Raises:
+        DataError: it cannot be written.
+    """
+    try:
+        path.parent.mkdir(exist_ok=True)
+        return os.open(path, os.O_RDWR | os.O_CREAT, 0o644)
+    except OSError as error:
+        raise DataError(refusal(error, path)) from None
+
+
+def taken(handle: int) -> bool:
+    """Take a lock if nobody else holds it, and return whether it was free; a file system without locks says yes."""
+    try:
+        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        return False
+    except OSError as error:
+        if error.errno not in LOCKLESS:
+            raise
+        warn_of_missing_locks()
+    return True
+
+
+@functools.cache
+def warn_of_missing_locks() -> None:
+    """Say, once, that two runs may meet."""
+    log.warning("this file system has no locks: nothing keeps two processes in this folder apart")

@@ -12,7 +12,7 @@ from collections.abc import Mapping, Sequence
 from itertools import takewhile
 from pathlib import Path
 
-from mobnet.core.lock import opened, taken
+from mobnet.core.files import opened, taken
 
 log = logging.getLogger(__name__)
 CHOSEN, HIDDEN = "CUDA_VISIBLE_DEVICES", ("", "-1")  # variable that lists GPUs for torch, and what ends the list

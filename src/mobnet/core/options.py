@@ -240,3 +240,22 @@ def export_parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("--out", type=Path, required=True, help="folder of what is made")
     return parser
+
+
+def missing_input(options: argparse.Namespace) -> str | None:
+    """Return a line about the first file or folder that a command gets and that is not there; None if all are."""
+    for name, value in vars(options).items():
+        if name == "out":
+            continue
+        for path in value if isinstance(value, list) else [value]:
+            if isinstance(path, Path) and not _is_there(path):
+                return f"{path}: no such file or folder"
+    return None
+
+
+def _is_there(path: Path) -> bool:
+    """Return whether a file or folder is there; arrays may be named without their ending."""
+    try:
+        return path.exists() or path.with_name(f"{path.name}.parquet").exists()
+    except (OSError, ValueError):  # a name that the file system does not take: the command says so itself
+        return True

@@ -9,7 +9,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array
 from mobnet.core.errors import DataError, not_accepted
@@ -110,8 +109,8 @@ def calibrate(
     # (D19), with the same random numbers for every detector and rate: intervals differ by the swings, not by chance.
     rng = np.random.default_rng(SEED)
     numbers = np.asarray(episodes)
-    groups = [np.flatnonzero(numbers == number) for number in np.unique(numbers)]
-    rates = [_resampled(largest, groups, tail, factor, settings, rng) * per_h for _ in range(settings.resamples)]
+    groups = [largest[numbers == number] for number in np.unique(numbers)]
+    rates = [_resampled(groups, tail, factor, settings, rng) * per_h for _ in range(settings.resamples)]
     low, high = np.quantile(rates, [(1.0 - settings.confidence) / 2.0, (1.0 + settings.confidence) / 2.0])
     return Calibrated(factor, tail.above(factor) * per_h, float(low), float(high))
 
@@ -131,8 +130,7 @@ def _check_tail(above: Array, level: float) -> None:
 
 
 def _resampled(
-    largest: Array,
-    groups: Sequence[NDArray[np.intp]],
+    groups: Sequence[Array],
     tail: Tail,
     factor: float,
     settings: Thresholds,
@@ -140,7 +138,7 @@ def _resampled(
 ) -> float:
     """Return the share of swings above a factor that a walk like this one, drawn anew, would make one expect."""
     # Whole episodes: their ground and commands make swings alike, and single swings would look like more than they are.
-    drawn = np.concatenate([largest[groups[k]] for k in rng.integers(0, len(groups), len(groups))])
+    drawn = np.concatenate([groups[k] for k in rng.integers(0, len(groups), len(groups))])
     above = np.flatnonzero(drawn > tail.level)
     # The rarest swing decides the fit, and would often be drawn twice or not at all: the law draws another one.
     uniform = rng.uniform(size=len(above))

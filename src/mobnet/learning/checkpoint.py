@@ -13,7 +13,6 @@ from dataclasses import asdict, dataclass, field
 from operator import attrgetter
 from pathlib import Path
 
-import torch
 from safetensors import SafetensorError, safe_open
 from safetensors.torch import save as to_bytes
 from torch import Tensor, nn
@@ -21,6 +20,7 @@ from torch import Tensor, nn
 from mobnet.core.columns import EPOCHS, JOINT_ERROR, Epoch
 from mobnet.core.errors import DataError
 from mobnet.core.files import atomic_path, parse_json, write_text
+from mobnet.learning.soap import Optimizer
 
 log = logging.getLogger(__name__)
 
@@ -51,7 +51,7 @@ def copy_weights(network: nn.Module) -> dict[str, Tensor]:
     return {name: tensor.detach().cpu().clone() for name, tensor in network.state_dict().items()}
 
 
-def save(path: Path, fingerprint: str, network: nn.Module, optimizer: torch.optim.Optimizer, done: Progress) -> None:
+def save(path: Path, fingerprint: str, network: nn.Module, optimizer: Optimizer, done: Progress) -> None:
     """Write a checkpoint atomically; the fingerprint is a hash of all that the result depends on."""
     tensors = {f"last.{name}": tensor for name, tensor in copy_weights(network).items()}
     tensors |= {f"best.{name}": tensor for name, tensor in done.best.items()}
@@ -63,7 +63,7 @@ def save(path: Path, fingerprint: str, network: nn.Module, optimizer: torch.opti
         temporary.write_bytes(to_bytes(tensors, {"note": json.dumps(note)}))
 
 
-def resume(path: Path, fingerprint: str, network: nn.Module, optimizer: torch.optim.Optimizer) -> Progress:
+def resume(path: Path, fingerprint: str, network: nn.Module, optimizer: Optimizer) -> Progress:
     """Load a checkpoint of the same run into network and optimizer; log why if it cannot be used.
 
     Return how far the training has come; nothing is done yet if there is no checkpoint of this fingerprint.

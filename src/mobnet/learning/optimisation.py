@@ -13,6 +13,7 @@ from torch import Tensor
 from mobnet.core.errors import DataError
 from mobnet.learning.losses import Objective, gaussian_loss, likelihood
 from mobnet.learning.model import LimbNetwork
+from mobnet.learning.soap import Optimizer
 from mobnet.learning.streams import EpochPlan, epoch_plan, window_plan
 
 EVERY_STEP, LAST_STEP = slice(None), slice(-1, None)  # of a horizon, in the loss
@@ -57,7 +58,7 @@ class Samples:
 
 def train_epoch(
     network: LimbNetwork,
-    optimizer: torch.optim.Optimizer,
+    optimizer: Optimizer,
     samples: Samples,
     plan: EpochPlan,
     horizon: int,

@@ -5,7 +5,8 @@ or W_hn of a GRU; L and R are averages of G G' and G' G. In the eigenvectors of 
 directions that learn apart from each other, where Adam's belong to single weights.
 """
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
+from typing import Any
 
 import torch
 from torch import Tensor, nn
@@ -16,11 +17,12 @@ from mobnet.settings.networks import Learning
 EPSILON = 1e-8  # of Adam, beside the root of the second moment
 
 
-class Soap(torch.optim.Optimizer):
+class Soap:
     """SOAP for matrices that gates share, Adam for all other weights.
 
-    The state of a parameter is a flat table of tensors, so that a checkpoint holds it as it does Adam's. Moments are
-    kept in the basis: `first` and `second`, (gates, rows, columns), as the gradient.
+    It is used as an optimiser of torch is, and is none: the first one of a process imports `torch._dynamo`, a second of
+    each training. The state of a parameter is a flat table of tensors, so that a checkpoint holds it as it does Adam's.
+    Moments are kept in the basis: `first` and `second`, (gates, rows, columns), as the gradient.
     """
 
     def __init__(
@@ -40,11 +42,34 @@ class Soap(torch.optim.Optimizer):
         self._betas = betas
         self._beta_basis = beta_basis
         self._basis_every = basis_every
-        groups = [{"params": list(gated), "gates": gates}, {"params": list(others), "gates": 0}]
-        super().__init__([group for group in groups if group["params"]], {"lr": 0.0})
+        groups = [{"params": list(gated), "gates": gates, "lr": 0.0}, {"params": list(others), "gates": 0, "lr": 0.0}]
+        self.param_groups: list[dict[str, Any]] = [group for group in groups if group["params"]]
+        self.state: dict[nn.Parameter, dict[str, Tensor]] = {weight: {} for weight in self._weights()}
+
+    def zero_grad(self) -> None:
+        """Drop the gradients of all parameters."""
+        for weight in self._weights():
+            weight.grad = None
+
+    def state_dict(self) -> dict[str, Any]:
+        """Return the state of each parameter that has been updated, by its number, as `state`."""
+        return {"state": {number: own for number, own in enumerate(self.state.values()) if own}}
+
+    def load_state_dict(self, saved: Mapping[str, Any]) -> None:
+        """Take what `state_dict` returned."""
+        for number, weight in enumerate(self._weights()):
+            own = saved["state"].get(number, {})
+            self.state[weight] = {name: tensor.to(weight.device) for name, tensor in own.items()}
+
+    def _weights(self) -> list[nn.Parameter]:
+        """Return all parameters, those of gates first."""
+        weights: list[nn.Parameter] = []
+        for group in self.param_groups:
+            weights += group["params"]
+        return weights
 
     @torch.no_grad()
-    def step(self, closure: None = None) -> None:  # type: ignore[override]
+    def step(self) -> None:
         """Make one update with the gradients of all parameters."""
         for group in self.param_groups:
             for weight in group["params"]:
@@ -125,7 +150,10 @@ def _renew(state: dict[str, Tensor]) -> None:
         state[side] = new
 
 
-def optimizer_of(network: LimbNetwork, learning: Learning) -> torch.optim.Optimizer:
+Optimizer = Soap | torch.optim.Adam
+
+
+def optimizer_of(network: LimbNetwork, learning: Learning) -> Optimizer:
     """Return the optimiser of a network that section `learning` names; its rate is set before each epoch."""
     if learning.optimizer == "adam":
         return torch.optim.Adam(network.parameters(), lr=0.0, betas=learning.optimizer_betas, fused=True)

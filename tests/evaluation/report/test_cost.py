@@ -4,31 +4,35 @@ import logging
 import subprocess
 from collections.abc import Callable, Sequence
 from pathlib import Path
+from typing import Any
 
 import pytest
 
-from experiments.evaluation.report.compute import WHOLE
-from experiments.evaluation.report.cost import costs, main, overrides
-from experiments.evaluation.report.rates import RATES, RatesNote
-from experiments.plan.plan import make_plan
-from experiments.settings.load import load_settings
+from experiments.evaluation.report import cost
+from experiments.evaluation.report.cost import main, overrides
+from experiments.evaluation.report.rates import RATES
+from experiments.plan import dry_run as dry_runs
+from experiments.plan.dry_run import PlannedJob
 from mobnet.core.errors import ConfigError
 from mobnet.core.files import write_json
-from mobnet.core.notes import read_note
 
 HOUR_S = 3600.0
-REPO = Path(__file__).parents[3]
 Told = Callable[[], str]
+JOBS = [  # that a made-up run would start
+    PlannedJob("all", "all", {}, ("",), {}),
+    PlannedJob("fit", "fit/plant/MOB-fric", {"robot": "plant", "method": "MOB-fric"}, ("a",), {}),
+    PlannedJob("table", "table/table_05", {"table": "table_05"}, ("b",), {"disk_mb": "300"}),
+    PlannedJob("table", "table/table_08", {"table": "table_08"}, ("c",), {}),
+]
 
 
 @pytest.fixture(autouse=True)
 def rates(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> dict[str, object]:
-    """A folder in which every job of the smoke scale took 36 s and 500 MiB, and the table 8 is not known."""
+    """A folder in which every job took 36 s and 500 MiB, the table 8 is not known, and a run starts the jobs above."""
     monkeypatch.chdir(tmp_path)
-    works = make_plan(load_settings(overrides={"scale": "smoke"}), with_pdf=False).work
-    kinds = {work.kind: {"cpu_s": {"job": 36.0}, "peak_mib": {"job": 500.0}} for work in works}
-    del kinds["table_08"]
-    note = {"processor": "made-up", "scale": "smoke", "core_h": len(works) / 50, "peak_mib": 500.0, "kinds": kinds}
+    monkeypatch.setattr(cost, "dry_run", lambda *_, **__: JOBS)
+    kinds = {kind: {"cpu_s": {"job": 36.0}, "peak_mib": {"job": 500.0}} for kind in ("fit", "table_05")}
+    note = {"processor": "made-up", "scale": "smoke", "core_h": 0.04, "peak_mib": 500.0, "kinds": kinds}
     write_json(RATES, note)
     return note
 
@@ -49,26 +53,10 @@ def told(caplog: pytest.LogCaptureFixture) -> Told:
 def test_every_job_is_priced_and_the_rest_is_named(told: Told) -> None:
     assert main(["--config", "scale=smoke"]) == 0
     text = told()
-    jobs = len(make_plan(load_settings(overrides={"scale": "smoke"}), with_pdf=False).work) - 1
-    assert f"| all jobs | {jobs} | {jobs * 36 / HOUR_S:.2f} | 500 |" in text
+    assert f"| all jobs | 2 | {2 * 36 / HOUR_S:.2f} | 500 |" in text
+    assert "disk: 0.3 GB" in text
     assert "without a rate, and not counted: table_08" in text
     assert "(-50 %), 500 MiB where it took 500 (+0 %)" in text
-
-
-def test_each_larger_scale_costs_more(told: Told) -> None:
-    found: list[float] = []
-    for scale in ("smoke", "quick", "default", "paper"):
-        assert main(["-C", f"scale={scale}"]) == 0
-        found.append(float(told().split("| all jobs |")[1].split("|")[1]))
-    assert found == sorted(set(found))
-
-
-def test_quick_fits_into_its_hour_by_the_published_rates() -> None:
-    """75 minutes on two cores, some of which a run does not use; detection has no rate yet."""
-    plan = make_plan(load_settings(overrides={"scale": "quick"}), with_pdf=False)
-    jobs, cpu_s, _ = costs(plan.work, read_note(REPO / RATES, RatesNote).kinds)[WHOLE]
-    assert jobs > len(plan.work) - len(plan.products)
-    assert cpu_s < 2.3 * HOUR_S
 
 
 @pytest.mark.parametrize(
@@ -99,39 +87,33 @@ def test_a_value_that_is_no_yaml_is_one_line(value: str) -> None:
 
 
 def test_with_targets_only_what_is_out_of_date_is_priced(told: Told, monkeypatch: pytest.MonkeyPatch) -> None:
-    asked: list[tuple[str, ...]] = []
+    asked: list[tuple[Any, ...]] = []
 
-    def dry_run(words: Sequence[str], **_: object) -> subprocess.CompletedProcess[str]:
-        asked.append(tuple(words))
-        return subprocess.CompletedProcess(
-            words, 0, "    rule collect_forward_walk_ideal_s101:\n    rule table_05:\n", ""
-        )
+    def planned(targets: Sequence[str], config: Sequence[str], *, from_nothing: bool) -> list[PlannedJob]:
+        asked.append((targets, config, from_nothing))
+        return JOBS[:2]
 
-    monkeypatch.setattr(subprocess, "run", dry_run)
+    monkeypatch.setattr(cost, "dry_run", planned)
     assert main(["tables/smoke/table_05.tex", "--config", "scale=smoke"]) == 0
-    assert f"| all jobs | 2 | {72 / HOUR_S:.2f} | 500 |" in told()
-    assert asked[-1][-4:] == ("--config", "scale=smoke", "--", "tables/smoke/table_05.tex")
+    assert f"| all jobs | 1 | {36 / HOUR_S:.2f} | 500 |" in told()
+    assert main(["--config", "scale=smoke"]) == 0
+    assert asked[0] == (["tables/smoke/table_05.tex"], ["scale=smoke"], False)
+    assert asked[2] == (["all"], ["scale=smoke"], True)
 
 
 def test_of_a_target_that_is_up_to_date_nothing_is_priced(told: Told, monkeypatch: pytest.MonkeyPatch) -> None:
-    done = subprocess.CompletedProcess(
-        (), 0, "Nothing to be done (all requested files are present and up to date).", ""
-    )
-    monkeypatch.setattr(subprocess, "run", lambda *_, **__: done)
+    monkeypatch.setattr(cost, "dry_run", lambda *_, from_nothing: JOBS if from_nothing else [])
     assert main(["tables/smoke/table_05.tex", "--config", "scale=smoke"]) == 0
     assert "nothing would run" in told()
     assert "| stage |" not in told()
 
 
 def test_a_target_that_nobody_makes_is_one_line(told: Told, monkeypatch: pytest.MonkeyPatch) -> None:
-    def dry_run(words: Sequence[str], **_: object) -> subprocess.CompletedProcess[str]:
-        return subprocess.CompletedProcess(
-            words, 1, "", "MissingRuleException:\nNo rule to produce tables/table_99.tex\n\n"
-        )
-
-    monkeypatch.setattr(subprocess, "run", dry_run)
+    done = subprocess.CompletedProcess((), 1, "", "tables/table_99.tex: is no target; did you mean all?\n\n")
+    monkeypatch.setattr(subprocess, "run", lambda *_, **__: done)
+    monkeypatch.setattr(cost, "dry_run", dry_runs.dry_run)
     assert main(["tables/table_99.tex"]) == 1
-    assert told() == "No rule to produce tables/table_99.tex"
+    assert told() == "tables/table_99.tex: is no target; did you mean all?"
 
 
 def test_rates_of_jobs_that_are_gone_are_told(told: Told, rates: dict[str, object]) -> None:

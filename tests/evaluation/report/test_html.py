@@ -27,7 +27,7 @@ def inputs(settings: Settings) -> dict[str, set[str]]:
     """Page -> the templates that are inputs of its rule."""
     products = {product.name: product for product in make_plan(settings, with_pdf=False).products}
     return {
-        page: {path.name for path in map(Path, products[name].job.inputs) if path.parent == TEMPLATES}
+        page: {path.name for path in map(Path, products[name].inputs) if path.parent == TEMPLATES}
         for name, pages in PAGES.items()
         for page in pages
     }

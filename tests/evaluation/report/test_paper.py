@@ -182,7 +182,7 @@ def published_claims(made: Path, out: Path) -> Path:
 def write_numbers(products: Products, settings: Settings, claims_csv: Path, summary_csv: Path, out: Path) -> None:
     """Write numbers and captions from what is published, and a made-up number for each other one that the text asks."""
     (product,) = (product for product in products.all() if product.name == "numbers")
-    wanted: Any = product.job.call.arguments
+    wanted: Any = product.call.arguments
     tables, further = ([published(path.stem) for path in wanted[name]] for name in ("table_csvs", "further_csvs"))
     train, sizes = Recordings(shards=1, shard_s=60.0), (settings.scale, settings.rates, settings.sizes, settings.fleet)
     captions = [REPO / path for path in wanted["captions"]]
@@ -209,7 +209,7 @@ def test_the_paper_itself_builds_from_the_published_tables(
 ) -> None:  # fmt: skip
     """And fits its pages and its results: every guard of its words holds. Every figure is the same picture."""
     folders = Folders(tmp_path, tmp_path, tmp_path, tmp_path / "out", tmp_path / "MANIFEST.sha256")
-    products = Products(settings, Files(Catalogue(settings), tmp_path), folders, with_pdf=True, stored=())
+    products = Products(settings, Files(Catalogue(settings), tmp_path), folders, with_pdf=True)
     deviations(REPO / "docs/deviations.md", tmp_path / "deviations.tex")
     claims = published_claims(claims_csv, tmp_path / "published_claims.csv")
     write_numbers(products, settings, claims, summary_csv, tmp_path / "numbers.tex")

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from experiments.evaluation.report.manifest import manifest
+from experiments.evaluation.report.manifest import write_lists
 from experiments.evaluation.report.readme import blocks
 from experiments.evaluation.report.snapshot import (
     RESULTS,
@@ -129,7 +129,7 @@ def run_of(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[[str], N
     monkeypatch.chdir(tmp_path)
     for index, name in enumerate("xy"):
         note_of(name, "abc", 10.0 * index)
-    manifest(RESULTS.rglob("recordings/*.json"), [], MANIFEST)
+    write_lists(RESULTS.rglob("recordings/*.json"), [], MANIFEST)
 
     def check(head: str) -> None:
         monkeypatch.setattr("experiments.evaluation.report.snapshot.commit", lambda: head)

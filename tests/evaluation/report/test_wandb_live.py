@@ -20,7 +20,7 @@ NAME = "MOB-Net-LL-s0"
 HEAD = "epoch,train_loss,validation_loss,validation_rmse,rate,gradient_norm,stride"
 JOINTS = ("LL1", "LL2")
 IMPORTS = "import sys, time; from pathlib import Path"
-STARTS = f"{IMPORTS}; from experiments.running.follow import follow_trainings as follow;"
+STARTS = f"{IMPORTS}; from experiments.running.processes import follow_trainings as follow;"
 
 pytestmark = pytest.mark.slow
 
@@ -38,9 +38,9 @@ def follower_of(results: Path) -> Follower:
     return Follower(results, results / ".partial")
 
 
-def train(results: Path, epochs: int, *, done: bool = False) -> Path:
+def train(results: Path, epochs: int, robot: str = "plant", *, done: bool = False) -> Path:
     """Write what a training has written after some epochs; of the checkpoint only its time counts."""
-    state = results / "state" / NAME
+    state = results / robot / "state" / NAME
     state.mkdir(parents=True, exist_ok=True)
     joints = [JOINT_ERROR.format(joint) for joint in JOINTS]
     rows = [f"{k},{-k},{-k - 1},{3.0 / k},0.01,9,1,{2.0 / k},{4.0 / k}" for k in range(1, epochs + 1)]
@@ -99,7 +99,7 @@ def test_a_checkpoint_that_an_earlier_run_left_is_no_training(tmp_path: Path) ->
 
 def test_damaged_metrics_stop_only_their_own_run(tmp_path: Path, followed: Follower) -> None:
     (train(tmp_path, 2) / "metrics.csv").rename(tmp_path / "kept")
-    train(tmp_path / "robot_1", 2)
+    train(tmp_path, 2, "robot_1")
     followed.look()
     assert (tmp_path / RUNS / FOLDER.format(NAME)).is_dir()
 
@@ -116,7 +116,8 @@ def test_runs_of_finished_trainings_take_the_place_of_live_ones(
 
 
 def test_the_process_ends_with_a_killed_run(tmp_path: Path) -> None:
-    script = f"{STARTS} print(follow(Path({str(tmp_path)!r}), Path({str(tmp_path / 'log')!r})).pid, flush=True);"
+    places = f"Path({str(tmp_path)!r}), Path({str(tmp_path / 'log')!r})"
+    script = f"{STARTS} print(follow(sys.executable, {places}).pid, flush=True);"
     with subprocess.Popen([sys.executable, "-c", f"{script} time.sleep(600)"], stdout=subprocess.PIPE) as run:
         assert run.stdout is not None
         process = psutil.Process(int(run.stdout.readline()))

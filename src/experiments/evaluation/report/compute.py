@@ -15,7 +15,7 @@ from mobnet.core.columns import COMPUTE
 from mobnet.core.errors import DataError
 
 STAGES = {  # stage -> its rules; those of no stage make tables and figures
-    "collect": ("motion", "collect"),
+    "collect": ("motion", "collect", "observe"),
     "train": ("fit", "train"),
     "estimate": ("estimate",),
     "detect and react": ("detect", "watch", "react"),

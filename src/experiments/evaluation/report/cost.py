@@ -5,11 +5,9 @@ after an edit, or `./reproduce cost tables/table_06.tex`.
 """
 
 import logging
-import re
-import subprocess
 import sys
 from argparse import Namespace
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
 import yaml
@@ -18,9 +16,10 @@ from experiments.evaluation.report.compute import HOUR_S, STAGES, WHOLE, stage_o
 from experiments.evaluation.report.paper import missing_packages
 from experiments.evaluation.report.rates import RATES, Kind, RatesNote, price
 from experiments.evaluation.tables.layout import markdown_table
-from experiments.plan.disk import bytes_of
+from experiments.plan.dry_run import PlannedJob, dry_run
 from experiments.plan.plan import Plan, make_plan
-from experiments.plan.work import Work
+from experiments.plan.room import RESOURCE
+from experiments.plan.work import Work, works_of
 from experiments.running.words import cost_parser
 from experiments.settings.load import load_settings
 from mobnet.core.errors import ConfigError
@@ -30,9 +29,8 @@ from mobnet.core.printed import printed
 log = logging.getLogger(__name__)
 
 HEADER = ("stage", "jobs", "core-hours", "memory [MiB]")
-GIB = 2**30
+MB_OF_GB = 1e3
 PERCENT = 100.0
-RULE = re.compile(r"^ *(?:local)?rule (\w+):$", re.MULTILINE)  # of a job that a dry run lists
 Cost = tuple[int, float, float]  # jobs, processor time [s], largest peak of the memory [MiB]
 
 
@@ -48,47 +46,30 @@ def costs(works: Iterable[Work], kinds: dict[str, Kind]) -> dict[str, Cost]:
     return {stage: cost for stage, cost in found.items() if cost[0]}
 
 
-def report(plan: Plan, rates: RatesNote, rules: Collection[str]) -> str:
-    """Return the price of some rules of a plan as text: a row for each stage, the disk, and what has no rate."""
-    chosen = [made for rule, made in plan.rules.items() if rule in rules]
-    works = [work for work, _ in chosen]
-    files: list[str] = []
-    for _, outputs in chosen:
-        files += outputs
+def report(plan: Plan, rates: RatesNote, planned: Sequence[PlannedJob]) -> str:
+    """Return the price of some jobs of a plan as text: a row for each stage, the disk, and what has no rate."""
+    works = works_of(plan, planned)
     found = costs(works, rates.kinds)
     rows = [[stage, str(n), f"{cpu_s / HOUR_S:.2f}", f"{mib:.0f}"] for stage, (n, cpu_s, mib) in found.items()]
     unknown = sorted({work.kind for work in works} - {*rates.kinds})
+    disk_gb = sum(float(job.resources.get(RESOURCE, 0)) for job in planned) / MB_OF_GB
     lines = [
         f"scale {plan.settings.scale}, priced as on this processor: {rates.processor}",
         "",
         markdown_table(HEADER, rows) if works else "nothing would run: all is up to date",
-        f"disk: {bytes_of(plan, files) / GIB:.1f} GiB; time: the core-hours over the number of cores",
+        f"disk: {disk_gb:.1f} GB; time: the core-hours over the number of cores",
         "GPU-hours: none, as no training on a GPU has been measured",
     ]
     lines += [f"without a rate, and not counted: {', '.join(unknown)}"] if unknown else []
     return "\n".join(lines)
 
 
-def out_of_date(targets: Sequence[str], config: Sequence[str]) -> frozenset[str]:
-    """Return the rules that a run of targets would start now, as a dry run of Snakemake lists them.
-
-    Raises:
-        ConfigError: a target or a value of the configuration is not accepted.
-    """
-    given = ["--config", *config] if config else []
-    words = [sys.executable, "-m", "snakemake", "-n", "--quiet", "host", *given, "--", *targets]
-    done = subprocess.run(words, capture_output=True, text=True, check=False)
-    told = done.stdout + done.stderr
-    if done.returncode:
-        raise ConfigError(next((line for line in reversed(told.splitlines()) if line.strip()), "snakemake failed"))
-    return frozenset(RULE.findall(told))
-
-
 def check(rates: RatesNote, with_pdf: bool) -> str:
     """Return how the rates price the scale of the run to which they are fitted, as its sizes are now."""
     plan = make_plan(load_settings(overrides={"scale": rates.scale}), with_pdf=with_pdf)
-    _, cpu_s, peak_mib = costs(plan.work, rates.kinds)[WHOLE]
-    gone = sorted({*rates.kinds} - {work.kind for work in plan.work})
+    works = works_of(plan, dry_run(["all"], [f"scale={rates.scale}"], from_nothing=True))
+    _, cpu_s, peak_mib = costs(works, rates.kinds)[WHOLE]
+    gone = sorted({*rates.kinds} - {work.kind for work in works})
     pairs = {"core-hours": (cpu_s / HOUR_S, rates.core_h, 2), "MiB": (peak_mib, rates.peak_mib, 0)}
     told = [
         f"{priced:.{digits}f} {unit} where it took {took:.{digits}f} ({PERCENT * (priced / took - 1):+.0f} %)"
@@ -120,8 +101,9 @@ def run(options: Namespace) -> Iterator[str]:
     with_pdf = not missing_packages()
     rates = read_note(RATES, RatesNote)
     plan = make_plan(load_settings(overrides=overrides(options.config)), with_pdf=with_pdf)
-    rules = out_of_date(options.targets, options.config) if options.targets else plan.rules
-    yield f"{report(plan, rates, rules)}\n{check(rates, with_pdf)}"
+    targets = options.targets or ["all"]
+    planned = dry_run(targets, options.config, from_nothing=not options.targets)
+    yield f"{report(plan, rates, planned)}\n{check(rates, with_pdf)}"
 
 
 def main(words: Sequence[str]) -> int:

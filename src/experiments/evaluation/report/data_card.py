@@ -41,15 +41,15 @@ One recording is two files, `NAME.parquet` (float32, one row for each sample, {r
 (columns with unit and frame, number of rows, contiguous segments, terrain of each segment, falls, seed, provenance). A
 segment ends with its episode or {dropped:g} s before a fall: samples of two segments are not consecutive in time.
 
-- `results/<scale>/recordings/<scenario>/<level>/s<seed>`: what the robot sensed, and the truth
-- `results/<scale>/residuals/<scenario>/<level>/s<seed>`: the observer's residual, and the torque for the label
+- `results/<scale>/<robot>/recordings/<scenario>/<level>/s<seed>`: what the robot sensed, and the truth
+- `results/<scale>/<robot>/residuals/<scenario>/<level>/s<seed>`: the observer's residual, and the torque for the label
 - `results/<scale>/motions/<name>/s<seed>`: knots of the upper body's joint targets
 
 Three lines read a recording:
 
 ```python
 import pandas as pd
-name = "results/{scale}/recordings/{scenario}/{level}/s{seed}.parquet"
+name = "results/{scale}/plant/recordings/{scenario}/{level}/s{seed}.parquet"
 frame = pd.read_parquet(name, columns=["q.LL3", "v.LL3", "tau_des.LL3", "tau_ext.LL3"])  # or all columns
 ```
 """

@@ -6,23 +6,42 @@ the files of the second list: the table of compute, the page of trainings, the p
 
 import hashlib
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
 from mobnet.core.errors import DataError
-from mobnet.core.files import read_text, write_text
+from mobnet.core.files import PARTIAL, read_text, write_text
 
 LINE = re.compile(r"([0-9a-f]{64})  (.+)")
 TIMES = "TIMES.sha256"  # beside the manifest
 RESULTS = "results"
 # Folders of results, and names of files, that no list has: logs, what a training goes on from, views, others' files
 STATE = "state"
-UNLISTED = ("logs", STATE, "wandb", "docs")
-KEPT = (".gitignore", ".snakemake_timestamp")
+UNLISTED = ("logs", STATE, "wandb", "docs", "trials", "films")
+KEPT = (".gitignore", ".snakemake_timestamp", TIMES, "MANIFEST.sha256")
+TIMED = ("runs.html", "main.pdf")  # they show what jobs took, as the table of compute does
+COMPUTE = "compute"
 
 
-def manifest(files: Iterable[Path], timed: Iterable[Path], out: Path) -> None:
-    """Write one line for each file, sorted by name: SHA-256 and path as given; of files with times into `TIMES`."""
+def manifest(results: Path, beside: Sequence[Path], built: Sequence[Path], out: Path) -> None:
+    """Write one line for each file, sorted by name: SHA-256 and path as given; of files with times into `TIMES`.
+
+    Args:
+        results: folder of a scale's results, with those below it.
+        beside: folders of its tables and figures, without those below them.
+        built: files of the paper.
+        out: the list; that of files with times stands beside it.
+    """
+    files = [path for path in results.rglob("*") if is_listed(path.relative_to(results))]
+    for folder in beside:
+        files += folder.glob("*")
+    files = [path for path in [*files, *built] if path.is_file() and path.name not in KEPT]
+    timed = [path for path in files if path.name in TIMED or path.stem == COMPUTE]
+    write_lists(set(files) - set(timed), timed, out)
+
+
+def write_lists(files: Iterable[Path], timed: Iterable[Path], out: Path) -> None:
+    """Write the list of some files, and beside it that of files with times."""
     for listed, paths in ((out.with_name(TIMES), timed), (out, files)):
         write_text(listed, "".join(f"{file_hash(path)}  {path}\n" for path in sorted(set(paths))))
 
@@ -69,13 +88,13 @@ def too_many(names: Iterable[str]) -> list[Path]:
     for folder in beside:
         if folder.name != "paper":
             found.update(folder.glob("*"))
-    kept = {*KEPT, TIMES, "MANIFEST.sha256"}
-    return sorted(path for path in found - known if path.is_file() and path.name not in kept)
+    return sorted(path for path in found - known if path.is_file() and path.name not in KEPT)
 
 
 def is_listed(path: Path) -> bool:
     """Return whether a list has a file below a scale's results; a robot's states lie in the folder of the robot."""
-    return path.parts[0] not in UNLISTED and path.parts[1:2] != (STATE,)
+    is_unfinished = any(part.startswith(PARTIAL) for part in path.parts)
+    return path.parts[0] not in UNLISTED and path.parts[1:2] != (STATE,) and not is_unfinished
 
 
 def _fault(name: str, expected: str) -> str | None:

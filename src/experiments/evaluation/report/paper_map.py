@@ -102,8 +102,8 @@ def paper_map(plan: Plan, known: MapNotes) -> str:
     ours: list[list[str]] = []
     for product in products:
         item = paper_item(product.name, known.paper)
-        function = product.job.call.function
-        told = [product.name, function, test_of(product, tests).as_posix()]
+        function = product.call.function
+        told = [product.rule, function, test_of(product, tests).as_posix()]
         rule, made_by, test = (f"`{name}`" for name in told)
         row = [item, shows(product, known.shows), rule, made_by, files_of(product.outputs), test]
         if item:
@@ -163,7 +163,7 @@ def test_of(product: Product, known: Mapping[str, Path]) -> Path:
     for name in (product.name, _function(product)):
         if name in known:
             return known[name]
-    package = product.job.call.function.split(".")[1:3]
+    package = product.call.function.split(".")[1:3]
     test = Path("tests", *package, f"test_{product.name}.py")
     if not test.is_file():
         raise ConfigError(f"{SOURCE}: tests: {product.name!r} is missing; accepted: its test here, or {test}")
@@ -172,7 +172,7 @@ def test_of(product: Product, known: Mapping[str, Path]) -> Path:
 
 def _function(product: Product) -> str:
     """Return the name of the function that makes a product, without its module."""
-    return product.job.call.function.rpartition(":")[2]
+    return product.call.function.rpartition(":")[2]
 
 
 def _check_names(known: MapNotes, products: Iterable[Product]) -> None:

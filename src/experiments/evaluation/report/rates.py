@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 from scipy.optimize import nnls
 
 from experiments.evaluation.report.compute import HOUR_S
-from experiments.plan.plan import Plan
 from experiments.plan.work import Work
 from experiments.running.logs import Account
 from mobnet.core.errors import DataError
@@ -40,18 +39,18 @@ class RatesNote(Note):
     kinds: dict[str, Kind]
 
 
-def measured(plan: Plan, jobs: Iterable[Account]) -> RatesNote:
-    """Return the rates of a run on this processor, from the accounts of its jobs.
+def measured(scale: str, works: Sequence[Work], jobs: Iterable[Account]) -> RatesNote:
+    """Return the rates of a run of a scale on this processor, from what its jobs had to do and from their accounts.
 
     Raises:
-        DataError: a job of the plan has no account.
+        DataError: a job has no account.
     """
     accounts = {job.job: job for job in jobs if job.succeeded}
-    kinds = fitted(plan.work, accounts)
-    own = [accounts[work.job] for work in plan.work]
+    kinds = fitted(works, accounts)
+    own = [accounts[work.job] for work in works]
     return RatesNote(
         processor=processor(PROCESSOR),
-        scale=plan.settings.scale,
+        scale=scale,
         core_h=sum(account.cpu_s for account in own) / HOUR_S,
         peak_mib=max(account.peak_mib for account in own),
         kinds=kinds,

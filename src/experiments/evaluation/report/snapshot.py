@@ -23,8 +23,10 @@ from experiments.evaluation.report.single_rows import write_single_rows
 from experiments.evaluation.report.walked import SEEDS, check_seeds, read_history, walked, write_history
 from experiments.plan.demo import FOLDER
 from experiments.plan.detection import all_detections
+from experiments.plan.dry_run import dry_run
 from experiments.plan.plan import make_plan
 from experiments.plan.reactions import all_reactions
+from experiments.plan.work import works_of
 from experiments.running.logs import LOGS, read_account
 from experiments.running.words import results_parser
 from experiments.settings.load import load_settings
@@ -125,7 +127,7 @@ def check_fingerprints(*words: str) -> None:
     Raises:
         DataError: a job would run again, or nobody can say.
     """
-    run = [sys.executable, "-m", "experiments.running.run", "--cores", "1", "-n", *words]
+    run = [sys.executable, "-m", "snakemake", "--cores", "1", "-n", *words]
     done = subprocess.run(run, capture_output=True, text=True, check=False)
     told = [line for line in (done.stdout + done.stderr).splitlines() if line.strip()]
     if done.returncode:
@@ -285,8 +287,8 @@ def store(manifest: Path) -> None:
     tell_demo(StoredPush(DEMO, settings), DEMO_PAGE)
     write_history(SEEDS, [*published, run])
     jobs = map(read_account, sorted((RESULTS / LOGS).rglob("*.json")))
-    write_json(RATES, measured(plan, jobs).model_dump())
-    # The README quotes the tables that were just stored, so it comes last.
+    works = works_of(plan, dry_run(["all"], from_nothing=True))
+    write_json(RATES, measured(settings.scale, works, jobs).model_dump())
     tell_readme(SNAPSHOT)
 
 

@@ -1,6 +1,6 @@
 """Offline wandb runs of trainings that are under way: what their metrics.csv hold, as these grow.
 
-The workflow starts this as a process of its own (`experiments.running.follow`), so that a training neither waits for
+The workflow starts this as a process of its own (`experiments.running.processes`), so that a training neither waits for
 wandb nor depends on its version. A training that was killed and goes on is logged from its first epoch again, into a
 file that takes the place of the old one. When all trainings are done, `wandb_runs` writes all runs once more.
 """
@@ -9,7 +9,6 @@ import contextlib
 import logging
 import os
 import select
-import signal
 import sys
 import tempfile
 from collections.abc import Callable
@@ -27,7 +26,7 @@ if TYPE_CHECKING:
     from wandb import Run
 
 RUNS = "wandb"  # folder of the runs, below that of results
-TRAININGS = (f"state/*/{CHECKPOINT}", f"*/state/*/{CHECKPOINT}")  # below the results, those of robots too
+TRAININGS = f"*/state/*/{CHECKPOINT}"  # below the results, in the folder of the plant or of a robot
 PAUSE_S = 2.0  # between two looks at the trainings
 NICENESS = 10
 
@@ -85,10 +84,9 @@ class Follower:
     def _checkpoints(self) -> set[tuple[Path, int]]:
         """Return the checkpoints that there are, and their times [ns]."""
         found = set[tuple[Path, int]]()
-        for pattern in TRAININGS:
-            for path in self._results.glob(pattern):
-                with contextlib.suppress(FileNotFoundError):  # that training has just ended
-                    found.add((path, path.stat().st_mtime_ns))
+        for path in self._results.glob(TRAININGS):
+            with contextlib.suppress(FileNotFoundError):  # that training has just ended
+                found.add((path, path.stat().st_mtime_ns))
         return found
 
     def _begin(self, name: str) -> Live:
@@ -119,7 +117,6 @@ def follow(results: Path, ended: Callable[[], bool]) -> None:
 
 def main(results: str) -> None:
     """Follow the trainings until the standard input ends, as it does with the process that holds its other end."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
     logging.basicConfig(level=logging.INFO, format="%(message)s", stream=sys.stderr)
     os.nice(NICENESS)
     follow(Path(results), lambda: bool(select.select([sys.stdin], [], [], PAUSE_S)[0]))

@@ -51,11 +51,11 @@ def independent_part(settings: Settings, cell: Cell, confidence: float) -> float
     row = PRODUCTS.get(cell.table or "")
     if row is None or not row.clustered:
         return 1.0
-    from scipy.special import stdtrit  # pyright: ignore[reportMissingTypeStubs]  # here, as it takes a while to import
-
     robots = robots_of(settings)
     if robots == 1:
         return 1.0
+    from scipy.special import stdtrit  # pyright: ignore[reportMissingTypeStubs]  # here, as it takes a while to import
+
     tail = (1.0 + confidence) / 2.0
     return (NormalDist().inv_cdf(tail) / float(stdtrit(robots - 1, tail))) ** 2
 

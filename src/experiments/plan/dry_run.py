@@ -1,0 +1,85 @@
+"""The jobs that a run of the workflow would start, as a dry run of Snakemake tells them."""
+
+import re
+import subprocess
+import sys
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from types import SimpleNamespace
+
+from experiments.running.logs import account_name
+from mobnet.core.code import ROOT
+from mobnet.core.errors import ConfigError
+
+JOB = re.compile(r"^ *(?:local)?rule (?P<rule>\w+):\n(?P<told>(?: {4,}\w+: .*\n)*)", re.MULTILINE)
+
+
+@dataclass(frozen=True)
+class PlannedJob:
+    """A job that a run would start.
+
+    Attributes:
+        rule: the rule of the job.
+        name: of its account; the name of its rule where it has no log.
+        wildcards: of the rule.
+        outputs: files and folders that it makes.
+        resources: what it asks for.
+    """
+
+    rule: str
+    name: str
+    wildcards: Mapping[str, str]
+    outputs: tuple[str, ...]
+    resources: Mapping[str, str]
+
+    @property
+    def w(self) -> SimpleNamespace:
+        """The wildcards as the functions of rules take them."""
+        return SimpleNamespace(**self.wildcards)
+
+
+def dry_run(targets: Sequence[str], config: Sequence[str] = (), *, from_nothing: bool = False) -> list[PlannedJob]:
+    """Return the jobs that a run of targets would start now, or would start if none of its files were there.
+
+    Args:
+        targets: rules and files.
+        config: words KEY=VALUE of the configuration.
+        from_nothing: whether files that are there count.
+
+    Raises:
+        ConfigError: a target or a value of the configuration is not accepted.
+    """
+    words = [sys.executable, "-m", "snakemake", "-n", "--quiet", "host"]
+    words += ["--forceall"] if from_nothing else []
+    words += ["--config", *config] if config else []
+    words += ["--", *targets]
+    done = subprocess.run(words, cwd=ROOT, capture_output=True, text=True, check=False)
+    told = done.stdout + done.stderr
+    if done.returncode:
+        raise ConfigError(next((line for line in reversed(told.splitlines()) if line.strip()), "snakemake failed"))
+    return [_job(found["rule"], found["told"]) for found in JOB.finditer(told)]
+
+
+def _job(rule: str, text: str) -> PlannedJob:
+    """Return a job from the lines that tell of it, `key: value`."""
+    told: dict[str, str] = {}
+    for line in text.splitlines():
+        key, _, value = line.strip().partition(": ")
+        told[key] = value
+    return PlannedJob(
+        rule=rule,
+        name=account_name(Path(told["log"])) if "log" in told else rule,
+        wildcards=_pairs(told.get("wildcards", "")),
+        outputs=tuple(told.get("output", "").split(", ")),
+        resources=_pairs(told.get("resources", "")),
+    )
+
+
+def _pairs(text: str) -> dict[str, str]:
+    """Return the pairs of `one=1, other=2`."""
+    found: dict[str, str] = {}
+    for pair in filter(None, text.split(", ")):
+        name, _, value = pair.partition("=")
+        found[name] = value
+    return found

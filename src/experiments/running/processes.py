@@ -1,0 +1,48 @@
+"""The processes of a run of the workflow: its jobs, and one beside it that logs trainings for wandb meanwhile."""
+
+import atexit
+import contextlib
+import os
+import subprocess
+from pathlib import Path
+
+import psutil
+
+MODULE = "experiments.evaluation.report.wandb_live"
+LONGEST_S = 20.0  # that it may take to end
+# Before the command of each job: a terminal sends Ctrl-C to jobs too, and Python may not have loaded yet what hears it.
+PREFIX = "trap '' INT; "
+
+
+def end_jobs() -> None:
+    """Let the jobs of this process end: what each of them had not finished is removed by itself."""
+    for child in psutil.Process().children(recursive=True):
+        with contextlib.suppress(psutil.Error, ProcessLookupError):
+            if os.getpgid(child.pid) == os.getpgrp():  # the process beside the run ends later
+                child.terminate()
+
+
+def follow_trainings(python: str, results: Path, log: Path) -> subprocess.Popen[bytes]:
+    """Start the process, which ends with this one: its standard input is a pipe that nobody writes to.
+
+    It never stops a run: what goes wrong stands in its log.
+    """
+    log.parent.mkdir(parents=True, exist_ok=True)
+    with log.open("wb") as file:
+        process = subprocess.Popen(
+            [python, "-m", MODULE, str(results)],
+            stdin=subprocess.PIPE,
+            stdout=file,
+            stderr=file,
+            start_new_session=True,  # no Ctrl-C of a terminal reaches it
+        )
+    atexit.register(end, process)
+    return process
+
+
+def end(process: subprocess.Popen[bytes]) -> None:
+    """Let the process finish its runs, and wait for it."""
+    if process.stdin:
+        process.stdin.close()
+    with contextlib.suppress(subprocess.TimeoutExpired):
+        process.wait(LONGEST_S)

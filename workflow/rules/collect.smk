@@ -1,0 +1,61 @@
+rule motion:
+    # A random motion of the upper body, which all robots share.
+    output:
+        multiext("<results>/motions/{motion}/s{seed}", ".parquet", ".json"),
+    log:
+        "<logs>/motion/{motion}-s{seed}.log",
+    priority: 30
+    group:
+        "motions"
+    resources:
+        mem_mb=growing(500),
+        runtime=20,
+    params:
+        given=JOBS.motion,
+        code=code("experiments.jobs.motions"),
+    script:
+        "../scripts/motion.py"
+
+
+rule collect:
+    # Recordings of a walk, a set: one file for each seed.
+    input:
+        motions=needed(JOBS.collect, "motions"),
+    output:
+        recordings=directory("<results>/{robot}/recordings/{scenario}/{level}"),
+    log:
+        "<logs>/collect/{robot}/{scenario}-{level}.log",
+    priority: 20
+    group:
+        "walks"
+    resources:
+        mem_mb=growing(2400),
+        runtime=60,
+        disk_mb=SIZES.recordings,
+    params:
+        given=JOBS.collect,
+        code=code("experiments.jobs.walks"),
+    script:
+        "../scripts/collect.py"
+
+
+rule observe:
+    # What the momentum observer makes of them (section 3).
+    input:
+        recordings=rules.collect.output.recordings,
+    output:
+        residuals=directory("<results>/{robot}/residuals/{scenario}/{level}"),
+    log:
+        "<logs>/observe/{robot}/{scenario}-{level}.log",
+    priority: 20
+    group:
+        "residuals"
+    resources:
+        mem_mb=growing(2400),
+        runtime=15,
+        disk_mb=SIZES.residuals,
+    params:
+        given=JOBS.observe,
+        code=code("experiments.jobs.observing"),
+    script:
+        "../scripts/observe.py"

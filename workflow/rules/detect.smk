@@ -1,0 +1,71 @@
+rule detect:
+    # Detectors of a robot: thresholds, false alarms, and which collisions they find (section 5.3).
+    input:
+        sets=needed(JOBS.detect, "walks"),
+    output:
+        expand("<results>/{{robot}}/detection/{name}.csv", name=FILES),
+    log:
+        "<logs>/detect/{robot}.log",
+    group:
+        "scores"
+    resources:
+        mem_mb=growing(3000),
+        runtime=20,
+    params:
+        given=JOBS.detect,
+        code=code("experiments.jobs.detect"),
+    script:
+        "../scripts/detect.py"
+
+
+rule watch:
+    # Thresholds of limbs that are watched all the time, and of the feet's sensors.
+    input:
+        recordings=needed(JOBS.watch, "quiet"),
+        networks=needed(JOBS.watch, "runs"),
+    output:
+        "<results>/{robot}/reactions/thresholds.csv",
+    log:
+        "<logs>/watch/{robot}.log",
+    group:
+        "scores"
+    resources:
+        mem_mb=growing(3000),
+        runtime=20,
+    params:
+        given=JOBS.watch,
+        code=lambda w: code_hash("experiments.jobs.calm", *JOBS.watched_by(w)),
+    script:
+        "../scripts/watch.py"
+
+
+rule react:
+    # A robot walks into an obstacle, or is pushed, and reacts (section 5.4); the course of the first walk is kept.
+    input:
+        thresholds=needed(JOBS.react, "thresholds"),
+        networks=needed(JOBS.react, "runs"),
+    output:
+        "<results>/{robot}/reactions/{case}.csv",
+        multiext("<results>/{robot}/reactions/{case}", ".parquet", ".json"),
+    log:
+        "<logs>/react/{robot}/{case}.log",
+    wildcard_constraints:
+        case=one_of(PLAN.pushed_cases),
+    group:
+        "scores"
+    resources:
+        mem_mb=growing(3000),
+        runtime=60,
+    params:
+        given=JOBS.react,
+        code=lambda w: code_hash("experiments.jobs.react", *JOBS.watched_by(w)),
+    script:
+        "../scripts/react.py"
+
+
+use rule react as walk_freely with:
+    # The same where nothing is in the way: how often it reacts to nothing.
+    output:
+        "<results>/{robot}/reactions/{case}.csv",
+    wildcard_constraints:
+        case=one_of(PLAN.free_cases),

@@ -1,0 +1,75 @@
+rule fit:
+    # Formulas of friction, fitted to the recordings from which networks learn.
+    input:
+        sets=needed(JOBS.fit, "training"),
+    output:
+        "<results>/{robot}/fits/{method}.json",
+    log:
+        "<logs>/fit/{robot}/{method}.log",
+    priority: 10
+    group:
+        "fits"
+    resources:
+        mem_mb=growing(4000),
+        runtime=10,
+    params:
+        given=JOBS.fit,
+        code=lambda w: code_hash("experiments.jobs.fitting", *JOBS.modules_of(w, [w.method])),
+    script:
+        "../scripts/fit.py"
+
+
+rule train:
+    # One network (section 4.4). Its checkpoint is no output: a training that was killed goes on from its last epoch.
+    input:
+        recordings=needed(JOBS.train, "recordings"),
+        residuals=needed(JOBS.train, "residuals"),
+        start=needed(JOBS.train, "start"),
+    output:
+        weights="<results>/{robot}/networks/{method}-{limb}-s{seed}/weights.safetensors",
+        metrics="<results>/{robot}/networks/{method}-{limb}-s{seed}/metrics.csv",
+        run="<results>/{robot}/networks/{method}-{limb}-s{seed}/run.json",
+    log:
+        "<logs>/train/{robot}/{method}-{limb}-s{seed}.log",
+    wildcard_constraints:
+        method=one_of(PLAN.trained),
+    priority: 10
+    group:
+        "networks"
+    resources:
+        mem_mb=growing(6000),
+        runtime=60,
+        gpu=min(GPUS, 1),
+    params:
+        given=JOBS.train,
+        code=code("experiments.jobs.trainings"),
+    script:
+        "../scripts/train.py"
+
+
+rule train_gray:
+    # A network that learns what a fitted formula of friction leaves of the uncertainty.
+    input:
+        recordings=needed(JOBS.train_gray, "recordings"),
+        residuals=needed(JOBS.train_gray, "residuals"),
+        fitted=needed(JOBS.train_gray, "fitted"),
+    output:
+        weights="<results>/{robot}/networks/{method}-{limb}-s{seed}/weights.safetensors",
+        metrics="<results>/{robot}/networks/{method}-{limb}-s{seed}/metrics.csv",
+        run="<results>/{robot}/networks/{method}-{limb}-s{seed}/run.json",
+    log:
+        "<logs>/train/{robot}/{method}-{limb}-s{seed}.log",
+    wildcard_constraints:
+        method=one_of(PLAN.trained_gray),
+    priority: 10
+    group:
+        "networks"
+    resources:
+        mem_mb=growing(6000),
+        runtime=60,
+        gpu=min(GPUS, 1),
+    params:
+        given=JOBS.train_gray,
+        code=code("experiments.jobs.train_gray"),
+    script:
+        "../scripts/train_gray.py"

@@ -1,0 +1,9 @@
+"""Recordings of a scenario, one for each seed."""
+
+from pathlib import Path
+
+from experiments.jobs.walks import collect_walks
+from experiments.running.logs import job
+
+with job(snakemake.log[0]):
+    collect_walks(**snakemake.params.given, out=Path(snakemake.output.recordings))

@@ -1,0 +1,9 @@
+"""The calibration and the trial of the detectors of a robot."""
+
+from pathlib import Path
+
+from experiments.jobs.detect import detect
+from experiments.running.logs import job
+
+with job(snakemake.log[0]):
+    detect(**snakemake.params.given, out=Path(snakemake.output[0]).parent)

@@ -1,0 +1,9 @@
+"""A fit of a formula of friction."""
+
+from pathlib import Path
+
+from experiments.jobs.fitting import write_fit
+from experiments.running.logs import job
+
+with job(snakemake.log[0]):
+    write_fit(**snakemake.params.given, out=Path(snakemake.output[0]))
