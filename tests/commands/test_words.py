@@ -5,10 +5,12 @@ from pathlib import Path
 
 import pytest
 
+from experiments.commands.main import run
 from experiments.commands.words import COMMANDS, TRIALS, in_order, parse
 from experiments.running.words import nearest, one_of, scale_of, scale_of_targets
 from mobnet.commands import main as lab
 from mobnet.core.errors import CommandError, ConfigError
+from mobnet.core.options import calibrate_parser, missing_input
 
 
 @pytest.mark.parametrize(("words", "handed"), [
@@ -118,7 +120,7 @@ def test_a_lab_s_file_that_is_not_there_is_told_before_anything_is_loaded(words,
     monkeypatch.chdir(tmp_path)
     Path("here").touch()
     with pytest.raises(CommandError, match=f"^{missing}: no such file or folder$"):
-        parse(words)
+        run(tmp_path, parse(words))
     with pytest.raises(SystemExit, match=f"^{missing}: no such file or folder$"):
         lab(words)
 
@@ -127,5 +129,6 @@ def test_an_array_may_be_named_without_its_ending(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     for name in ("recording", "estimate"):
         Path(f"{name}.parquet").touch()
-    words = ["calibrate", "--recording", "recording", "--estimate", "estimate"]
-    assert parse(words).extra == words[1:]
+    words = ["--recording", "recording", "--estimate", "estimate"]
+    assert missing_input(calibrate_parser().parse_args(words)) is None
+    assert missing_input(calibrate_parser().parse_args([*words, "--network", "net"])) == "net: no such file or folder"

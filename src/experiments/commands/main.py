@@ -14,6 +14,7 @@ from experiments.commands.words import Words, parse
 from experiments.running.environment import child_environment, fault_of_place
 from mobnet.commands import COMMANDS as LAB
 from mobnet.core.errors import CommandError, MobnetError
+from mobnet.core.options import missing_input
 
 MODULES = {  # command -> the module that `python -m` runs, with words that come first
     # For two cores one process more than these: some tests wait for minutes, such as those of a cluster.
@@ -54,6 +55,8 @@ def run(root: Path, words: Words) -> int:
     if words.command == "clean":
         options = words.options
         return clean(root, everything=options.all, is_dry=options.dry_run, is_sure=options.yes)
+    if words.command in LAB and (line := missing_input(LAB[words.command].parser().parse_args(words.extra))):
+        raise CommandError(line)
     given = Path.cwd()
     os.chdir(root)
     os.environ.update(environment(root))

@@ -18,7 +18,6 @@ from experiments.running.words import (
 )
 from mobnet.commands import COMMANDS as LAB
 from mobnet.core.errors import CommandError, unknown_command
-from mobnet.core.options import missing_input
 
 COMMANDS = {
     "all": "make every table, figure and the paper (snakemake --cores 2 all); further options go to snakemake",
@@ -86,8 +85,6 @@ def parse(words: Sequence[str]) -> Words:
         return Words(first, options.parse_args(words[1:]), [])
     if HELP & set(words[1:]):
         options.parse_args(["--help"])
-    if first in LAB and (line := missing_input(options.parse_args(words[1:]))):
-        raise CommandError(line)
     if first in TRIALS:
         return Words(first, argparse.Namespace(), [table_of(first, words), *in_order(words[1:])])
     extra = [TARGETS[first], *in_order(words[1:])] if first in TARGETS else list(words[1:])
