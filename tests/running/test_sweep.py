@@ -1,6 +1,7 @@
 """Of a killed run only unfinished files are removed."""
 
-from experiments.running.environment import sweep
+from experiments.running.environment import sweep_project
+from mobnet.core.files import atomic_path
 
 
 def test_only_unfinished_files_are_removed(tmp_path):
@@ -8,9 +9,19 @@ def test_only_unfinished_files_are_removed(tmp_path):
     gone = [
         "results/smoke/.partial.ab_12345.s1.parquet", "tables/.partial.abcdefgh.t.csv",
         "results/.partial.abcdefgh.wandb/run", ".snakemake/scripts/tmpabc.train.py",
+        "docs/results/.partial.abcdefgh.t.csv",
     ]  # fmt: skip
     for name in (*kept, *gone):
         (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / name).touch()
-    sweep(tmp_path)
+    sweep_project(tmp_path)
     assert {str(path.relative_to(tmp_path)) for path in tmp_path.rglob("*") if path.is_file()} == set(kept)
+
+
+def test_what_a_job_that_outlived_its_run_is_writing_stays(tmp_path):
+    path = tmp_path / "results" / "s1.parquet"
+    with atomic_path(path) as temporary:
+        temporary.write_text("half")
+        sweep_project(tmp_path)
+        assert temporary.exists()
+    assert path.read_text() == "half"

@@ -20,7 +20,7 @@ from experiments.plan.room import Sizes, check_room
 from experiments.running.words import in_set, nearest, one_of, scale_of_targets
 from experiments.settings.checks.claims import text_problems
 from experiments.running.cluster import LIMITED, failed_jobs, warm_cache
-from experiments.running.environment import fault_of_process, quieten, sweep
+from experiments.running.environment import fault_of_process, quieten, sweep_project
 from experiments.running.processes import PREFIX, end_jobs, follow_trainings
 from experiments.settings.load import load_settings
 from mobnet.core.code import UNKNOWN, code_hash, commit
@@ -101,7 +101,7 @@ wildcard_constraints:
 onstart:
     BEGUN.set()
     try:
-        sweep(ROOT)  # Snakemake holds its lock: no other run writes here
+        sweep_project(ROOT)  # Snakemake holds its lock: no other run begins here
         record_precision(PLAN.folders.results)
         waiting = list(workflow.dag.needrun_jobs())
         check_room(waiting)

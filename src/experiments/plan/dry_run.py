@@ -45,7 +45,7 @@ def dry_run(targets: Sequence[str], config: Sequence[str] = (), *, from_nothing:
     Args:
         targets: rules and files.
         config: words KEY=VALUE of the configuration.
-        from_nothing: whether files that are there count.
+        from_nothing: whether files that are there are taken as missing.
 
     Raises:
         ConfigError: a target or a value of the configuration is not accepted.

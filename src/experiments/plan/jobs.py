@@ -101,7 +101,7 @@ class Jobs:
             "seed": int(w.seed),
             "recordings": files.training("recordings", training.network.data),
             "residuals": files.training("residuals", training.network.data),
-            "state": files.results / "state" / f"{w.method}-{w.limb}-s{w.seed}",
+            "state": files.results / "state" / files.network(w.method, w.limb, int(w.seed)).name,
             "rate_hz": self.settings.rates.data_hz,
         }
         if start := files.start(w.method, w.limb, int(w.seed)):

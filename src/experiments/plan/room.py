@@ -46,8 +46,7 @@ class Sizes:
     def _size(self, w: Any, width: int) -> int:
         """Return the size of arrays with so many columns, one for each recording of a set."""
         files = self.jobs.files(w)
-        seeds = files.seeds_of(w.scenario, w.level)
-        rows = len(seeds) * files.duration_s([w.scenario], seeds[0]) * files.settings.rates.data_hz
+        rows = files.set_s(w.scenario, w.level) * files.settings.rates.data_hz
         return round(rows * width * NUMBER_BYTES * STORED / MB) + 1
 
 

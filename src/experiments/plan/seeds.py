@@ -39,7 +39,7 @@ class Seeds:
 
     @cached_property
     def robots(self) -> Mapping[str, Self]:
-        """Robot of the fleet -> its files; a robot has none below its own."""
+        """Robot of the fleet -> its files; of a robot itself there are none."""
         named = self.settings.fleet.robots[: self.settings.sizes.fleet]
         return {name: type(self)(as_robot(self.catalogue, name), self.shared / name, name) for name in named}
 
@@ -111,6 +111,11 @@ class Seeds:
         if seed < FIRST_TRAINING_SEED:
             return self.settings.sizes.development.shard_s
         return max(self.training_size(name).shard_s for name, row in sets.items() if row.scenario in wanted)
+
+    def set_s(self, scenario: str, level: str) -> float:
+        """Return the duration of all recordings of a set [s]."""
+        seeds = self.seeds_of(scenario, level)
+        return len(seeds) * self.duration_s([scenario], seeds[0])
 
     def motion_s(self, motion: str, seed: int) -> float:
         """Return the duration of a motion [s]: that of the longest recording that takes it."""

@@ -49,23 +49,17 @@ def work_of(plan: Plan, job: PlannedJob) -> Work:
     if kind in STEPS:
         return Work(job.name, kind, *STEPS[kind](plan, job.w))
     name = job.name.rpartition("/")[2]
-    seconds = sum(set_s(plan, Path(read)) for read in plan.product(name).inputs)
+    seconds = sum(read_s(plan, Path(read)) for read in plan.product(name).inputs)
     return Work(job.name, name, {SECONDS: seconds} if seconds else {}, seconds)
 
 
-def set_s(plan: Plan, folder: Path) -> float:
+def read_s(plan: Plan, folder: Path) -> float:
     """Return the duration of all recordings of a set, of residuals or estimates too [s]; 0 of what is none."""
     parts = folder.parts
     if len(parts) < len(("robot", "kind", "scenario", "level")) or parts[-3] not in SETS:
         return 0.0
     robot, _, scenario, level = parts[-4:]
-    return whole_s(plan.jobs.files_of(robot), scenario, level)
-
-
-def whole_s(files: Files, scenario: str, level: str) -> float:
-    """Return the duration of all recordings of a set [s]."""
-    seeds = files.seeds_of(scenario, level)
-    return len(seeds) * files.duration_s([scenario], seeds[0])
+    return plan.jobs.files_of(robot).set_s(scenario, level)
 
 
 def total(amounts: Iterable[Mapping[str, float]]) -> Amounts:
@@ -94,7 +88,7 @@ def observed(plan: Plan, w: Any) -> tuple[Amounts, float]:
     """Return the work of the observer, and the longest recording [s]."""
     files = plan.jobs.files(w)
     seeds = files.seeds_of(w.scenario, w.level)
-    return {SECONDS: whole_s(files, w.scenario, w.level)}, files.duration_s([w.scenario], seeds[0])
+    return {SECONDS: files.set_s(w.scenario, w.level)}, files.duration_s([w.scenario], seeds[0])
 
 
 def trained(plan: Plan, w: Any) -> tuple[Amounts, float]:

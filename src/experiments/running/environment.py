@@ -10,10 +10,10 @@ import shutil
 import sys
 from pathlib import Path
 
-from mobnet.core.files import PARTIAL
+from mobnet.core.files import PARTIAL, discard
 
 REFUSED = re.compile(r'[:{}"\\\x00-\x1f]')  # in the project's path: a colon parts PATH, others are signs for tools
-WRITTEN = ("results", "tables", "figures", "paper")  # folders of a project in which jobs write
+WRITTEN = ("results", "tables", "figures", "paper", "docs/results")  # folders in which jobs and a snapshot write
 SCRIPTS = Path(".snakemake") / "scripts"  # what Snakemake runs in a job, removed with the end of the job
 ANY = "[a-z0-9_]" * 8  # what tempfile puts into the name of a file
 LONGEST_TEMPORARY = 70  # characters; the path of a Unix socket below it must not pass 108
@@ -89,8 +89,8 @@ def fault_of_process(root: Path) -> str | None:
     return f"{sys.executable}: runs {found or 'no code of a project'} in place of {source}; accepted: {remedy}"
 
 
-def sweep(root: Path) -> None:
-    """Remove what a killed run left unfinished in a project's folder; the caller knows that nobody writes."""
+def sweep_project(root: Path) -> None:
+    """Remove what a killed run left unfinished in a project's folder; jobs that outlived it may still be writing."""
     left = list((root / SCRIPTS).glob("*"))
     for folder in WRITTEN:
         left += (root / folder).glob(f"**/{PARTIAL}{ANY}.*")
@@ -98,4 +98,4 @@ def sweep(root: Path) -> None:
         if path.is_dir():
             shutil.rmtree(path, ignore_errors=True)
         else:
-            path.unlink(missing_ok=True)
+            discard(path)

@@ -75,9 +75,14 @@ def atomic_path(path: Path, size: int = 0) -> Iterator[Path]:
 def sweep(folder: Path) -> None:
     """Delete what commands that were killed left half written in a folder; what is being written is locked."""
     for path in folder.glob(f"{PARTIAL}*"):
-        with contextlib.suppress(OSError), path.open("rb+") as file:
-            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-            path.unlink()
+        discard(path)
+
+
+def discard(path: Path) -> None:
+    """Delete a file that was left half written, unless somebody is writing it."""
+    with contextlib.suppress(OSError), path.open("rb+") as file:
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        path.unlink()
 
 
 def refusal(error: OSError, path: Path, temporary: Path | None = None, size: int = 0) -> str:

@@ -17,7 +17,7 @@ from mobnet.settings.surrogate import Level
 
 
 class Sensors(NamedTuple):
-    """Noise, addresses and readings."""
+    """The robot's sensors, as the compiled loop takes them: their noise, places in MuJoCo's data, and readings."""
 
     q_std: float  # noise of joint positions, a standard deviation [rad]
     v_std: float  # noise of joint velocities [rad/s]

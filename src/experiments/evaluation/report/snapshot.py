@@ -289,6 +289,7 @@ def store(manifest: Path) -> None:
     jobs = map(read_account, sorted((RESULTS / LOGS).rglob("*.json")))
     works = works_of(plan, dry_run(["all"], from_nothing=True))
     write_json(RATES, measured(settings.scale, works, jobs).model_dump())
+    # The README quotes the tables that were just stored, so it comes last.
     tell_readme(SNAPSHOT)
 
 
