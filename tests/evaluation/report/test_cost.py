@@ -121,3 +121,10 @@ def test_rates_of_jobs_that_are_gone_are_told(told: Told, rates: dict[str, objec
     write_json(RATES, {**rates, "kinds": kinds})
     assert main(["--config", "scale=smoke"]) == 0
     assert told().endswith("its jobs were cut in another way, so that prices are rough: observe")
+
+
+def test_a_target_is_priced_at_the_scale_that_its_path_names(told: Told) -> None:
+    assert main(["tables/smoke/table_05.tex"]) == 0
+    assert told().startswith("scale smoke, ")
+    assert main(["tables/smoke/table_05.tex", "--config", "scale=default"]) == 1
+    assert told() == "tables/smoke/table_05.tex: is not made at scale=default; accepted: --config scale=smoke"

@@ -20,7 +20,7 @@ from experiments.plan.dry_run import PlannedJob, dry_run
 from experiments.plan.plan import Plan, make_plan
 from experiments.plan.room import RESOURCE
 from experiments.plan.work import Work, works_of
-from experiments.running.words import cost_parser
+from experiments.running.words import cost_parser, scale_of_targets
 from experiments.settings.load import load_settings
 from mobnet.core.errors import ConfigError
 from mobnet.core.notes import read_note
@@ -100,7 +100,10 @@ def run(options: Namespace) -> Iterator[str]:
     """Yield what a run will cost, as the command's options say."""
     with_pdf = not missing_packages()
     rates = read_note(RATES, RatesNote)
-    plan = make_plan(load_settings(overrides=overrides(options.config)), with_pdf=with_pdf)
+    given = overrides(options.config)
+    if scale := scale_of_targets(options.targets, given.get("scale")):
+        given["scale"] = scale  # as a run of these targets takes it
+    plan = make_plan(load_settings(overrides=given), with_pdf=with_pdf)
     targets = options.targets or ["all"]
     planned = dry_run(targets, options.config, from_nothing=not options.targets)
     yield f"{report(plan, rates, planned)}\n{check(rates, with_pdf)}"
