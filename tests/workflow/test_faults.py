@@ -84,7 +84,7 @@ def test_a_killed_run_says_what_to_type_and_what_it_left_is_removed(project):
     words = [sys.executable, str(project / "reproduce"), SLOW, "--cores", "1"]
     with (project / "out.log").open("w+") as out:
         run = subprocess.Popen(words, cwd=project, stdout=out, stderr=out, start_new_session=True)
-        wait_for(lambda: list((project / "results/smoke/logs").rglob("*.log")))
+        wait_for(lambda: list((project / ".snakemake/scripts").glob("*")))  # of the job, which the lock precedes
         os.killpg(run.pid, signal.SIGKILL)
         run.wait()
     unfinished.write_text("half")
