@@ -12,6 +12,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, field
 from operator import attrgetter
 from pathlib import Path
+from typing import Any
 
 from safetensors import SafetensorError, safe_open
 from safetensors.torch import save as to_bytes
@@ -58,9 +59,7 @@ def save(path: Path, fingerprint: str, network: nn.Module, optimizer: Optimizer,
     for index, state in optimizer.state_dict()["state"].items():
         tensors |= {f"optimizer.{index}.{key}": value.detach().cpu().clone() for key, value in state.items()}
     epochs = [asdict(epoch) for epoch in done.epochs]
-    note = {"fingerprint": fingerprint, "epochs": epochs, "errors": done.errors, "seconds": done.seconds}
-    with atomic_path(path) as temporary:
-        temporary.write_bytes(to_bytes(tensors, {"note": json.dumps(note)}))
+    write_checkpoint(path, fingerprint, tensors, {"epochs": epochs, "errors": done.errors, "seconds": done.seconds})
 
 
 def resume(path: Path, fingerprint: str, network: nn.Module, optimizer: Optimizer) -> Progress:
@@ -68,15 +67,42 @@ def resume(path: Path, fingerprint: str, network: nn.Module, optimizer: Optimize
 
     Return how far the training has come; nothing is done yet if there is no checkpoint of this fingerprint.
     """
-    if not path.exists():
+    found = read_checkpoint(path, fingerprint)
+    if found is None:
         return Progress()
+    tensors, note = found
+    # The last weights go on learning, with Adam's moments; the best ones only wait to be written.
+    network.load_state_dict(below("last.", tensors))
+    state: dict[int, dict[str, Tensor]] = {}
+    for name, tensor in below("optimizer.", tensors).items():
+        index, key = name.split(".")
+        # A copy, aligned as memory of torch's own is: products round otherwise where it is not, as in a file's bytes.
+        state.setdefault(int(index), {})[key] = tensor.clone()
+    optimizer.load_state_dict({**optimizer.state_dict(), "state": state})
+    epochs = [Epoch(**row) for row in note["epochs"]]
+    done = Progress(epochs, note["errors"], below("best.", tensors), note["seconds"])
+    log.info("%s: resuming after epoch %d", path, len(done.epochs))
+    return done
+
+
+def write_checkpoint(path: Path, fingerprint: str, tensors: Mapping[str, Tensor], note: Mapping[str, Any]) -> None:
+    """Write tensors and a note atomically; the fingerprint is a hash of all that the result depends on."""
+    text = json.dumps({"fingerprint": fingerprint, **note})
+    with atomic_path(path) as temporary:
+        temporary.write_bytes(to_bytes(dict(tensors), {"note": text}))
+
+
+def read_checkpoint(path: Path, fingerprint: str) -> tuple[dict[str, Tensor], dict[str, Any]] | None:
+    """Return the tensors and the note of a checkpoint of this fingerprint; None without one, and log why."""
+    if not path.exists():
+        return None
     try:
         with safe_open(path, framework="pt") as file:
             note = parse_json((file.metadata() or {}).get("note", "{}"), str(path))
             tensors = {name: file.get_tensor(name) for name in file.keys()}  # noqa: SIM118, not a dict
     except (SafetensorError, OSError, ValueError, DataError) as error:
         log.warning("%s: damaged (%s); starting afresh", path, error)
-        return Progress()
+        return None
     if note.get("fingerprint") != fingerprint:
         log.warning(
             "%s: belongs to another configuration, data or code (%s, here %s); starting afresh",
@@ -84,19 +110,8 @@ def resume(path: Path, fingerprint: str, network: nn.Module, optimizer: Optimize
             note.get("fingerprint"),
             fingerprint,
         )
-        return Progress()
-    # The last weights go on learning, with Adam's moments; the best ones only wait to be written.
-    network.load_state_dict(_below("last.", tensors))
-    state: dict[int, dict[str, Tensor]] = {}
-    for name, tensor in _below("optimizer.", tensors).items():
-        index, key = name.split(".")
-        # A copy, aligned as memory of torch's own is: products round otherwise where it is not, as in a file's bytes.
-        state.setdefault(int(index), {})[key] = tensor.clone()
-    optimizer.load_state_dict({**optimizer.state_dict(), "state": state})
-    epochs = [Epoch(**row) for row in note["epochs"]]
-    done = Progress(epochs, note["errors"], _below("best.", tensors), note["seconds"])
-    log.info("%s: resuming after epoch %d", path, len(done.epochs))
-    return done
+        return None
+    return tensors, note
 
 
 def write_metrics(path: Path, done: Progress, joints: Sequence[str]) -> None:
@@ -108,5 +123,6 @@ def write_metrics(path: Path, done: Progress, joints: Sequence[str]) -> None:
     write_text(path, text.getvalue())
 
 
-def _below(prefix: str, tensors: Mapping[str, Tensor]) -> dict[str, Tensor]:
+def below(prefix: str, tensors: Mapping[str, Tensor]) -> dict[str, Tensor]:
+    """Return the tensors whose names begin with a prefix, by the rest of their names."""
     return {name.removeprefix(prefix): tensor for name, tensor in tensors.items() if name.startswith(prefix)}

@@ -28,7 +28,7 @@ def gaussian_loss(mean: Tensor, std: Tensor, target: Tensor) -> Tensor:
     Mean, standard deviation and target torque are (..., n), z-scored, unitless.
     """
     # The mean instead of the sum of (21), so that the rate and the clip do not depend on the size of a batch.
-    return _terms(mean - target, std).mean()
+    return terms(mean - target, std).mean()
 
 
 def likelihood(mean: Tensor, std: Tensor, target: Tensor) -> tuple[Tensor, Tensor]:
@@ -40,8 +40,8 @@ def likelihood(mean: Tensor, std: Tensor, target: Tensor) -> tuple[Tensor, Tenso
 def beta_likelihood(mean: Tensor, std: Tensor, target: Tensor, beta: float) -> tuple[Tensor, Tensor]:
     """Return (22) with each sample multiplied with sigma^(2 beta), and (22) itself; else as `likelihood`."""
     # (N17): a weight that passed a gradient would be minimised itself, by a small sigma.
-    terms = _terms(mean - target, std)
-    return (std.detach().pow(2.0 * beta) * terms).mean(), terms.mean()
+    each = terms(mean - target, std)
+    return (std.detach().pow(2.0 * beta) * each).mean(), each.mean()
 
 
 def squared(mean: Tensor, std: Tensor, target: Tensor) -> tuple[Tensor, Tensor]:
@@ -51,7 +51,7 @@ def squared(mean: Tensor, std: Tensor, target: Tensor) -> tuple[Tensor, Tensor]:
     """
     # (N18): sigma learns from errors that it cannot make smaller.
     error = mean - target
-    loss = _terms(error.detach(), std).mean()
+    loss = terms(error.detach(), std).mean()
     return error.square().mean() + loss, loss
 
 
@@ -65,6 +65,7 @@ def objective_of(learning: Learning) -> Objective:
     return objectives[learning.loss]
 
 
-def _terms(error: Tensor, std: Tensor) -> Tensor:
+def terms(error: Tensor, std: Tensor) -> Tensor:
+    """Return the terms of (22) of errors and standard deviations (..., n), z-scored, unitless."""
     # (N16) of sigma itself, not of the variance, because sigma is what the network has and clips, (N10).
     return 2 * std.log() + (error / std).square()

@@ -55,7 +55,7 @@ def write_weights(path: Path, trainer: Trainer, data: LimbData, done: Progress, 
     training = trainer.job.training
     trainer.network.load_state_dict(done.best)
     tensors = trainer.network.deployable()
-    for name, scale in zip(("input", "target"), trainer.scales, strict=True):
+    for name, scale in zip(("input", "target"), trainer.course.scales, strict=True):
         tensors |= {f"{name}.mean": torch.from_numpy(scale.mean), f"{name}.std": torch.from_numpy(scale.std)}
     if training.learning.calibrate:
         tensors[STD_SCALE] = torch.from_numpy(calibration.scale.astype(np.float32))
@@ -88,15 +88,15 @@ def run_note(trainer: Trainer, data: LimbData, done: Progress, calibration: StdF
             "network": json_of(training.network),
         },
         "parameters": parameter_count(trainer.network),
-        "samples": trainer.samples,
+        "samples": trainer.course.samples,
         "diverged": done.diverged,
-        "chosen_by": trainer.chosen_by,
+        "chosen_by": trainer.course.chosen_by,
         "best": asdict(done.best_epoch()) if done.epochs else None,
         "on_windows": trainer.on_windows(done),
         "calibration": calibration.note(data.joints, training.learning.calibration_levels),
         "device": trainer.device.type,
         "precision": precision_name(trainer.network.precision),
-        "fingerprint": trainer.fingerprint,
+        "fingerprint": trainer.course.fingerprint,
         "provenance": provenance(),
     }
 

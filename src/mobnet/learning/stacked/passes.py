@@ -1,0 +1,178 @@
+"""An epoch and a validation of stacked networks, as `optimisation` has them for one."""
+
+import torch
+from torch import Tensor
+
+from mobnet.learning.optimisation import EVERY_STEP
+from mobnet.learning.stacked.network import StackedNetwork, spread, stacked_losses
+from mobnet.learning.stacked.optimiser import StackedOptimiser
+from mobnet.learning.stacked.replay import Replayed
+from mobnet.learning.stacked.samples import StackedPlan, StackedSamples
+from mobnet.settings.networks import Learning
+
+
+class Horizons:
+    """The tensors of one horizon, which every update finds in the same place: where it is, and the state before it."""
+
+    def __init__(self, samples: StackedSamples, network: StackedNetwork, lanes: int, horizon: int) -> None:
+        """Make room for so many lanes of each network, and for horizons of so many steps."""
+        networks = len(network.weights["head.bias"])
+        device = samples.device
+        self._samples = samples
+        self._count = torch.arange(horizon, device=device)
+        self._steps = self._count.clone()
+        self._rows = torch.zeros(networks, lanes, dtype=torch.int64, device=device)
+        self._kept = torch.zeros(networks, lanes, 1, device=device)
+        self._state = torch.zeros(networks, lanes, network.hidden, device=device)
+        self.active = torch.zeros(networks, device=device)
+        self._network = network
+
+    def begin(self, plan: StackedPlan) -> None:
+        """Begin a plan with states of zero."""
+        self._steps.copy_(plan.stride * self._count)
+        self._state.zero_()
+
+    def go_to(self, plan: StackedPlan, update: int) -> None:
+        """Go to an update of a plan."""
+        self._rows.copy_(plan.rows[update])
+        self._kept.copy_(~plan.fresh[update][..., None])
+        self.active.copy_(plan.active[update])
+
+    def predict(self) -> tuple[Tensor, Tensor, Tensor, Tensor | None]:
+        """Run the horizon, carry its state on, and return mean, std and target (K, h, B, n), and which are known.
+
+        Where every target is, the last one is None, else (K, h, B, 1).
+        """
+        x, target = self._samples.take(self._rows, self._steps)
+        mean, std, after = self._network.run(x, self._state * self._kept)
+        self._state.copy_(after)
+        known = ~target[..., :1].isnan() if self._samples.partial else None
+        return mean, std, target, known
+
+
+class Epoch:
+    """Epochs of stacked networks."""
+
+    def __init__(
+        self,
+        network: StackedNetwork,
+        samples: StackedSamples,
+        optimiser: StackedOptimiser,
+        learning: Learning,
+        horizon: int,
+        scored: slice = EVERY_STEP,
+    ) -> None:
+        """Take what learns, from what and how; `scored` are the steps of a horizon that are in the loss."""
+        self._network = network
+        self._optimiser = optimiser
+        self._learning = learning
+        self._scored = scored
+        self._horizons = Horizons(samples, network, learning.batch_size, horizon)
+        self._rates = torch.zeros_like(self._horizons.active)
+        self._told = torch.zeros_like(self._horizons.active)
+        self._losses = torch.zeros_like(self._rates)
+        self._norms = torch.zeros_like(self._rates)
+        self._replayed = Replayed(self._update, samples.device)
+
+    def run(self, plan: StackedPlan, rates: Tensor, frozen: Tensor, done: Tensor) -> tuple[Tensor, Tensor, Tensor]:
+        """Learn from an epoch at rates (K,); networks that are `frozen` (K,) do not.
+
+        `done` (K,), on the CPU, are the updates of each network before, which are counted on.
+
+        Returns:
+            Loss (22) and norm before the clip of each update, (updates, K), and which of them count, (updates, K).
+        """
+        self._rates.copy_(rates)
+        self._horizons.begin(plan)
+        found = [plan.rows.new_zeros(len(plan), len(rates), dtype=torch.float32) for _ in range(3)]
+        moves = (plan.active & ~frozen).cpu()
+        for update in range(len(plan)):
+            self._horizons.go_to(plan, update)
+            self._horizons.active.mul_(~frozen)
+            begins = not done.any()
+            self._first_update() if begins else self._replayed()
+            for row, value in zip(found, (self._losses, self._norms, self._told), strict=True):
+                row[update] = value
+            done += moves[update]
+            if not begins:
+                self._renew(moves[update], done)
+        losses, norms, told = found
+        return losses, norms, told > 0
+
+    def _renew(self, moved: Tensor, done: Tensor) -> None:
+        """Renew the bases of networks that have made as many updates of their gates as it takes."""
+        # The first update of a network gives its gates a basis and moves none of them.
+        due = moved & ((done - 1) % self._learning.basis_every == 0) & (done > 1)
+        if due.any():
+            self._optimiser.renew(due.nonzero()[:, 0].tolist())
+
+    def _gradients(self) -> dict[str, Tensor]:
+        """Run a horizon, note its losses, and return the clipped gradients of all weights."""
+        mean, std, target, known = self._horizons.predict()
+        scored = self._scored
+        known = None if known is None else known[:, scored]
+        minimised, losses = stacked_losses(self._learning, mean[:, scored], std[:, scored], target[:, scored], known)
+        weights = self._network.weights
+        given = torch.autograd.grad(minimised.sum(), list(weights.values()))
+        gradients, norms = self._network.clipped(dict(zip(weights, given, strict=True)), self._learning.gradient_norm)
+        self._losses.copy_(losses.detach())
+        self._norms.copy_(norms)
+        self._told.copy_(self._horizons.active)
+        if known is not None:  # a horizon without any target teaches nothing
+            self._told.mul_(known.flatten(1).any(1))
+        return gradients
+
+    def _update(self) -> None:
+        """Make one update."""
+        self._optimiser.step(self._gradients(), self._rates, self._told)
+
+    def _first_update(self) -> None:
+        """Make the first update, which gives gated matrices a basis."""
+        gradients = self._gradients()
+        self._optimiser.begin(gradients)
+        self._optimiser.step(gradients, self._rates, self._told, first=True)
+
+
+class Validation:
+    """Validations of stacked networks on plans of one size."""
+
+    def __init__(
+        self, network: StackedNetwork, samples: StackedSamples, learning: Learning, lanes: int, horizon: int
+    ) -> None:
+        """Make room for plans of so many lanes."""
+        self._learning = learning
+        networks = len(network.weights["head.bias"])
+        self._horizons = Horizons(samples, network, lanes, horizon)
+        self._used = torch.zeros(networks, 1, lanes, 1, dtype=torch.bool, device=samples.device)
+        self._loss = torch.zeros(networks, device=samples.device)
+        self._squares = torch.zeros(networks, samples.joints, device=samples.device)
+        self._counted = torch.zeros_like(self._loss)
+        self._replayed = Replayed(self._horizon, samples.device)
+
+    def run(self, plan: StackedPlan) -> tuple[Tensor, Tensor]:
+        """Return the mean loss (22) of each network (K,), and the RMSE of each joint (K, n), z-scored.
+
+        A network none of whose targets is known gets nan.
+        """
+        for total in (self._loss, self._squares, self._counted):
+            total.zero_()
+        self._used.copy_(plan.used[:, None, :, None])
+        self._horizons.begin(plan)
+        for update in range(len(plan)):
+            self._horizons.go_to(plan, update)
+            self._replayed()
+        return self._loss / self._counted, (self._squares / self._counted[:, None]).sqrt()
+
+    @torch.no_grad()
+    def _horizon(self) -> None:
+        """Add the loss and the squared errors of a horizon, the mean over its samples."""
+        mean, std, target, known = self._horizons.predict()
+        counted = self._used.expand(*mean.shape[:3], 1)
+        if known is not None:
+            counted = counted & known
+        _, loss = stacked_losses(self._learning, mean, std, target, counted)
+        found = counted.flatten(1).any(1) * self._horizons.active
+        squares = torch.where(counted, (mean - target).square(), 0.0).sum((1, 2))
+        self._loss += torch.where(found > 0, loss, 0.0)
+        self._squares += squares / counted.sum((1, 2)).clamp(min=1) * spread(found, squares)
+        self._counted += found

@@ -1,0 +1,240 @@
+"""The training of many networks of one shape side by side: epochs, checkpoints, and networks that diverge."""
+
+import hashlib
+import logging
+import time
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
+
+import numpy as np
+import torch
+from torch import Tensor
+
+from mobnet.core.code import SHORT
+from mobnet.core.columns import Epoch as EpochRow
+from mobnet.core.errors import ConfigError, DataError, TrainingError, not_accepted
+from mobnet.core.files import CHECKPOINT, METRICS
+from mobnet.learning.checkpoint import Progress, below, read_checkpoint, write_checkpoint, write_metrics
+from mobnet.learning.course import Course
+from mobnet.learning.dataset import LimbData
+from mobnet.learning.job import TrainingJob
+from mobnet.learning.stacked.network import StackedNetwork
+from mobnet.learning.stacked.optimiser import StackedOptimiser
+from mobnet.learning.stacked.passes import Epoch, Validation
+from mobnet.learning.stacked.samples import StackedSamples, side_by_side
+
+log = logging.getLogger(__name__)
+# What networks of a stack have in common, of section `learning`.
+COMMON = (
+    "loss", "loss_beta", "batch_size", "optimizer", "optimizer_betas", "basis_beta", "basis_every", "coarse",
+    "gradient_norm", "std_min", "sequences", "labels",
+)  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Member:
+    """One network of a stack: its name among them, its training and data, its state's folder, and where it starts."""
+
+    name: str
+    job: TrainingJob
+    data: LimbData
+    state: Path
+    start: Path | None = None
+
+
+@dataclass
+class Taught:
+    """How far the networks of a stack have come.
+
+    Attributes:
+        progress: that of each network; one that diverged has no more epochs.
+        updates: number of updates of each network, (K,).
+        epochs: number of epochs of the stack.
+        told: why a network has diverged, by its name.
+        seconds: time of all starts [s].
+    """
+
+    progress: list[Progress]
+    updates: Tensor
+    epochs: int = 0
+    told: dict[str, str] = field(default_factory=dict)
+    seconds: float = 0.0
+
+
+class StackedTrainer:
+    """Trains networks of one shape side by side on a device: each with its own data, z-scores, rates and seeds.
+
+    A network that diverges stops; the others go on.
+    """
+
+    def __init__(self, members: Sequence[Member], device: torch.device) -> None:
+        """Prepare the courses of all networks, and move their data to the device.
+
+        Raises:
+            ConfigError: networks differ in what those of a stack have in common.
+            DataError: as `Course`.
+        """
+        check_alike(members)
+        self._members = members
+        self._device = device
+        self._courses = [Course(own.job, own.data, device, own.start) for own in members]
+        self._job = members[0].job
+        learning = self._job.training.learning
+        self._samples = StackedSamples([own.data for own in members], self._courses, device)
+        self._network = StackedNetwork([course.network() for course in self._courses], device)
+        self._optimiser = StackedOptimiser(self._network.weights, learning)
+        horizon = self._job.horizon
+        scored = self._courses[0].scored
+        self._epochs = Epoch(self._network, self._samples, self._optimiser, learning, horizon, scored)
+        self._validations: dict[int, Validation] = {}  # by number of lanes
+        self._frozen = torch.zeros(len(members), dtype=torch.bool, device=device)
+        self._units = np.stack([course.scales[1].std for course in self._courses])
+
+    @property
+    def fingerprint(self) -> str:
+        """A hash of all that the weights depend on: each network's, and which others learn beside it."""
+        return hashlib.sha256(repr(self.fingerprints).encode()).hexdigest()[:SHORT]
+
+    @property
+    def fingerprints(self) -> dict[str, str]:
+        """The hash of what the weights of each network depend on, by its name."""
+        pairs = zip(self._members, self._courses, strict=True)
+        return {own.name: course.fingerprint for own, course in pairs}
+
+    def run(self, state: Path) -> Taught:
+        """Run all epochs, or those that a killed run did not finish; the folder `state` has the checkpoint."""
+        path = state / CHECKPOINT
+        done = self._resumed(path)
+        epochs = self._job.training.epochs
+        while done.epochs < epochs and not self._frozen.all():
+            started = time.monotonic()
+            self._epoch(done)
+            done.epochs += 1
+            done.seconds += time.monotonic() - started
+            self._save(path, done)
+            for own, course, progress in zip(self._members, self._courses, done.progress, strict=True):
+                write_metrics(own.state / METRICS, progress, course.joints)
+            left = done.seconds / done.epochs * (epochs - done.epochs)
+            log.info("%d networks: epoch %d/%d, %.0f s left", len(self._members), done.epochs, epochs, left)
+        return done
+
+    def _epoch(self, done: Taught) -> None:
+        """Let all networks learn from their data once, and validate them."""
+        epoch = done.epochs
+        stride = self._job.stride(epoch)
+        if epoch and (before := self._job.stride(epoch - 1)) != stride:
+            self._network.keep_longer(before / stride)
+        rates = [own.job.rate(epoch) for own in self._members]
+        plan = side_by_side([course.plan(epoch, stride) for course in self._courses], self._device)
+        moved = torch.tensor(rates, device=self._device)
+        losses, norms, told = (found.cpu() for found in self._epochs.run(plan, moved, self._frozen, done.updates))
+        validations, errors = self._validate(stride)
+        weights = {name: weight.detach().cpu() for name, weight in self._network.weights.items()}
+        for k, (own, course, progress) in enumerate(zip(self._members, self._courses, done.progress, strict=True)):
+            if self._frozen[k]:
+                continue
+            counted = told[:, k]
+            if not counted.any():
+                raise DataError(f"{own.name}: no target of the training data is known; accepted: a swing of the leg")
+            validation = float(validations[k])
+            try:
+                course.check_losses(epoch, losses[counted, k].median().item(), rates[k])
+                course.check_validation(epoch, validation, rates[k])
+            except TrainingError as error:
+                log.warning("%s; the others go on", error)
+                self._frozen[k] = True
+                progress.diverged = True
+                done.told[own.name] = str(error)
+                continue
+            loss = losses[counted, k].mean().item()
+            norm = norms[counted, k].mean().item()
+            rmse = float(errors[k].mean())
+            progress.epochs.append(EpochRow(epoch + 1, loss, validation, rmse, rates[k], norm, stride))
+            progress.errors.append(errors[k].tolist())
+            if progress.best_epoch() is progress.epochs[-1]:
+                progress.best = {name: weight[k].clone() for name, weight in weights.items()}
+
+    def _validate(self, stride: int) -> tuple[Tensor, np.ndarray]:
+        """Return mean losses (22), (K,), and RMSE of each joint (K, n) [N, N m], at a stride [samples]."""
+        plan = side_by_side([course.validation_at(stride) for course in self._courses], self._device)
+        lanes = plan.rows.shape[2]
+        if lanes not in self._validations:
+            learning = self._job.training.learning
+            self._validations[lanes] = Validation(self._network, self._samples, learning, lanes, self._job.horizon)
+        losses, errors = self._validations[lanes].run(plan)
+        return losses.cpu(), errors.cpu().numpy() * self._units
+
+    def _save(self, path: Path, done: Taught) -> None:
+        """Write a checkpoint of all networks."""
+        tensors = {f"last.{name}": weight.detach().cpu() for name, weight in self._network.weights.items()}
+        for name, own in self._optimiser.state.items():
+            tensors |= {f"optimizer.{name}.{key}": tensor.cpu() for key, tensor in own.items()}
+        tensors["updates"] = done.updates
+        best, rows = told_of(done)
+        note = {"rows": rows, "epochs": done.epochs, "told": done.told, "seconds": done.seconds}
+        write_checkpoint(path, self.fingerprint, {**tensors, **best}, note)
+
+    def _resumed(self, path: Path) -> Taught:
+        """Load a checkpoint of this stack; without one nothing is done yet."""
+        found = read_checkpoint(path, self.fingerprint)
+        fresh = [Progress(chosen_by=course.chosen_by) for course in self._courses]
+        if found is None:
+            return Taught(fresh, torch.zeros(len(fresh), dtype=torch.int64))
+        tensors, note = found
+        with torch.no_grad():
+            for name, weight in self._network.weights.items():
+                weight.copy_(tensors[f"last.{name}"])
+            for name, own in self._optimiser.state.items():
+                for key, tensor in own.items():
+                    tensor.copy_(tensors[f"optimizer.{name}.{key}"])
+        progress = progress_of(tensors, note["rows"], [course.chosen_by for course in self._courses])
+        for k, own in enumerate(progress):
+            self._frozen[k] = own.diverged
+        log.info("%s: resuming after epoch %d", path, note["epochs"])
+        return Taught(progress, tensors["updates"].clone(), note["epochs"], note["told"], note["seconds"])
+
+
+def check_alike(members: Sequence[Member]) -> None:
+    """Check that networks have in common what those of a stack do.
+
+    Raises:
+        ConfigError: one differs from the first.
+    """
+    first = common_of(members[0])
+    for own in members[1:]:
+        for name, value in common_of(own).items():
+            if value != first[name]:
+                raise ConfigError(f"{own.name} beside {members[0].name}: {not_accepted(name, value, [first[name]])}")
+
+
+def common_of(member: Member) -> dict[str, object]:
+    """Return what networks of a stack have in common, by name."""
+    training = member.job.training
+    common: dict[str, object] = {f"learning.{name}": getattr(training.learning, name) for name in COMMON}
+    cell = training.network
+    sizes = {"cell": cell.cell, "hidden": cell.hidden, "horizon_steps": cell.horizon_steps, "spectral": cell.spectral}
+    ends = {"epochs": training.epochs, "inputs": len(member.data.input_names), "joints": len(member.data.joints)}
+    return {**common, **sizes, **ends}
+
+
+def told_of(done: Taught) -> tuple[dict[str, Tensor], list[dict[str, object]]]:
+    """Return the best weights, those of network k below `best.k.`, and a row of numbers for each network."""
+    best: dict[str, Tensor] = {}
+    rows: list[dict[str, object]] = []
+    for k, own in enumerate(done.progress):
+        best |= {f"best.{k}.{name}": weight for name, weight in own.best.items()}
+        epochs = [asdict(epoch) for epoch in own.epochs]
+        rows.append({"epochs": epochs, "errors": own.errors, "diverged": own.diverged})
+    return best, rows
+
+
+def progress_of(
+    tensors: dict[str, Tensor], rows: Sequence[dict[str, object]], chosen_by: Sequence[str]
+) -> list[Progress]:
+    """Return the progress of each network from what `told_of` returned."""
+    found: list[Progress] = []
+    for k, (row, column) in enumerate(zip(rows, chosen_by, strict=True)):
+        epochs = [EpochRow(**epoch) for epoch in row["epochs"]]
+        found.append(Progress(epochs, row["errors"], below(f"best.{k}.", tensors), 0.0, row["diverged"], column))
+    return found
