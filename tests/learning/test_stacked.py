@@ -97,7 +97,9 @@ def stack(small, data, tmp_path):
 
     def member(seed, own=data, **changes):
         training = small.training(**changes)
-        return Member(f"{training.method}-{seed}", TrainingJob(training, seed, 1), own, tmp_path / "states" / str(seed))
+        return Member(
+            f"{training.method}-{seed}", TrainingJob(training, seed, 1), lambda: own, tmp_path / "states" / str(seed)
+        )
 
     def stacked(seeds=(0, 1, 2), own=None, **changes):
         return StackedTrainer([member(seed, (own or {}).get(seed, data), **changes) for seed in seeds], CPU)
@@ -149,7 +151,6 @@ def test_it_learns_with_soap_as_well_as_alone(stack, tmp_path):
     done = stacked(epochs=3).run(tmp_path / "stack")
     found = [own.best_epoch().validation_rmse for own in done.progress]
     expected = [alone(seed, epochs=3).best_epoch().validation_rmse for seed in range(3)]
-    print(found, expected)
     assert min(expected) * 0.9 < sum(found) / 3 < max(expected) * 1.1
 
 

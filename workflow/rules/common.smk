@@ -14,7 +14,7 @@ from experiments.evaluation.measure.estimates.scores import measure_problems
 from experiments.evaluation.report.paper import missing_packages
 from experiments.jobs.method_problems import method_problems
 from experiments.plan.files import made_by_jobs
-from experiments.plan.plan import make_plan, record_precision, with_precision
+from experiments.plan.plan import make_plan, record_precision, record_stacks, with_precision, with_stacks
 from experiments.plan.products import shown as report_of
 from experiments.plan.room import Sizes, check_room
 from experiments.running.words import in_set, nearest, one_of, scale_of_targets
@@ -59,6 +59,9 @@ def what_other_packages_know(settings):
     yield from text_problems(settings, ROOT / "paper" / "main.tex")
 
 
+# Jobs that use a GPU wait for those of this machine; on a cluster they ask for one by --set-resources train:gpu=1.
+GPUS = gpus_seen(version("torch"), os.environ) if workflow.nodes is None else 0
+
 try:
     if is_main():
         for name in (".snakemake", ".cache"):  # Snakemake and packages write there
@@ -68,6 +71,7 @@ try:
         config["scale"] = scale
     SETTINGS = load_settings(ROOT / "configs", config, what_other_packages_know)
     SETTINGS = with_precision(SETTINGS, Path("results") / SETTINGS.scale)
+    SETTINGS = with_stacks(SETTINGS, Path("results") / SETTINGS.scale, GPUS)
     PLAN = make_plan(SETTINGS, with_pdf=not missing_packages())
 except MobnetError as error:
     sys.exit(str(error))
@@ -75,8 +79,6 @@ except MobnetError as error:
 JOBS = PLAN.jobs
 SIZES = Sizes(JOBS)
 config["scale"] = SETTINGS.scale  # the report names it
-# Jobs that use a GPU wait for those of this machine; on a cluster they ask for one by --set-resources train:gpu=1.
-GPUS = gpus_seen(version("torch"), os.environ) if workflow.nodes is None else 0
 if GPUS and "gpu" not in workflow.global_resources:
     workflow.register_resource("gpu", GPUS)
 
@@ -103,6 +105,7 @@ onstart:
     try:
         sweep_project(ROOT)  # Snakemake holds its lock: no other run begins here
         record_precision(PLAN.folders.results)
+        record_stacks(SETTINGS, PLAN.folders.results)
         waiting = list(workflow.dag.needrun_jobs())
         check_room(waiting)
         if commit() == UNKNOWN:

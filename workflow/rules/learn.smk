@@ -1,3 +1,8 @@
+# Small trainings go into the queue of a cluster together. Those that take their weights from a stack cannot: a stack may
+# wait for one of them.
+NETWORKS = None if SETTINGS.stacks.side_by_side else "networks"
+
+
 rule fit:
     # Formulas of friction, fitted to the recordings from which networks learn.
     input:
@@ -19,12 +24,37 @@ rule fit:
         "../scripts/fit.py"
 
 
+rule train_stack:
+    # Networks of one shape side by side on a GPU (docs/notes/0038); where each learns alone, no job asks for this.
+    input:
+        read=lambda w: made_by_jobs(JOBS.read_by_stack(w)),
+    output:
+        "<results>/stacks/{stack}.safetensors",
+    log:
+        "<logs>/train_stack/{stack}.log",
+    wildcard_constraints:
+        stack=one_of(JOBS.stacks.members),
+    priority: 15
+    group:
+        "stacks"
+    resources:
+        mem_mb=growing(12000),
+        runtime=240,
+        gpu=min(GPUS, 1),
+    params:
+        given=JOBS.train_stack,
+        code=code("experiments.jobs.stacks"),
+    script:
+        "../scripts/train_stack.py"
+
+
 rule train:
     # One network (section 4.4). Its checkpoint is no output: a training that was killed goes on from its last epoch.
     input:
         recordings=needed(JOBS.train, "recordings"),
         residuals=needed(JOBS.train, "residuals"),
         start=needed(JOBS.train, "start"),
+        lesson=needed(JOBS.train, "lesson"),
     output:
         weights="<results>/{robot}/networks/{method}-{limb}-s{seed}/weights.safetensors",
         metrics="<results>/{robot}/networks/{method}-{limb}-s{seed}/metrics.csv",
@@ -35,11 +65,11 @@ rule train:
         method=one_of(PLAN.trained),
     priority: 10
     group:
-        "networks"
+        NETWORKS
     resources:
         mem_mb=growing(6000),
         runtime=60,
-        gpu=min(GPUS, 1),
+        gpu=lambda w: 0 if "lesson" in JOBS.train(w) else min(GPUS, 1),
     params:
         given=JOBS.train,
         code=code("experiments.jobs.trainings"),
@@ -53,6 +83,7 @@ rule train_gray:
         recordings=needed(JOBS.train_gray, "recordings"),
         residuals=needed(JOBS.train_gray, "residuals"),
         fitted=needed(JOBS.train_gray, "fitted"),
+        lesson=needed(JOBS.train_gray, "lesson"),
     output:
         weights="<results>/{robot}/networks/{method}-{limb}-s{seed}/weights.safetensors",
         metrics="<results>/{robot}/networks/{method}-{limb}-s{seed}/metrics.csv",
@@ -63,11 +94,11 @@ rule train_gray:
         method=one_of(PLAN.trained_gray),
     priority: 10
     group:
-        "networks"
+        NETWORKS
     resources:
         mem_mb=growing(6000),
         runtime=60,
-        gpu=min(GPUS, 1),
+        gpu=lambda w: 0 if "lesson" in JOBS.train_gray(w) else min(GPUS, 1),
     params:
         given=JOBS.train_gray,
         code=code("experiments.jobs.train_gray"),

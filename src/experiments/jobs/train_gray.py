@@ -12,6 +12,7 @@ from mobnet.core.joints import JointLayout
 from mobnet.core.store import read_array, spans_and_rate
 from mobnet.estimation.kinds.friction import FittedFriction, read_friction
 from mobnet.estimation.low_pass import low_pass
+from mobnet.learning.dataset import Known
 from mobnet.settings.methods import ObserverSettings
 from mobnet.settings.networks import Training
 
@@ -28,6 +29,7 @@ def train_gray(
     state: Path,
     out: Path,
     rate_hz: float | None = None,
+    lesson: tuple[Path, str] | None = None,
 ) -> None:
     """Train a network on r - tau_e - friction, where `fitted` is what rule `fit` wrote; else as `train`.
 
@@ -35,13 +37,23 @@ def train_gray(
         DataError: a recording, a residual or the fit is damaged.
         TrainingError: the loss diverged, where `learning.may_diverge` does not allow it.
     """
+    known = known_of(layout, observer, fitted)
+    train(root_seed, layout, training, seed, recordings, residuals, state, out, rate_hz, known=known, lesson=lesson)
+
+
+def known_of(layout: JointLayout, observer: ObserverSettings, fitted: Path) -> Known:
+    """Return what is known of the target where `fitted` is what rule `fit` wrote: the friction of a recording's joints.
+
+    Raises:
+        DataError: the fit is damaged.
+    """
     friction = read_friction(fitted, layout.actuated)
 
     # (O14): friction enters behind the observer's low-pass, because r and the truth of the target are behind it too.
     def known(recording: Path, joints: Sequence[str]) -> Array:
         return filtered_friction(layout, friction, observer.gain_hz, recording, joints)
 
-    train(root_seed, layout, training, seed, recordings, residuals, state, out, rate_hz, known=known)
+    return known
 
 
 def filtered_friction(

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from mobnet.core.joints import JointLayout
-from mobnet.learning.dataset import Known, load_limb_data
+from mobnet.learning.dataset import Known, LimbData, load_limb_data
 from mobnet.learning.job import TrainingJob
 from mobnet.learning.swings import Margins
 from mobnet.learning.train import train_on
@@ -24,6 +24,7 @@ def train(
     start: Path | None = None,
     margins: Margins | None = None,
     known: Known | None = None,
+    lesson: tuple[Path, str] | None = None,
 ) -> None:
     """Train a network on recordings; a training that was killed goes on from its last epoch.
 
@@ -40,12 +41,31 @@ def train(
         start: weights from which it is fine-tuned; None of one that learns from the first.
         margins: where swings label, what is left out of them.
         known: what is subtracted from the target.
+        lesson: file of what it has learned in a stack, and its name there; None of one that learns alone.
 
     Raises:
         DataError: a recording or a residual is damaged or too short.
         TrainingError: the loss diverged, where `learning.may_diverge` does not allow it.
     """
-    data = load_limb_data(
+    data = data_of(layout, training, recordings, residuals, rate_hz, margins, known)
+    train_on(data, TrainingJob(training, seed, root_seed), out, state, start, lesson)
+
+
+def data_of(
+    layout: JointLayout,
+    training: Training,
+    recordings: Sequence[Path],
+    residuals: Sequence[Path],
+    rate_hz: float | None = None,
+    margins: Margins | None = None,
+    known: Known | None = None,
+) -> LimbData:
+    """Return what a training learns from, of arguments as `train` gets them.
+
+    Raises:
+        DataError: a recording or a residual is damaged.
+    """
+    return load_limb_data(
         layout=layout,
         limb=training.network,
         target=training.target,
@@ -57,4 +77,3 @@ def train(
         first_s=training.learning.data_s,
         margins=margins,
     )
-    train_on(data, TrainingJob(training, seed, root_seed), out, state, start)

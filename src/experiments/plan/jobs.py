@@ -6,13 +6,16 @@ Nothing is worked out before Snakemake asks for it. A network is named by its fo
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 from experiments.plan.detection import detection_files, level_of_detectors, numbers_of, walks_of
-from experiments.plan.files import PLANT, Files
+from experiments.plan.files import PLANT, Files, NetworkName, files_in
 from experiments.plan.parts import CaseWalks, MethodRun
 from experiments.plan.reactions import is_pushed, methods_of, sizes_of, watch_file
+from experiments.plan.stacks import Stacked, Stacks
 from experiments.settings.asked import tests_in
 from experiments.settings.evaluation import measured_in
 from experiments.settings.measures import Scoring
@@ -36,6 +39,11 @@ class Jobs:
     def settings(self) -> Settings:
         """The configuration."""
         return self.plant.settings
+
+    @cached_property
+    def stacks(self) -> Stacks:
+        """The networks that learn side by side where the configuration says so."""
+        return Stacks(self.plant)
 
     def files(self, w: Any) -> Files:
         """Return the files of the robot of some wildcards."""
@@ -110,12 +118,33 @@ class Jobs:
             # Without a sensor a leg knows its external torque only where it surely touches nothing (note 0029).
             swings = self.settings.evaluation.changed
             arguments["margins"] = (swings.lift_off_s, swings.landing_s)
+        own = Stacked(w.robot, NetworkName(w.method, w.limb, int(w.seed)))
+        if self.settings.stacks.side_by_side is True and own in self.stacks.names:
+            arguments["lesson"] = (self.stacks.file(self.stacks.names[own]), own.name)
         return arguments
 
     def train_gray(self, w: Any) -> Arguments:
         """Return the training of a network that learns what is left of the uncertainty by a fit."""
         (fitted,) = self.files(w).fit(w.method)
         return {**self.train(w), "observer": self.settings.observer, "fitted": fitted}
+
+    def train_stack(self, w: Any) -> Arguments:
+        """Return the training of networks side by side: what that of each of them would get."""
+        members: dict[str, Arguments] = {}
+        for robot, (method, limb, seed) in self.stacks.members[w.stack]:
+            own = SimpleNamespace(robot=robot, method=method, limb=limb, seed=seed)
+            given = self.train_gray(own) if self.files_of(robot).fit(method) else self.train(own)
+            given.pop("lesson", None)
+            members[Stacked(robot, NetworkName(method, limb, seed)).name] = given
+        return {"members": members, "state": self.plant.results / "state" / w.stack}
+
+    def read_by_stack(self, w: Any) -> list[Path]:
+        """Return the files that the networks of a stack learn from."""
+        found: dict[Path, None] = {}
+        for given in self.train_stack(w)["members"].values():
+            for name in ("recordings", "residuals", "start", "fitted"):
+                found |= dict.fromkeys(files_in(given.get(name)))
+        return list(found)
 
     def estimate(self, w: Any) -> Arguments:
         """Return the external torque of a test by all of its methods, whose recordings run side by side."""

@@ -27,6 +27,7 @@ from mobnet.core.notes import Note, checked
 from mobnet.learning.precision import AUTO, Precision, in_precision, of_processor
 
 PRECISION = Path("state") / "precision.json"  # below the results of a scale
+STACKS = Path("state") / "stacks.json"
 ROOT = ("README.md", "CONTRIBUTING.md", "CHANGELOG.md", "CITATION.cff", "paper/README.md")
 DOCUMENTS = "docs/**/*.*"
 # All of them: docstrings and settings are shown, which the hash of the code leaves out.
@@ -194,6 +195,35 @@ def make_plan(settings: Settings, *, with_pdf: bool) -> Plan:
         tables=tuple(products.table_names),
         figures=tuple(products.figure_names),
     )
+
+
+class StacksNote(Note):
+    """The file in which it is recorded whether networks of one shape learn side by side."""
+
+    side_by_side: bool
+
+
+def with_stacks(settings: Settings, results: Path, gpus: int) -> Settings:
+    """Return the settings with a yes or no in place of `auto`: the recorded one, or else whether a GPU is here.
+
+    It is decided once for the results of a scale, as networks that learn side by side get other weights; elsewhere they
+    would be trained anew.
+
+    Raises:
+        DataError: the record is damaged.
+    """
+    if settings.stacks.side_by_side != AUTO:
+        return settings
+    path = results / STACKS
+    yes = checked(path, read_json(path), StacksNote).side_by_side if path.exists() else gpus > 0
+    return settings.model_copy(update={"stacks": settings.stacks.model_copy(update={"side_by_side": yes})})
+
+
+def record_stacks(settings: Settings, results: Path) -> None:
+    """Record whether networks learn side by side in the results of a scale, if it is not recorded yet."""
+    path = results / STACKS
+    if not path.exists():
+        write_json(path, {"side_by_side": settings.stacks.side_by_side})
 
 
 class PrecisionNote(Note):

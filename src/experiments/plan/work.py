@@ -6,14 +6,13 @@ from pathlib import Path
 from typing import Any
 
 from experiments.plan.dry_run import PlannedJob
-from experiments.plan.files import SETS, Files
+from experiments.plan.files import SETS
+from experiments.plan.lengths import steps_of, training_s, width_of
 from experiments.plan.parts import TOGETHER_S
 from experiments.plan.plan import Plan
 from experiments.plan.reactions import walks_in
-from mobnet.settings.networks import Network
 
 SECONDS = "s"
-INPUTS_PER_JOINT, BASE_INPUTS = 2, 12  # of a network: position and velocity; rotation, turn and acceleration
 Amounts = dict[str, float]
 
 
@@ -104,16 +103,7 @@ def trained(plan: Plan, w: Any) -> tuple[Amounts, float]:
     read = training_s(files, network.data)
     grown = {"step": steps, "step x unit": steps * hidden, "step x unit^2": steps * hidden**2}
     amounts = {SECONDS: read, **{f"{cell} {name}": amount for name, amount in grown.items()}}
-    return amounts, read * rate_hz * _width(files, network)
-
-
-def steps_of(files: Files, method: str, limb: str) -> float:
-    """Return the time steps that a network learns from, over all epochs; 0 of one without inputs."""
-    training = files.catalogue.training(method, limb)
-    if not (training.network.Q or training.network.T):
-        return 0.0
-    read = training_s(files, training.network.data) * files.settings.rates.data_hz / training.learning.data_parts
-    return training.epochs * (training.epoch_samples or read)
+    return amounts, read * rate_hz * (width_of(files, network) + len(files.settings.layout.limbs(network.joints)))
 
 
 def estimated(plan: Plan, w: Any) -> tuple[Amounts, float]:
@@ -182,16 +172,3 @@ STEPS: Mapping[str, Callable[[Plan, Any], tuple[Amounts, float]]] = {  # kind ->
     "react": reacted,
     "falls": fallen,
 }
-
-
-def training_s(files: Files, name: str) -> float:
-    """Return the duration of a training set [s]."""
-    size = files.training_size(name)
-    return size.shards * size.shard_s
-
-
-def _width(files: Files, network: Network) -> int:
-    """Return the number of inputs and targets of a network."""
-    limbs = files.settings.layout.limbs
-    seen = INPUTS_PER_JOINT * len(limbs(network.Q)) + len(limbs(network.T)) + BASE_INPUTS
-    return seen + len(limbs(network.joints))

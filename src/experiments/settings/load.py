@@ -35,7 +35,7 @@ PARTS: Mapping[str, tuple[str, ...]] = {  # file -> the sections that stand in i
         "training_sets",
         "recording",
     ),
-    "networks": ("networks", "learning"),
+    "networks": ("networks", "learning", "stacks"),
     "methods": ("observer", "methods", "sweeps"),
     "trials": ("development", "trials"),
     "detection": ("detection", "contact_point"),

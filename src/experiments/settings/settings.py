@@ -1,6 +1,6 @@
 """The whole configuration, and what a walk takes of it; other jobs take whole sections."""
 
-from typing import Annotated
+from typing import Annotated, Literal
 
 from pydantic import Field
 
@@ -11,9 +11,12 @@ from experiments.settings.scales import Scale
 from experiments.settings.trials import Trials
 from mobnet.core.joints import JointLayout
 from mobnet.settings.base import (
+    Flag,
     LowerName,
     RowName,
     ScaleName,
+    Section,
+    Whole,
 )
 from mobnet.settings.data import (
     Commands,
@@ -34,6 +37,13 @@ from mobnet.settings.surrogate import Fleet, Level, Surrogate
 from mobnet.settings.walking import Walking
 
 
+class Stacks(Section):
+    """Networks of one shape that learn side by side, `most` of them in a stack."""
+
+    side_by_side: Literal["auto"] | Flag
+    most: Whole = Field(ge=1, le=1024)
+
+
 class Settings(Lab):
     """Every number of the artifact, once; to `seed` jobs add their names."""
 
@@ -51,6 +61,7 @@ class Settings(Lab):
     scenarios: Annotated[dict[LowerName, Scenario], Field(min_length=1)]
     training_sets: Annotated[dict[LowerName, TrainingSet], Field(min_length=1)]
     recording: RecordingSettings
+    stacks: Stacks
     methods: Annotated[dict[RowName, Method], Field(min_length=1)]
     sweeps: dict[Annotated[str, Field(pattern="^[a-z_]+$")], Sweep]
     development: Annotated[dict[LowerName, Development], Field(min_length=1)]

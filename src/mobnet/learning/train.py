@@ -14,32 +14,50 @@ from mobnet.core.code import provenance
 from mobnet.core.files import CHECKPOINT, METRICS, RUN, TIME, WEIGHTS, atomic_path, write_json
 from mobnet.core.machine import one_thread
 from mobnet.learning.calibration import StdFactors
-from mobnet.learning.checkpoint import Progress, write_metrics
+from mobnet.learning.checkpoint import Progress, copy_weights, write_metrics
 from mobnet.learning.dataset import LimbData
 from mobnet.learning.deployed.weights import NOTE, STD_SCALE
 from mobnet.learning.job import TrainingJob, precision_name
 from mobnet.learning.model import parameter_count
+from mobnet.learning.stacked.train import read_lesson
 from mobnet.learning.trainer import Trainer
 from mobnet.settings.base import Section
 
 log = logging.getLogger(__name__)
 
 
-def train_on(data: LimbData, job: TrainingJob, out: Path, state: Path, start: Path | None = None) -> None:
+def train_on(
+    data: LimbData,
+    job: TrainingJob,
+    out: Path,
+    state: Path,
+    start: Path | None = None,
+    lesson: tuple[Path, str] | None = None,
+) -> None:
     """Train one limb network by (22), or by another of `losses`, and keep the epoch that validates best.
 
     The folder `out` gets `weights.safetensors`, `metrics.csv` and, last, `run.json`; nothing before the training is
     done. The folder `state` gets a checkpoint and `metrics.csv` at each epoch; a killed training goes on from there to
     the same weights. The checkpoint is deleted when the training is done; `time.json` stays. A fine-tuning begins with
-    the weights of the file `start`.
+    the weights of the file `start`. A network that has learned in a stack is not trained again: the `lesson` says in
+    which file what it learned stands, and by which name.
 
     Raises:
-        DataError: the data are too short.
+        DataError: the data are too short, or what it learned is that of another training.
         TrainingError: the loss diverged, where `learning.may_diverge` does not allow it.
     """
     one_thread()
-    trainer = Trainer(job, data, start)
-    done = trainer.run(state)
+    if lesson:
+        path, name = lesson
+        learned = read_lesson(path, name)
+        trainer = Trainer(job, data, start, torch.device(learned.device))
+        course = trainer.course
+        may_diverge = job.training.learning.may_diverge
+        done = learned.checked(path, course.fingerprint, course.chosen_by, may_diverge=may_diverge)
+        done.best = done.best or copy_weights(trainer.network)
+    else:
+        trainer = Trainer(job, data, start)
+        done = trainer.run(state)
     calibration = trainer.calibrate(done)
     note = run_note(trainer, data, done, calibration)
     write_weights(out / WEIGHTS, trainer, data, done, calibration)
@@ -94,7 +112,7 @@ def run_note(trainer: Trainer, data: LimbData, done: Progress, calibration: StdF
         "best": asdict(done.best_epoch()) if done.epochs else None,
         "on_windows": trainer.on_windows(done),
         "calibration": calibration.note(data.joints, training.learning.calibration_levels),
-        "device": trainer.device.type,
+        "device": trainer.learned_on.type,
         "precision": precision_name(trainer.network.precision),
         "fingerprint": trainer.course.fingerprint,
         "provenance": provenance(),

@@ -42,20 +42,25 @@ def own_device() -> torch.device:
 class Trainer:
     """Trains one network on z-scored samples, on a GPU if there is one."""
 
-    def __init__(self, job: TrainingJob, data: LimbData, start: Path | None = None) -> None:
+    def __init__(
+        self, job: TrainingJob, data: LimbData, start: Path | None = None, learned_on: torch.device | None = None
+    ) -> None:
         """Split, scale and move inputs (N, n_in) and targets (N, n) [N, N m] to the device.
+
+        A network that has already learned, in a stack on a device, is only looked at, on the CPU.
 
         Raises:
             DataError: the network that it starts from is damaged, or another one.
         """
         self.job = job
-        self.device = own_device()
-        self.course = Course(job, data, self.device, start)
+        self.device = torch.device("cpu") if learned_on else own_device()
+        self.learned_on = learned_on or self.device
+        self.course = Course(job, data, self.learned_on, start)
         arrays = data.inputs, data.targets
         inputs, targets = (self._scaled(*pair) for pair in zip(arrays, self.course.scales, strict=True))
         self._samples = Samples(inputs, targets, partial=self.course.partial)
         self.network = self.course.network().to(self.device)
-        self.network.precision = job.precision(self.device)
+        self.network.precision = torch.float32 if learned_on else job.precision(self.device)
         self._optimizer = optimizer_of(self.network, job.training.learning)
 
     def _scaled(self, array: NDArray[np.float32], scale: ZScore) -> Tensor:

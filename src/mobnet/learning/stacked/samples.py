@@ -8,30 +8,24 @@ import torch
 from torch import Tensor
 
 from mobnet.learning.course import Course
-from mobnet.learning.dataset import LimbData, ZScore
+from mobnet.learning.dataset import ZScore
 from mobnet.learning.streams import EpochPlan
 
 
 class StackedSamples:
     """Inputs and targets of K networks: recordings once, each network with its own rows and z-scores."""
 
-    def __init__(self, data: Sequence[LimbData], courses: Sequence[Course], device: torch.device) -> None:
-        """Move inputs (N, n_in) and targets (N, n) [N, N m] to the device, the same data of several networks once."""
-        first_rows: dict[str, int] = {}
-        inputs: list[Tensor] = []
-        targets: list[Tensor] = []
-        rows = 0
-        for own in data:
-            if own.digest not in first_rows:
-                first_rows[own.digest] = rows
-                rows += len(own.inputs)
-                inputs.append(torch.from_numpy(own.inputs).to(device))
-                targets.append(torch.from_numpy(own.targets).to(device))
-        self._inputs = torch.cat(inputs)
-        self._targets = torch.cat(targets)
-        self._offsets = torch.tensor([first_rows[own.digest] for own in data], device=device)[:, None, None]
-        self._scales = [_stacked([course.scales[side] for course in courses], device) for side in (0, 1)]
-        self.device = device
+    def __init__(
+        self, arrays: Sequence[tuple[Tensor, Tensor]], places: Sequence[int], courses: Sequence[Course]
+    ) -> None:
+        """Take inputs (N, n_in) and targets (N, n) [N, N m] on the device, and at which place a network has its own."""
+        lengths = [0, *(len(inputs) for inputs, _ in arrays[:-1])]
+        first_rows = np.cumsum(lengths)
+        self._inputs = torch.cat([inputs for inputs, _ in arrays])
+        self._targets = torch.cat([targets for _, targets in arrays])
+        self.device = self._inputs.device
+        self._offsets = torch.from_numpy(first_rows[list(places)]).to(self.device)[:, None, None]
+        self._scales = [_stacked([course.scales[side] for course in courses], self.device) for side in (0, 1)]
         self.partial = courses[0].partial
 
     @property

@@ -3,9 +3,10 @@
 import hashlib
 import logging
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import torch
@@ -23,22 +24,26 @@ from mobnet.learning.stacked.network import StackedNetwork
 from mobnet.learning.stacked.optimiser import StackedOptimiser
 from mobnet.learning.stacked.passes import Epoch, Validation
 from mobnet.learning.stacked.samples import StackedSamples, side_by_side
+from mobnet.settings.networks import IN_A_STACK
 
 log = logging.getLogger(__name__)
-# What networks of a stack have in common, of section `learning`.
-COMMON = (
-    "loss", "loss_beta", "batch_size", "optimizer", "optimizer_betas", "basis_beta", "basis_every", "coarse",
-    "gradient_norm", "std_min", "sequences", "labels",
-)  # fmt: skip
 
 
 @dataclass(frozen=True)
 class Member:
-    """One network of a stack: its name among them, its training and data, its state's folder, and where it starts."""
+    """One network of a stack.
+
+    Attributes:
+        name: its own among them.
+        job: its training.
+        load: reads its data, which are dropped when they have gone to the device.
+        state: folder of its metrics.
+        start: weights from which it is fine-tuned.
+    """
 
     name: str
     job: TrainingJob
-    data: LimbData
+    load: Callable[[], LimbData]
     state: Path
     start: Path | None = None
 
@@ -75,13 +80,24 @@ class StackedTrainer:
             ConfigError: networks differ in what those of a stack have in common.
             DataError: as `Course`.
         """
-        check_alike(members)
         self._members = members
         self._device = device
-        self._courses = [Course(own.job, own.data, device, own.start) for own in members]
+        self._courses: list[Course] = []
+        arrays: dict[str, tuple[Tensor, Tensor]] = {}  # by the hash of the data, which several networks may share
+        digests: list[str] = []
+        for own in members:
+            data = own.load()
+            self._courses.append(Course(own.job, data, device, own.start))
+            if data.digest not in arrays:
+                inputs, targets = (torch.from_numpy(array).to(device) for array in (data.inputs, data.targets))
+                arrays[data.digest] = inputs, targets
+            digests.append(data.digest)
+        owned = [arrays[digest] for digest in digests]
+        check_alike(members, [(inputs.shape[1], targets.shape[1]) for inputs, targets in owned])
         self._job = members[0].job
         learning = self._job.training.learning
-        self._samples = StackedSamples([own.data for own in members], self._courses, device)
+        places = [list(arrays).index(digest) for digest in digests]
+        self._samples = StackedSamples(list(arrays.values()), places, self._courses)
         self._network = StackedNetwork([course.network() for course in self._courses], device)
         self._optimiser = StackedOptimiser(self._network.weights, learning)
         horizon = self._job.horizon
@@ -195,15 +211,15 @@ class StackedTrainer:
         return Taught(progress, tensors["updates"].clone(), note["epochs"], note["told"], note["seconds"])
 
 
-def check_alike(members: Sequence[Member]) -> None:
-    """Check that networks have in common what those of a stack do.
+def check_alike(members: Sequence[Member], sizes: Sequence[tuple[int, int]]) -> None:
+    """Check that networks have in common what those of a stack do; `sizes` are numbers of inputs and of joints.
 
     Raises:
         ConfigError: one differs from the first.
     """
-    first = common_of(members[0])
-    for own in members[1:]:
-        for name, value in common_of(own).items():
+    first = {**common_of(members[0]), "inputs and joints": sizes[0]}
+    for own, size in zip(members[1:], sizes[1:], strict=True):
+        for name, value in {**common_of(own), "inputs and joints": size}.items():
             if value != first[name]:
                 raise ConfigError(f"{own.name} beside {members[0].name}: {not_accepted(name, value, [first[name]])}")
 
@@ -211,17 +227,16 @@ def check_alike(members: Sequence[Member]) -> None:
 def common_of(member: Member) -> dict[str, object]:
     """Return what networks of a stack have in common, by name."""
     training = member.job.training
-    common: dict[str, object] = {f"learning.{name}": getattr(training.learning, name) for name in COMMON}
+    common: dict[str, object] = {f"learning.{name}": getattr(training.learning, name) for name in IN_A_STACK}
     cell = training.network
     sizes = {"cell": cell.cell, "hidden": cell.hidden, "horizon_steps": cell.horizon_steps, "spectral": cell.spectral}
-    ends = {"epochs": training.epochs, "inputs": len(member.data.input_names), "joints": len(member.data.joints)}
-    return {**common, **sizes, **ends}
+    return {**common, **sizes, "epochs": training.epochs}
 
 
-def told_of(done: Taught) -> tuple[dict[str, Tensor], list[dict[str, object]]]:
+def told_of(done: Taught) -> tuple[dict[str, Tensor], list[dict[str, Any]]]:
     """Return the best weights, those of network k below `best.k.`, and a row of numbers for each network."""
     best: dict[str, Tensor] = {}
-    rows: list[dict[str, object]] = []
+    rows: list[dict[str, Any]] = []
     for k, own in enumerate(done.progress):
         best |= {f"best.{k}.{name}": weight for name, weight in own.best.items()}
         epochs = [asdict(epoch) for epoch in own.epochs]
@@ -230,7 +245,7 @@ def told_of(done: Taught) -> tuple[dict[str, Tensor], list[dict[str, object]]]:
 
 
 def progress_of(
-    tensors: dict[str, Tensor], rows: Sequence[dict[str, object]], chosen_by: Sequence[str]
+    tensors: dict[str, Tensor], rows: Sequence[dict[str, Any]], chosen_by: Sequence[str]
 ) -> list[Progress]:
     """Return the progress of each network from what `told_of` returned."""
     found: list[Progress] = []

@@ -1,0 +1,88 @@
+"""Which networks learn side by side on a GPU: those of one shape that learn alike, of all robots."""
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import NamedTuple
+
+from experiments.plan.files import Files, NetworkName
+from experiments.plan.lengths import steps_of, width_of
+from mobnet.settings.networks import IN_A_STACK, Training
+
+
+class Stacked(NamedTuple):
+    """A network of a stack: the folder of the plant or of its robot, and its name there."""
+
+    robot: str
+    network: NetworkName
+
+    @property
+    def name(self) -> str:
+        """Its name among the networks of all robots, such as `plant/MOB-Net-LL-s0`."""
+        method, limb, seed = self.network
+        return f"{self.robot}/{method}-{limb}-s{seed}"
+
+
+@dataclass(frozen=True)
+class Stacks:
+    """The stacks of a scale, by name: that of the first network."""
+
+    plant: Files
+
+    @cached_property
+    def members(self) -> Mapping[str, tuple[Stacked, ...]]:
+        """The networks of each stack, in the order of the plan."""
+        alike: dict[str, list[Stacked]] = {}
+        for files in self.plant.owners:
+            for network in files.own_networks:
+                training = files.catalogue.training(network.method, network.limb)
+                if is_stacked(training):
+                    alike.setdefault(shape_of(files, network, training), []).append(
+                        Stacked(files.results.name, network)
+                    )
+        most = self.plant.settings.stacks.most
+        found: dict[str, tuple[Stacked, ...]] = {}
+        for networks in alike.values():
+            for first in range(0, len(networks), most):
+                part = tuple(networks[first : first + most])
+                found[part[0].name.replace("/", "-")] = part
+        return found
+
+    @cached_property
+    def names(self) -> Mapping[Stacked, str]:
+        """The stack of each network that is in one."""
+        found: dict[Stacked, str] = {}
+        for name, members in self.members.items():
+            found |= dict.fromkeys(members, name)
+        return found
+
+    def file(self, name: str) -> Path:
+        """Return the file of what a stack has learned."""
+        return self.plant.shared / "stacks" / f"{name}.safetensors"
+
+
+def is_stacked(training: Training) -> bool:
+    """Return whether a network may learn in a stack: a GRU, whose matrices no norm divides."""
+    return training.network.cell == "GRU" and not training.network.spectral
+
+
+def shape_of(files: Files, name: NetworkName, training: Training) -> str:
+    """Return what the networks of a stack have in common: their sizes, how they learn and for how long."""
+    layout = files.settings.layout
+    network = training.network
+    shape = {
+        "hidden": network.hidden,
+        "inputs": width_of(files, network),
+        "joints": len(layout.limbs(network.joints)),
+        "horizon": network.horizon_steps,
+        "epochs": training.epochs,
+        # Networks with fewer samples would wait for the others at each epoch's end.
+        "steps": steps_of(files, name.method, name.limb),
+        # One that starts from another's weights waits for them.
+        "start": bool(files.start(*name)),
+        "fit": bool(files.fit(name.method)),
+        **training.learning.model_dump(mode="json", include={*IN_A_STACK}),
+    }
+    return json.dumps(shape)
