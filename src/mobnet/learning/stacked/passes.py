@@ -6,7 +6,7 @@ from torch import Tensor
 from mobnet.learning.optimisation import EVERY_STEP
 from mobnet.learning.stacked.network import StackedNetwork, spread, stacked_losses
 from mobnet.learning.stacked.optimiser import StackedOptimiser
-from mobnet.learning.stacked.replay import Replayed
+from mobnet.learning.stacked.replay import Replayed, in_tf32
 from mobnet.learning.stacked.samples import StackedPlan, StackedSamples
 from mobnet.settings.networks import Learning
 
@@ -108,12 +108,14 @@ class Epoch:
 
     def _gradients(self) -> dict[str, Tensor]:
         """Run a horizon, note its losses, and return the clipped gradients of all weights."""
-        mean, std, target, known = self._horizons.predict()
         scored = self._scored
-        known = None if known is None else known[:, scored]
-        minimised, losses = stacked_losses(self._learning, mean[:, scored], std[:, scored], target[:, scored], known)
         weights = self._network.weights
-        given = torch.autograd.grad(minimised.sum(), list(weights.values()))
+        with in_tf32():
+            mean, std, target, known = self._horizons.predict()
+            known = None if known is None else known[:, scored]
+            predicted = mean[:, scored], std[:, scored], target[:, scored]
+            minimised, losses = stacked_losses(self._learning, *predicted, known)
+            given = torch.autograd.grad(minimised.sum(), list(weights.values()))
         gradients, norms = self._network.clipped(dict(zip(weights, given, strict=True)), self._learning.gradient_norm)
         self._losses.copy_(losses.detach())
         self._norms.copy_(norms)
@@ -166,7 +168,8 @@ class Validation:
     @torch.no_grad()
     def _horizon(self) -> None:
         """Add the loss and the squared errors of a horizon, the mean over its samples."""
-        mean, std, target, known = self._horizons.predict()
+        with in_tf32():
+            mean, std, target, known = self._horizons.predict()
         counted = self._used.expand(*mean.shape[:3], 1)
         if known is not None:
             counted = counted & known

@@ -1,10 +1,26 @@
 """Calls of a function that are replayed: on a GPU as one graph, which does not wait for the host at each operation."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 
 import torch
 
 WARM_UP = 3  # calls before a graph is captured: libraries take their memory in the first ones
+
+
+@contextmanager
+def in_tf32() -> Iterator[None]:
+    """Let a GPU multiply with TF32's 11 bits inside, as cuDNN's GRU does, from float32 into float32.
+
+    Not for an optimiser's bases, which would not be orthogonal then.
+    """
+    products = torch.backends.cuda.matmul
+    before = products.fp32_precision
+    products.fp32_precision = "tf32"
+    try:
+        yield
+    finally:
+        products.fp32_precision = before
 
 
 class Replayed:

@@ -34,7 +34,7 @@ def train_stack(members: Sequence[Member], state: Path, out: Path) -> None:
     one_thread()
     device = own_device()
     if device.type == "cuda":
-        torch.set_float32_matmul_precision("high")  # TF32, as cuDNN's GRU has it
+        torch.cuda.set_device(device)  # kernels are launched there
     else:
         log.warning("no GPU here: %d networks learn side by side on a processor, which takes long", len(members))
     trainer = StackedTrainer(members, device)
