@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 from experiments.plan.files import Files, NetworkName
 from experiments.plan.lengths import steps_of, width_of
-from mobnet.settings.networks import IN_A_STACK, Training
+from mobnet.settings.networks import IN_A_STACK, SIZES, Training
 
 
 class Stacked(NamedTuple):
@@ -64,8 +64,8 @@ class Stacks:
 
 
 def is_stacked(training: Training) -> bool:
-    """Return whether a network may learn in a stack: a GRU, whose matrices no norm divides."""
-    return training.network.cell == "GRU" and not training.network.spectral
+    """Return whether a network may learn in a stack: one with inputs, whose matrices no norm divides."""
+    return training.network.cell != "constant" and not training.network.spectral
 
 
 def shape_of(files: Files, name: NetworkName, training: Training) -> str:
@@ -73,7 +73,7 @@ def shape_of(files: Files, name: NetworkName, training: Training) -> str:
     layout = files.settings.layout
     network = training.network
     shape = {
-        "hidden": network.hidden,
+        **network.model_dump(mode="json", include={"cell", *SIZES[network.cell]}),
         "inputs": width_of(files, network),
         "joints": len(layout.limbs(network.joints)),
         "horizon": network.horizon_steps,

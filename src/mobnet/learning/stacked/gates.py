@@ -56,8 +56,8 @@ class TorchGates:
         earlier.copy_(d * z)
 
 
-# Compiled by NVRTC, which is part of CUDA. A jump is the distance between two networks in an array [numbers]; a lane has
-# `hidden` units, a network `each` = lanes * hidden. A test compiles the same text for a CPU.
+# Compiled by NVRTC, which is part of CUDA; a test compiles the same text for a CPU. A jump is the distance between two
+# networks in an array [numbers]; a lane has `hidden` units, a network `each` = lanes * hidden.
 SOURCE = """
 KERNEL void gates_forward(const float *from_inputs, int inputs_jump, const float *from_state, const float *last,
                           float *after, int state_jump, float *kept, int kept_jump, int hidden, int each, int count)

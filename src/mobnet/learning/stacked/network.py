@@ -1,4 +1,4 @@
-"""Stacked limb networks: GRU, linear layer and softplus of `LimbNetwork`, and what a training minimises of each."""
+"""Stacked limb networks: cell, linear layer and softplus of `LimbNetwork`, and what a training minimises of each."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -9,10 +9,9 @@ from torch.nn.functional import softplus
 
 from mobnet.learning.losses import terms
 from mobnet.learning.model import LimbNetwork
-from mobnet.learning.stacked.gru import StackedGru
+from mobnet.learning.stacked.cells import stacked_cell
 from mobnet.settings.networks import Learning
 
-CELL = tuple(f"cell.{name}_l0" for name in ("weight_ih", "weight_hh", "bias_ih", "bias_hh"))
 HEAD = ("head.weight", "head.bias")
 
 
@@ -23,23 +22,27 @@ class StackedNetwork:
         """Stack the weights of networks that have one shape, one least standard deviation and one way to learn it."""
         first = networks[0]
         self.weights: dict[str, Tensor] = {}
-        for name in (*CELL, *HEAD):
+        for name, _ in first.named_parameters():
             stacked = torch.stack([network.get_parameter(name).detach() for network in networks])
             self.weights[name] = stacked.to(device).requires_grad_()
-        self.hidden = first.cell.width
+        self._module = first.to(device)
+        self._cell = stacked_cell(first.cell)
+        self.state_size = first.cell.state_size
+        self.width = first.cell.width
         self._std_min = first.std_min
         self._std_apart = first.std_apart
 
-    def run(self, x: Tensor, state: Tensor) -> tuple[Tensor, Tensor, Tensor]:
-        """Run z-scored inputs (K, h, B, n_in) over a stretch of time from a state (K, B, H), eq. (18).
+    def run(self, x: Tensor, state: Tensor, *, learning: bool) -> tuple[Tensor, Tensor, Tensor]:
+        """Run z-scored inputs (K, h, B, n_in) over a stretch of time from a state (K, rows, B, columns), eq. (18).
 
-        Return mean and standard deviation (K, h, B, n), both z-scored, unitless, and the state (K, B, H) after.
+        Units drop out where networks are `learning`. Return mean and standard deviation (K, h, B, n), both z-scored,
+        unitless, and the state after.
         """
-        states = StackedGru.apply(x, state, *(self.weights[name] for name in CELL))
-        after = states[:, -1].detach()
+        self._module.train(learning)
+        features, after = self._cell.run(self.weights, x, state)
         weight, bias = (self.weights[name] for name in HEAD)
-        features = states.flatten(1, 2)
-        shape = (*states.shape[:3], -1)
+        shape = (*features.shape[:3], -1)
+        features = features.flatten(1, 2)
         # (N18) trains the mean alone through the cell; sigma sees the features as they come.
         for_std = features.detach() if self._std_apart else features
         (mean_weight, std_weight) = weight.chunk(2, 1)
@@ -55,7 +58,7 @@ class StackedNetwork:
         """
         parts: list[dict[str, Tensor]] = [dict(gradients)]
         if self._std_apart:
-            rest = {name: gradients[name] for name in CELL}
+            rest = {name: gradient for name, gradient in gradients.items() if name not in HEAD}
             halves = {name: gradients[name].chunk(2, 1) for name in HEAD}
             means = {name: half[0] for name, half in halves.items()}
             parts = [{**rest, **means}, {name: half[1] for name, half in halves.items()}]
@@ -75,7 +78,7 @@ class StackedNetwork:
     @torch.no_grad()
     def keep_longer(self, factor: float) -> None:
         """Let the cells keep their states for so many times as many steps, as `LimbNetwork.keep_longer`."""
-        self.weights["cell.bias_ih_l0"][:, self.hidden : 2 * self.hidden] += math.log(factor)
+        self.weights["cell.bias_ih_l0"][:, self.width : 2 * self.width] += math.log(factor)
 
 
 def spread(each: Tensor, like: Tensor) -> Tensor:

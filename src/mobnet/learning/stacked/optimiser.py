@@ -14,7 +14,6 @@ from mobnet.learning.stacked.network import spread
 from mobnet.settings.networks import Learning
 
 GATED = ("cell.weight_ih_l0", "cell.weight_hh_l0")  # matrices whose gates learn in bases of their own
-GATES = 3
 PASSES = 2  # of Cholesky-QR: after the second one, bases are orthogonal to a rounding
 ORTHOGONAL = 1e-4  # largest entry of Q' Q - I that counts as orthogonal
 
@@ -25,10 +24,12 @@ class StackedOptimiser:
     A network moves where it is `active`; where it is not, its weights and moments stay as they are.
     """
 
-    def __init__(self, weights: Mapping[str, Tensor], learning: Learning) -> None:
-        """Take weights by name, as `StackedNetwork` has them, and the section that names the optimiser."""
+    def __init__(self, weights: Mapping[str, Tensor], width: int, learning: Learning) -> None:
+        """Take weights by name, as `StackedNetwork` has them, how wide its cells are, and what names the optimiser."""
         self._weights = dict(weights)
-        self._gated = GATED if learning.optimizer == "soap" else ()
+        soap = learning.optimizer == "soap"
+        self._gated = tuple(name for name in GATED if soap and name in weights)
+        self._gates = weights[self._gated[0]].shape[1] // width if self._gated else 0
         self._betas = learning.optimizer_betas
         self._beta_basis = learning.basis_beta
         self.state: dict[str, dict[str, Tensor]] = {}
@@ -44,8 +45,8 @@ class StackedOptimiser:
             self.state[name] = own
 
     def _shaped(self, name: str, array: Tensor) -> Tensor:
-        """Return a weight or its gradient; of gates (K, 3, rows, columns)."""
-        return array.view(len(array), GATES, -1, array.shape[-1]) if name in self._gated else array
+        """Return a weight or its gradient; of gates (K, gates, rows, columns)."""
+        return array.view(len(array), self._gates, -1, array.shape[-1]) if name in self._gated else array
 
     @torch.no_grad()
     def begin(self, gradients: Mapping[str, Tensor]) -> None:
@@ -106,7 +107,7 @@ class StackedOptimiser:
 
 
 def _squares(gradient: Tensor) -> dict[str, Tensor]:
-    """Return G G' and G' G of gradients (K, 3, rows, columns), for the bases of either side."""
+    """Return G G' and G' G of gradients (K, gates, rows, columns), for the bases of either side."""
     return {"left": gradient @ gradient.mT, "right": gradient.mT @ gradient}
 
 

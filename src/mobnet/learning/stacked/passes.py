@@ -22,8 +22,9 @@ class Horizons:
         self._count = torch.arange(horizon, device=device)
         self._steps = self._count.clone()
         self._rows = torch.zeros(networks, lanes, dtype=torch.int64, device=device)
-        self._kept = torch.zeros(networks, lanes, 1, device=device)
-        self._state = torch.zeros(networks, lanes, network.hidden, device=device)
+        self._kept = torch.zeros(networks, 1, lanes, 1, device=device)
+        rows, columns = network.state_size
+        self._state = torch.zeros(networks, rows, lanes, columns, device=device)
         self.active = torch.zeros(networks, device=device)
         self._network = network
 
@@ -35,16 +36,16 @@ class Horizons:
     def go_to(self, plan: StackedPlan, update: int) -> None:
         """Go to an update of a plan."""
         self._rows.copy_(plan.rows[update])
-        self._kept.copy_(~plan.fresh[update][..., None])
+        self._kept.copy_(~plan.fresh[update][:, None, :, None])
         self.active.copy_(plan.active[update])
 
-    def predict(self) -> tuple[Tensor, Tensor, Tensor, Tensor | None]:
+    def predict(self, *, learning: bool) -> tuple[Tensor, Tensor, Tensor, Tensor | None]:
         """Run the horizon, carry its state on, and return mean, std and target (K, h, B, n), and which are known.
 
         Where every target is, the last one is None, else (K, h, B, 1).
         """
         x, target = self._samples.take(self._rows, self._steps)
-        mean, std, after = self._network.run(x, self._state * self._kept)
+        mean, std, after = self._network.run(x, self._state * self._kept, learning=learning)
         self._state.copy_(after)
         known = ~target[..., :1].isnan() if self._samples.partial else None
         return mean, std, target, known
@@ -111,7 +112,7 @@ class Epoch:
         scored = self._scored
         weights = self._network.weights
         with in_tf32():
-            mean, std, target, known = self._horizons.predict()
+            mean, std, target, known = self._horizons.predict(learning=True)
             known = None if known is None else known[:, scored]
             predicted = mean[:, scored], std[:, scored], target[:, scored]
             minimised, losses = stacked_losses(self._learning, *predicted, known)
@@ -169,7 +170,7 @@ class Validation:
     def _horizon(self) -> None:
         """Add the loss and the squared errors of a horizon, the mean over its samples."""
         with in_tf32():
-            mean, std, target, known = self._horizons.predict()
+            mean, std, target, known = self._horizons.predict(learning=False)
         counted = self._used.expand(*mean.shape[:3], 1)
         if known is not None:
             counted = counted & known

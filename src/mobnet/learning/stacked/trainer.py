@@ -20,6 +20,7 @@ from mobnet.learning.checkpoint import Progress, below, read_checkpoint, write_c
 from mobnet.learning.course import Course
 from mobnet.learning.dataset import LimbData
 from mobnet.learning.job import TrainingJob
+from mobnet.learning.model import seeded
 from mobnet.learning.stacked.network import StackedNetwork
 from mobnet.learning.stacked.optimiser import StackedOptimiser
 from mobnet.learning.stacked.passes import Epoch, Validation
@@ -99,7 +100,7 @@ class StackedTrainer:
         places = [list(arrays).index(digest) for digest in digests]
         self._samples = StackedSamples(list(arrays.values()), places, self._courses)
         self._network = StackedNetwork([course.network() for course in self._courses], device)
-        self._optimiser = StackedOptimiser(self._network.weights, learning)
+        self._optimiser = StackedOptimiser(self._network.weights, self._network.width, learning)
         horizon = self._job.horizon
         scored = self._courses[0].scored
         self._epochs = Epoch(self._network, self._samples, self._optimiser, learning, horizon, scored)
@@ -144,7 +145,9 @@ class StackedTrainer:
         rates = [own.job.rate(epoch) for own in self._members]
         plan = side_by_side([course.plan(epoch, stride) for course in self._courses], self._device)
         moved = torch.tensor(rates, device=self._device)
-        losses, norms, told = (found.cpu() for found in self._epochs.run(plan, moved, self._frozen, done.updates))
+        with seeded(self._courses[0].seed("dropout", epoch)):
+            found = self._epochs.run(plan, moved, self._frozen, done.updates)
+        losses, norms, told = (one.cpu() for one in found)
         validations, errors = self._validate(stride)
         weights = {name: weight.detach().cpu() for name, weight in self._network.weights.items()}
         for k, (own, course, progress) in enumerate(zip(self._members, self._courses, done.progress, strict=True)):
@@ -244,9 +247,7 @@ def told_of(done: Taught) -> tuple[dict[str, Tensor], list[dict[str, Any]]]:
     return best, rows
 
 
-def progress_of(
-    tensors: dict[str, Tensor], rows: Sequence[dict[str, Any]], chosen_by: Sequence[str]
-) -> list[Progress]:
+def progress_of(tensors: dict[str, Tensor], rows: Sequence[dict[str, Any]], chosen_by: Sequence[str]) -> list[Progress]:
     """Return the progress of each network from what `told_of` returned."""
     found: list[Progress] = []
     for k, (row, column) in enumerate(zip(rows, chosen_by, strict=True)):
