@@ -1,8 +1,9 @@
 """Time of one tick of the C library on one core: observer, the six networks of Table 1, a detector for each limb.
 
 The program `src/runtime/bench.c` steps at a paced 1 kHz, as a robot does: between two ticks the core may sleep, and
-other work may take its caches. It also counts the calls for memory. Weights are random: the time does not depend on
-them.
+other work may take its caches. A tick cannot take less than reading its weights once, so that this is what it is
+compared with, in turns of the same loop: other work slows both. It also counts the calls for memory. Weights are
+random: the time does not depend on them.
 """
 
 import subprocess
@@ -26,25 +27,27 @@ from mobnet.settings.networks import Training
 
 SOURCES = Path(__file__).parents[1] / "src" / "runtime"
 TICKS = 20_000
-MEDIAN_US, LATE_US = 150.0, 250.0  # at most: half a tick of a control loop that has other work to do
+READ_SHARE, READ_SHARE_P99 = 1 / 1.6, 1 / 2  # of a read in a tick: a tick takes 1.2 to 1.4 reads, and so does its p99
 THRESHOLD = 5.0  # of a ratio
 Row = dict[str, float | str]
 
 
 def main() -> list[Row]:
-    """Return rows of the median and the 99th percentile of a tick [us], and of the calls for memory."""
+    """Return rows of the median and the 99th percentile of a tick and of a read [us], and of the calls for memory."""
     with tempfile.TemporaryDirectory() as folder:
         out, model = Path(folder) / "build", Path(folder) / "model.bin"
         write_six(model, load_settings(overrides={"scale": "default"}))
         words = ["make", "-s", "-C", str(SOURCES), f"OUT={out}", "MARCH=native", f"{out}/bench"]
         subprocess.run(words, check=True)
         done = subprocess.run([out / "bench", model, str(TICKS)], capture_output=True, text=True, check=True)
-    median, p99, largest, above_1ms, calls = map(float, done.stdout.split())
-    others = {"max": largest, "above_1ms": above_1ms}
+    median, p99, largest, above_1ms, read, read_p99, share, size, calls = map(float, done.stdout.split())
     tick = "C library, one tick at 1 kHz"
+    against = f"{tick}, against one read of its {size / 1e6:.1f} MB of weights"
+    medians = {"ours": median, "reference": read, "unit": "us", "ratio": share, "bar": READ_SHARE}
+    late = {"ours": p99, "reference": read_p99, "unit": "us", "ratio": read_p99 / p99, "bar": READ_SHARE_P99}
     return [
-        {"name": f"{tick}, median", "ours": median, "unit": "us", "at_most": MEDIAN_US, **others},
-        {"name": f"{tick}, 99th percentile", "ours": p99, "unit": "us", "at_most": LATE_US},
+        {"name": f"{against}, median", **medians, "max": largest, "above_1ms": above_1ms},
+        {"name": f"{against}, 99th percentile", **late},
         {"name": f"{tick}, calls for memory in {TICKS} ticks", "ours": calls, "unit": "-", "at_most": 0.0},
     ]
 
@@ -85,4 +88,4 @@ def _network(training: Training, settings: Settings) -> RuntimeNetwork:
 
 if __name__ == "__main__":
     for row in main():
-        print("{name}: {ours:.1f} {unit}, at most {at_most:g}".format(**row))
+        print("{name}: {ours:.1f} {unit}".format(**row))

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+import torch
 from c_library import OK, Runtime, load, make
 
 from mobnet.core.estimator import Estimate
@@ -14,6 +15,7 @@ from mobnet.estimation.observer import MomentumObserver
 from mobnet.export.model_file import RuntimeDetector, write_model_file
 from mobnet.learning.deployed.limbs import LimbNetworks
 from mobnet.learning.deployed.networks import deployed
+from mobnet.learning.deployed.weights import GRU_TENSORS
 from mobnet.reaction.watchers import LimbWatcher
 from mobnet.robot.nominal import NominalModel
 from mobnet.settings.detection import DetectorSettings
@@ -202,6 +204,21 @@ def test_a_detector_of_the_residual_does_not_see_the_network(runtime, observer_o
     *_, alone = run(without, sensed)
     np.testing.assert_array_equal(alarms[:, 0], alone[:, 0])
     assert not np.array_equal(alarms[:, 1], alone[:, 0])
+
+
+def test_weights_in_bfloat16_would_move_the_mean_of_the_demo(push, published):
+    """The reason why weights are float32, with the numbers of docs/runtime.md [sigma]."""
+    sensed, layout = push.recording.sensed, push.robot.layout
+    (kept,) = LimbNetworks([deployed(published.tensors, published.note)], layout).run_all([sensed])
+    moved = []
+    for names in (GRU_TENSORS[:2], GRU_TENSORS[:1], GRU_TENSORS[1:2]):
+        rounded = {name: torch.from_numpy(published.tensors[name]).bfloat16().float().numpy() for name in names}
+        network = deployed({**published.tensors, **rounded}, published.note)
+        (found,) = LimbNetworks([network], layout).run_all([sensed])
+        moved.append((found.mean - kept.mean) / kept.std)
+    both, inputs, states = (np.sqrt(np.mean(np.square(one))) for one in moved)
+    np.testing.assert_allclose([both, inputs, states], [0.064, 0.053, 0.015], atol=0.002)
+    assert np.abs(moved[0]).max() == pytest.approx(0.2, abs=0.01)
 
 
 def test_every_optimisation_gives_the_same_bits(tmp_path, push, published):

@@ -87,6 +87,18 @@ def test_a_step_never_asks_for_memory(built, model, machine):
     assert calls == "0"
 
 
+def test_the_bench_compares_a_tick_with_one_read_of_all_weights(built, observer_of, tmp_path):
+    """Each number of the matrices, the four biases of a hidden unit and the linear layer is counted once."""
+    observer, hidden = observer_of("arm"), 300
+    network = network_of(observer.nominal.robot.layout, "A", {"cell": "GRU", "hidden": hidden})
+    write_model_file(tmp_path / "arm.bin", observer, [network], [])
+    inputs, joints = len(network.note.inputs), len(network.note.joints)
+    median, *_, read, read_p99, share, size, _ = map(float, program(make("bench", built), tmp_path / "arm.bin", 100))
+    assert size == 4 * (3 * hidden * (inputs + hidden) + 4 * hidden + 2 * joints * (hidden + 1))
+    assert 0.0 < read <= read_p99
+    assert share == pytest.approx(read / median, rel=1e-3)  # of a single turn
+
+
 def test_the_library_owns_no_memory_and_calls_only_arithmetic(built):
     done = subprocess.run(["nm", make("libmobnet.a", built)], capture_output=True, text=True, check=True)
     symbols = [line.split() for line in done.stdout.splitlines() if len(line.split()) > 1]
