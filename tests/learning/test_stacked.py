@@ -14,7 +14,7 @@ from mobnet.learning.job import TrainingJob
 from mobnet.learning.model import build_network
 from mobnet.learning.soap import Soap, optimizer_of
 from mobnet.learning.stacked import gates
-from mobnet.learning.stacked.gru import StackedGru
+from mobnet.learning.stacked.cells import StackedGru
 from mobnet.learning.stacked.network import StackedNetwork
 from mobnet.learning.stacked.optimiser import StackedOptimiser, orthogonal
 from mobnet.learning.stacked.trainer import Member, StackedTrainer

@@ -109,9 +109,9 @@ def test_a_fine_tuning_begins_with_weights_and_scales_of_its_network(small, trai
     for trainer in trainers:
         weights = trainer.network.state_dict()
         assert all(np.array_equal(weights[name].numpy(), tensors[name]) for name in GRU_TENSORS)
-        np.testing.assert_array_equal(trainer.course.scales[0].mean, tensors["input.mean"])
-        np.testing.assert_array_equal(trainer.course.scales[1].std, tensors["target.std"])
-    assert trainers[0].course.fingerprint != Trainer(TrainingJob(small.training(), 0, 1), data).course.fingerprint
+        np.testing.assert_array_equal(trainer.schedule.scales[0].mean, tensors["input.mean"])
+        np.testing.assert_array_equal(trainer.schedule.scales[1].std, tensors["target.std"])
+    assert trainers[0].schedule.fingerprint != Trainer(TrainingJob(small.training(), 0, 1), data).schedule.fingerprint
 
 
 def test_a_network_of_another_size_is_refused(small, trained, data):

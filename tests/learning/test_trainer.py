@@ -1,4 +1,4 @@
-"""The course of a training: the best epoch is kept, and a run that diverges stops."""
+"""The schedule of a training: the best epoch is kept, and a run that diverges stops."""
 
 import math
 import re
@@ -33,7 +33,7 @@ def test_it_learns_keeps_the_best_epoch_and_writes_every_one(trainer, tmp_path):
     assert done.best_epoch().validation_loss == min(losses)
     epochs, errors = read_epochs(tmp_path / METRICS)
     assert epochs == tuple(done.epochs)
-    assert tuple(errors) == trained.course.joints
+    assert tuple(errors) == trained.schedule.joints
     means = np.mean(list(errors.values()), axis=0)
     assert means == pytest.approx([epoch.validation_rmse for epoch in epochs])
     assert len(set(map(tuple, errors.values()))) == len(errors) > 1
@@ -41,10 +41,10 @@ def test_it_learns_keeps_the_best_epoch_and_writes_every_one(trainer, tmp_path):
 
 
 def test_scales_do_not_see_the_validation_blocks(trainer, data):
-    before = trainer().course.scales
+    before = trainer().schedule.scales
     for _, end in data.segments:
         data.inputs[end - 100 : end] += 5.0
-    np.testing.assert_array_equal(before[0].mean, trainer().course.scales[0].mean)
+    np.testing.assert_array_equal(before[0].mean, trainer().schedule.scales[0].mean)
 
 
 @pytest.mark.parametrize("precision", PRECISIONS)
@@ -116,7 +116,7 @@ def test_strides_fall_to_every_sample_and_only_those_epochs_are_kept(trainer, tm
 def test_an_epoch_at_coarse_time_has_as_many_updates(small, data):
     coarse = tuple(Coarse(**phase) for phase in COARSE)
     trained = Trainer(TrainingJob(small.training(coarse=coarse), 0, 1), data)
-    plans = [trained.course.plan(0, stride) for stride in (1, 2, 4)]
+    plans = [trained.schedule.plan(0, stride) for stride in (1, 2, 4)]
     assert {plan.stride for plan in plans} == {1, 2, 4}
     updates = [len(plan) for plan in plans]
     assert max(updates) <= min(updates) + 1
@@ -160,7 +160,7 @@ def test_a_training_that_is_killed_goes_on_across_strides_to_the_same_weights(
     whole = fresh().run(tmp_path / "whole")
     for _ in range(EPOCHS):
         killed = fresh()
-        monkeypatch.setattr(killed.course, "report", stop)  # behind each checkpoint
+        monkeypatch.setattr(killed.schedule, "report", stop)  # behind each checkpoint
         with pytest.raises(KeyboardInterrupt):
             killed.run(tmp_path / "killed")
     done = fresh().run(tmp_path / "killed")

@@ -75,6 +75,20 @@ class Seeds:
         """Return number and duration of a training set's recordings."""
         return self.settings.training_sets[name].sizes[self.settings.scale]
 
+    def training_s(self, name: str) -> float:
+        """Return the duration of a training set [s]."""
+        size = self.training_size(name)
+        return size.shards * size.shard_s
+
+    def learned_steps(self, method: str, limb: str) -> float:
+        """Return the time steps that a network learns from, over all epochs; 0 of one without inputs."""
+        training = self.catalogue.training(method, limb)
+        network = training.network
+        if not (network.Q or network.T):
+            return 0.0
+        read = self.training_s(network.data) * self.settings.rates.data_hz / training.learning.data_parts
+        return training.epochs * (training.epoch_samples or read)
+
     def seeds_of(self, scenario: str, level: str) -> list[int]:
         """Return the seeds of a set of recordings: no scenario and level serve tests, development and training alike.
 

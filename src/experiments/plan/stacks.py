@@ -8,8 +8,9 @@ from pathlib import Path
 from typing import NamedTuple
 
 from experiments.plan.files import Files, NetworkName
-from experiments.plan.lengths import steps_of, width_of
-from mobnet.settings.networks import IN_A_STACK, SIZES, Training
+from mobnet.settings.networks import IN_A_STACK, SIZES, Network, Training
+
+INPUTS_PER_JOINT, BASE_INPUTS = 2, 12  # of a network: position and velocity; rotation, turn and acceleration
 
 
 class Stacked(NamedTuple):
@@ -74,15 +75,21 @@ def shape_of(files: Files, name: NetworkName, training: Training) -> str:
     network = training.network
     shape = {
         **network.model_dump(mode="json", include={"cell", *SIZES[network.cell]}),
-        "inputs": width_of(files, network),
+        "inputs": inputs_of(files, network),
         "joints": len(layout.limbs(network.joints)),
         "horizon": network.horizon_steps,
         "epochs": training.epochs,
         # Networks with fewer samples would wait for the others at each epoch's end.
-        "steps": steps_of(files, name.method, name.limb),
+        "steps": files.learned_steps(name.method, name.limb),
         # One that starts from another's weights waits for them.
         "start": bool(files.start(*name)),
         "fit": bool(files.fit(name.method)),
         **training.learning.model_dump(mode="json", include={*IN_A_STACK}),
     }
     return json.dumps(shape)
+
+
+def inputs_of(files: Files, network: Network) -> int:
+    """Return the number of inputs of a network."""
+    limbs = files.settings.layout.limbs
+    return INPUTS_PER_JOINT * len(limbs(network.Q)) + len(limbs(network.T)) + BASE_INPUTS

@@ -7,10 +7,10 @@ from typing import Any
 
 from experiments.plan.dry_run import PlannedJob
 from experiments.plan.files import SETS
-from experiments.plan.lengths import steps_of, training_s, width_of
 from experiments.plan.parts import TOGETHER_S
 from experiments.plan.plan import Plan
 from experiments.plan.reactions import walks_in
+from experiments.plan.stacks import inputs_of
 
 SECONDS = "s"
 Amounts = dict[str, float]
@@ -99,11 +99,11 @@ def trained(plan: Plan, w: Any) -> tuple[Amounts, float]:
     hidden = training.network.hidden or 0
     ways = {"windows": training.learning.sequences == "windows", "spectral": network.spectral}
     cell = " ".join([network.cell, *(way for way, is_so in ways.items() if is_so)])
-    steps = steps_of(files, w.method, w.limb)
-    read = training_s(files, network.data)
+    steps = files.learned_steps(w.method, w.limb)
+    read = files.training_s(network.data)
     grown = {"step": steps, "step x unit": steps * hidden, "step x unit^2": steps * hidden**2}
     amounts = {SECONDS: read, **{f"{cell} {name}": amount for name, amount in grown.items()}}
-    return amounts, read * rate_hz * (width_of(files, network) + len(files.settings.layout.limbs(network.joints)))
+    return amounts, read * rate_hz * (inputs_of(files, network) + len(files.settings.layout.limbs(network.joints)))
 
 
 def estimated(plan: Plan, w: Any) -> tuple[Amounts, float]:
@@ -126,7 +126,7 @@ def fitted(plan: Plan, w: Any) -> tuple[Amounts, float]:
     """Return the work of a fit, which reads the training set of one limb after the other, and the longest set [s]."""
     files = plan.jobs.files(w)
     limbs = files.catalogue.method(w.method).fitted
-    read = [training_s(files, files.catalogue.network(w.method, limb).data) for limb in limbs]
+    read = [files.training_s(files.catalogue.network(w.method, limb).data) for limb in limbs]
     return {SECONDS: sum(read)}, max(read)
 
 

@@ -37,7 +37,7 @@ from mobnet.settings.surrogate import Fleet, Level, Surrogate
 from mobnet.settings.walking import Walking
 
 
-class Stacks(Section):
+class StackSettings(Section):
     """Networks of one shape that learn side by side, `most` of them in a stack."""
 
     side_by_side: Literal["auto"] | Flag
@@ -61,7 +61,7 @@ class Settings(Lab):
     scenarios: Annotated[dict[LowerName, Scenario], Field(min_length=1)]
     training_sets: Annotated[dict[LowerName, TrainingSet], Field(min_length=1)]
     recording: RecordingSettings
-    stacks: Stacks
+    stacks: StackSettings
     methods: Annotated[dict[RowName, Method], Field(min_length=1)]
     sweeps: dict[Annotated[str, Field(pattern="^[a-z_]+$")], Sweep]
     development: Annotated[dict[LowerName, Development], Field(min_length=1)]

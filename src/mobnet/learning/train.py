@@ -51,9 +51,9 @@ def train_on(
         path, name = lesson
         learned = read_lesson(path, name)
         trainer = Trainer(job, data, start, torch.device(learned.device))
-        course = trainer.course
+        schedule = trainer.schedule
         may_diverge = job.training.learning.may_diverge
-        done = learned.checked(path, course.fingerprint, course.chosen_by, may_diverge=may_diverge)
+        done = learned.checked(path, schedule.fingerprint, schedule.chosen_by, may_diverge=may_diverge)
         done.best = done.best or copy_weights(trainer.network)
     else:
         trainer = Trainer(job, data, start)
@@ -73,7 +73,7 @@ def write_weights(path: Path, trainer: Trainer, data: LimbData, done: Progress, 
     training = trainer.job.training
     trainer.network.load_state_dict(done.best)
     tensors = trainer.network.deployable()
-    for name, scale in zip(("input", "target"), trainer.course.scales, strict=True):
+    for name, scale in zip(("input", "target"), trainer.schedule.scales, strict=True):
         tensors |= {f"{name}.mean": torch.from_numpy(scale.mean), f"{name}.std": torch.from_numpy(scale.std)}
     if training.learning.calibrate:
         tensors[STD_SCALE] = torch.from_numpy(calibration.scale.astype(np.float32))
@@ -106,15 +106,15 @@ def run_note(trainer: Trainer, data: LimbData, done: Progress, calibration: StdF
             "network": json_of(training.network),
         },
         "parameters": parameter_count(trainer.network),
-        "samples": trainer.course.samples,
+        "samples": trainer.schedule.samples,
         "diverged": done.diverged,
-        "chosen_by": trainer.course.chosen_by,
+        "chosen_by": trainer.schedule.chosen_by,
         "best": asdict(done.best_epoch()) if done.epochs else None,
         "on_windows": trainer.on_windows(done),
         "calibration": calibration.note(data.joints, training.learning.calibration_levels),
         "device": trainer.learned_on.type,
         "precision": precision_name(trainer.network.precision),
-        "fingerprint": trainer.course.fingerprint,
+        "fingerprint": trainer.schedule.fingerprint,
         "provenance": provenance(),
     }
 

@@ -18,12 +18,12 @@ from mobnet.core.place import caches
 from mobnet.learning import checkpoint
 from mobnet.learning.calibration import StdFactors, calibrate, predict
 from mobnet.learning.checkpoint import Progress, write_metrics
-from mobnet.learning.course import Course
 from mobnet.learning.dataset import LimbData, ZScore
 from mobnet.learning.job import TrainingJob
 from mobnet.learning.losses import objective_of
 from mobnet.learning.model import seeded
 from mobnet.learning.optimisation import EVERY_STEP, LAST_STEP, Samples, train_epoch, validate
+from mobnet.learning.schedule import Schedule
 from mobnet.learning.soap import optimizer_of
 from mobnet.learning.streams import EpochPlan
 
@@ -55,11 +55,11 @@ class Trainer:
         self.job = job
         self.device = torch.device("cpu") if learned_on else own_device()
         self.learned_on = learned_on or self.device
-        self.course = Course(job, data, self.learned_on, start)
+        self.schedule = Schedule(job, data, self.learned_on, start)
         arrays = data.inputs, data.targets
-        inputs, targets = (self._scaled(*pair) for pair in zip(arrays, self.course.scales, strict=True))
-        self._samples = Samples(inputs, targets, partial=self.course.partial)
-        self.network = self.course.network().to(self.device)
+        inputs, targets = (self._scaled(*pair) for pair in zip(arrays, self.schedule.scales, strict=True))
+        self._samples = Samples(inputs, targets, partial=self.schedule.partial)
+        self.network = self.schedule.network().to(self.device)
         self.network.precision = torch.float32 if learned_on else job.precision(self.device)
         self._optimizer = optimizer_of(self.network, job.training.learning)
 
@@ -75,10 +75,10 @@ class Trainer:
             TrainingError: the loss is not finite or above `divergence_loss`, and the training may not diverge.
         """
         path = state_dir / CHECKPOINT
-        course = self.course
+        schedule = self.schedule
         first = checkpoint.copy_weights(self.network)
-        done = checkpoint.resume(path, course.fingerprint, self.network, self._optimizer)
-        done.chosen_by = course.chosen_by
+        done = checkpoint.resume(path, schedule.fingerprint, self.network, self._optimizer)
+        done.chosen_by = schedule.chosen_by
         while len(done.epochs) < self.job.training.epochs:
             started = time.process_time()
             try:
@@ -94,9 +94,9 @@ class Trainer:
             if done.best_epoch() is epoch:
                 done.best = checkpoint.copy_weights(self.network)
             done.seconds += time.process_time() - started
-            checkpoint.save(path, course.fingerprint, self.network, self._optimizer, done)
-            write_metrics(state_dir / METRICS, done, course.joints)
-            course.report(done)
+            checkpoint.save(path, schedule.fingerprint, self.network, self._optimizer, done)
+            write_metrics(state_dir / METRICS, done, schedule.joints)
+            schedule.report(done)
         # A training that diverges at once is a result too where it may; it has learned nothing then.
         done.best = done.best or first
         return done
@@ -104,31 +104,31 @@ class Trainer:
     def calibrate(self, done: Progress) -> StdFactors:
         """Return how far off the best weights' standard deviations (n,) [N, N m] are on the validation blocks."""
         self.network.load_state_dict(done.best)
-        error, std = predict(self.network, self._samples, self.course.validation, self.job.horizon)
+        error, std = predict(self.network, self._samples, self.schedule.validation, self.job.horizon)
         if self._samples.partial:
             known = ~np.isnan(error[:, 0])
             error = error[known]
             std = std[known]
         # In N m, as coverage does not depend on the unit but likelihood and CRPS do.
-        unit = self.course.scales[1].std.astype(np.float64)
+        unit = self.schedule.scales[1].std.astype(np.float64)
         learning = self.job.training.learning
         return calibrate(error * unit, std * unit, learning.calibration_share, learning.calibration_levels)
 
     def on_windows(self, done: Progress) -> dict[str, float]:
         """Return the best weights' loss (22) and RMSE [N, N m] where every sample re-runs its window from zero."""
         self.network.load_state_dict(done.best)
-        loss, errors = self._validate(self.course.windows, LAST_STEP)
+        loss, errors = self._validate(self.schedule.windows, LAST_STEP)
         return {"loss": loss, "rmse": float(errors.mean())}
 
     def _validate(self, plan: EpochPlan, scored: slice = EVERY_STEP) -> tuple[float, NDArray[np.floating]]:
         """Return mean loss (22), and RMSE of each joint (n,) [N, N m], of a validation."""
         loss, rmse = validate(self.network, self._samples, plan, self.job.horizon, scored)
-        return loss, rmse.numpy() * self.course.scales[1].std
+        return loss, rmse.numpy() * self.schedule.scales[1].std
 
     def _epoch(self, epoch: int) -> tuple[Epoch, list[float]]:
         """Learn from the data once, and return what the epoch shows and the RMSE of each joint (n,) [N, N m]."""
         job = self.job
-        course = self.course
+        schedule = self.schedule
         rate = self.job.rate(epoch)
         learning = self.job.training.learning
         for group in self._optimizer.param_groups:
@@ -136,8 +136,8 @@ class Trainer:
         stride = job.stride(epoch)
         if epoch and (before := job.stride(epoch - 1)) != stride:
             self.network.keep_longer(before / stride)
-        plan = course.plan(epoch, stride)
-        with seeded(course.seed("dropout", epoch)):
+        plan = schedule.plan(epoch, stride)
+        with seeded(schedule.seed("dropout", epoch)):
             losses, norms = train_epoch(
                 self.network,
                 self._optimizer,
@@ -145,12 +145,12 @@ class Trainer:
                 plan,
                 job.horizon,
                 learning.gradient_norm,
-                course.scored,
+                schedule.scored,
                 objective_of(learning),
             )
-        course.check_losses(epoch, losses.median().item(), rate)
-        validation, errors = self._validate(course.validation_at(stride))
-        course.check_validation(epoch, validation, rate)
+        schedule.check_losses(epoch, losses.median().item(), rate)
+        validation, errors = self._validate(schedule.validation_at(stride))
+        schedule.check_validation(epoch, validation, rate)
         loss = losses.mean().item()
         rmse = float(errors.mean())
         return Epoch(epoch + 1, loss, validation, rmse, rate, norms.mean().item(), stride), errors.tolist()

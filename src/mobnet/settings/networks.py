@@ -25,9 +25,19 @@ SIZES: dict[CellKind, tuple[str, ...]] = {  # what a kind of cell needs to be to
 }
 
 IN_A_STACK = (  # keys of `learning` that networks which learn side by side have in common
-    "loss", "loss_beta", "batch_size", "optimizer", "optimizer_betas", "basis_beta", "basis_every", "coarse",
-    "gradient_norm", "std_min", "sequences", "labels",
-)  # fmt: skip
+    "loss",
+    "loss_beta",
+    "batch_size",
+    "optimizer",
+    "optimizer_betas",
+    "basis_beta",
+    "basis_every",
+    "coarse",
+    "gradient_norm",
+    "std_min",
+    "sequences",
+    "labels",
+)
 
 
 class NetworkCell(Section):

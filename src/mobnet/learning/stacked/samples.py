@@ -7,8 +7,8 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from mobnet.learning.course import Course
 from mobnet.learning.dataset import ZScore
+from mobnet.learning.schedule import Schedule
 from mobnet.learning.streams import EpochPlan
 
 
@@ -16,7 +16,7 @@ class StackedSamples:
     """Inputs and targets of K networks: recordings once, each network with its own rows and z-scores."""
 
     def __init__(
-        self, arrays: Sequence[tuple[Tensor, Tensor]], places: Sequence[int], courses: Sequence[Course]
+        self, arrays: Sequence[tuple[Tensor, Tensor]], places: Sequence[int], schedules: Sequence[Schedule]
     ) -> None:
         """Take inputs (N, n_in) and targets (N, n) [N, N m] on the device, and at which place a network has its own."""
         lengths = [0, *(len(inputs) for inputs, _ in arrays[:-1])]
@@ -25,8 +25,8 @@ class StackedSamples:
         self._targets = torch.cat([targets for _, targets in arrays])
         self.device = self._inputs.device
         self._offsets = torch.from_numpy(first_rows[list(places)]).to(self.device)[:, None, None]
-        self._scales = [_stacked([course.scales[side] for course in courses], self.device) for side in (0, 1)]
-        self.partial = courses[0].partial
+        self._scales = [_stacked([schedule.scales[side] for schedule in schedules], self.device) for side in (0, 1)]
+        self.partial = schedules[0].partial
 
     @property
     def joints(self) -> int:
@@ -55,7 +55,7 @@ def _stacked(scales: Sequence[ZScore], device: torch.device) -> tuple[Tensor, Te
 
 @dataclass(frozen=True)
 class StackedPlan:
-    """The courses of K networks through an epoch, which is as long as the longest of them.
+    """The plans of K networks through an epoch, which is as long as the longest of them.
 
     Attributes:
         rows: first row of each horizon in a network's own data, (updates, K, lanes).

@@ -13,17 +13,17 @@ import torch
 from torch import Tensor
 
 from mobnet.core.code import SHORT
-from mobnet.core.columns import Epoch as EpochRow
+from mobnet.core.columns import Epoch
 from mobnet.core.errors import ConfigError, DataError, TrainingError, not_accepted
 from mobnet.core.files import CHECKPOINT, METRICS
 from mobnet.learning.checkpoint import Progress, below, read_checkpoint, write_checkpoint, write_metrics
-from mobnet.learning.course import Course
 from mobnet.learning.dataset import LimbData
 from mobnet.learning.job import TrainingJob
 from mobnet.learning.model import seeded
+from mobnet.learning.schedule import Schedule
 from mobnet.learning.stacked.network import StackedNetwork
 from mobnet.learning.stacked.optimiser import StackedOptimiser
-from mobnet.learning.stacked.passes import Epoch, Validation
+from mobnet.learning.stacked.passes import Updates, Validation
 from mobnet.learning.stacked.samples import StackedSamples, side_by_side
 from mobnet.settings.networks import IN_A_STACK
 
@@ -75,20 +75,20 @@ class StackedTrainer:
     """
 
     def __init__(self, members: Sequence[Member], device: torch.device) -> None:
-        """Prepare the courses of all networks, and move their data to the device.
+        """Prepare the schedules of all networks, and move their data to the device.
 
         Raises:
             ConfigError: networks differ in what those of a stack have in common.
-            DataError: as `Course`.
+            DataError: as `Schedule`.
         """
         self._members = members
         self._device = device
-        self._courses: list[Course] = []
+        self._schedules: list[Schedule] = []
         arrays: dict[str, tuple[Tensor, Tensor]] = {}  # by the hash of the data, which several networks may share
         digests: list[str] = []
         for own in members:
             data = own.load()
-            self._courses.append(Course(own.job, data, device, own.start))
+            self._schedules.append(Schedule(own.job, data, device, own.start))
             if data.digest not in arrays:
                 inputs, targets = (torch.from_numpy(array).to(device) for array in (data.inputs, data.targets))
                 arrays[data.digest] = inputs, targets
@@ -98,15 +98,15 @@ class StackedTrainer:
         self._job = members[0].job
         learning = self._job.training.learning
         places = [list(arrays).index(digest) for digest in digests]
-        self._samples = StackedSamples(list(arrays.values()), places, self._courses)
-        self._network = StackedNetwork([course.network() for course in self._courses], device)
+        self._samples = StackedSamples(list(arrays.values()), places, self._schedules)
+        self._network = StackedNetwork([schedule.network() for schedule in self._schedules], device)
         self._optimiser = StackedOptimiser(self._network.weights, self._network.width, learning)
         horizon = self._job.horizon
-        scored = self._courses[0].scored
-        self._epochs = Epoch(self._network, self._samples, self._optimiser, learning, horizon, scored)
+        scored = self._schedules[0].scored
+        self._epochs = Updates(self._network, self._samples, self._optimiser, learning, horizon, scored)
         self._validations: dict[int, Validation] = {}  # by number of lanes
         self._frozen = torch.zeros(len(members), dtype=torch.bool, device=device)
-        self._units = np.stack([course.scales[1].std for course in self._courses])
+        self._units = np.stack([schedule.scales[1].std for schedule in self._schedules])
 
     @property
     def fingerprint(self) -> str:
@@ -116,8 +116,8 @@ class StackedTrainer:
     @property
     def fingerprints(self) -> dict[str, str]:
         """The hash of what the weights of each network depend on, by its name."""
-        pairs = zip(self._members, self._courses, strict=True)
-        return {own.name: course.fingerprint for own, course in pairs}
+        pairs = zip(self._members, self._schedules, strict=True)
+        return {own.name: schedule.fingerprint for own, schedule in pairs}
 
     def run(self, state: Path) -> Taught:
         """Run all epochs, or those that a killed run did not finish; the folder `state` has the checkpoint."""
@@ -130,8 +130,8 @@ class StackedTrainer:
             done.epochs += 1
             done.seconds += time.monotonic() - started
             self._save(path, done)
-            for own, course, progress in zip(self._members, self._courses, done.progress, strict=True):
-                write_metrics(own.state / METRICS, progress, course.joints)
+            for own, schedule, progress in zip(self._members, self._schedules, done.progress, strict=True):
+                write_metrics(own.state / METRICS, progress, schedule.joints)
             left = done.seconds / done.epochs * (epochs - done.epochs)
             log.info("%d networks: epoch %d/%d, %.0f s left", len(self._members), done.epochs, epochs, left)
         return done
@@ -143,14 +143,14 @@ class StackedTrainer:
         if epoch and (before := self._job.stride(epoch - 1)) != stride:
             self._network.keep_longer(before / stride)
         rates = [own.job.rate(epoch) for own in self._members]
-        plan = side_by_side([course.plan(epoch, stride) for course in self._courses], self._device)
+        plan = side_by_side([schedule.plan(epoch, stride) for schedule in self._schedules], self._device)
         moved = torch.tensor(rates, device=self._device)
-        with seeded(self._courses[0].seed("dropout", epoch)):
+        with seeded(self._schedules[0].seed("dropout", epoch)):
             found = self._epochs.run(plan, moved, self._frozen, done.updates)
         losses, norms, told = (one.cpu() for one in found)
         validations, errors = self._validate(stride)
         weights = {name: weight.detach().cpu() for name, weight in self._network.weights.items()}
-        for k, (own, course, progress) in enumerate(zip(self._members, self._courses, done.progress, strict=True)):
+        for k, (own, schedule, progress) in enumerate(zip(self._members, self._schedules, done.progress, strict=True)):
             if self._frozen[k]:
                 continue
             counted = told[:, k]
@@ -158,8 +158,8 @@ class StackedTrainer:
                 raise DataError(f"{own.name}: no target of the training data is known; accepted: a swing of the leg")
             validation = float(validations[k])
             try:
-                course.check_losses(epoch, losses[counted, k].median().item(), rates[k])
-                course.check_validation(epoch, validation, rates[k])
+                schedule.check_losses(epoch, losses[counted, k].median().item(), rates[k])
+                schedule.check_validation(epoch, validation, rates[k])
             except TrainingError as error:
                 log.warning("%s; the others go on", error)
                 self._frozen[k] = True
@@ -169,14 +169,14 @@ class StackedTrainer:
             loss = losses[counted, k].mean().item()
             norm = norms[counted, k].mean().item()
             rmse = float(errors[k].mean())
-            progress.epochs.append(EpochRow(epoch + 1, loss, validation, rmse, rates[k], norm, stride))
+            progress.epochs.append(Epoch(epoch + 1, loss, validation, rmse, rates[k], norm, stride))
             progress.errors.append(errors[k].tolist())
             if progress.best_epoch() is progress.epochs[-1]:
                 progress.best = {name: weight[k].clone() for name, weight in weights.items()}
 
     def _validate(self, stride: int) -> tuple[Tensor, np.ndarray]:
         """Return mean losses (22), (K,), and RMSE of each joint (K, n) [N, N m], at a stride [samples]."""
-        plan = side_by_side([course.validation_at(stride) for course in self._courses], self._device)
+        plan = side_by_side([schedule.validation_at(stride) for schedule in self._schedules], self._device)
         lanes = plan.rows.shape[2]
         if lanes not in self._validations:
             learning = self._job.training.learning
@@ -197,7 +197,7 @@ class StackedTrainer:
     def _resumed(self, path: Path) -> Taught:
         """Load a checkpoint of this stack; without one nothing is done yet."""
         found = read_checkpoint(path, self.fingerprint)
-        fresh = [Progress(chosen_by=course.chosen_by) for course in self._courses]
+        fresh = [Progress(chosen_by=schedule.chosen_by) for schedule in self._schedules]
         if found is None:
             return Taught(fresh, torch.zeros(len(fresh), dtype=torch.int64))
         tensors, note = found
@@ -207,7 +207,7 @@ class StackedTrainer:
             for name, own in self._optimiser.state.items():
                 for key, tensor in own.items():
                     tensor.copy_(tensors[f"optimizer.{name}.{key}"])
-        progress = progress_of(tensors, note["rows"], [course.chosen_by for course in self._courses])
+        progress = progress_of(tensors, note["rows"], [schedule.chosen_by for schedule in self._schedules])
         for k, own in enumerate(progress):
             self._frozen[k] = own.diverged
         log.info("%s: resuming after epoch %d", path, note["epochs"])
@@ -251,6 +251,6 @@ def progress_of(tensors: dict[str, Tensor], rows: Sequence[dict[str, Any]], chos
     """Return the progress of each network from what `told_of` returned."""
     found: list[Progress] = []
     for k, (row, column) in enumerate(zip(rows, chosen_by, strict=True)):
-        epochs = [EpochRow(**epoch) for epoch in row["epochs"]]
+        epochs = [Epoch(**epoch) for epoch in row["epochs"]]
         found.append(Progress(epochs, row["errors"], below(f"best.{k}.", tensors), 0.0, row["diverged"], column))
     return found

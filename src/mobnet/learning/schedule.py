@@ -1,4 +1,4 @@
-"""What a training draws and decides besides its updates: z-scores, first weights, the course of each epoch, its end.
+"""What a training draws and decides besides its updates: z-scores, first weights, the plan of each epoch, its end.
 
 It is the same for a network that learns alone and for one of many that learn side by side (`stacked`).
 """
@@ -57,8 +57,8 @@ def read_start(path: Path, job: TrainingJob, data: LimbData) -> Start:
     return Start(weights, (inputs, targets), hashlib.sha256(path.read_bytes()).hexdigest())
 
 
-class Course:
-    """The course of one training on a device.
+class Schedule:
+    """What one training on a device goes by.
 
     The z-scores `scales` of the inputs (n_in,) and targets (n,) come from the training blocks alone, or with the first
     weights from the network that it starts from; `fingerprint` is a hash of all that the weights depend on.
@@ -106,7 +106,7 @@ class Course:
 
     @cached_property
     def windows(self) -> EpochPlan:
-        """The course of a validation in which every sample re-runs its window from zero."""
+        """The plan of a validation in which every sample re-runs its window from zero."""
         lanes = self.validation.rows.shape[1]
         return window_plan(self._held_out, self._stream, self.job.horizon, lanes, self.job.generator("windows"))
 
@@ -124,7 +124,7 @@ class Course:
         return int(self.job.generator(*purpose).integers(np.iinfo(np.int64).max))
 
     def plan(self, epoch: int, stride: int) -> EpochPlan:
-        """Return the course of an epoch.
+        """Return the plan of an epoch.
 
         An epoch at coarse time goes through the data as many times more often as it has fewer of their samples, so that
         it has as many updates as the others.
@@ -139,7 +139,7 @@ class Course:
         return replace(plan, stride=stride)
 
     def validation_at(self, stride: int) -> EpochPlan:
-        """Return the course of a validation at a stride [samples]."""
+        """Return the plan of a validation at a stride [samples]."""
         plan = validation_plan(self._held_out, self._stream, stride * self.job.horizon, self._lanes)
         return replace(plan, stride=stride)
 
