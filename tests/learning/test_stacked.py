@@ -9,7 +9,7 @@ import torch
 from torch import nn
 
 from mobnet.core.errors import ConfigError
-from mobnet.core.files import CHECKPOINT, METRICS
+from mobnet.core.files import CHECKPOINT, METRICS, WEIGHTS
 from mobnet.learning.job import TrainingJob
 from mobnet.learning.model import build_network
 from mobnet.learning.soap import Soap, optimizer_of
@@ -23,7 +23,7 @@ from mobnet.settings.networks import Coarse, NetworkCell
 
 CPU = torch.device("cpu")
 EPOCHS = 3
-WEIGHTS = ("weight_ih_l0", "weight_hh_l0", "bias_ih_l0", "bias_hh_l0")
+TENSORS = ("weight_ih_l0", "weight_hh_l0", "bias_ih_l0", "bias_hh_l0")
 COARSE = (Coarse(stride=4, share=0.3), Coarse(stride=2, share=0.3))
 
 
@@ -31,7 +31,7 @@ COARSE = (Coarse(stride=4, share=0.3), Coarse(stride=2, share=0.3))
 def test_gradients_are_those_of_torch(inputs, hidden):
     torch.manual_seed(1)
     alone = [nn.GRU(inputs, hidden) for _ in range(3)]
-    weights = [torch.stack([gru.get_parameter(name).detach() for gru in alone]).requires_grad_() for name in WEIGHTS]
+    weights = [torch.stack([gru.get_parameter(name).detach() for gru in alone]).requires_grad_() for name in TENSORS]
     x, state, given = torch.randn(3, 50, 16, inputs), torch.randn(3, 16, hidden), torch.randn(3, 50, 16, hidden)
     states = StackedGru.apply(x, state, *weights)
     (states * given).sum().backward()
@@ -39,7 +39,7 @@ def test_gradients_are_those_of_torch(inputs, hidden):
         expected, _ = gru(x[k], state[k][None])
         (expected * given[k]).sum().backward()
         assert (states[k] - expected).abs().max() < 1e-6
-        for name, weight in zip(WEIGHTS, weights, strict=True):
+        for name, weight in zip(TENSORS, weights, strict=True):
             own = gru.get_parameter(name).grad
             assert (weight.grad[k] - own).norm() < 1e-5 * own.norm(), name
 
@@ -152,6 +152,41 @@ def test_each_learns_as_it_does_alone(stack, data, tmp_path, changes):
             assert one.gradient_norm == pytest.approx(other.gradient_norm, rel=1e-2)
         for name, weight in expected.best.items():
             assert (progress.best[name] - weight).norm() < 2e-2 * weight.norm(), name
+
+
+def test_networks_with_other_losses_learn_beside_each_other(stack, tmp_path):
+    _, alone, member = stack
+    losses = ("likelihood", "squared", "beta_likelihood")
+    members = [member(seed, optimizer="adam", loss=loss) for seed, loss in enumerate(losses)]
+    done = StackedTrainer(members, CPU).run(tmp_path / "stack")
+    for seed, loss in enumerate(losses):
+        expected = alone(seed, optimizer="adam", loss=loss)
+        progress = done.progress[seed]
+        assert progress.best_epoch().epoch == expected.best_epoch().epoch
+        for one, other in zip(progress.epochs, expected.epochs, strict=True):
+            assert one.train_loss == pytest.approx(other.train_loss, abs=2e-3)
+            assert one.validation_rmse == pytest.approx(other.validation_rmse, rel=2e-3)
+            assert one.gradient_norm == pytest.approx(other.gradient_norm, rel=1e-2)
+
+
+def test_a_fine_tuning_learns_where_targets_are_known(small, data, tmp_path):
+    """As a leg does that is labelled in its swings alone; whole horizons of a lane, and of all lanes, are unknown."""
+    targets = data.targets.copy()
+    for start, end in data.segments:
+        targets[start : start + (end - start) // 2] = float("nan")
+        targets[end - 120 : end - 60] = float("nan")
+    swings = replace(data, targets=targets)
+    first = small.train(small_stack(small, epochs=1), tmp_path / "first") / WEIGHTS
+    training = small_stack(small, optimizer="adam", labels="swing", loss="beta_likelihood", batch_size=4)
+    jobs = [TrainingJob(training, seed, 1) for seed in (0, 1)]
+    members = [Member(job.name, job, lambda: swings, tmp_path / job.name, first) for job in jobs]
+    done = StackedTrainer(members, CPU).run(tmp_path / "stack")
+    for job, progress in zip(jobs, done.progress, strict=True):
+        expected = Trainer(job, swings, first).run(tmp_path / "alone" / job.name)
+        for one, other in zip(progress.epochs, expected.epochs, strict=True):
+            assert one.train_loss == pytest.approx(other.train_loss, abs=5e-3)
+            assert one.validation_loss == pytest.approx(other.validation_loss, abs=5e-3)
+            assert one.validation_rmse == pytest.approx(other.validation_rmse, rel=5e-3)
 
 
 def test_it_learns_with_soap_as_well_as_alone(stack, tmp_path):

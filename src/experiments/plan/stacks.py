@@ -70,7 +70,10 @@ def is_stacked(training: Training) -> bool:
 
 
 def shape_of(files: Files, name: NetworkName, training: Training) -> str:
-    """Return what the networks of a stack have in common: their sizes, how they learn and for how long."""
+    """Return what the networks of a stack have in common: their sizes, how they learn and for how many epochs.
+
+    One with fewer samples waits for the others at each epoch's end, which takes less time than a stack of its own.
+    """
     layout = files.settings.layout
     network = training.network
     shape = {
@@ -79,8 +82,6 @@ def shape_of(files: Files, name: NetworkName, training: Training) -> str:
         "joints": len(layout.limbs(network.joints)),
         "horizon": network.horizon_steps,
         "epochs": training.epochs,
-        # Networks with fewer samples would wait for the others at each epoch's end.
-        "steps": files.learned_steps(name.method, name.limb),
         # One that starts from another's weights waits for them.
         "start": bool(files.start(*name)),
         "fit": bool(files.fit(name.method)),

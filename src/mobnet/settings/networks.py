@@ -25,8 +25,6 @@ SIZES: dict[CellKind, tuple[str, ...]] = {  # what a kind of cell needs to be to
 }
 
 IN_A_STACK = (  # keys of `learning` that networks which learn side by side have in common
-    "loss",
-    "loss_beta",
     "batch_size",
     "optimizer",
     "optimizer_betas",

@@ -19,7 +19,7 @@ class StackedNetwork:
     """K networks of one shape; `weights` are those of `LimbNetwork`, one network behind the other, (K, ...)."""
 
     def __init__(self, networks: Sequence[LimbNetwork], device: torch.device) -> None:
-        """Stack the weights of networks that have one shape, one least standard deviation and one way to learn it."""
+        """Stack the weights of networks that have one shape and one least standard deviation."""
         first = networks[0]
         self.weights: dict[str, Tensor] = {}
         for name, _ in first.named_parameters():
@@ -30,7 +30,7 @@ class StackedNetwork:
         self.state_size = first.cell.state_size
         self.width = first.cell.width
         self._std_min = first.std_min
-        self._std_apart = first.std_apart
+        self._apart = torch.tensor([network.std_apart for network in networks], device=device)[:, None, None]
 
     def run(self, x: Tensor, state: Tensor, *, learning: bool) -> tuple[Tensor, Tensor, Tensor]:
         """Run z-scored inputs (K, h, B, n_in) over a stretch of time from a state (K, rows, B, columns), eq. (18).
@@ -44,7 +44,7 @@ class StackedNetwork:
         shape = (*features.shape[:3], -1)
         features = features.flatten(1, 2)
         # (N18) trains the mean alone through the cell; sigma sees the features as they come.
-        for_std = features.detach() if self._std_apart else features
+        for_std = torch.where(self._apart, features.detach(), features)
         (mean_weight, std_weight) = weight.chunk(2, 1)
         (mean_bias, std_bias) = bias.chunk(2, 1)
         mean = torch.baddbmm(mean_bias[:, None], features, mean_weight.mT).view(shape)
@@ -56,24 +56,19 @@ class StackedNetwork:
 
         As in `LimbNetwork.gradients`, those of sigma's own rows are clipped apart from the others where they are apart.
         """
-        parts: list[dict[str, Tensor]] = [dict(gradients)]
-        if self._std_apart:
-            rest = {name: gradient for name, gradient in gradients.items() if name not in HEAD}
-            halves = {name: gradients[name].chunk(2, 1) for name in HEAD}
-            means = {name: half[0] for name, half in halves.items()}
-            parts = [{**rest, **means}, {name: half[1] for name, half in halves.items()}]
-        scaled: list[dict[str, Tensor]] = []
-        norms: list[Tensor] = []
-        for part in parts:
-            squares = [gradient.flatten(1).square().sum(1) for gradient in part.values()]
-            norm = torch.stack(squares).sum(0).sqrt()
-            factor = (most / (norm + 1e-6)).clamp(max=1.0)
-            scaled.append({name: gradient * spread(factor, gradient) for name, gradient in part.items()})
-            norms.append(norm)
-        if len(scaled) == 1:
-            return scaled[0], norms[0]
-        of_mean, of_std = scaled
-        return of_mean | {name: torch.cat([of_mean[name], of_std[name]], 1) for name in HEAD}, norms[0]
+        halves = {name: gradients[name].chunk(2, 1) for name in HEAD}
+        of_std = sum(_squares(half[1]) for half in halves.values())
+        others = [gradient for name, gradient in gradients.items() if name not in HEAD]
+        of_mean = sum(_squares(part) for part in (*others, *(half[0] for half in halves.values())))
+        both = of_mean + of_std
+        apart = self._apart.flatten()
+        norm = torch.where(apart, of_mean, both).sqrt()
+        factor = _factor(norm, most)
+        std_factor = _factor(torch.where(apart, of_std, both).sqrt(), most)
+        scaled = {name: gradient * spread(factor, gradient) for name, gradient in gradients.items()}
+        for name, (mean, std) in halves.items():
+            scaled[name] = torch.cat([mean * spread(factor, mean), std * spread(std_factor, std)], 1)
+        return scaled, norm
 
     @torch.no_grad()
     def keep_longer(self, factor: float) -> None:
@@ -97,21 +92,36 @@ def averages(values: Tensor, known: Tensor | None) -> Tensor:
     return torch.where(known, values, 0.0).flatten(1).sum(1) / counted
 
 
-def stacked_losses(
-    learning: Learning, mean: Tensor, std: Tensor, target: Tensor, known: Tensor | None
-) -> tuple[Tensor, Tensor]:
-    """Return what is minimised and (22) of each network, (K,) each, as `losses` does of one.
+class StackedLosses:
+    """What a training minimises of each network, as section `learning` of each names it, and (22)."""
 
-    Mean, standard deviation and target torque are (K, h, B, n), z-scored, unitless; a target that is not known is nan.
-    """
-    if known is not None:
-        target = torch.where(known, target, mean.detach())
-    error = mean - target
-    if learning.loss == "squared":
-        loss = averages(terms(error.detach(), std), known)
-        return averages(error.square(), known) + loss, loss
-    each = terms(error, std)
-    loss = averages(each, known)
-    if learning.loss == "beta_likelihood":
-        return averages(std.detach().pow(2.0 * learning.loss_beta) * each, known), loss
-    return loss, loss
+    def __init__(self, learnings: Sequence[Learning], device: torch.device) -> None:
+        """Take the sections of all networks."""
+        squared = [learning.loss == "squared" for learning in learnings]
+        powers = [2.0 * own.loss_beta if own.loss == "beta_likelihood" else 0.0 for own in learnings]
+        self._squared = torch.tensor(squared, device=device)[:, None, None, None]
+        self._powers = torch.tensor(powers, device=device)[:, None, None, None]
+
+    def of(self, mean: Tensor, std: Tensor, target: Tensor, known: Tensor | None) -> tuple[Tensor, Tensor]:
+        """Return what is minimised and (22) of each network, (K,) each, as `losses` does of one.
+
+        Mean, standard deviation and target torque are (K, h, B, n), z-scored, unitless. Only what is `known`
+        (K, h, B, 1) counts; elsewhere a target may be nan.
+        """
+        if known is not None:
+            target = torch.where(known, target, mean.detach())
+        error = mean - target
+        each = terms(torch.where(self._squared, error.detach(), error), std)
+        # To the power of zero, where (22) itself is minimised, a sigma is one.
+        minimised = std.detach().pow(self._powers) * each + torch.where(self._squared, error.square(), 0.0)
+        return averages(minimised, known), averages(each, known)
+
+
+def _squares(gradient: Tensor) -> Tensor:
+    """Return the sum of squares of each network (K,)."""
+    return gradient.flatten(1).square().sum(1)
+
+
+def _factor(norm: Tensor, most: float) -> Tensor:
+    """Return what a gradient of such a norm (K,) is multiplied with."""
+    return (most / (norm + 1e-6)).clamp(max=1.0)

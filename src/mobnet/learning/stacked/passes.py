@@ -10,7 +10,7 @@ import torch
 from torch import Tensor
 
 from mobnet.learning.optimisation import EVERY_STEP
-from mobnet.learning.stacked.network import StackedNetwork, spread, stacked_losses
+from mobnet.learning.stacked.network import StackedLosses, StackedNetwork, spread
 from mobnet.learning.stacked.optimiser import StackedOptimiser
 from mobnet.learning.stacked.samples import StackedPlan, StackedSamples
 from mobnet.settings.networks import Learning
@@ -117,6 +117,7 @@ class Updates:
         network: StackedNetwork,
         samples: StackedSamples,
         optimiser: StackedOptimiser,
+        losses: StackedLosses,
         learning: Learning,
         horizon: int,
         scored: slice = EVERY_STEP,
@@ -124,6 +125,7 @@ class Updates:
         """Take what learns, from what and how; `scored` are the steps of a horizon that are in the loss."""
         self._network = network
         self._optimiser = optimiser
+        self._losses_of = losses
         self._learning = learning
         self._scored = scored
         self._horizons = Horizons(samples, network, learning.batch_size, horizon)
@@ -173,7 +175,7 @@ class Updates:
             mean, std, target, known = self._horizons.predict(learning=True)
             known = None if known is None else known[:, scored]
             predicted = mean[:, scored], std[:, scored], target[:, scored]
-            minimised, losses = stacked_losses(self._learning, *predicted, known)
+            minimised, losses = self._losses_of.of(*predicted, known)
             given = torch.autograd.grad(minimised.sum(), list(weights.values()))
         gradients, norms = self._network.clipped(dict(zip(weights, given, strict=True)), self._learning.gradient_norm)
         self._losses.copy_(losses.detach())
@@ -198,10 +200,10 @@ class Validation:
     """Validations of stacked networks on plans of one size."""
 
     def __init__(
-        self, network: StackedNetwork, samples: StackedSamples, learning: Learning, lanes: int, horizon: int
+        self, network: StackedNetwork, samples: StackedSamples, losses: StackedLosses, lanes: int, horizon: int
     ) -> None:
         """Make room for plans of so many lanes."""
-        self._learning = learning
+        self._losses_of = losses
         networks = len(network.weights["head.bias"])
         self._horizons = Horizons(samples, network, lanes, horizon)
         self._used = torch.zeros(networks, 1, lanes, 1, dtype=torch.bool, device=samples.device)
@@ -232,7 +234,7 @@ class Validation:
         counted = self._used.expand(*mean.shape[:3], 1)
         if known is not None:
             counted = counted & known
-        _, loss = stacked_losses(self._learning, mean, std, target, counted)
+        _, loss = self._losses_of.of(mean, std, target, counted)
         found = counted.flatten(1).any(1) * self._horizons.active
         squares = torch.where(counted, (mean - target).square(), 0.0).sum((1, 2))
         self._loss += torch.where(found > 0, loss, 0.0)

@@ -21,7 +21,7 @@ from mobnet.learning.dataset import LimbData
 from mobnet.learning.job import TrainingJob
 from mobnet.learning.model import seeded
 from mobnet.learning.schedule import Schedule
-from mobnet.learning.stacked.network import StackedNetwork
+from mobnet.learning.stacked.network import StackedLosses, StackedNetwork
 from mobnet.learning.stacked.optimiser import StackedOptimiser
 from mobnet.learning.stacked.passes import Updates, Validation
 from mobnet.learning.stacked.samples import StackedSamples, side_by_side
@@ -101,9 +101,10 @@ class StackedTrainer:
         self._samples = StackedSamples(list(arrays.values()), places, self._schedules)
         self._network = StackedNetwork([schedule.network() for schedule in self._schedules], device)
         self._optimiser = StackedOptimiser(self._network.weights, self._network.width, learning)
+        self._losses = StackedLosses([own.job.training.learning for own in members], device)
         horizon = self._job.horizon
         scored = self._schedules[0].scored
-        self._epochs = Updates(self._network, self._samples, self._optimiser, learning, horizon, scored)
+        self._epochs = Updates(self._network, self._samples, self._optimiser, self._losses, learning, horizon, scored)
         self._validations: dict[int, Validation] = {}  # by number of lanes
         self._frozen = torch.zeros(len(members), dtype=torch.bool, device=device)
         self._units = np.stack([schedule.scales[1].std for schedule in self._schedules])
@@ -179,8 +180,7 @@ class StackedTrainer:
         plan = side_by_side([schedule.validation_at(stride) for schedule in self._schedules], self._device)
         lanes = plan.rows.shape[2]
         if lanes not in self._validations:
-            learning = self._job.training.learning
-            self._validations[lanes] = Validation(self._network, self._samples, learning, lanes, self._job.horizon)
+            self._validations[lanes] = Validation(self._network, self._samples, self._losses, lanes, self._job.horizon)
         losses, errors = self._validations[lanes].run(plan)
         return losses.cpu(), errors.cpu().numpy() * self._units
 
