@@ -125,7 +125,7 @@ class Updates:
         """Take what learns, from what and how; `scored` are the steps of a horizon that are in the loss."""
         self._network = network
         self._optimiser = optimiser
-        self._losses_of = losses
+        self._objective = losses
         self._learning = learning
         self._scored = scored
         self._horizons = Horizons(samples, network, learning.batch_size, horizon)
@@ -175,7 +175,7 @@ class Updates:
             mean, std, target, known = self._horizons.predict(learning=True)
             known = None if known is None else known[:, scored]
             predicted = mean[:, scored], std[:, scored], target[:, scored]
-            minimised, losses = self._losses_of.of(*predicted, known)
+            minimised, losses = self._objective.of(*predicted, known)
             given = torch.autograd.grad(minimised.sum(), list(weights.values()))
         gradients, norms = self._network.clipped(dict(zip(weights, given, strict=True)), self._learning.gradient_norm)
         self._losses.copy_(losses.detach())
@@ -203,7 +203,7 @@ class Validation:
         self, network: StackedNetwork, samples: StackedSamples, losses: StackedLosses, lanes: int, horizon: int
     ) -> None:
         """Make room for plans of so many lanes."""
-        self._losses_of = losses
+        self._objective = losses
         networks = len(network.weights["head.bias"])
         self._horizons = Horizons(samples, network, lanes, horizon)
         self._used = torch.zeros(networks, 1, lanes, 1, dtype=torch.bool, device=samples.device)
@@ -234,7 +234,7 @@ class Validation:
         counted = self._used.expand(*mean.shape[:3], 1)
         if known is not None:
             counted = counted & known
-        _, loss = self._losses_of.of(mean, std, target, counted)
+        _, loss = self._objective.of(mean, std, target, counted)
         found = counted.flatten(1).any(1) * self._horizons.active
         squares = torch.where(counted, (mean - target).square(), 0.0).sum((1, 2))
         self._loss += torch.where(found > 0, loss, 0.0)
