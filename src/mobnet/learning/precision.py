@@ -31,7 +31,7 @@ STEPS, LANES, INPUTS, HIDDEN = 10, 64, 30, 150  # of the trial: a leg's GRU of T
 TURNS = 5
 
 
-class Tried(Note):
+class FormatTimes(Note):
     """What a processor takes to learn in each format [ms], and the format that follows."""
 
     precision: Precision
@@ -46,7 +46,7 @@ def of_processor() -> Precision:
         return "float32"
     place = _record_of(kind)
     with contextlib.suppress(DataError):  # there is none yet, or it is damaged
-        return checked(place, read_json(place), Tried).precision
+        return checked(place, read_json(place), FormatTimes).precision
     float32_ms, bfloat16_ms = tried_ms()
     name: Precision = "bfloat16" if bfloat16_ms < GAIN * float32_ms else "float32"
     with contextlib.suppress(DataError):  # where nothing can be kept, the next process tries again
