@@ -21,7 +21,8 @@ TorqueKind = Literal["mean", "sample"]  # of a motor: over the interval that end
 class Section(BaseModel):
     """A part of the configuration: its fields are the accepted keys, and nothing changes after loading."""
 
-    model_config = ConfigDict(frozen=True, extra="forbid")
+    # A class is built when it first checks a value: a job imports hundreds and needs few.
+    model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
 
 
 @dataclass(frozen=True)
