@@ -8,7 +8,6 @@ import statistics
 import sys
 import time
 from collections.abc import Callable
-from pathlib import Path
 from typing import get_args
 
 import numpy as np
@@ -25,6 +24,7 @@ from mobnet.learning.job import PRECISIONS, TrainingJob
 from mobnet.learning.losses import gaussian_loss
 from mobnet.learning.model import LimbNetwork, build_network
 from mobnet.learning.optimisation import Samples, train_epoch
+from mobnet.learning.precision import of_processor
 from mobnet.learning.soap import optimizer_of
 from mobnet.learning.streams import epoch_plan
 from mobnet.settings.networks import Optimizer
@@ -42,7 +42,7 @@ def main() -> list[dict[str, float | str]]:
     alone, as libraries compute them. A GPU, where there is one, has a row of its own.
     """
     one_thread()
-    settings = with_precision(load_settings(overrides={"scale": "default"}), Path("results") / "default")
+    settings = with_precision(load_settings(overrides={"scale": "default"}), of_processor())
     job = TrainingJob(Catalogue(settings).training("MOB-Net", "LL"), 0, settings.seed)
     leg, learning = job.training.network, job.training.learning
     sizes = len(limb_inputs(settings.layout, leg).names), len(settings.layout.limbs(leg.joints))

@@ -22,6 +22,7 @@ from mobnet.core.joints import N_VIRTUAL, NQ_BASE, JointLayout
 from mobnet.core.recording import Recording, Sensed, write_recording
 from mobnet.core.store import write_array
 from mobnet.estimation.recipe import Recipe
+from mobnet.learning.precision import of_processor
 from mobnet.robot.description import describe, for_walking
 from mobnet.robot.nominal import NominalModel
 from mobnet.settings.lab import load_section
@@ -49,7 +50,7 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 @pytest.fixture(scope="session")
 def settings():
     """The repository's configuration at its smoke scale, with this machine's number format."""
-    return with_precision(load_settings(overrides={"scale": "smoke"}), ROOT / "results" / "none")
+    return with_precision(load_settings(overrides={"scale": "smoke"}), of_processor())
 
 
 @pytest.fixture

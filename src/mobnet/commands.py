@@ -5,11 +5,12 @@ is not installed is named in one line.
 """
 
 import argparse
+import contextlib
 import sys
 from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
-from mobnet.core.errors import ConfigError, unknown_command
+from mobnet.core.errors import CommandError, ConfigError, MobnetError, unknown_command
 from mobnet.core.options import (
     calibrate_parser,
     detect_parser,
@@ -22,44 +23,85 @@ from mobnet.core.options import (
     observe_parser,
 )
 from mobnet.core.place import PROGRAM, version, with_extra
+from mobnet.core.printed import shown
+from mobnet.core.word_checks import (
+    check_calibrate,
+    check_detect,
+    check_export,
+    check_identify,
+    check_learn,
+    check_motion,
+    check_observe,
+    check_robot,
+)
 
 
 class Command(NamedTuple):
-    """A command: what it does, in a line; the parser of its options; and the module whose `main` runs it."""
+    """A command: what it does, in a line; parser and check of its options; and the module whose `main` runs it."""
 
     says: str
     parser: Callable[[], argparse.ArgumentParser]
+    check: Callable[[argparse.Namespace], None]
     module: str
+
+    def read(self, words: Sequence[str]) -> argparse.Namespace:
+        """Return the options that words are; nothing is imported but the standard library.
+
+        Raises:
+            MobnetError: a file is not there, or a value is not accepted.
+        """
+        options = self.parser().parse_args(words)
+        if line := missing_input(options):
+            raise CommandError(line)
+        self.check(options)
+        return options
 
 
 COMMANDS = {
-    "robot": Command("make a robot's table from its URDF or MJCF file", import_parser, "mobnet.robot.import_table"),
+    "robot": Command(
+        "make a robot's table from its URDF or MJCF file", import_parser, check_robot, "mobnet.robot.import_table"
+    ),
     "motion": Command(
-        "simulate the log of a robot of a table that moves without walking", motion_parser, "mobnet.robotlog.motion"
+        "simulate the log of a robot of a table that moves without walking",
+        motion_parser,
+        check_motion,
+        "mobnet.robotlog.motion",
     ),
     "observe": Command(
         "make the residual of a robot's own log, and say what looks wrong with it",
         observe_parser,
+        check_observe,
         "mobnet.robotlog.observe",
     ),
     "identify": Command(
         "find friction and rotor inertia in logs of free motion, for the robot's table",
         identify_parser,
+        check_identify,
         "mobnet.robotlog.identify",
     ),
     "learn": Command(
-        "train a network on a robot's own logs, and try it on their end", learn_parser, "mobnet.robotlog.learn"
+        "train a network on a robot's own logs, and try it on their end",
+        learn_parser,
+        check_learn,
+        "mobnet.robotlog.learn",
     ),
     "calibrate": Command(
         "print thresholds of detection for a wanted rate of false alarms",
         calibrate_parser,
+        check_calibrate,
         "mobnet.detection.calibrate",
     ),
     "detect": Command(
-        "write when something pushes a limb in a robot's own log", detect_parser, "mobnet.robotlog.detect"
+        "write when something pushes a limb in a robot's own log",
+        detect_parser,
+        check_detect,
+        "mobnet.robotlog.detect",
     ),
     "export": Command(
-        "write trained networks as ONNX files that run without this project", export_parser, "mobnet.export.export"
+        "write trained networks as ONNX files that run without this project",
+        export_parser,
+        check_export,
+        "mobnet.export.export",
     ),
 }
 
@@ -76,7 +118,8 @@ def demo_parser() -> argparse.ArgumentParser:
 def main(words: Sequence[str] | None = None) -> int:
     """Run `mobnet COMMAND ...`; return its exit status."""
     words = sys.argv[1:] if words is None else words
-    demo = Command("show a push as observer and network estimate it", demo_parser, "mobnet.demo")
+    says = "show a push as observer and network estimate it"
+    demo = Command(says, demo_parser, lambda _: None, "mobnet.demo")
     commands = {**COMMANDS, "demo": demo}
     if not words:
         overview(commands).print_help()
@@ -89,8 +132,12 @@ def main(words: Sequence[str] | None = None) -> int:
     if {"-h", "--help"} & set(others):
         commands[first].parser().parse_args(["--help"])
     # Here, as what a command imports takes seconds.
-    if line := missing_input(commands[first].parser().parse_args(others)):
-        sys.exit(line)
+    try:
+        with contextlib.suppress(OSError):  # the command says what the system refuses
+            options = commands[first].read(others)
+            with_extra("mobnet.robot.word_checks").check_named(options)
+    except MobnetError as error:
+        sys.exit(shown(str(error)))
     try:
         module = with_extra(commands[first].module)
     except ConfigError as error:

@@ -16,10 +16,10 @@ RESULTS = Path("results/smoke")
 
 
 @pytest.fixture(scope="module")
-def plan(tmp_path_factory: pytest.TempPathFactory) -> Plan:
+def plan() -> Plan:
     """The plan of the smoke scale with all robots."""
     settings = load_settings(overrides={"scale": "smoke", "scales": {"smoke": {"fleet": len(ROBOTS)}}})
-    return make_plan(with_precision(settings, tmp_path_factory.mktemp("plan")), with_pdf=False)
+    return make_plan(with_precision(settings, "float32"), with_pdf=False)
 
 
 def folders(paths: Sequence[Path]) -> set[str]:

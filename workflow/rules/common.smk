@@ -14,7 +14,14 @@ from experiments.evaluation.measure.estimates.scores import measure_problems
 from experiments.evaluation.report.paper import missing_packages
 from experiments.jobs.method_problems import method_problems
 from experiments.plan.files import made_by_jobs
-from experiments.plan.plan import make_plan, record_precision, record_stacks, with_precision, with_stacks
+from experiments.plan.plan import (
+    auto_precision,
+    make_plan,
+    record_precision,
+    record_stacks,
+    with_precision,
+    with_stacks,
+)
 from experiments.plan.products import shown as report_of
 from experiments.plan.room import Sizes, check_room
 from experiments.running.words import in_set, nearest, one_of, scale_of_targets
@@ -46,10 +53,10 @@ def is_main():
     return workflow.is_main_process and Path(workflow.main_snakefile).parent == ROOT
 
 
-def targets_of(words):
-    """Return the targets among the words of a call."""
-    known, _ = get_argument_parser().parse_known_args(words)
-    return [str(target) for target in known.targets]
+def known_words():
+    """Return the words of the call as Snakemake takes them apart."""
+    known, _ = get_argument_parser().parse_known_args(sys.argv[1:])
+    return known
 
 
 def what_other_packages_know(settings):
@@ -66,11 +73,13 @@ try:
     if is_main():
         for name in (".snakemake", ".cache"):  # Snakemake and packages write there
             check_folder(ROOT / name)
-    TARGETS = targets_of(sys.argv[1:]) if is_main() else []
+    WORDS = known_words() if is_main() else None
+    TARGETS = [str(target) for target in WORDS.targets] if WORDS else []
     if scale := scale_of_targets(TARGETS, config.get("scale")):
         config["scale"] = scale
     SETTINGS = load_settings(ROOT / "configs", config, what_other_packages_know)
-    SETTINGS = with_precision(SETTINGS, Path("results") / SETTINGS.scale)
+    PRECISION = auto_precision(SETTINGS, Path("results") / SETTINGS.scale, is_dry=bool(WORDS and WORDS.dryrun))
+    SETTINGS = with_precision(SETTINGS, PRECISION)
     SETTINGS = with_stacks(SETTINGS, Path("results") / SETTINGS.scale, GPUS)
     PLAN = make_plan(SETTINGS, with_pdf=not missing_packages())
 except MobnetError as error:
@@ -104,7 +113,7 @@ onstart:
     BEGUN.set()
     try:
         sweep_project(ROOT)  # Snakemake holds its lock: no other run begins here
-        record_precision(PLAN.folders.results)
+        record_precision(PLAN.folders.results, PRECISION)
         record_stacks(SETTINGS, PLAN.folders.results)
         waiting = list(workflow.dag.needrun_jobs())
         check_room(waiting)

@@ -14,14 +14,13 @@ from experiments.commands.words import Words, parse
 from experiments.running.environment import child_environment, fault_of_place
 from mobnet.commands import COMMANDS as LAB
 from mobnet.core.errors import CommandError, MobnetError
-from mobnet.core.options import missing_input
 
 MODULES = {  # command -> the module that `python -m` runs, with words that come first
     # For two cores one process more than these: some tests wait for minutes, such as those of a cluster.
     "test": ("pytest", "-n", "3", "--dist", "loadfile", "--no-loadscope-reorder", "--max-worker-restart", "0"),
     "bench": ("benchmarks",),
     "check": ("experiments.check",),
-    **{name: (command.module,) for name, command in LAB.items()},
+    **{name: ("mobnet", name) for name in LAB},
     "demo": ("experiments.demo",),
     "cost": ("experiments.evaluation.report.cost",),
     **{name: ("experiments.evaluation.report.snapshot", name) for name in ("verify", "compare", "snapshot")},
@@ -55,8 +54,8 @@ def run(root: Path, words: Words) -> int:
     if words.command == "clean":
         options = words.options
         return clean(root, everything=options.all, is_dry=options.dry_run, is_sure=options.yes)
-    if words.command in LAB and (line := missing_input(LAB[words.command].parser().parse_args(words.extra))):
-        raise CommandError(line)
+    if words.command in LAB:
+        LAB[words.command].read(words.extra)
     given = Path.cwd()
     os.chdir(root)
     os.environ.update(environment(root))

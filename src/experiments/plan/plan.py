@@ -1,8 +1,8 @@
 """The whole plan of a scale: its files, what its jobs get, and its products.
 
 Which number format `learning.precision: auto` stands for is decided once for the results of a scale, and recorded: the
-machine that starts the first run decides. A training gets the format by its name, so that it is part of what the
-training is, and a node of another kind of processor makes the same network.
+machine that starts the first run decides, by what it takes in each. A training gets the format by its name, so that it
+is part of what the training is, and a node of another kind of processor makes the same network.
 """
 
 import shutil
@@ -232,13 +232,27 @@ class PrecisionNote(Note):
     auto: Precision
 
 
-def with_precision(settings: Settings, results: Path) -> Settings:
-    """Return the settings with a number format in place of every `auto`: the recorded one, or else this machine's.
+def auto_precision(settings: Settings, results: Path, *, is_dry: bool = False) -> Precision | None:
+    """Return what `auto` stands for: the recorded format, or else this machine's; None where nothing asks for it.
+
+    Where a scale has no results, every job runs in either format. A dry run then does not try them, which takes
+    seconds on a machine that has not done so yet.
 
     Raises:
         DataError: the record is damaged.
     """
-    name = _recorded_precision(results) or of_processor()
+    asked = [settings.learning.precision, *(row.learning.get("precision") for row in settings.methods.values())]
+    if AUTO not in asked:
+        return None
+    if recorded := _recorded_precision(results):
+        return recorded
+    return "float32" if is_dry and not results.exists() else of_processor()
+
+
+def with_precision(settings: Settings, name: Precision | None) -> Settings:
+    """Return the settings with a number format in place of every `auto`, if there is one."""
+    if name is None:
+        return settings
     methods = {
         method: row.model_copy(update={"learning": {**row.learning, "precision": name}})
         for method, row in settings.methods.items()
@@ -248,10 +262,10 @@ def with_precision(settings: Settings, results: Path) -> Settings:
     return settings.model_copy(update={"learning": learning, "methods": {**settings.methods, **methods}})
 
 
-def record_precision(results: Path) -> None:
-    """Record what `auto` stands for in the results of a scale, if it is not recorded yet."""
-    if _recorded_precision(results) is None:
-        write_json(results / PRECISION, {"auto": of_processor()})
+def record_precision(results: Path, name: Precision | None) -> None:
+    """Record what `auto` stands for in the plan of a scale, in its results, if it is asked for and not recorded yet."""
+    if name is not None and _recorded_precision(results) is None:
+        write_json(results / PRECISION, {"auto": name})
 
 
 def _recorded_precision(results: Path) -> Precision | None:

@@ -16,7 +16,8 @@ from mobnet.core.files import read_json
 class Note(BaseModel):
     """A note; types are not converted, and numbers are finite."""
 
-    model_config = ConfigDict(strict=True, frozen=True, extra="allow", allow_inf_nan=False)
+    # A class is built when it first checks a note: a job imports dozens and needs few.
+    model_config = ConfigDict(strict=True, frozen=True, extra="allow", allow_inf_nan=False, defer_build=True)
 
 
 Kind = TypeVar("Kind", bound=Note)

@@ -11,6 +11,9 @@ LABELS = {
     "tool": "a sensor at the end effector, `tool` in the map of the log",
 }
 SIGNALS = ("mean", "std", "ratio")
+# Of files that people pass on, too: what the C library accepts (src/runtime/cursor.h) lies further out.
+RATE_HZ = (1.0, 100_000.0)
+GAIN_HZ = (0.1, 5000.0)
 
 
 def observe_parser() -> argparse.ArgumentParser:

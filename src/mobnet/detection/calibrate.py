@@ -6,18 +6,17 @@ collision must have at each point of the limb to be found.
 """
 
 import logging
-import math
 import sys
 from argparse import Namespace
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from mobnet.core.errors import DataError, not_accepted, refuse_lines
-from mobnet.core.files import check_place, sweep
-from mobnet.core.options import SIGNALS, calibrate_parser
-from mobnet.core.place import command
+from mobnet.core.errors import refuse_lines
+from mobnet.core.files import sweep
+from mobnet.core.options import calibrate_parser
 from mobnet.core.printed import printed
+from mobnet.core.word_checks import check_calibrate
 from mobnet.detection.choice import ALONE, BARE, NETWORK, DetectorCandidate, best_of, lines_of, tried_on_pushes
 from mobnet.detection.limb import OwnRecording, calibrate_limb
 from mobnet.detection.limb_report import beside, report, thresholds_of
@@ -43,7 +42,6 @@ from mobnet.settings.lab import Lab, load_lab
 
 log = logging.getLogger(__name__)
 MANY = 100_000  # samples above which progress is told
-LEAST_RATE = 1e-6  # wanted false alarms [1/h]
 
 
 def read_folders(options: Namespace, robot: RobotDescription, network: OwnNetwork | None) -> list[OwnLog]:
@@ -87,19 +85,15 @@ def _progress(logs: Sequence[OwnLog], text: str) -> None:
 
 def of_files(options: Namespace, robot: RobotDescription, limb: str) -> list[OwnRecording]:
     """Return recordings with their estimates by any method, of the limb's joints."""
-    if len(options.recording) != len(options.estimate):
-        count = len(options.recording)
-        raise DataError(not_accepted("--estimate", len(options.estimate), [f"{count}, one for each --recording"]))
     pairs = zip(options.recording, options.estimate, strict=True)
     return [OwnRecording.read_files(stem(one), stem(other), robot, limb) for one, other in pairs]
 
 
 def run(options: Namespace) -> list[str]:
     """Calibrate as the command's options say, and return what is printed."""
-    _check(options)
+    check_calibrate(options)
     settings = load_lab()
     if options.out:
-        check_place(options.out.parent)
         sweep(options.out.parent)
     robot = given_robot(options.robot, settings)
     if not options.folders:
@@ -158,24 +152,6 @@ def _tried(
     if network:
         for signal in (options.signal,) if options.signal else (MEAN, RATIO):
             yield calibrated(NETWORK.format(signal), logs, network, signal, keep=True)
-
-
-def _check(options: Namespace) -> None:
-    """Raise a DataError for options that contradict each other, or a rate that is not accepted."""
-    if bool(options.folders) == bool(options.recording or options.estimate):
-        given = "both are given" if options.folders else "nothing to calibrate from is given"
-        folders = f"folders that `{command('observe')}` wrote"
-        raise DataError(f"{given}; either {folders} are needed, or --recording with --estimate")
-    if not options.folders and (options.out or options.network):
-        word = "--out" if options.out else "--network"
-        given = options.out or options.network
-        raise DataError(f"{word} {given}: it needs folders that `{command('observe')}` wrote")
-    if options.signal not in (None, *SIGNALS):
-        raise DataError(not_accepted("--signal", options.signal, SIGNALS))
-    if options.folders and options.signal not in (None, MEAN) and not options.network:
-        raise DataError(f"--signal {options.signal}: it needs --network; without, the signal is {MEAN}")
-    if not LEAST_RATE <= options.rate < math.inf:
-        raise DataError(not_accepted("--rate", options.rate, [f"a number from {LEAST_RATE:g}, one in a century"]))
 
 
 def main(words: Sequence[str]) -> int:

@@ -13,21 +13,21 @@ from mobnet.core.estimator import Estimate
 from mobnet.core.files import RUN
 from mobnet.core.joints import JointLayout
 from mobnet.core.notes import Note, Text, pair_differences, read_array_note, read_note
-from mobnet.core.place import command
 from mobnet.core.recording import SensedRecording, read_sensed
 from mobnet.core.store import ARRAY, NOTE, file_of, footer_hash, read_array
+from mobnet.core.word_checks import ESTIMATE, RECORDING, check_log_folder, check_network_folder
 from mobnet.estimation.estimate import ObservedRecording, only, run_segments
 from mobnet.estimation.kinds.residual import ResidualEstimator
 from mobnet.estimation.observer import MomentumObserver
 from mobnet.learning.deployed.limbs import LimbNetworks, load_limb_networks
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.nominal import NominalModel
+from mobnet.robot.word_checks import limb_named
 from mobnet.settings.base import GAIN_HZ, RATE_HZ, GainHz, RateHz, TorqueKind
 from mobnet.settings.lab import Lab
 from mobnet.settings.methods import Target
 from mobnet.settings.robot import GroupName
 
-RECORDING, ESTIMATE = "recording", "estimate"  # arrays in the folder of a log
 DRIVES = "drives"  # key of a note: digest of the friction that the observer knew
 OBSERVER, LEARNED = "MOB", "MOB-Net"  # methods: the observer alone, and with a network
 UNCERTAINTY: Target = "uncertainty"  # what such a network learns
@@ -119,10 +119,8 @@ def read_log_folder(folder: Path, layout: JointLayout) -> OwnLog:
     Raises:
         DataError: the folder is another one, a file is damaged, or its two arrays do not belong together.
     """
+    check_log_folder(folder)
     stems = [folder / name for name in (RECORDING, ESTIMATE)]
-    if missing := [stem.name for stem in stems if not file_of(stem, NOTE).exists()]:
-        accepted = f"a folder that `{command('observe')}` wrote"
-        raise DataError(f"{folder}: {missing[0]}{NOTE} is missing; accepted: {accepted}")
     note, other = (read_array_note(file_of(stem, NOTE)) for stem in reversed(stems))
     refuse(f"{stems[1]}{NOTE}", pair_differences(note, other, f"{stems[0]}{NOTE}"))
     if note.get("method") != OBSERVER or not {"gain_hz", "torque"} <= note.keys():
@@ -145,8 +143,7 @@ def read_network_folder(folder: Path, layout: JointLayout, settings: Lab) -> Own
         DataError: a file is missing or damaged, the network is another robot's, or it learned something else than
             what is taken off the residual.
     """
-    if not (folder / RUN).exists():
-        raise DataError(f"{folder}: {RUN} is missing; accepted: a folder that `{command('learn')}` wrote")
+    check_network_folder(folder)
     note = read_note(folder / RUN, LearnedNote)
     observer = settings.observer
     if note.target != UNCERTAINTY:
@@ -167,10 +164,7 @@ def limb_of(layout: JointLayout, given: str | None, network: OwnNetwork | None =
     Raises:
         ConfigError: there is none, or the network is that of another limb.
     """
-    own = [name for name, joints in layout.groups.items() if not set(joints) & set(layout.virtual)]
-    limb = given or (network.limb if network else own[0] if len(own) == 1 else None)
-    if limb is None or limb not in layout.groups:
-        raise ConfigError(not_accepted("--limb", limb or "nothing", layout.groups))
+    limb = limb_named(layout, given or (network and network.limb))
     if network and not set(layout.limb(limb)) <= set(network.networks.joints):
         raise ConfigError(not_accepted("--limb", limb, [f"{network.limb}, that of {network.folder}"]))
     return limb

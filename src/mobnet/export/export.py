@@ -15,10 +15,11 @@ from typing import TypeVar
 
 import numpy as np
 
-from mobnet.core.errors import DataError, beyond, not_accepted, refuse_lines
-from mobnet.core.files import atomic_path, check_place, sweep, write_json
+from mobnet.core.errors import DataError, not_accepted
+from mobnet.core.files import atomic_path, sweep, write_json
 from mobnet.core.options import export_parser
 from mobnet.core.printed import printed
+from mobnet.core.word_checks import check_export
 from mobnet.detection.chain import make_chain
 from mobnet.detection.detector import LegGate
 from mobnet.detection.signals import MEAN
@@ -33,7 +34,7 @@ from mobnet.export.trained import Trained, check_apart, contract_of, read_traine
 from mobnet.learning.deployed.networks import WITHOUT_TORCH, deployed
 from mobnet.robot.description import RobotDescription, given_robot
 from mobnet.robot.nominal import NominalModel
-from mobnet.settings.base import GAIN_HZ, RATE_HZ, TorqueKind
+from mobnet.settings.base import TorqueKind
 from mobnet.settings.detection import SwingGate
 from mobnet.settings.lab import Lab, load_lab
 from mobnet.settings.limb_thresholds import LimbThresholds
@@ -239,12 +240,9 @@ def export_folders(
 
 def run(options: Namespace) -> Iterator[str]:
     """Export networks as the command's options say, and yield what is printed."""
-    check_place(options.out)
+    check_export(options)
     settings = load_lab()
     robot = given_robot(options.robot, settings)
-    for word, bounds in {"rate": RATE_HZ, "gain": GAIN_HZ}.items():
-        if (value := getattr(options, word)) is not None:
-            refuse_lines(beyond(f"--{word}", value, bounds))
     given = Given(options.rate, options.gain, options.torque)
     contract, networks = export_folders(options.network, robot, options.thresholds, given, settings, options.out)
     yield from report_lines(contract, networks, options.out)

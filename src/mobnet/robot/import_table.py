@@ -10,14 +10,16 @@ from pathlib import Path
 
 from mobnet.core.child import in_child
 from mobnet.core.errors import ConfigError, DataError, refusal
-from mobnet.core.files import check_place, write_text
+from mobnet.core.files import write_text
 from mobnet.core.options import import_parser
 from mobnet.core.place import command
 from mobnet.core.printed import printed
+from mobnet.core.word_checks import check_robot, floats, imported_table
 from mobnet.robot.description import RobotDescription, describe
 from mobnet.robot.import_checks import differences
-from mobnet.robot.importing import BASE_LIMB, VIRTUAL, Imported, check_base, import_robot
+from mobnet.robot.importing import BASE_LIMB, VIRTUAL, Imported, import_robot
 from mobnet.robot.table_file import flow
+from mobnet.robot.word_checks import check_limits
 from mobnet.settings.lab import load_section
 from mobnet.settings.robot import RobotTable
 
@@ -84,7 +86,7 @@ def made(options: Namespace) -> tuple[str, list[str]]:
         DataError: the file is no robot, a table cannot hold it, or the table differs from another reading of the file.
     """
     taken = options.torque_limit, options.speed_limit, options.armature, options.lock
-    found = import_robot(options.file, check_base(options.base), *taken)
+    found = import_robot(options.file, floats(options.base), *taken)
     text = table_text(found, options.file.name)
     return text, list(report_lines(robot_of_text(text, options.file), found, options.file))
 
@@ -102,10 +104,9 @@ def read_robot(path: Path) -> RobotDescription:
 
 def run(options: Namespace) -> Iterator[str]:
     """Write a table as the command's options say, and yield what is printed."""
-    out = options.out or Path(f"{options.file.stem}.yaml")
-    if out.exists() and not options.force:
-        raise ConfigError(f"{out}: exists already; accepted: another --out, or --force")
-    check_place(out.parent)
+    check_robot(options)
+    check_limits(options)
+    out = imported_table(options)
     text, lines = in_child(lambda: made(options), SECONDS, str(options.file))
     write_text(out, text)
     yield from lines

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from mobnet.core.errors import DataError, not_accepted
+from mobnet.core.errors import DataError
 from mobnet.core.joints import N_VIRTUAL
 from mobnet.robot.import_base import RobotSelection, robot_of
 from mobnet.robot.import_file import KINDS, read_root
@@ -157,15 +157,3 @@ def _left_out(joints: Sequence[Joint], chains: int, *, has_imu: bool) -> Iterato
         yield f"no motor in the file: {', '.join(passive)}; --lock welds what a log does not have"
     rest = ["feet", "sole", *([] if has_imu else ["imu"]), "leg", "hands", "posture", "shapes", "points"]
     yield f"{', '.join(rest)}: not in the file; docs/robots.md says what needs them"
-
-
-def check_base(word: str | None) -> bool | None:
-    """Return whether the base floats, by what a user said; None where nothing was said.
-
-    Raises:
-        DataError: it is neither of the two.
-    """
-    kinds = {None: None, "floating": True, "fixed": False}
-    if word not in kinds:
-        raise DataError(not_accepted("--base", word, ["fixed", "floating"]))
-    return kinds[word]

@@ -12,16 +12,17 @@ from dataclasses import dataclass
 from itertools import chain
 from pathlib import Path
 
-from mobnet.core.errors import ConfigError, DataError, not_accepted
-from mobnet.core.files import check_place
+from mobnet.core.errors import DataError
 from mobnet.core.options import identify_parser
 from mobnet.core.place import command
 from mobnet.core.printed import printed
 from mobnet.core.recording import SensedRecording
+from mobnet.core.word_checks import RECORDING, check_new_file
 from mobnet.estimation import observer
-from mobnet.estimation.own import RECORDING, read_log_folder
+from mobnet.estimation.own import read_log_folder
 from mobnet.robot.description import RobotDescription, describe, given_table
 from mobnet.robot.table_file import head_of, write_table
+from mobnet.robot.word_checks import carrier_named
 from mobnet.robotlog.identifying.fit import JointFit, fit_joints
 from mobnet.robotlog.identifying.payload import Payload
 from mobnet.robotlog.identifying.regressors import RegressorWindows, columns_of, moved, together, windows_of
@@ -77,7 +78,7 @@ def identify(
     """
     numbers = settings.robotlog.identify
     gravity = settings.plant.gravity_m_s2
-    carrier = _carrier(robot, payload) if payload else None
+    carrier = carrier_named(robot, payload) if payload else None
     windows = [windows_of(robot, one.recording, one.torque, gravity, numbers, carrier) for one in logs]
     known, held_out = split(windows, numbers)
     fits, carried = fit_joints(known, held_out, columns_of(numbers), terms, numbers)
@@ -89,14 +90,6 @@ def identify(
         if speed >= numbers.least_speed_rad_s
     }
     return found, carried
-
-
-def _carrier(robot: RobotDescription, body: str) -> int:
-    """Return the joint that moves a body."""
-    moved_bodies = [joint.body for joint in robot.joints]
-    if body not in moved_bodies:
-        raise ConfigError(not_accepted("--payload", body, moved_bodies))
-    return moved_bodies.index(body)
 
 
 def split(windows: Sequence[RegressorWindows], numbers: Identification) -> tuple[RegressorWindows, RegressorWindows]:
@@ -206,9 +199,7 @@ def run(options: Namespace) -> Iterator[str]:
     table = given_table(options.robot, settings)
     robot = describe(table)
     out = options.out or Path(f"{robot.name.replace(' ', '_')}_identified.yaml")
-    if out.exists() and not options.force:
-        raise ConfigError(f"{out}: exists already; accepted: another --out, or --force")
-    check_place(out.parent)
+    check_new_file(out, force=options.force)
     meaning = load_section(options.map, LogMap) if options.map else None
     logs = [read_free_log(path, robot, meaning, settings) for path in options.logs]
     terms = (*TERMS, *(term for term in FURTHER if getattr(options, term)))

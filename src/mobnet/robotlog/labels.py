@@ -8,7 +8,6 @@ from mobnet.core.arrays import Array
 from mobnet.core.columns import EXTERNAL, FEET, named
 from mobnet.core.errors import DataError, not_accepted
 from mobnet.core.joints import JointLayout
-from mobnet.core.options import LABELS
 from mobnet.core.recording import ABSENT
 from mobnet.core.store import read_array
 from mobnet.estimation.label import foot_label
@@ -65,12 +64,6 @@ def limb_data(logs: Sequence[OwnLog], labels: Sequence[Array], layout: JointLayo
     for start, log in zip(starts, logs, strict=False):
         segments += [(start + a, start + b) for a, b in log.recording.segments]
     return LimbData(x, y.astype(np.float32), tuple(segments), inputs.names, joints, first.sampling.rate_hz)
-
-
-def check_labels(labels: str) -> None:
-    """Raise a DataError for labels that are not known."""
-    if labels not in LABELS:
-        raise DataError(not_accepted("--labels", labels, LABELS))
 
 
 def before(data: LimbData, row: int) -> LimbData:

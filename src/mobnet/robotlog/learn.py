@@ -15,10 +15,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array
-from mobnet.core.errors import DataError, not_accepted
+from mobnet.core.errors import DataError
 from mobnet.core.files import METRICS, RUN, check_place, read_json, sweep, write_json
 from mobnet.core.options import learn_parser
 from mobnet.core.printed import printed
+from mobnet.core.word_checks import check_learn
 from mobnet.estimation import observer
 from mobnet.estimation.own import (
     LEARNED,
@@ -38,7 +39,7 @@ from mobnet.learning.trainer import own_device
 from mobnet.robot.description import describe, given_table
 from mobnet.robot.nominal import NominalModel
 from mobnet.robotlog.free_check import Held, course_of, free_check, held_out, lines_of
-from mobnet.robotlog.labels import before, check_labels, label_of, limb_data
+from mobnet.robotlog.labels import before, label_of, limb_data
 from mobnet.robotlog.planted_check import PlantedCheck, planted_check
 from mobnet.settings.lab import Lab, load_lab
 from mobnet.settings.networks import Coarse, Learning, Limb, Network, Training
@@ -181,11 +182,9 @@ def _is_new(fingerprint: str, out: Path, *, force: bool) -> bool:
 
 def run(options: Namespace) -> list[str]:
     """Train a network as the command's options say, and return what is printed."""
-    check_labels(options.labels)
+    check_learn(options)
     settings = load_lab()
     epochs = settings.robotlog.learn.epochs if options.epochs is None else options.epochs
-    if epochs < 1:
-        raise DataError(not_accepted("--epochs", epochs, ["a whole number from 1"]))
     table = given_table(options.robot, settings)
     limb = limb_of(table.layout, options.limb)
     out = options.out or Path(f"{limb}_net")

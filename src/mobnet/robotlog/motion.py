@@ -1,7 +1,6 @@
 """A simulated log of any robot of a table that moves without walking: `./reproduce motion` (docs/robots.md)."""
 
 import logging
-import math
 import sys
 from argparse import Namespace
 from collections.abc import Iterator
@@ -13,10 +12,11 @@ from pyarrow import csv, parquet
 
 from mobnet.core.columns import EXTERNAL, PUSHED, recording_columns
 from mobnet.core.errors import DataError, not_accepted
-from mobnet.core.files import atomic_path, check_place, sweep
+from mobnet.core.files import atomic_path, sweep
 from mobnet.core.options import motion_parser
 from mobnet.core.printed import printed
 from mobnet.core.recording import Recording
+from mobnet.core.word_checks import ENDINGS, check_motion
 from mobnet.robot.description import RobotDescription, given_robot
 from mobnet.settings.lab import load_lab
 from mobnet.simulation.free_run import Numbers, record_motion
@@ -25,8 +25,7 @@ log = logging.getLogger(__name__)
 SENSED = ("q", "v", "acc_base_in_base", "tau_motor")
 TRUTH = (EXTERNAL, PUSHED)
 DIGITS = 8  # behind the point
-MOST_MINUTES = 60.0
-WRITERS = {".csv": csv.write_csv, ".parquet": parquet.write_table}
+WRITERS = dict(zip(ENDINGS, (csv.write_csv, parquet.write_table), strict=True))
 
 
 def write_log(recording: Recording, robot: RobotDescription, out: Path, truth: bool) -> None:
@@ -65,15 +64,9 @@ def report_lines(recording: Recording, robot: RobotDescription, out: Path, truth
 
 def run(options: Namespace) -> Iterator[str]:
     """Simulate a log as the command's options say, and yield what is printed."""
+    check_motion(options)
     settings = load_lab()
     robot = given_robot(options.robot, settings)
-    if options.out.suffix not in WRITERS:
-        raise DataError(f"--out: {not_accepted('ending', options.out.suffix, WRITERS)}")
-    if not 0.0 < options.minutes <= MOST_MINUTES or not math.isfinite(options.minutes):
-        raise DataError(not_accepted("--minutes", options.minutes, [f"above 0 and up to {MOST_MINUTES:g}"]))
-    if options.seed < 1:  # 0 would draw the motion by the numbers that hide the plant
-        raise DataError(not_accepted("--seed", options.seed, ["a whole number from 1 on"]))
-    check_place(options.out.parent)
     sweep(options.out.parent)
     numbers = Numbers(settings.free_motion, settings.plant, settings.rates)
     seconds = 60.0 * options.minutes

@@ -16,7 +16,6 @@ import numpy as np
 
 from mobnet.core.arrays import Array
 from mobnet.core.columns import EXTERNAL, recording_columns, torque_columns
-from mobnet.core.errors import beyond, refuse_lines
 from mobnet.core.estimator import Estimate
 from mobnet.core.files import check_place, sweep
 from mobnet.core.joints import JointLayout
@@ -25,6 +24,7 @@ from mobnet.core.options import observe_parser
 from mobnet.core.printed import printed
 from mobnet.core.recording import Recording
 from mobnet.core.store import NOTE, array_writer, file_of, write_array
+from mobnet.core.word_checks import check_observe
 from mobnet.estimation import observer
 from mobnet.estimation.own import DRIVES, ESTIMATE, OBSERVER, RECORDING
 from mobnet.robot.description import RobotDescription, given_robot
@@ -51,7 +51,7 @@ from mobnet.robotlog.meaning import default_map, resolved, wanted_columns
 from mobnet.robotlog.pieces import pieces, root_mean_square
 from mobnet.robotlog.plot import plot_residual
 from mobnet.robotlog.wrenches import Wrenches, WrenchPoint, place_of, wrench_lines, wrenches_of, write_wrenches
-from mobnet.settings.base import GAIN_HZ, TorqueKind
+from mobnet.settings.base import TorqueKind
 from mobnet.settings.lab import load_lab, load_section
 from mobnet.settings.robotlog import LogMap, RobotLog
 
@@ -253,11 +253,11 @@ def _rates(clocks: Mapping[str, Array]) -> Iterator[str]:
 
 def run(options: Namespace) -> Iterator[str]:
     """Observe a log as the command's options say, and yield what is printed."""
+    check_observe(options)
     settings = load_lab()
     robot = given_robot(options.robot, settings)
     meaning = load_section(options.map, LogMap) if options.map else None
     gain_hz = settings.observer.gain_hz if options.gain is None else options.gain
-    refuse_lines(beyond("--gain", gain_hz, GAIN_HZ))
     torque = options.torque or (meaning.torque if meaning else "sample")
     bounds = settings.robotlog
     gravity = settings.plant.gravity_m_s2

@@ -13,13 +13,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mobnet.core.columns import Column
-from mobnet.core.errors import ConfigError, not_accepted
 from mobnet.core.estimator import Estimate
 from mobnet.core.recording import Recording, SensedRecording
 from mobnet.core.store import files_of, write_array
 from mobnet.robot.nominal import NominalModel
 from mobnet.robot.point_jacobian import point_jacobian
-from mobnet.robot.wrench import carrier_of
+from mobnet.robot.word_checks import point_named
 from mobnet.settings.robotlog import WrenchEstimate
 
 NAMES = ("force_x", "force_y", "force_z", "moment_x", "moment_y", "moment_z")
@@ -70,19 +69,8 @@ def place_of(nominal: NominalModel, name: str, joints: Sequence[str] | None = No
         ConfigError: there is no such point or body, or none of the joints moves it.
     """
     robot = nominal.robot
-    origin = (0.0, 0.0, 0.0)
-    known = {body.name: (body.name, origin) for body in robot.bodies}
-    known |= {point.name: (point.body, point.pos) for point in robot.points}
-    if name not in known:
-        points = [point.name for point in robot.points]
-        raise ConfigError(not_accepted("--wrench", name, [*points, *(body.name for body in robot.bodies)]))
-    body, pos = known[name]
-    carrier = carrier_of(robot, body)[0]
-    limbs = robot.layout.limb_of
-    own = tuple(joints or (robot.layout.limb(limbs[carrier]) if carrier in limbs else ()))
-    if carrier is None or carrier not in own:
-        moved = [row.name for row in robot.bodies if carrier_of(robot, row.name)[0] in (joints or limbs)]
-        raise ConfigError(not_accepted("--wrench, what joints of the limb move", name, moved))
+    body, pos, carrier = point_named(robot, name, joints)
+    own = tuple(joints or robot.layout.limb(robot.layout.limb_of[carrier]))
     ahead = _joints_ahead(nominal, carrier)
     return WrenchPoint(name, body, pos, own, len([joint for joint in own if joint in ahead]))
 

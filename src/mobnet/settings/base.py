@@ -11,6 +11,8 @@ from typing import Annotated, Literal, TypeVar
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, JsonValue
 
+from mobnet.core.options import GAIN_HZ, RATE_HZ
+
 Number = TypeVar("Number", int, float)
 Item = TypeVar("Item")
 TorqueKind = Literal["mean", "sample"]  # of a motor: over the interval that ends at the tick, or at the tick
@@ -19,7 +21,8 @@ TorqueKind = Literal["mean", "sample"]  # of a motor: over the interval that end
 class Section(BaseModel):
     """A part of the configuration: its fields are the accepted keys, and nothing changes after loading."""
 
-    model_config = ConfigDict(frozen=True, extra="forbid")
+    # A class is built when it first checks a value: a job imports hundreds and needs few.
+    model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
 
 
 @dataclass(frozen=True)
@@ -76,9 +79,6 @@ LowerName = Annotated[str, Field(pattern="^[a-z][a-z0-9_]*$", max_length=50)]
 RowName = Annotated[str, Field(pattern="^[A-Za-z0-9][A-Za-z0-9-]*$", max_length=50)]
 PartName = Annotated[str, Field(pattern="^[A-Za-z][A-Za-z0-9_]*$", max_length=50)]
 
-# Of files that people pass on, too: what the C library accepts (src/runtime/cursor.h) lies further out.
-RATE_HZ = (1.0, 100_000.0)
-GAIN_HZ = (0.1, 5000.0)
 LOW_PASS_HZ = (0.01, 100_000.0)
 THRESHOLD = 1e-9, 1e6  # [N m], of a ratio [-]
 RateHz = Annotated[Real, Field(ge=RATE_HZ[0], le=RATE_HZ[1])]

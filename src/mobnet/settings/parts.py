@@ -14,6 +14,7 @@ UNIT_TOLERANCE = 1e-5  # figures are published with six digits
 INERTIA_TOLERANCE = 1e-3  # share by which rounded figures may miss the triangle inequality
 TORQUE_NM = (0.001, 5000)  # largest torque of a joint
 SPEED_RAD_S = (0.1, 100)  # largest speed of a joint
+ARMATURE = (0, 1000)  # of a joint [kg m^2]
 SIZES = {"box": 3, "ellipsoid": 3, "sphere": 1, "capsule": 2, "cylinder": 2}  # of a shape that stands at a point
 
 Side = Literal["left", "right"]
@@ -86,7 +87,7 @@ class JointRow(Section):
     axis: UnitVector
     range: base.Span[base.Radians]
     torque_limit: base.Real = Field(ge=TORQUE_NM[0], le=TORQUE_NM[1])
-    armature: base.NotNegative = Field(le=1000)
+    armature: base.NotNegative = Field(le=ARMATURE[1])
     velocity_limit: base.Real = Field(ge=SPEED_RAD_S[0], le=SPEED_RAD_S[1])
 
 

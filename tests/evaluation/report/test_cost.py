@@ -101,6 +101,30 @@ def test_with_targets_only_what_is_out_of_date_is_priced(told: Told, monkeypatch
     assert asked[2] == (["all"], ["scale=smoke"], True)
 
 
+@pytest.mark.parametrize(
+    ("words", "runs"),
+    [
+        (["--config", "scale=smoke"], 1),
+        (["--config", "scale=smoke", "seed=2"], 2),
+        (["--config", "scale=quick"], 2),
+        (["tables/smoke/table_05.tex"], 2),
+    ],
+)
+def test_the_published_run_is_planned_once(
+    words: list[str], runs: int, told: Told, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    asked: list[object] = []
+
+    def planned(*words: object, from_nothing: bool) -> list[PlannedJob]:
+        asked.append(words)
+        return JOBS
+
+    monkeypatch.setattr(cost, "dry_run", planned)
+    assert main(words) == 0
+    assert len(asked) == runs
+    assert "(-50 %), 500 MiB where it took 500 (+0 %)" in told()
+
+
 def test_of_a_target_that_is_up_to_date_nothing_is_priced(told: Told, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(cost, "dry_run", lambda *_, from_nothing: JOBS if from_nothing else [])
     assert main(["tables/smoke/table_05.tex", "--config", "scale=smoke"]) == 0
