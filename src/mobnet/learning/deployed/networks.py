@@ -145,7 +145,7 @@ class GruNetwork(Deployed):
         room = np.empty(w_in.shape[1], dtype=np.float32), np.empty(len(bias), dtype=np.float32)
         inputs = (self._input_mean, self._input_std)
         targets = (self._target_mean, self._target_std, self._std_unit)
-        self._weights = GruWeights(
+        self.weights = GruWeights(
             w_in, w_state, bias, self._w_out, self._b_out, *inputs, *targets, self.std_min, *room
         )
         self._advance = advance
@@ -158,7 +158,7 @@ class GruNetwork(Deployed):
         """Advance by one sample of inputs (n_in,); return the new state (hidden,) and the prediction (n,) [N, N m]."""
         after = np.empty_like(state)
         (mean, std) = np.empty((2, len(self.joints)), dtype=np.float32)
-        self._advance(self._weights, state, x, after, mean, std)
+        self._advance(self.weights, state, x, after, mean, std)
         return after, Prediction(mean, std)
 
     def run_all(self, lanes: Sequence[Array]) -> list[Prediction]:
