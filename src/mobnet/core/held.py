@@ -1,7 +1,7 @@
 """Arguments of compiled code that are taken apart once, and not at each call.
 
-At each call from Python numba takes tuples, records and generators of random numbers apart, field by field: some hundred
-fields take longer than many a function that gets them. What `hold` returns is one pointer to fields taken apart before.
+At each call from Python numba takes tuples, records and generators of random numbers apart, field by field, which takes
+longer than many a function that gets them. What `hold` returns is one pointer to fields that were taken apart before.
 """
 
 from typing import Any
