@@ -26,7 +26,17 @@ class LimbNetworks:
         self.networks = tuple(networks)
         self.joints = tuple(chain.from_iterable(network.joints for network in networks))
         self._columns = [_columns(network, layout) for network in networks]
-        self._steppers, self._order = _steppers(self.networks, self._columns)
+        grus = [k for k, network in enumerate(self.networks) if isinstance(network, GruNetwork)]
+        others = [k for k in range(len(self.networks)) if k not in grus]
+        self._steppers: list[Any] = [_Alone(self.networks[k], self._columns[k]) for k in others]
+        if grus:
+            from mobnet.learning.deployed.together import GruNetworks  # compiled code, as in `GruNetwork`
+
+            self._steppers.append(GruNetworks([networks[k] for k in grus], [self._columns[k] for k in grus]))
+        of = np.repeat(np.arange(len(self.networks)), [len(network.joints) for network in self.networks])
+        # of each number that the steppers predict, one after the other, the joint; and of each joint, the number
+        predicted = np.concatenate([np.flatnonzero(of == k) for k in (*others, *grus)])
+        self._order = np.argsort(predicted)
 
     def init(self) -> State:
         """Return the states before the first sample."""
@@ -36,13 +46,10 @@ class LimbNetworks:
         """Take one sample (1-D arrays); return the new states and the prediction (n,) [N, N m]."""
         # The six networks share the pelvis' inputs and each other's joints (Figure 2), so signals are made once.
         x = signals(sample)
-        after = list[Any]()
-        found = list[Prediction]()
-        for stepper, carried in zip(self._steppers, state, strict=True):
-            stepped, predictions = stepper.step(carried, x)
-            after.append(stepped)
-            found += predictions
-        return tuple(after), _joined([found[k] for k in self._order])
+        stepped = [stepper.step(carried, x) for stepper, carried in zip(self._steppers, state, strict=True)]
+        joined = _joined([prediction for _, prediction in stepped])
+        std = None if joined.std is None else joined.std[self._order]
+        return tuple(after for after, _ in stepped), Prediction(joined.mean[self._order], std)
 
     def run_all(self, recordings: Sequence[Sensed]) -> list[Prediction]:
         """Run over contiguous recordings side by side, each from fresh states; return (T_i, n) [N, N m] of each."""
@@ -65,23 +72,9 @@ class _Alone:
         """Return the network's state before the first sample."""
         return self.network.init()
 
-    def step(self, state: Any, x: Array) -> tuple[Any, list[Prediction]]:
-        """Advance by one sample of the signals; return the new state and the one prediction (n,) [N, N m]."""
-        after, prediction = self.network.step(state, x[self.columns])
-        return after, [prediction]
-
-
-def _steppers(networks: Sequence[Runnable], columns: Sequence[NDArray[np.intp]]) -> tuple[list[Any], list[int]]:
-    """Return what advances networks, all GRUs in one call, and where the prediction of each comes among theirs."""
-    grus = [k for k, network in enumerate(networks) if isinstance(network, GruNetwork)]
-    others = [k for k in range(len(networks)) if k not in grus]
-    steppers: list[Any] = [_Alone(networks[k], columns[k]) for k in others]
-    if grus:
-        from mobnet.learning.deployed.together import GruNetworks  # compiled code, as in `GruNetwork`
-
-        steppers.append(GruNetworks([networks[k] for k in grus], [columns[k] for k in grus]))
-    came = [*others, *grus]
-    return steppers, [came.index(k) for k in range(len(networks))]
+    def step(self, state: Any, x: Array) -> tuple[Any, Prediction]:
+        """Advance by one sample of the signals; return the new state and the prediction (n,) [N, N m]."""
+        return self.network.step(state, x[self.columns])
 
 
 def load_limb_networks(folders: Mapping[str, Path], layout: JointLayout) -> LimbNetworks:

@@ -112,13 +112,14 @@ class ConstantNetwork(Deployed):
     def __init__(self, tensors: Mapping[str, Array], *names: Any) -> None:
         super().__init__(tensors, *names)
         self._output = np.asarray(tensors["head.bias"], dtype=np.float32)
+        self._prediction = self._predict(self._output)
 
     def init(self) -> None:
         """Return the state before the first sample, none."""
 
     def step(self, state: None, x: Array) -> tuple[None, Prediction]:
         """Return no state and the prediction (n,) [N, N m], whatever the inputs (n_in,)."""
-        return None, self._predict(self._output)
+        return None, self._prediction
 
     def run_all(self, lanes: Sequence[Array]) -> list[Prediction]:
         """Return the predictions (T_i, n) [N, N m] for as many samples as the inputs (T_i, n_in) have."""

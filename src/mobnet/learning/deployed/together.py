@@ -1,7 +1,6 @@
 """GRU networks that take a sample in one compiled call: a call for each of them costs half of a step."""
 
 from collections.abc import Sequence
-from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,18 +19,16 @@ class GruNetworks:
     def __init__(self, networks: Sequence[GruNetwork], columns: Sequence[NDArray[np.intp]]) -> None:
         """Join networks of which each has its inputs in columns (n_in,) of the signals."""
         self._units = sum(network.hidden for network in networks)
-        ends = np.cumsum([0, *(len(network.joints) for network in networks)]).tolist()
-        self._parts = [slice(*ends) for ends in pairwise(ends)]
-        self._width = ends[-1]
+        self._joints = sum(len(network.joints) for network in networks)
         self._held = hold(row_of([network.weights for network in networks], columns))
 
     def init(self) -> Array:
         """Return the zero state."""
         return np.zeros(self._units, dtype=np.float32)
 
-    def step(self, state: Array, signals: Array) -> tuple[Array, list[Prediction]]:
-        """Advance by one sample of the robot's signals; return the new state and each prediction (n,) [N, N m]."""
+    def step(self, state: Array, x: Array) -> tuple[Array, Prediction]:
+        """Advance by one sample of the signals; return the new state and what they predict, one after the other."""
         after = np.empty_like(state)
-        (mean, std) = np.empty((2, self._width), dtype=np.float32)
-        advance_row(self._held, signals, state, after, mean, std)
-        return after, [Prediction(mean[part], std[part]) for part in self._parts]
+        (mean, std) = np.empty((2, self._joints), dtype=np.float32)
+        advance_row(self._held, x, state, after, mean, std)
+        return after, Prediction(mean, std)
