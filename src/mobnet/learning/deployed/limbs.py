@@ -26,13 +26,13 @@ class LimbNetworks:
         self.networks = tuple(networks)
         self.joints = tuple(chain.from_iterable(network.joints for network in networks))
         self._columns = [_columns(network, layout) for network in networks]
-        grus = [k for k, network in enumerate(self.networks) if isinstance(network, GruNetwork)]
-        others = [k for k in range(len(self.networks)) if k not in grus]
-        self._steppers: list[Any] = [_Alone(self.networks[k], self._columns[k]) for k in others]
+        grus = {k: network for k, network in enumerate(self.networks) if isinstance(network, GruNetwork)}
+        others = {k: network for k, network in enumerate(self.networks) if k not in grus}
+        self._steppers: list[Any] = [_Alone(network, self._columns[k]) for k, network in others.items()]
         if grus:
             from mobnet.learning.deployed.together import GruNetworks  # compiled code, as in `GruNetwork`
 
-            self._steppers.append(GruNetworks([networks[k] for k in grus], [self._columns[k] for k in grus]))
+            self._steppers.append(GruNetworks(list(grus.values()), [self._columns[k] for k in grus]))
         of = np.repeat(np.arange(len(self.networks)), [len(network.joints) for network in self.networks])
         # of each number that the steppers predict, one after the other, the joint; and of each joint, the number
         predicted = np.concatenate([np.flatnonzero(of == k) for k in (*others, *grus)])

@@ -146,9 +146,7 @@ class GruNetwork(Deployed):
         room = np.empty(w_in.shape[1], dtype=np.float32), np.empty(len(bias), dtype=np.float32)
         inputs = (self._input_mean, self._input_std)
         targets = (self._target_mean, self._target_std, self._std_unit)
-        self.weights = GruWeights(
-            w_in, w_state, bias, self._w_out, self._b_out, *inputs, *targets, self.std_min, *room
-        )
+        self.weights = GruWeights(w_in, w_state, bias, self._w_out, self._b_out, *inputs, *targets, self.std_min, *room)
         self._advance = advance
 
     def init(self) -> Array:
