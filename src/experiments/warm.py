@@ -10,13 +10,15 @@ import torch
 from torch import nn
 
 from mobnet.core.columns import COMMAND, FEET, recording_width
+from mobnet.core.held import hold
 from mobnet.core.recording import Sensed
 from mobnet.detection.chain import low_passed, make_chain
 from mobnet.detection.detector import LegGate, run_over
+from mobnet.detection.gate import gate_state
 from mobnet.estimation.kinds.dahl import bent
 from mobnet.estimation.observer import MomentumObserver
 from mobnet.learning.deployed.lanes import gru_states
-from mobnet.learning.deployed.tick import GruWeights, advance
+from mobnet.learning.deployed.tick import GruWeights, advance, advance_row, row_of
 from mobnet.learning.gates import ordered
 from mobnet.learning.gru import run_gru
 from mobnet.robot.description import WalkingRobot
@@ -79,6 +81,8 @@ def _learn(precision: torch.dtype) -> None:
     head = np.zeros((2, 2), dtype=np.float32), two
     net = GruWeights(*ordered(*weights), *head, one, one + 1, one, one, one, np.float32(0.0), one.copy(), gates)
     advance(net, two.copy(), one, two.copy(), one.copy(), one.copy())
+    row = hold(row_of([net], [np.zeros(1, dtype=np.intp)]))
+    advance_row(row, one, two.copy(), two.copy(), one.copy(), one.copy())
 
 
 def _detect(robot: WalkingRobot, sensed: Sensed, detection: Detection, rate_hz: float) -> None:
@@ -87,6 +91,7 @@ def _detect(robot: WalkingRobot, sensed: Sensed, detection: Detection, rate_hz: 
     for norm in (False, True):
         chain = make_chain(detection.low_pass_hz, detection.hold_s, rate_hz, np.ones((1, 1)), norm=norm)
         for limb in robot.layout.legs.values():
-            watch = LegGate.of(detection.gate, robot, limb, rate_hz).run(sensed, np.zeros((SAMPLES, 6)))
-            run_over(chain, signals, watch)
+            gate = LegGate.of(detection.gate, robot, limb, rate_hz)
+            run_over(chain, signals, gate.run(sensed, np.zeros((SAMPLES, 6))))
+            gate.step(gate_state(), np.zeros(robot.layout.nq), np.zeros(6), 0.0, 0.0)
         low_passed(chain.pole, signals, np.zeros_like(signals))

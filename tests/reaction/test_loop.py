@@ -3,12 +3,19 @@
 import mujoco
 import numpy as np
 import pytest
+from made_weights import weights
 
 from experiments.jobs.reaction_trial import angle_deg, contacts_of
 from experiments.plan.jobs import walk_settings
 from experiments.settings.load import load_settings
 from mobnet.core.columns import recording_columns
-from mobnet.reaction.loop import columns_of, force_on, plan_steps, stop
+from mobnet.estimation.kinds.residual import ResidualEstimator
+from mobnet.learning.deployed.limbs import LimbNetworks
+from mobnet.learning.deployed.networks import Prediction, deployed
+from mobnet.learning.features import limb_inputs, signal_names, signals
+from mobnet.reaction.handler import Handler
+from mobnet.reaction.loop import columns_of, force_on, plan_steps, stop, walk_with
+from mobnet.settings.networks import Limb, NetworkCell
 from mobnet.simulation.simulator import Simulator
 
 pytestmark = pytest.mark.sim
@@ -127,3 +134,46 @@ def test_reacting_steps_begin_with_the_present_one():
     simulator.state.steps = 7
     stop(simulator.state, len(commands))
     assert simulator.state.standing == 1
+
+
+class OneByOne:
+    """Limb networks that step one by one, as an uncertainty model."""
+
+    def __init__(self, networks, layout):
+        where = signal_names(layout)
+        self.networks = networks
+        self.columns = [[where.index(name) for name in network.input_names] for network in networks]
+        self.joints = tuple(joint for network in networks for joint in network.joints)
+
+    def init(self):
+        return [network.init() for network in self.networks]
+
+    def step(self, state, sample):
+        x, after, means, stds = signals(sample), [], [], []
+        for network, carried, columns in zip(self.networks, state, self.columns, strict=True):
+            stepped, found = network.step(carried, x[columns])
+            after.append(stepped)
+            means.append(found.mean)
+            stds.append(found.std)
+        return after, Prediction(np.concatenate(means), np.concatenate(stds))
+
+
+def test_networks_in_one_call_change_no_bit_of_a_walk(robot, layout, leg_watchers, recipe_of):
+    settings = load_settings()
+    networks = []
+    for seed, limb in enumerate(("V", "LL", "RL")):
+        inputs = limb_inputs(layout, Limb(joints=(limb,), Q=("LL", "RL"), T=("LL", "RL"))).names
+        tensors, note = weights(NetworkCell(cell="GRU", hidden=50 + seed), len(inputs), 6, seed)
+        changes = {"inputs": inputs, "joints": layout.limb(limb)}
+        networks.append(deployed(tensors, note.model_copy(update=changes)))
+    walked = []
+    for model in (OneByOne(networks, layout), LimbNetworks(networks, layout)):
+        simulator = Simulator(walk_settings(settings, "walk_test", "sensor_noise"), 3)
+        simulator.start()
+        estimator = ResidualEstimator(recipe_of("MOB", "sensor_noise").observer(), layout, model)
+        handler = Handler(robot, settings.reaction, settings.walking.foot_spacing_m, leg_watchers, "compliant")
+        walked.append(walk_with(simulator, estimator, handler, 1200, 1200, 1.0, 0.03))
+    slow, fast = walked
+    assert len(slow.rows) == 1200
+    for name in ("rows", "tau", "std", "tracking"):
+        np.testing.assert_array_equal(getattr(fast, name), getattr(slow, name))

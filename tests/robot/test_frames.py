@@ -31,3 +31,11 @@ def test_rotation_of_a_batch_is_orthonormal(random_state):
     matrices = rotation(quats)
     identity = np.broadcast_to(np.eye(3), matrices.shape)
     np.testing.assert_allclose(matrices @ matrices.transpose(0, 2, 1), identity, atol=1e-14)
+
+
+def test_rotation_of_one_sample_is_to_the_bit_that_of_a_batch():
+    quats = np.random.default_rng(0).normal(size=(500, 4))
+    for exact in (quats, quats.astype(np.float32)):
+        matrices = rotation(exact)
+        for quat, matrix in zip(exact, matrices, strict=True):
+            np.testing.assert_array_equal(rotation(quat), matrix)

@@ -197,3 +197,39 @@ def test_nothing_of_an_episode_is_left_in_the_next(prepare, run):
         np.testing.assert_array_equal(left, 0)
     assert simulator.pushes.state["active"].tolist() == [0]
     assert simulator.state.clock == -simulator.settings.recording.settle_s
+
+
+def taken_apart(simulator, row):
+    """Simulate a sample with arguments that are taken apart for it alone."""
+    simulator._held = None
+    simulator.run(row)
+
+
+def test_samples_one_by_one_are_to_the_bit_those_of_a_stretch(prepare):
+    """In a loop with an estimator each sample is a call, whose arguments were taken apart at the first one."""
+    simulators = [prepare("walk", "robot_1", random_torque=True) for _ in range(3)]
+    rows = [np.zeros((1000, simulator.width), np.float32) for simulator in simulators]
+    for episode in range(2):
+        for simulator in simulators:
+            simulator.start()
+        stretch, singles, anew = simulators
+        stretch.run(rows[0])
+        for k in range(1000):
+            singles.run(rows[1][k : k + 1])
+        for k in range(100):
+            taken_apart(anew, rows[2][k : k + 1])
+        anew.run(rows[2][100:])
+        assert np.abs(rows[0]).max() > 0.0
+        for other in rows[1:]:
+            np.testing.assert_array_equal(other, rows[0], err_msg=f"episode {episode}")
+
+
+def test_parts_that_are_replaced_are_those_that_run(simulate):
+    """Arguments are held while they are the same objects."""
+    simulator = simulate("flat_walk", "ideal")
+    simulator.run(np.zeros((10, simulator.width), np.float32))
+    simulator.plant = simulator.plant._replace(every=1)
+    simulator.state = simulator.state.copy()
+    before = simulator.state.clock
+    simulator.run(np.zeros((10, simulator.width), np.float32))
+    assert simulator.state.clock - before == pytest.approx(10 * simulator.plant.dt)

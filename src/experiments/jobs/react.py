@@ -22,6 +22,7 @@ from mobnet.core.store import write_array
 from mobnet.detection.detector import LegDetector
 from mobnet.detection.signals import Watched
 from mobnet.detection.watch import LegSetup
+from mobnet.estimation.once import once
 from mobnet.reaction.handler import Handler, Watcher
 from mobnet.reaction.loop import Course, walk_with
 from mobnet.reaction.watchers import FootWatcher, LegWatcher, LimbWatcher, OwnLegWatcher
@@ -103,9 +104,13 @@ class CaseWalker:
         return trial_of(numbers, place, watch, course, settle, robot.rate_hz, bool(simulator.state.standing)), course
 
     def estimator(self, method: str) -> TorqueEstimator:
-        """Return the estimator of a method; its networks are read once, its state is that of a walk."""
+        """Return the estimator of a method; its networks are read once, its state is that of a walk.
+
+        The method in the loop estimates all joints, another one those of the legs that its detector watches.
+        """
         if method not in self.estimators:
-            self.estimators[method] = self.robot.estimator(method)
+            limbs = () if method == self.robot.reaction.estimator else self.robot.detection.legs
+            self.estimators[method] = once(self.robot.estimator(method, limbs))  # both legs ask for it
         return self.estimators[method]
 
     def watchers(self, watch: Watch, wrenches: Array) -> dict[str, Watcher]:

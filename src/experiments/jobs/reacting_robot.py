@@ -11,7 +11,9 @@ from experiments.plan.parts import MethodRun
 from mobnet.core.estimator import TorqueEstimator
 from mobnet.detection.signals import Watched
 from mobnet.detection.watch import LegSetup
-from mobnet.estimation.recipe import Recipe, build_estimator
+from mobnet.estimation.observe import observer_of
+from mobnet.estimation.once import once
+from mobnet.estimation.recipe import Recipe, ResidualObserver, build_estimator
 from mobnet.robot.description import RobotDescription, describe
 from mobnet.settings.detection import Detection
 from mobnet.settings.methods import ObserverSettings
@@ -57,6 +59,14 @@ class ReactingRobot:
         """What our detector watches."""
         return Watched(self.detection.detectors[self.reaction.ours.detector])
 
+    @cached_property
+    def _shared(self) -> ResidualObserver:
+        """The observer of all estimators, which runs once a tick whoever asks."""
+        level = self.settings.level
+        gravity = self.settings.plant.gravity_m_s2
+        known = self.description, level.nominal_mass_ratio, gravity
+        return once(observer_of(*known, self.observer.gain_hz, self.rate_hz, self.observer.torque))
+
     def estimator(self, method: str, limbs: Collection[str] = ()) -> TorqueEstimator:
         """Return the estimator of a method with this robot's networks, of some limbs alone if asked, and its fit."""
         run = self.runs[method]
@@ -65,7 +75,7 @@ class ReactingRobot:
         gravity = settings.plant.gravity_m_s2
         own = (networks, run.fitted)
         known = settings.robot, settings.level.nominal_mass_ratio, gravity, self.observer
-        recipe = Recipe(method, run.methods, *known, self.rate_hz, *own)
+        recipe = Recipe(method, run.methods, *known, self.rate_hz, *own, self._shared)
         return build_estimator(recipe)
 
     def columns(self, limb: str) -> NDArray[Any]:

@@ -5,6 +5,7 @@ these must be exceeded (section 5.3).
 """
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -13,9 +14,10 @@ from numpy.typing import NDArray
 from mobnet.core.arrays import Array
 from mobnet.core.columns import FEET
 from mobnet.core.estimator import Estimate
+from mobnet.core.held import Held, hold
 from mobnet.core.recording import Sensed, SensedRecording
 from mobnet.detection.chain import Chain, ChainState, advance_chain, chain_state, run_chain
-from mobnet.detection.gate import Gate, Spans, advance_gate, gate_state, make_gate, run_gate
+from mobnet.detection.gate import Gate, Spans, advance_held, gate_state, make_gate, run_gate
 from mobnet.detection.leg import Leg, make_leg
 from mobnet.detection.signals import Watched
 from mobnet.robot.description import RobotDescription
@@ -61,6 +63,15 @@ class LegGate:
         sides = {name: side for side, name in robot.layout.legs.items()}
         feet = [foot for foot in FEET if foot.removesuffix("_foot") in robot.layout.legs]
         return cls(make_gate(numbers, rate_hz), leg, feet.index(f"{sides[limb]}_foot"))
+
+    @cached_property
+    def _held(self) -> Held:
+        """Gate and leg, taken apart once: they have many fields."""
+        return hold((self.gate, self.leg))
+
+    def step(self, state: Any, q: Array, tau: Array, swing: float, landing: float) -> bool:
+        """Take one sample as `advance_gate` does; return whether the leg is watched. The state is changed in place."""
+        return advance_held(self._held, state, q, tau, swing, landing)
 
     def watch(self, recording: SensedRecording, tau: NDArray[Any]) -> GateSignal:
         """Return when the leg is watched in a recording, tau (T, 6) [N m] being the estimate of its joints."""
@@ -108,13 +119,12 @@ class LegDetector:
         The state is changed in place.
         """
         foot = self.gate.foot
-        leg = self.gate
         q = np.asarray(sample.q, dtype=np.float64)
         tau = np.asarray(gating, dtype=np.float64)
         swing = float(sample.swing[foot])
         landing = float(sample.landing[foot])
         # The gate has the estimate of one method for all detectors, so that they differ by their signals alone.
-        is_watched = advance_gate(leg.gate, leg.leg, state.gate, q, tau, swing, landing)
+        is_watched = self.gate.step(state.gate, q, tau, swing, landing)
         signals = self.watched.of(estimate, sample.command)
         phase = float(state.gate["phase"])  # by its name: NumPy takes seven times as long for an attribute of a record
         ratio = advance_chain(self.chain, state.chain, signals, is_watched, phase)

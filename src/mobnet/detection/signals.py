@@ -46,7 +46,8 @@ class Watched:
             DataError: the estimate has no standard deviation, and the detector watches it.
         """
         parts = [_signal(kind, estimate) for kind in self.detector.signals]
-        return self.relative(np.concatenate(parts, axis=-1).astype(np.float64), command)
+        found = parts[0] if len(parts) == 1 else np.concatenate(parts, axis=-1)
+        return self.relative(found.astype(np.float64), command)
 
     def relative(self, signals: Array, command: NDArray[Any]) -> Array:
         """Return the first k signals (..., k) [N m], a ratio [-], as the detector compares them with thresholds."""

@@ -62,6 +62,7 @@ class Recipe:
         rate_hz: samples per second [Hz].
         networks: limb -> folder of its trained network, for some limbs of the method; empty where it has none.
         fitted: file that rule `fit` wrote; None for a method that is not fitted.
+        shared: an observer of the same robot and settings that other estimators run too; None for one of its own.
     """
 
     name: str
@@ -73,6 +74,7 @@ class Recipe:
     rate_hz: float
     networks: Mapping[str, Path] = field(default_factory=dict)
     fitted: Path | None = None
+    shared: ResidualObserver | None = None
 
     def __post_init__(self) -> None:
         """Check that the files are those that the method needs.
@@ -110,6 +112,8 @@ class Recipe:
 
     def observer(self) -> ResidualObserver:
         """Return the momentum observer of the level's nominal model."""
+        if self.shared is not None:
+            return self.shared
         from mobnet.estimation.observe import observer_of
 
         gain_hz = self.observing.gain_hz

@@ -109,7 +109,8 @@ def walk_with(
         course.tau[k, columns] = estimate.tau_ext
         course.force[k] = force_on(simulator) + row[0, pushed]
         course.base[k] = simulator.plant.qpos[:3]
-        if course.force[k].any() and len(points := points_on(simulator.world.model, simulator.world.data)):
+        is_pushed = course.force[k].any()
+        if is_pushed and len(points := points_on(simulator.world.model, simulator.world.data)):
             course.point[k] = points.mean(axis=0)
         course.error[k] = sample.v[:3] - simulator.plant.qvel[:3]
         swing_error(simulator.state, simulator.walker.first, simulator.plant.qpos, course.tracking[k])
@@ -125,7 +126,8 @@ def walk_with(
             simulator.commands = plan_steps(simulator.state, reacted.steps)
         if course.reacted is not None:
             stop(simulator.state, len(simulator.commands))
-        ending = left < longest or course.reacted is not None or np.linalg.norm(course.force[k]) > touch_n
+        is_touched = is_pushed and np.linalg.norm(course.force[k]) > touch_n
+        ending = left < longest or course.reacted is not None or is_touched
         left = min(left, after) - 1 if ending else left
     return course
 

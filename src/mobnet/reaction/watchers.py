@@ -11,7 +11,7 @@ from mobnet.core.estimator import Estimate, TorqueEstimator
 from mobnet.core.recording import Sensed
 from mobnet.detection.chain import Chain, ChainState, advance_chain, chain_state
 from mobnet.detection.detector import DetectorState, LegDetector, LegGate
-from mobnet.detection.gate import advance_gate, gate_state
+from mobnet.detection.gate import gate_state
 from mobnet.detection.signals import Watched
 
 Columns = NDArray[Any]
@@ -115,5 +115,5 @@ class FootWatcher:
         q = np.asarray(sample.q, dtype=np.float64)
         tau = estimate.tau_ext[self.columns].astype(np.float64)
         times = float(sample.swing[foot]), float(sample.landing[foot])
-        is_watched = advance_gate(gate.gate, gate.leg, state.gate, q, tau, *times)
+        is_watched = gate.step(state.gate, q, tau, *times)
         return float(advance_chain(self.chain, state.chain, self.wrenches[foot, :3], is_watched, state.gate.phase))

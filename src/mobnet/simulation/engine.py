@@ -14,6 +14,7 @@ from mobnet.control.walker import Walker
 from mobnet.control.walking import walk
 from mobnet.core.arrays import Array
 from mobnet.core.compilation import compiled
+from mobnet.core.held import Held
 from mobnet.robot.description import LEG_JOINTS
 from mobnet.simulation.drives import Drives, drive
 from mobnet.simulation.faults import Faults, perceive
@@ -99,22 +100,28 @@ def make_plant(
     )
 
 
+class Loop(NamedTuple):
+    """What the loop works on, sample after sample."""
+
+    plant: LivePlant
+    walker: Walker
+    sensors: Sensors
+    s: State  # of the controller
+    upper: UpperBody
+    torque: Exploration
+    pushes: Pushes
+    rng_noise: np.random.Generator
+    rng_torque: np.random.Generator
+    rng_pushes: np.random.Generator
+
+
 @compiled(allocating=True)
-def run(
-    plant: LivePlant,
-    walker: Walker,
-    sensors: Sensors,
-    s: State,
-    commands: Array,
-    upper: UpperBody,
-    torque: Exploration,
-    pushes: Pushes,
-    rng_noise: np.random.Generator,
-    rng_torque: np.random.Generator,
-    rng_pushes: np.random.Generator,
-    log: NDArray[np.float32],
-) -> int:
-    """Simulate len(log) samples into log (n, C), columns of `recording_columns`; return how many before a fall."""
+def run(held: Held, commands: Array, log: NDArray[np.float32]) -> int:
+    """Simulate len(log) samples into log (n, C), columns of `recording_columns`; return how many before a fall.
+
+    A `Loop` is held. A call takes few arguments, so that a walk with an estimator in it can call for each sample.
+    """
+    plant, walker, sensors, s, upper, torque, pushes, rng_noise, rng_torque, rng_pushes = held.value
     nv = len(plant.qvel)
     nu = len(plant.ctrl)
     tau = np.zeros(nu)

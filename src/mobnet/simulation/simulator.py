@@ -1,6 +1,7 @@
 """A scenario that can be walked: plant, controller, commands, motion, random torque and pushes, episode by episode."""
 
 import zlib
+from operator import is_
 from typing import NamedTuple
 
 import numpy as np
@@ -13,11 +14,12 @@ from mobnet.control.upper_body import UpperBody, follow
 from mobnet.control.walker import make_walker
 from mobnet.core.arrays import Array
 from mobnet.core.columns import recording_width
+from mobnet.core.held import Held, hold
 from mobnet.robot.description import describe, for_walking
 from mobnet.settings.data import CommandSource, FixedCommand
 from mobnet.settings.walking import WalkSettings
 from mobnet.simulation.drives import reset_drives
-from mobnet.simulation.engine import LivePlant, make_plant, run
+from mobnet.simulation.engine import LivePlant, Loop, make_plant, run
 from mobnet.simulation.faults import reset_faults
 from mobnet.simulation.friction import make_friction
 from mobnet.simulation.native import bind
@@ -73,6 +75,7 @@ class Simulator:
         self.running_s = self.rng["running"].uniform(*chosen.running_s) if chosen else 0.0
         self.episode = seed  # the first of the scenario's kinds of episodes depends on the seed
         self.commands: Array = np.zeros((0, 0))
+        self._held: Held | None = None
         # terrains until all have been walked once more; seeds that follow each other begin on each in turn, so that
         # walks of one episode come to all of them equally often
         self.coming = [scenario.terrain[seed % len(scenario.terrain)]]
@@ -169,17 +172,8 @@ class Simulator:
     def run(self, rows: Rows) -> int:
         """Simulate len(rows) samples into rows (n, C); return how many came before a fall."""
         rng = self.rng
-        return run(
-            self.plant,
-            self.walker,
-            self.sensors,
-            self.state,
-            self.commands,
-            self.upper,
-            self.torque,
-            self.pushes,
-            rng["noise"],
-            rng["torque"],
-            rng["pushes"],
-            rows,
-        )
+        parts = self.plant, self.walker, self.sensors, self.state, self.upper, self.torque, self.pushes
+        loop = Loop(*parts, rng["noise"], rng["torque"], rng["pushes"])
+        if self._held is None or not all(map(is_, loop, self._held.of)):  # another episode, or other parts
+            self._held = hold(loop)
+        return run(self._held, self.commands, rows)

@@ -1,6 +1,7 @@
 """Several limb networks run as one: the six independent networks of section 4.1 with their outputs concatenated."""
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from itertools import chain
 from pathlib import Path
 from typing import Any
@@ -11,10 +12,10 @@ from numpy.typing import NDArray
 from mobnet.core.errors import DataError, not_accepted
 from mobnet.core.joints import JointLayout
 from mobnet.core.recording import Sensed
-from mobnet.learning.deployed.networks import Prediction, Runnable, load_network
+from mobnet.learning.deployed.networks import Array, GruNetwork, Prediction, Runnable, load_network
 from mobnet.learning.features import signal_names, signals
 
-State = tuple[Any, ...]  # state of each network, such as (hidden,) of a GRU
+State = tuple[Any, ...]  # of each network but GRUs, then of all GRUs together
 
 
 class LimbNetworks:
@@ -25,20 +26,30 @@ class LimbNetworks:
         self.networks = tuple(networks)
         self.joints = tuple(chain.from_iterable(network.joints for network in networks))
         self._columns = [_columns(network, layout) for network in networks]
+        grus = {k: network for k, network in enumerate(self.networks) if isinstance(network, GruNetwork)}
+        others = {k: network for k, network in enumerate(self.networks) if k not in grus}
+        self._steppers: list[Any] = [_Alone(network, self._columns[k]) for k, network in others.items()]
+        if grus:
+            from mobnet.learning.deployed.together import GruNetworks  # compiled code, as in `GruNetwork`
+
+            self._steppers.append(GruNetworks(list(grus.values()), [self._columns[k] for k in grus]))
+        of = np.repeat(np.arange(len(self.networks)), [len(network.joints) for network in self.networks])
+        # of each number that the steppers predict, one after the other, the joint; and of each joint, the number
+        predicted = np.concatenate([np.flatnonzero(of == k) for k in (*others, *grus)])
+        self._order = np.argsort(predicted)
 
     def init(self) -> State:
-        """Return the states before the first sample, such as (hidden,) of each GRU."""
-        return tuple(network.init() for network in self.networks)
+        """Return the states before the first sample."""
+        return tuple(stepper.init() for stepper in self._steppers)
 
     def step(self, state: State, sample: Sensed) -> tuple[State, Prediction]:
         """Take one sample (1-D arrays); return the new states and the prediction (n,) [N, N m]."""
         # The six networks share the pelvis' inputs and each other's joints (Figure 2), so signals are made once.
         x = signals(sample)
-        stepped = [
-            network.step(carried, x[columns])
-            for network, carried, columns in zip(self.networks, state, self._columns, strict=True)
-        ]
-        return tuple(after for after, _ in stepped), _joined([prediction for _, prediction in stepped])
+        stepped = [stepper.step(carried, x) for stepper, carried in zip(self._steppers, state, strict=True)]
+        joined = _joined([prediction for _, prediction in stepped])
+        std = None if joined.std is None else joined.std[self._order]
+        return tuple(after for after, _ in stepped), Prediction(joined.mean[self._order], std)
 
     def run_all(self, recordings: Sequence[Sensed]) -> list[Prediction]:
         """Run over contiguous recordings side by side, each from fresh states; return (T_i, n) [N, N m] of each."""
@@ -48,6 +59,22 @@ class LimbNetworks:
             inputs = [x[:, columns] for x in seen]
             limbs.append(network.run_all(inputs))
         return [_joined(predictions) for predictions in zip(*limbs, strict=True)]
+
+
+@dataclass(frozen=True)
+class _Alone:
+    """A network that advances by itself; its inputs stand in `columns` (n_in,) of the signals."""
+
+    network: Runnable
+    columns: NDArray[np.intp]
+
+    def init(self) -> Any:
+        """Return the network's state before the first sample."""
+        return self.network.init()
+
+    def step(self, state: Any, x: Array) -> tuple[Any, Prediction]:
+        """Advance by one sample of the signals; return the new state and the prediction (n,) [N, N m]."""
+        return self.network.step(state, x[self.columns])
 
 
 def load_limb_networks(folders: Mapping[str, Path], layout: JointLayout) -> LimbNetworks:

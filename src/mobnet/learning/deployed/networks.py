@@ -112,13 +112,14 @@ class ConstantNetwork(Deployed):
     def __init__(self, tensors: Mapping[str, Array], *names: Any) -> None:
         super().__init__(tensors, *names)
         self._output = np.asarray(tensors["head.bias"], dtype=np.float32)
+        self._prediction = self._predict(self._output)
 
     def init(self) -> None:
         """Return the state before the first sample, none."""
 
     def step(self, state: None, x: Array) -> tuple[None, Prediction]:
         """Return no state and the prediction (n,) [N, N m], whatever the inputs (n_in,)."""
-        return None, self._predict(self._output)
+        return None, self._prediction
 
     def run_all(self, lanes: Sequence[Array]) -> list[Prediction]:
         """Return the predictions (T_i, n) [N, N m] for as many samples as the inputs (T_i, n_in) have."""
@@ -145,9 +146,7 @@ class GruNetwork(Deployed):
         room = np.empty(w_in.shape[1], dtype=np.float32), np.empty(len(bias), dtype=np.float32)
         inputs = (self._input_mean, self._input_std)
         targets = (self._target_mean, self._target_std, self._std_unit)
-        self._weights = GruWeights(
-            w_in, w_state, bias, self._w_out, self._b_out, *inputs, *targets, self.std_min, *room
-        )
+        self.weights = GruWeights(w_in, w_state, bias, self._w_out, self._b_out, *inputs, *targets, self.std_min, *room)
         self._advance = advance
 
     def init(self) -> Array:
@@ -158,7 +157,7 @@ class GruNetwork(Deployed):
         """Advance by one sample of inputs (n_in,); return the new state (hidden,) and the prediction (n,) [N, N m]."""
         after = np.empty_like(state)
         (mean, std) = np.empty((2, len(self.joints)), dtype=np.float32)
-        self._advance(self._weights, state, x, after, mean, std)
+        self._advance(self.weights, state, x, after, mean, std)
         return after, Prediction(mean, std)
 
     def run_all(self, lanes: Sequence[Array]) -> list[Prediction]:

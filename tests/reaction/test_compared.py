@@ -1,0 +1,80 @@
+"""Detectors that are compared in a walk, on estimators of their own."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from experiments.jobs.react import CaseWalker
+from experiments.jobs.reacting_robot import ReactingRobot
+from experiments.plan.jobs import walk_settings
+from experiments.plan.parts import MethodRun
+from experiments.settings.catalogue import Catalogue
+from mobnet.core.detections import Threshold
+from mobnet.core.estimator import Estimate
+from mobnet.estimation.kinds.residual import ResidualEstimator
+from mobnet.estimation.observer import MomentumObserver
+from mobnet.estimation.recipe import build_estimator
+from mobnet.settings.reaction import Watch
+
+LEVEL = "sensor_noise"
+
+
+@pytest.fixture
+def walker(settings, layout):
+    """A robot with the observer alone in its loop, or as another method, and thresholds of the detector `MOB`."""
+    methods = Catalogue(settings).all_methods
+    mob = MethodRun("MOB", methods, {}, None, 0, layout.names)
+    other = replace(mob, method="other", methods={**methods, "other": methods["MOB"]})
+    numbers = settings.reaction.model_copy(update={"estimator": "other"})
+    walk = walk_settings(settings, "walk_test", LEVEL)
+    robot = ReactingRobot(walk, numbers, settings.detection, settings.observer, {"MOB": mob, "other": other})
+    rows = []
+    for limb in settings.detection.legs:
+        rows += [Threshold("MOB", limb, "reaction", f"mean.{joint}", 1, 12.0, "N m") for joint in layout.limb(limb)]
+    return CaseWalker(robot, rows)
+
+
+@pytest.fixture
+def steps(monkeypatch):
+    """Steps of all observers and of all estimators, counted by class."""
+    counted = {MomentumObserver: 0, ResidualEstimator: 0}
+
+    def count(kind, step):
+        def counting(self, state, sample):
+            counted[kind] += 1
+            return step(self, state, sample)
+
+        monkeypatch.setattr(kind, "step", counting)
+
+    for kind in counted:
+        count(kind, kind.step)
+    return counted
+
+
+def test_in_a_tick_the_observer_runs_once_and_each_estimator_once(walker, steps, made_up, layout, recipe_of):
+    sensed = made_up(5, 0.2).sensed
+    sensed.swing[:] = 0.0
+    sensed.swing[20:, 0] = 1.0  # the left leg swings
+    sensed.landing[20:, 0] = 1.0
+    watchers = walker.watchers(Watch(detector="MOB", rule="reaction"), np.zeros((2, 6)))
+    assert list(watchers) == ["LL", "RL"]
+    states = {limb: watcher.init() for limb, watcher in watchers.items()}
+    in_loop = walker.estimator("other")
+    state = in_loop.init()
+    ratios = []
+    for k in range(len(sensed)):
+        sample = sensed[k]
+        state, estimate = in_loop.step(state, sample)
+        ratios.append([watcher.ratio(states[limb], sample, estimate) for limb, watcher in watchers.items()])
+    assert steps == {MomentumObserver: len(sensed), ResidualEstimator: 2 * len(sensed)}
+    # A leg's own detector with its own observer is the reference.
+    alone = build_estimator(recipe_of("MOB", LEVEL))
+    watcher, state = watchers["LL"], alone.init()
+    detecting = watcher.detector.init()
+    for k in range(len(sensed)):
+        state, own = alone.step(state, sensed[k])
+        tau = own.tau_ext[watcher.columns]
+        assert watcher.detector.step(detecting, sensed[k], Estimate(tau), tau).ratio == ratios[k][0]
+    assert max(ratio for ratio, _ in ratios) > 0.0
+    assert not any(ratio for _, ratio in ratios)
