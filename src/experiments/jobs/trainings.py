@@ -57,4 +57,4 @@ def train(
         first_s=training.learning.data_s,
         margins=margins,
     )
-    train_on(data, TrainingJob(training, seed, root_seed), out, state, start)
+    train_on(data, TrainingJob(training, seed, root_seed), out, state, start, in_place=True)

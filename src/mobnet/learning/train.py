@@ -25,20 +25,22 @@ from mobnet.settings.base import Section
 log = logging.getLogger(__name__)
 
 
-def train_on(data: LimbData, job: TrainingJob, out: Path, state: Path, start: Path | None = None) -> None:
+def train_on(
+    data: LimbData, job: TrainingJob, out: Path, state: Path, start: Path | None = None, *, in_place: bool = False
+) -> None:
     """Train one limb network by (22), or by another of `losses`, and keep the epoch that validates best.
 
     The folder `out` gets `weights.safetensors`, `metrics.csv` and, last, `run.json`; nothing before the training is
     done. The folder `state` gets a checkpoint and `metrics.csv` at each epoch; a killed training goes on from there to
     the same weights. The checkpoint is deleted when the training is done; `time.json` stays. A fine-tuning begins with
-    the weights of the file `start`.
+    the weights of the file `start`. `in_place` overwrites the data with their z-scores.
 
     Raises:
         DataError: the data are too short.
         TrainingError: the loss diverged, where `learning.may_diverge` does not allow it.
     """
     one_thread()
-    trainer = Trainer(job, data, start)
+    trainer = Trainer(job, data, start, in_place=in_place)
     done = trainer.run(state)
     calibration = trainer.calibrate(done)
     note = run_note(trainer, data, done, calibration)

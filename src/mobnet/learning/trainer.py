@@ -79,8 +79,10 @@ class Trainer:
     weights from the network that it starts from; `fingerprint` is a hash of all that the weights depend on.
     """
 
-    def __init__(self, job: TrainingJob, data: LimbData, start: Path | None = None) -> None:
+    def __init__(self, job: TrainingJob, data: LimbData, start: Path | None = None, *, in_place: bool = False) -> None:
         """Split, scale and move inputs (N, n_in) and targets (N, n) [N, N m] to the device.
+
+        `in_place` z-scores the data themselves, of which nobody needs the numbers any more: no second copy is made.
 
         Raises:
             DataError: the network that it starts from is damaged, or another one.
@@ -99,7 +101,7 @@ class Trainer:
         arrays = data.inputs, data.targets
         # A network that goes on learning keeps its z-scores: with others its weights would mean something else.
         self.scales = first.scales if first else (scale_of(arrays[0], self._blocks), scale_of(arrays[1], self._blocks))
-        inputs, targets = (self._scaled(*pair) for pair in zip(arrays, self.scales, strict=True))
+        inputs, targets = (self._scaled(*pair, in_place) for pair in zip(arrays, self.scales, strict=True))
         self._samples = Samples(inputs, targets, partial=learning.labels == "swing")
         self._shape = (stream, job.horizon, learning.batch_size)
         self._validation = self._validation_at(1)
@@ -126,8 +128,8 @@ class Trainer:
     def _seed(self, *purpose: int | str) -> int:
         return int(self.job.generator(*purpose).integers(np.iinfo(np.int64).max))
 
-    def _scaled(self, array: NDArray[np.float32], scale: ZScore) -> Tensor:
-        scaled = array - scale.mean
+    def _scaled(self, array: NDArray[np.float32], scale: ZScore, in_place: bool) -> Tensor:
+        scaled = np.subtract(array, scale.mean, out=array if in_place else None)
         scaled /= scale.std
         return torch.from_numpy(scaled).to(self.device)
 
