@@ -19,7 +19,7 @@ from experiments.plan.jobs import walk_settings
 from experiments.settings.load import load_settings
 from experiments.settings.settings import Settings
 from mobnet.core.recording import Recording, read_recording
-from mobnet.estimation.observe import observer_of, residual_and_truth
+from mobnet.estimation.observe import BlockObserver, observer_of
 from mobnet.robot.description import RobotDescription, describe
 from mobnet.simulation.record import collect
 
@@ -90,7 +90,8 @@ def _errors(
     gravity, observer = settings.plant.gravity_m_s2, settings.observer
     ratio = settings.levels[LEVEL].nominal_mass_ratio
     momentum = observer_of(robot, ratio, gravity, observer.gain_hz, recording.rate_hz, observer.torque)
-    residual, low_passed = residual_and_truth(momentum, recording, truth.tau_ext)
+    observed = BlockObserver(momentum, recording.segments, recording.rate_hz)
+    residual, low_passed = np.split(observed.block(0, recording.sensed, truth.tau_ext, {}), 2, axis=1)
     error = np.sqrt(np.mean((residual - low_passed)[:, columns] ** 2, axis=0))
     for joint, one, most in zip(robot.layout.limb(robot.feet["left"].limb), error, _largest(truth.tau_ext[:, columns]),
                                 strict=True):  # fmt: skip

@@ -1,5 +1,7 @@
 """The rule `detect` on made-up walks: an estimate that is the truth with noise, and one that sees nothing."""
 
+import tracemalloc
+
 import numpy as np
 import pytest
 from csv_files import read_table
@@ -13,6 +15,7 @@ from mobnet.core.errors import DataError
 from mobnet.core.recording import Recording, write_recording
 from mobnet.core.store import write_array
 from mobnet.detection.leg import make_leg, unit_torques
+from mobnet.detection.watch import LegSetup
 from mobnet.settings.detection import DetectorSettings
 
 POINTS = ("left_foot_front", "left_foot_side", "left_ankle_front", "left_knee_side")
@@ -141,6 +144,18 @@ def test_free_swings_are_those_that_nothing_pushes(made, section):
     }  # fmt: skip
     place = [row for row in rows if (row.scenario, row.part) == ("place_walk", "calibration")]
     assert max(row.ratio_largest for row in place) == pytest.approx(1 / section.thresholds.margin, rel=1e-4)
+
+
+def test_of_a_recording_a_leg_keeps_what_detectors_need(section, settings, robot, walks):
+    """An hour of walking is tens of recordings: kept whole, they once took four fifths of the memory of the run."""
+    setup = LegSetup.of(section, robot, "LL", RATE_HZ)
+    walk = walks["long_walk"]
+    tracemalloc.start()
+    before = tracemalloc.get_traced_memory()[0]
+    (leg,) = setup.recordings(walk.recordings, walk.estimates["MOB-Net"])
+    kept = tracemalloc.get_traced_memory()[0] - before
+    tracemalloc.stop()
+    assert kept < 1.2 * (leg.command.nbytes + leg.gate.watched.nbytes + leg.gate.phase.nbytes)
 
 
 def test_curves_find_less_at_higher_thresholds(made):

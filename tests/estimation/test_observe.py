@@ -1,5 +1,6 @@
 """The residual file: what it holds, how segments and levels enter, and the scheme's error on the simulated plant."""
 
+import tracemalloc
 from dataclasses import replace
 
 import numpy as np
@@ -82,6 +83,35 @@ def test_every_segment_starts_anew(run, recording, nominal, written, tmp_path):
     alone = MomentumObserver(nominal, GAIN_HZ, RATE_HZ).residual(recording.sensed[100:200])
     np.testing.assert_allclose(array[100:, :nv], alone, atol=0.02)
     np.testing.assert_allclose(array[100:, nv:], low_pass(recording.truth.tau_ext[100:], GAIN_HZ, RATE_HZ), atol=0.01)
+
+
+def test_the_blocks_in_which_it_is_read_change_no_bit(run, recording, written, tmp_path, monkeypatch):
+    """Observer, low-pass and label carry their states; `robot_1` has all three."""
+    rng = np.random.default_rng(0)
+    wrenches = {f"wrench_{side}_foot": rng.normal(0.0, 100.0, (200, 6)) for side in ("left", "right")}
+    swinging = replace(recording.sensed, swing=np.tile([1.0, 0.0], (200, 1)))
+    truth = replace(recording.truth, **wrenches)
+    stem = written(replace(recording, sensed=swinging, truth=truth, segments=((3, 100), (100, 190))))
+    run(stem, tmp_path / "whole", "robot_1")
+    for module in ("experiments.jobs.observing", "mobnet.estimation.observe"):
+        monkeypatch.setattr(f"{module}.BLOCK_ROWS", 7)
+    run(stem, tmp_path / "blocks", "robot_1")
+    np.testing.assert_array_equal(read_array(tmp_path / "blocks")[0], read_array(tmp_path / "whole")[0])
+
+
+def test_memory_does_not_grow_with_the_recording(run, recording, written, tmp_path, monkeypatch):
+    monkeypatch.setattr("mobnet.core.store.GROUP_ROWS", 500)
+    sensed = replace(recording.sensed, acc_base_in_base=np.tile([0.0, 0.0, 9.81], (200, 1)))
+    most = []
+    for times in (5, 5, 50):  # the first one also compiles
+        rows = np.tile(np.arange(200), times)
+        segments = tuple((start, start + 100) for start in range(0, len(rows), 100))
+        stem = written(replace(recording, sensed=sensed[rows], truth=recording.truth[rows], segments=segments))
+        tracemalloc.start()
+        run(stem, tmp_path / "out")
+        most.append(tracemalloc.get_traced_memory()[1])
+        tracemalloc.stop()
+    assert most[2] < 1.5 * most[1]
 
 
 def test_level_picks_the_nominal_model(settings, robot):

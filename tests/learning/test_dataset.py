@@ -1,5 +1,6 @@
 """Training data: the target of section 4.2.3, z-scores, and files that do not fit."""
 
+import tracemalloc
 from dataclasses import replace
 
 import numpy as np
@@ -75,6 +76,18 @@ def test_the_last_recordings_are_held_out(stems, settings):
     data = load_limb_data(settings.layout, limb, "external", *columns, held_out=1)
     assert data.held_out == len(read_array(stems[0][0])[0])
     assert data.digest != load_limb_data(settings.layout, limb, "external", *columns).digest
+
+
+def test_memory_holds_the_data_once_and_what_is_read_of_a_recording(stems, settings):
+    limb, pair = Catalogue(settings).network("MOB-Net", "LL"), stems[1]
+    one, many = ([[stem] * count for stem in pair] for count in (1, 8))
+    load_limb_data(settings.layout, limb, "uncertainty", *one)
+    tracemalloc.start()
+    data = load_limb_data(settings.layout, limb, "uncertainty", *many)
+    most = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    held = data.inputs.nbytes + data.targets.nbytes
+    assert most < 1.75 * held
 
 
 def test_a_missing_column_is_named(stems, load):

@@ -81,6 +81,15 @@ def test_a_training_that_may_diverge_says_so_and_keeps_its_first_weights(trainer
     assert torch.equal(done.best["head.weight"], first)
 
 
+def test_z_scores_in_place_are_those_of_a_copy_in_half_the_memory(small, data, tmp_path):
+    job = TrainingJob(small.training(), 0, 1)
+    scored = [Trainer(job, data, in_place=where)._samples for where in (False, True)]
+    for name in ("inputs", "targets"):
+        copy, own = (getattr(one, name).cpu().numpy() for one in scored)
+        np.testing.assert_array_equal(copy, own)
+        np.testing.assert_array_equal(getattr(data, name), own)
+
+
 def test_windows_give_other_weights_than_streams(trainer, tmp_path):
     streams, windows = (trainer(sequences=how).run(tmp_path / how) for how in ("carried", "windows"))
     assert windows.epochs[-1].train_loss < windows.epochs[0].train_loss

@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from experiments.jobs.calm import calm_parts, limb_thresholds
+from experiments.jobs.calm import calm_parts, limb_thresholds, window_heights
 from mobnet.core.errors import DataError
 
 RATE_HZ, HOUR_S = 10.0, 3600.0
@@ -20,7 +20,8 @@ def calibrated(settings, torques, rate_per_h=20.0):
     rule = settings.reaction.ours.rule
     numbers = settings.detection.thresholds.model_copy(update={"rates_per_h": {rule: rate_per_h}})
     detection = settings.detection.model_copy(update={"thresholds": numbers})
-    return limb_thresholds(SimpleNamespace(detection=detection, reaction=settings.reaction, rate_hz=RATE_HZ), torques)
+    robot = SimpleNamespace(detection=detection, reaction=settings.reaction, rate_hz=RATE_HZ)
+    return limb_thresholds(robot, [window_heights(robot, own) for own in torques])
 
 
 def test_false_alarms_come_at_the_wanted_rate_and_each_joint_has_its_share(settings):

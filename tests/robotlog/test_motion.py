@@ -2,13 +2,20 @@
 
 import logging
 import re
+import weakref
+from dataclasses import replace
 from pathlib import Path
 
 import pandas as pd
 import pytest
 
-from mobnet.robotlog.motion import main
+from mobnet.core.recording import Recording
+from mobnet.robot.description import describe
+from mobnet.robotlog.motion import main, write_log
 from mobnet.robotlog.observe import main as observe
+from mobnet.settings.lab import load_section
+from mobnet.settings.robot import RobotTable
+from mobnet.simulation.free_run import Numbers, record_motion
 
 ARM = Path("tests/data/arm.yaml")
 PAGE = Path("docs/robots.md").read_text()
@@ -64,15 +71,48 @@ def test_equal_words_make_equal_files_in_both_formats(say, tmp_path):
     pd.testing.assert_frame_equal(pd.read_csv(tmp_path / "one.csv"), pd.read_parquet(tmp_path / "one.parquet"))
 
 
+@pytest.mark.parametrize("ending", ["csv", "parquet"])
+def test_the_pieces_in_which_a_log_is_made_change_no_number(ending, say, tmp_path, monkeypatch):
+    """Noise, motion and pushes go on from one piece to the next."""
+    told = []
+    for name, rows in (("whole", 60_000), ("pieces", 500)):
+        monkeypatch.setattr("mobnet.simulation.free_run.PIECE", rows)
+        words = ("--robot", ARM, "--minutes", 0.05, "--pushes", "--out", tmp_path / f"{name}.{ending}")
+        told.append(say(main, *words)[1][:-1])
+    read = {"csv": pd.read_csv, "parquet": pd.read_parquet}[ending]
+    pd.testing.assert_frame_equal(read(tmp_path / f"pieces.{ending}"), read(tmp_path / f"whole.{ending}"))
+    assert told[0] == told[1]
+
+
+def test_of_a_log_no_more_than_two_pieces_are_held(settings, tmp_path):
+    """An hour of a robot with 29 joints has 5 GB."""
+    arm = describe(load_section(ARM, RobotTable))
+    numbers = Numbers(settings.free_motion, settings.plant, settings.rates)
+    first = record_motion(arm, numbers, 0.05, 1, ideal=True, pushed=False)
+    held = list[weakref.ref[Recording]]()
+
+    def pieces():
+        for _ in range(5):
+            assert sum(one() is not None for one in held) < 2
+            piece = replace(first)
+            held.append(weakref.ref(piece))
+            yield piece
+            del piece
+
+    told = write_log(pieces(), arm, tmp_path / "log.parquet", truth=False)
+    assert told.samples == 5 * len(first.sensed)
+
+
 @pytest.mark.parametrize(
     ("words", "message"),
     [
         (("--minutes", "0"), "--minutes: 0.0 is not accepted; accepted: above 0 and up to 60"),
+        (("--minutes", "1e-6"), "--minutes: 1e-06 is not accepted; accepted: 1.7e-05 or more, a sample at 1000 Hz"),
         (("--seed", "0"), "--seed: 0 is not accepted; accepted: a whole number from 1 on"),
         (("--out", "log.bag"), "--out: ending: '.bag' is not accepted; accepted: .csv, .parquet"),
         (("--robot", "none.yaml"), "none.yaml"),
     ],
-    ids=["minutes", "seed", "ending", "robot"],
+    ids=["minutes", "less than a sample", "seed", "ending", "robot"],
 )
 def test_what_is_not_accepted_is_one_line(words, message, say, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)

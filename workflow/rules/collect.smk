@@ -51,7 +51,7 @@ rule observe:
     group:
         "residuals"
     resources:
-        mem_mb=growing(2400),
+        mem_mb=growing(1000),
         runtime=15,
         disk_mb=SIZES.residuals,
     params:

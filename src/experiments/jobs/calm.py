@@ -62,8 +62,9 @@ def watch(
     forces = list[list[float]]()
     for calm in calm_parts(robot, quiet):
         for limb, signals in _signals(robot, estimator, calm):
-            limbs[limb].append(signals)
+            limbs[limb].append(window_heights(robot, signals))
         forces.append([swing_force(setup, calm) for setup in robot.setups])
+        del calm  # before the next one is read: a walk of ten minutes with its truth has 0.7 GB
     rows = [*_limbs(robot, limbs), *_feet(robot, np.max(forces, axis=0))]
     write_text(out, csv_text(COLUMNS, [astuple(row) for row in rows]))
 
@@ -76,6 +77,7 @@ def calm_parts(robot: ReactingRobot, quiet: Sequence[Path]) -> Iterator[Recordin
             walk = first_part(read_recording(path, robot.description.layout), left)
             left -= len(walk.sensed)
             yield walk
+            del walk  # as its reader does
 
 
 def _signals(robot: ReactingRobot, estimator: TorqueEstimator, calm: Recording) -> Iterator[tuple[str, Array]]:
@@ -89,22 +91,27 @@ def _signals(robot: ReactingRobot, estimator: TorqueEstimator, calm: Recording) 
             yield limb, robot.setups[0].low_passed(signals, ((0, len(signals)),))
 
 
+def window_heights(robot: ReactingRobot, signals: Array) -> Array:
+    """Return the largest size of signals (T, n) of a segment in each whole window of it, (k, n)."""
+    window = round(robot.detection.window_s * robot.rate_hz)
+    whole = signals[: len(signals) // window * window]
+    return np.abs(whole).reshape(-1, window, signals.shape[1]).max(axis=1)
+
+
 def _limbs(robot: ReactingRobot, limbs: Mapping[str, Sequence[Array]]) -> Iterator[Threshold]:
-    """Yield the thresholds of limbs for the rate of our detector, from its signals (T, n) in segments."""
+    """Yield the thresholds of limbs for the rate of our detector, from the heights (k, n) of windows in segments."""
     ours = robot.reaction.ours
-    for limb, signals in limbs.items():
+    for limb, heights in limbs.items():
         names = robot.watched.names(robot.description.layout.limb(limb))
-        for name, value in zip(names, limb_thresholds(robot, signals), strict=True):
+        for name, value in zip(names, limb_thresholds(robot, heights), strict=True):
             yield Threshold(ours.detector, limb, ours.rule, name, 1, float(value), unit_of(name))
 
 
-def limb_thresholds(robot: ReactingRobot, signals: Sequence[Array]) -> Array:
-    """Return the thresholds of a limb's signals (n,) from these (T, n) in segments, behind the low-pass."""
+def limb_thresholds(robot: ReactingRobot, heights: Sequence[Array]) -> Array:
+    """Return the thresholds of a limb's signals (n,) from their largest sizes (k, n) in the windows of segments."""
     numbers = robot.detection.thresholds
-    window = round(robot.detection.window_s * robot.rate_hz)
-    parts = [np.abs(own[: len(own) // window * window]).reshape(-1, window, own.shape[1]) for own in signals]
-    largest = np.concatenate([part.max(axis=1) for part in parts])
-    episodes = np.repeat(np.arange(len(parts)), [len(part) for part in parts])
+    largest = np.concatenate(heights)
+    episodes = np.repeat(np.arange(len(heights)), [len(part) for part in heights])
     scale = np.quantile(largest, numbers.scale_quantile, axis=0)
     rate_per_h = numbers.rates_per_h[robot.reaction.ours.rule]
     walked_s = len(largest) * robot.detection.window_s

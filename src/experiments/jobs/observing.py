@@ -2,15 +2,16 @@
 
 import logging
 from collections.abc import Sequence
+from dataclasses import fields
 from pathlib import Path
 
-import numpy as np
-
-from mobnet.core.columns import EXTERNAL, named, residual_columns
-from mobnet.core.recording import read_sensed
-from mobnet.core.store import check_rate, read_array, write_array
-from mobnet.estimation.label import foot_label
-from mobnet.estimation.observe import CARRIED, observer_of, read_wrenches, residual_and_truth
+from mobnet.core.columns import EXTERNAL, residual_columns
+from mobnet.core.notes import read_array_note
+from mobnet.core.recording import Sensed, read_blocks
+from mobnet.core.store import NOTE, array_writer, check_rate, file_of, spans_and_rate
+from mobnet.estimation.label import FootLabel
+from mobnet.estimation.observe import CARRIED, BlockObserver, feet_zeros, observer_of, wrench_fields
+from mobnet.estimation.observer import BLOCK_ROWS
 from mobnet.robot.description import describe
 from mobnet.settings.methods import ObserverSettings
 from mobnet.settings.robot import RobotTable
@@ -59,24 +60,32 @@ def observe(
         DataError: the recording is damaged.
     """
     description = describe(robot)
+    layout = description.layout
     check_rate(recording, rate_hz)
-    read = read_sensed(recording, description.layout)
-    external, _ = read_array(recording, named(EXTERNAL, description.layout.names), description.layout)
+    note = read_array_note(file_of(recording, NOTE))
+    segments, recorded_hz = spans_and_rate(note)
     momentum = observer_of(
-        description, level.nominal_mass_ratio, gravity_m_s2, observer.gain_hz, read.rate_hz, observer.torque
+        description, level.nominal_mass_ratio, gravity_m_s2, observer.gain_hz, recorded_hz, observer.torque
     )
-    log.info("%s: %d samples in %d segments", recording, len(read.sensed), len(read.segments))
-    # Both parts of the target (O7) are written, not their difference: FTS-e2e learns the second, scores need it too.
-    parts = residual_and_truth(momentum, read, external)
+    log.info("%s: %d samples in %d segments", recording, note["rows"], len(segments))
     labelled = level.labels == "foot_sensors"
+    wrenches = wrench_fields(description) if labelled else {}
+    label = None
     if labelled:
-        wrenches = read_wrenches(recording, description)
-        parts = (*parts, foot_label(momentum.nominal, read, wrenches, observer.gain_hz))
+        zeros = feet_zeros(recording, description)
+        label = FootLabel(momentum.nominal, zeros, observer.gain_hz, recorded_hz, plates=True)
+    observed = BlockObserver(momentum, segments, recorded_hz, label)
     meta = {
-        "rate_hz": read.rate_hz,
-        **{key: read.meta[key] for key in CARRIED if key in read.meta},
+        "rate_hz": recorded_hz,
+        **{key: note[key] for key in CARRIED if key in note},
         "gain_hz": observer.gain_hz,
         "nominal_mass_ratio": level.nominal_mass_ratio,
     }
-    columns = residual_columns(description.layout, labelled)
-    write_array(out, np.concatenate(parts, axis=1), columns, meta, read.segments)
+    sensed = [field.name for field in fields(Sensed)]
+    # Both parts of the target (O7) are written, not their difference: FTS-e2e learns the second, scores need it too.
+    with array_writer(out, residual_columns(layout, labelled)) as writer:
+        for first, block in read_blocks(recording, layout, [*sensed, EXTERNAL, *wrenches.values()], BLOCK_ROWS):
+            loads = {side: block[name] for side, name in wrenches.items()}
+            own = Sensed(**{name: block[name] for name in sensed})
+            writer.append(observed.block(first, own, block[EXTERNAL], loads))
+        writer.close(meta, segments)

@@ -48,7 +48,7 @@ def train(
         TrainingError: the loss diverged, where `learning.may_diverge` does not allow it.
     """
     data = data_of(layout, training, recordings, residuals, rate_hz, margins, known)
-    train_on(data, TrainingJob(training, seed, root_seed), out, state, start, lesson)
+    train_on(data, TrainingJob(training, seed, root_seed), out, state, start, lesson, in_place=True)
 
 
 def data_of(

@@ -107,7 +107,9 @@ class LegSetup(LimbSetup):
         swings = swings_of(read.sensed.swing[:, self.gate.foot], read.segments)
         terrains = read.meta.get("terrains") or [UNKNOWN] * len(read.segments)
         walked = tuple(terrains[segment_of(swing, read.segments)] for swing in swings)
-        return LegRecording(path, read.segments, read.sensed.command, self.gate.watch(read, tau), swings, walked)
+        # A copy: the columns of a recording are views of one array, and a view of five would keep all of them.
+        command = read.sensed.command.copy()
+        return LegRecording(path, read.segments, command, self.gate.watch(read, tau), swings, walked)
 
     def recordings(self, paths: Sequence[Path], estimates: Sequence[Path]) -> Iterator[LegRecording]:
         """Yield the leg in recordings, with estimates of the gate's method; not where that does not estimate it."""

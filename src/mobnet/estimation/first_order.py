@@ -5,10 +5,11 @@ from mobnet.core.compilation import compiled
 
 
 @compiled
-def decay(x: Array, width: int, pole: float) -> None:
-    """Replace samples of `width` numbers each, one after another in x, by y_k = pole y_{k-1} + (1 - pole) x_k."""
+def decay(x: Array, before: Array, pole: float) -> None:
+    """Replace samples in x, one after another, by y_k = pole y_{k-1} + (1 - pole) x_k; `before` (width,) is y_{-1}."""
+    width = len(before)
     for i in range(min(width, len(x))):
-        x[i] = (1.0 - pole) * x[i]
+        x[i] = (1.0 - pole) * x[i] + pole * before[i]
     for start in range(width, len(x), width):
         for i in range(start, start + width):
             x[i] = (1.0 - pole) * x[i] + pole * x[i - width]

@@ -1,7 +1,7 @@
 """The training label of section 4.2.3 by the sensors in the feet, freed of the plates below them."""
 
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import dataclass, fields, replace
 from typing import Any
 
 import numpy as np
@@ -14,6 +14,51 @@ from mobnet.robot.description import RobotDescription
 from mobnet.robot.dynamics import momentum_and_beta
 from mobnet.robot.nominal import NominalModel
 from mobnet.robot.wrench import feet_torque
+
+
+@dataclass(frozen=True)
+class LabelState:
+    """What the label carries from one sample to the next; all None before the first.
+
+    Attributes:
+        sample: the last sample, a stretch of one row.
+        label: the label there (nv,) [N] and [N m].
+    """
+
+    sample: Sensed | None = None
+    label: Array | None = None
+
+
+class FootLabel:
+    """The label of a robot with sensors in its feet, stretch by stretch; a stretch may come in pieces."""
+
+    def __init__(
+        self, nominal: NominalModel, zeros: Mapping[str, NDArray[Any]], gain_hz: float, rate_hz: float, *, plates: bool
+    ) -> None:
+        """Take the model, side -> constant error of the foot's sensor (6,) [N] and [N m], K_0 [1/s], and the rate [Hz].
+
+        Without `plates`, the inertia of what lies below the sensors stays in the label.
+        """
+        self._nominal = nominal
+        self._zeros = zeros
+        self._gain_hz = gain_hz
+        self._rate_hz = rate_hz
+        self._plates = [plate_of(nominal.robot, side) for side in zeros] if plates else []
+
+    def torque(self, sensed: Sensed, wrenches: Mapping[str, NDArray[Any]]) -> Array:
+        """Return what wrenches, side -> (n, 6) [N] and [N m], do to the joints (n, nv) [N] and [N m]: J^T F of (O8)."""
+        loads = {side: wrench - self._zeros[side] for side, wrench in wrenches.items()}
+        return feet_torque(self._nominal, sensed.q, loads)
+
+    def follow(self, state: LabelState, sensed: Sensed, torque: Array) -> LabelState:
+        """Turn `torque` of contiguous samples into their label, in place; return the state after them."""
+        known = sensed if state.sample is None else _behind(state.sample, sensed)
+        # (O8) is mapped first and filtered then, because J^T times a low-passed F is not the low-pass of J^T F.
+        for k, model in enumerate(self._plates):
+            torque += plate_torque(model, known, known.swing[:, k], self._rate_hz)[-len(torque) :]
+        torque[:] = low_pass(torque, self._gain_hz, self._rate_hz, state.label)
+        last = Sensed(*(getattr(sensed, each.name)[-1:].copy() for each in fields(Sensed)))
+        return LabelState(last, torque[-1].copy())
 
 
 def foot_label(
@@ -29,25 +74,26 @@ def foot_label(
     Wrenches side -> (T, 6) [N] and [N m] are those that the feet's sensors read. Without `plates`, the inertia of what
     lies below the sensors stays in the label.
     """
-    sensed = read.sensed
     swings = dict(zip(wrenches, read.sensed.swing.T, strict=True))
-    loads = {side: zeroed(wrench, swings[side]) for side, wrench in wrenches.items()}
-    torque = feet_torque(nominal, sensed.q, loads)
-    models = {side: plate_of(nominal.robot, side) for side in wrenches} if plates else {}
-    # (O8) is mapped first and filtered then, because J^T times a low-passed F is not the low-pass of J^T F.
+    zeros = {side: zero_of(wrench[swings[side] > 0]) for side, wrench in wrenches.items()}
+    label = FootLabel(nominal, zeros, gain_hz, read.rate_hz, plates=plates)
+    torque = label.torque(read.sensed, wrenches)
     for span in read.spans():
-        for side, model in models.items():
-            torque[span] += plate_torque(model, sensed[span], swings[side][span], read.rate_hz)
-        torque[span] = low_pass(torque[span], gain_hz, read.rate_hz)
+        label.follow(LabelState(), read.sensed[span], torque[span])
     return torque
 
 
-def zeroed(wrench: NDArray[Any], swing: NDArray[Any]) -> NDArray[np.float64]:
-    """Return a foot's wrench (T, 6) [N] and [N m] without its constant error, the median where the foot swings (T,)."""
+def zero_of(hanging: NDArray[Any]) -> NDArray[Any]:
+    """Return the constant error of a foot's sensor (6,) [N] and [N m], the median of its wrenches in the air (k, 6)."""
     # F_0 of (O8): a foot in the air is touched by pushes alone, which are too short to move a median, and come from
     # any side. A recording without a swing tells nothing of the error.
-    hanging = wrench[swing > 0]
-    return wrench - (np.median(hanging, axis=0) if len(hanging) else 0.0)
+    return np.median(hanging, axis=0) if len(hanging) else np.zeros(hanging.shape[1], dtype=hanging.dtype)
+
+
+def _behind(before: Sensed, sensed: Sensed) -> Sensed:
+    """Return samples behind the one before them."""
+    pairs = ((getattr(before, each.name), getattr(sensed, each.name)) for each in fields(Sensed))
+    return Sensed(*(np.concatenate(pair) for pair in pairs))
 
 
 def plate_of(robot: RobotDescription, side: str) -> NominalModel:

@@ -21,20 +21,26 @@ def exact_pole(gain_hz: float, rate_hz: float) -> float:
     return float(np.exp(-gain_hz / rate_hz))
 
 
-def low_pass(x: NDArray[Any], gain_hz: float, rate_hz: float) -> Array:
+def low_pass(x: NDArray[Any], gain_hz: float, rate_hz: float, before: Array | None = None) -> Array:
     """Return x (T, ...) behind the low-pass of (11), sampled as the observer is: zero at the first sample, same pole.
 
-    The values of x are means over each sample, the gain is K_0 of (7) [1/s].
+    The values of x are means over each sample, the gain is K_0 of (7) [1/s]. Where x goes on from another stretch,
+    `before` (...) is what was returned last of that.
     """
-    # (O6): it starts as the residual does, which cannot know what touched the robot before its first sample.
-    start_at_zero = np.array(x, dtype=np.float64, order="C")
-    start_at_zero[:1] = 0.0
-    return filter_in_place(start_at_zero, exact_pole(gain_hz, rate_hz))
+    filtered = np.array(x, dtype=np.float64, order="C")
+    if before is None:
+        # (O6): it starts as the residual does, which cannot know what touched the robot before its first sample.
+        filtered[:1] = 0.0
+    return filter_in_place(filtered, exact_pole(gain_hz, rate_hz), before)
 
 
-def filter_in_place(x: Array, pole: float) -> Array:
-    """Replace x (T, ...), contiguous, by y_k = pole y_{k-1} + (1 - pole) x_k along time, y_{-1} = 0, and return it."""
+def filter_in_place(x: Array, pole: float, before: Array | None = None) -> Array:
+    """Replace x (T, ...), contiguous, by y_k = pole y_{k-1} + (1 - pole) x_k along time, and return it.
+
+    `before` (...) is y_{-1}, zero where it is not given.
+    """
     from mobnet.estimation.first_order import decay  # numba: the workflow imports kinds before it starts
 
-    decay(np.reshape(x, -1, copy=False), max(x[:1].size, 1), pole)
+    last = np.zeros(max(x[:1].size, 1)) if before is None else np.reshape(before, -1)
+    decay(np.reshape(x, -1, copy=False), last, pole)
     return x

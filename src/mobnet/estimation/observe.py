@@ -1,23 +1,24 @@
 """From a recording to the observer's residual and the torque it should have followed."""
 
-import logging
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from mobnet.core.arrays import Array
 from mobnet.core.columns import recording_columns
-from mobnet.core.recording import SensedRecording
+from mobnet.core.recording import Sensed, read_blocks
 from mobnet.core.store import read_array
+from mobnet.estimation.label import FootLabel, LabelState, zero_of
 from mobnet.estimation.low_pass import low_pass
-from mobnet.estimation.observer import MomentumObserver
+from mobnet.estimation.observer import BLOCK_ROWS, MomentumObserver
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.nominal import NominalModel
 from mobnet.settings.base import TorqueKind
 
 CARRIED = ("scenario", "level", "seed")  # what a recording says of itself and its residual repeats
-log = logging.getLogger(__name__)
 
 
 def observer_of(
@@ -32,24 +33,78 @@ def observer_of(
     return MomentumObserver(NominalModel(robot, mass_ratio, gravity_m_s2), gain_hz, rate_hz, torque)
 
 
-def residual_and_truth(
-    observer: MomentumObserver, recording: SensedRecording, external: NDArray[Any]
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return r of (9) and the external torque (T, nv) low-passed, (T, nv) each [N] and [N m], segment by segment."""
-    residual = np.zeros(recording.sensed.v.shape)
-    truth = np.zeros(recording.sensed.v.shape)
-    for span in recording.spans():
-        # A segment begins with another state of the robot, so that no momentum is carried into it.
-        residual[span] = observer.residual(recording.sensed[span])
-        truth[span] = low_pass(external[span], observer.gain_hz, recording.rate_hz)
-    return residual, truth
+class BlockObserver:
+    """Residual and low-passed external torque of a recording, and the label of its feet, block by block.
+
+    A segment begins with another state of the robot, so that no momentum is carried into it.
+    """
+
+    def __init__(
+        self,
+        observer: MomentumObserver,
+        segments: Sequence[tuple[int, int]],
+        rate_hz: float,
+        label: FootLabel | None = None,
+    ) -> None:
+        """Take the segments (start, end) of the recording and its rate [Hz]; without a `label` there is none."""
+        self._observer = observer
+        self._segments = segments
+        self._rate_hz = rate_hz
+        self._label = label
+        self._begin()
+
+    def _begin(self) -> None:
+        """Forget what came before: a segment begins."""
+        self._observed = self._observer.init()
+        self._truth: Array | None = None
+        self._labelled = LabelState()
+
+    def block(
+        self, first: int, sensed: Sensed, external: NDArray[Any], wrenches: Mapping[str, NDArray[Any]]
+    ) -> NDArray[np.float64]:
+        """Return r of (9), the external torque low-passed and, if asked for, the label, (n, 2 nv) or (n, 3 nv).
+
+        The samples are those that follow the last block, `first` the number of the first of them; external torques are
+        (n, nv), wrenches side -> (n, 6), all in [N] and [N m]. Outside of segments the first two are zero.
+        """
+        rows = len(sensed)
+        residual = np.zeros(sensed.v.shape)
+        truth = np.zeros(sensed.v.shape)
+        label = None if self._label is None else self._label.torque(sensed, wrenches)
+        for start, end in self._segments:
+            span = slice(max(start - first, 0), min(end - first, rows))
+            if span.start >= span.stop:
+                continue
+            if start >= first:
+                self._begin()
+            self._observed = self._observer.follow(self._observed, sensed[span], residual[span])
+            truth[span] = low_pass(external[span], self._observer.gain_hz, self._rate_hz, self._truth)
+            self._truth = truth[span][-1]
+            if self._label is not None and label is not None:
+                self._labelled = self._label.follow(self._labelled, sensed[span], label[span])
+        return np.concatenate([residual, truth] if label is None else [residual, truth, label], axis=1)
+
+
+def feet_zeros(recording: Path, robot: RobotDescription) -> dict[str, NDArray[Any]]:
+    """Return the constant error of the sensor of each foot in a recording, side -> (6,) [N] and [N m]."""
+    names = wrench_fields(robot)
+    hanging = {side: list[NDArray[np.float32]]() for side in names}
+    for _, found in read_blocks(recording, robot.layout, ["swing", *names.values()], BLOCK_ROWS):
+        for k, (side, name) in enumerate(names.items()):
+            hanging[side].append(found[name][found["swing"][:, k] > 0])
+    return {side: zero_of(np.concatenate(parts)) for side, parts in hanging.items()}
+
+
+def wrench_fields(robot: RobotDescription) -> dict[str, str]:
+    """Return side -> field of a recording with the wrench of that foot."""
+    return {side: f"wrench_{side}_foot" for side in robot.feet}
 
 
 def read_wrenches(recording: Path, robot: RobotDescription) -> dict[str, NDArray[np.float32]]:
     """Read the wrenches of the feet in a recording, side -> (T, 6) [N] and [N m], as their sensors read them."""
     columns = recording_columns(robot.layout)
     wrenches = dict[str, NDArray[np.float32]]()
-    for side in robot.feet:
-        names = [name for name, *_ in columns[f"wrench_{side}_foot"]]
+    for side, field in wrench_fields(robot).items():
+        names = [name for name, *_ in columns[field]]
         wrenches[side], _ = read_array(recording, names, robot.layout)
     return wrenches

@@ -4,7 +4,7 @@ The equations (O1) to (O5) are derived in docs/notes/0034-observer.md, p and bet
 """
 
 import logging
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, get_args
 
 import numpy as np
@@ -121,21 +121,32 @@ class MomentumObserver:
             raise DataError(f"samples q, v, tau_motor of shapes {shapes}; accepted: {accepted}")
         residual = np.empty(sensed.v.shape) if out is None else out
         state = self.init()
+        for start in range(0, len(sensed), LOGGED_ROWS):
+            rows = slice(start, start + LOGGED_ROWS)
+            state = self.follow(state, sensed[rows], residual[rows])
+            log.info("momentum of %d of %d samples", min(rows.stop, len(sensed)), len(sensed))
+        return residual
+
+    def follow(self, state: ObserverState, sensed: Sensed, out: Array) -> ObserverState:
+        """Write r of (9) of contiguous samples into `out` (n, nv) [N] and [N m]; return the state after them.
+
+        The state is that after the sample before the first one, or of `init`: a stretch may come in pieces. Its arrays
+        may be overwritten afterwards.
+        """
         for start in range(0, len(sensed), BLOCK_ROWS):
-            block = sensed[start : start + BLOCK_ROWS]
-            state = self._write_raw(state, block, residual[start : start + BLOCK_ROWS])
-            done = start + len(block)
-            if done % LOGGED_ROWS == 0 or done == len(sensed):
-                log.info("momentum of %d of %d samples", done, len(sensed))
-        # (O5) once more: the first row is zero, and the low-pass from zero is then the recursion (O4) of `step`.
-        return filter_in_place(residual, self.pole)
+            rows = out[start : start + BLOCK_ROWS]
+            after = self._write_raw(state, sensed[start : start + BLOCK_ROWS], rows)
+            # (O5) once more: the first row is zero, and the low-pass from zero is then the recursion (O4) of `step`.
+            filter_in_place(rows, self.pole, state.residual)
+            state = replace(after, residual=rows[-1].copy())
+        return state
 
     def _write_raw(self, state: ObserverState, block: Sensed, raw: Array) -> ObserverState:
         """Write what (O4) filters for successive samples into `raw` (n, nv) [N], [N m]; return the state after them."""
         p, beta = momentum_and_beta(self.nominal, block.q, block.v)
         bend, friction = self._friction(state.bend, block.v, block.tau_motor)
         last_friction = None if friction is None else friction[-1]
-        after = ObserverState(p[-1], beta[-1], None, block.tau_motor[-1], bend, last_friction)
+        after = ObserverState(p[-1], beta[-1], None, block.tau_motor[-1].copy(), bend, last_friction)
         torque = block.tau_motor
         if state.momentum is None or state.beta is None or state.torque is None:
             raw[0] = 0.0

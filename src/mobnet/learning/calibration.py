@@ -8,7 +8,6 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-import torch
 from numpy.typing import NDArray
 from scipy.special import ndtr, ndtri
 
@@ -126,13 +125,15 @@ def predict(network: LimbNetwork, samples: Samples, plan: EpochPlan, horizon: in
 
     Return error and standard deviation, z-scored, (T, n) each, lane after lane: in the order of time.
     """
-    errors = []
-    stds = []
-    for mean, std, target in predictions(network, samples, plan, horizon):
-        errors.append((mean - target).cpu())
-        stds.append(std.cpu())
-    error, std = (torch.cat(parts).transpose(0, 1).flatten(0, 1).double().numpy() for parts in (errors, stds))
-    return error, std
+    lanes = plan.rows.shape[1]
+    shape = (lanes, len(plan) * horizon, samples.targets.shape[1])
+    # In one array each: the small tensors of all updates, kept one by one, would scatter the memory between them.
+    error, std = np.empty(shape), np.empty(shape)
+    for k, (mean, deviation, target) in enumerate(predictions(network, samples, plan, horizon)):
+        steps = slice(k * horizon, (k + 1) * horizon)
+        error[:, steps] = (mean - target).transpose(0, 1).cpu().numpy()
+        std[:, steps] = deviation.transpose(0, 1).cpu().numpy()
+    return error.reshape(-1, shape[2]), std.reshape(-1, shape[2])
 
 
 def shares_inside(

@@ -4,6 +4,7 @@ import hashlib
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -13,7 +14,8 @@ from numpy.typing import NDArray
 from mobnet.core.columns import RESIDUAL, named
 from mobnet.core.errors import DataError
 from mobnet.core.joints import JointLayout
-from mobnet.core.store import check_pair, check_rate, label_of, read_array, spans_and_rate
+from mobnet.core.notes import read_array_note
+from mobnet.core.store import NOTE, check_pair, check_rate, file_of, label_of, read_array, spans_and_rate
 from mobnet.learning.features import LimbInputs, limb_inputs
 from mobnet.learning.streams import Span
 from mobnet.learning.swings import Margins, free_rows
@@ -90,22 +92,24 @@ def load_limb_data(
     joints = layout.limbs(limb.joints)
     for stem in recordings:
         check_rate(stem, rate_hz)
-    parts: list[tuple[NDArray[np.float32], NDArray[np.float32]]] = []
+    # Each recording goes into its place at once: parts that are put together at the end would be there twice.
+    starts = np.cumsum([0] + [read_array_note(file_of(stem, NOTE))["rows"] for stem in recordings]).tolist()
+    xs = np.empty((starts[-1], len(inputs.names)), dtype=np.float32)
+    ys = np.empty((starts[-1], len(joints)), dtype=np.float32)
     segments: list[Span] = []
     rates: set[float] = set()
-    for recording, residual in zip(recordings, residuals, strict=True):
-        offset = sum(len(x) for x, _ in parts)
+    for recording, residual, (offset, end) in zip(recordings, residuals, pairwise(starts), strict=True):
         x, y, spans, rate = _load_one(layout, inputs, joints, target, recording, residual, margins)
         if known is not None:
             y -= known(recording, joints).astype(np.float32)
-        parts.append((x, y))
-        segments += [(offset + start, offset + end) for start, end in spans]
+        xs[offset:end] = x
+        ys[offset:end] = y
+        segments += [(offset + first, offset + last) for first, last in spans]
         rates.add(rate)
     # A network counts time in samples, so a second rate would be another robot to it.
     if len(rates) != 1:
         raise DataError(f"recordings at {sorted(rates)} Hz cannot be mixed; accepted: one or more at a single rate")
-    xs, ys = (np.concatenate(column) for column in zip(*parts, strict=True))
-    first = sum(len(x) for x, _ in parts[:-held_out]) if held_out else None
+    first = starts[-1 - held_out] if held_out else None
     rate = rates.pop()
     rows = len(xs) if first_s is None else min(len(xs), round(first_s * rate))
     spans = tuple((start, min(end, rows)) for start, end in segments if start < rows)

@@ -33,6 +33,8 @@ def train_on(
     state: Path,
     start: Path | None = None,
     lesson: tuple[Path, str] | None = None,
+    *,
+    in_place: bool = False,
 ) -> None:
     """Train one limb network by (22), or by another of `losses`, and keep the epoch that validates best.
 
@@ -40,7 +42,7 @@ def train_on(
     done. The folder `state` gets a checkpoint and `metrics.csv` at each epoch; a killed training goes on from there to
     the same weights. The checkpoint is deleted when the training is done; `time.json` stays. A fine-tuning begins with
     the weights of the file `start`. A network that has learned in a stack is not trained again: the `lesson` says in
-    which file what it learned stands, and by which name.
+    which file what it learned stands, and by which name. `in_place` overwrites the data with their z-scores.
 
     Raises:
         DataError: the data are too short, or what it learned is that of another training.
@@ -50,13 +52,13 @@ def train_on(
     if lesson:
         path, name = lesson
         learned = read_lesson(path, name)
-        trainer = Trainer(job, data, start, torch.device(learned.device))
+        trainer = Trainer(job, data, start, torch.device(learned.device), in_place=in_place)
         schedule = trainer.schedule
         may_diverge = job.training.learning.may_diverge
         done = learned.checked(path, schedule.fingerprint, schedule.chosen_by, may_diverge=may_diverge)
         done.best = done.best or copy_weights(trainer.network)
     else:
-        trainer = Trainer(job, data, start)
+        trainer = Trainer(job, data, start, in_place=in_place)
         done = trainer.run(state)
     calibration = trainer.calibrate(done)
     note = run_note(trainer, data, done, calibration)

@@ -43,11 +43,18 @@ class Trainer:
     """Trains one network on z-scored samples, on a GPU if there is one."""
 
     def __init__(
-        self, job: TrainingJob, data: LimbData, start: Path | None = None, learned_on: torch.device | None = None
+        self,
+        job: TrainingJob,
+        data: LimbData,
+        start: Path | None = None,
+        learned_on: torch.device | None = None,
+        *,
+        in_place: bool = False,
     ) -> None:
         """Split, scale and move inputs (N, n_in) and targets (N, n) [N, N m] to the device.
 
-        A network that has already learned, in a stack on a device, is only looked at, on the CPU.
+        A network that has already learned, in a stack on a device, is only looked at, on the CPU. `in_place` z-scores
+        the data themselves, of which nobody needs the numbers any more: no second copy is made.
 
         Raises:
             DataError: the network that it starts from is damaged, or another one.
@@ -57,14 +64,15 @@ class Trainer:
         self.learned_on = learned_on or self.device
         self.schedule = Schedule(job, data, self.learned_on, start)
         arrays = data.inputs, data.targets
-        inputs, targets = (self._scaled(*pair) for pair in zip(arrays, self.schedule.scales, strict=True))
+        scales = self.schedule.scales
+        inputs, targets = (self._scaled(*pair, in_place) for pair in zip(arrays, scales, strict=True))
         self._samples = Samples(inputs, targets, partial=self.schedule.partial)
         self.network = self.schedule.network().to(self.device)
         self.network.precision = torch.float32 if learned_on else job.precision(self.device)
         self._optimizer = optimizer_of(self.network, job.training.learning)
 
-    def _scaled(self, array: NDArray[np.float32], scale: ZScore) -> Tensor:
-        scaled = array - scale.mean
+    def _scaled(self, array: NDArray[np.float32], scale: ZScore, in_place: bool) -> Tensor:
+        scaled = np.subtract(array, scale.mean, out=array if in_place else None)
         scaled /= scale.std
         return torch.from_numpy(scaled).to(self.device)
 

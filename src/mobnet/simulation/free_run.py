@@ -3,7 +3,8 @@
 import logging
 import time
 import zlib
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from copy import deepcopy
 from dataclasses import fields
 from typing import Any, NamedTuple
 
@@ -32,6 +33,7 @@ STREAMS = ("motion", "pushes", "noise")  # of random numbers of a seed, in the o
 HIDDEN = ("body", "motors")  # those of the robot itself, whatever the seed
 TOLD_S = 5.0  # between two lines of progress
 CHUNK = 10_000  # samples for which the motion is computed at once
+PIECE = 60_000  # samples that are held at once, a minute at 1 kHz
 log = logging.getLogger(__name__)
 
 
@@ -43,14 +45,38 @@ class Numbers(NamedTuple):
     rates: Rates
 
 
+class Samples(NamedTuple):
+    """Successive samples of a run: q (n, nq), v (n, nv), acc (n, 3), tau (n, nu), ext, push (n, nv), pushed (n, 1)."""
+
+    q: Array
+    v: Array
+    acc: Array
+    tau: Array
+    ext: Array
+    push: Array
+    pushed: Array
+
+
 def record_motion(
     robot: RobotDescription, numbers: Numbers, seconds: float, seed: int, ideal: bool, pushed: bool
 ) -> Recording:
-    """Simulate a robot that moves for so long [s]; all recordings are of the same robot, whatever the seed.
+    """Simulate a robot that moves for so long [s], as `motion_pieces` does, and return it as one recording."""
+    parts = list(motion_pieces(robot, numbers, seconds, seed, ideal, pushed))
+    sensed = [np.concatenate([getattr(one.sensed, field.name) for one in parts]) for field in fields(Sensed)]
+    truth = [np.concatenate([getattr(one.truth, field.name) for one in parts]) for field in fields(Truth)]
+    whole = ((0, sum(len(one.sensed) for one in parts)),)
+    return Recording(Sensed(*sensed), whole, parts[0].rate_hz, parts[0].meta, Truth(*truth))
 
-    `tau_motor` are samples at the ticks: the mean of what a motor gave just before and just after one. `tau_ext` are
-    means over the samples, as in every recording: pushes, and what holds a floating base. In the ideal case the plant
-    is the table's robot without friction, and sensors are exact.
+
+def motion_pieces(
+    robot: RobotDescription, numbers: Numbers, seconds: float, seed: int, ideal: bool, pushed: bool
+) -> Iterator[Recording]:
+    """Simulate a robot that moves for so long [s], and yield a minute after the other; an hour does not fit in memory.
+
+    All recordings are of the same robot, whatever the seed. `tau_motor` are samples at the ticks: the mean of what a
+    motor gave just before and just after one. `tau_ext` are means over the samples, as in every recording: pushes, and
+    what holds a floating base. In the ideal case the plant is the table's robot without friction, and sensors are
+    exact.
 
     Raises:
         SimulationError: no motion is found that meets the limits of the robot.
@@ -66,11 +92,12 @@ def record_motion(
     constants = 1 + off * rng["motors"].uniform(-1, 1, robot.layout.nu)
     drawn = draw_pushes(model, settings.pushes, seconds, rng["pushes"]) if pushed else ()
     run = FreeRun(robot, numbers, model, motion, constants, ideal)
-    run.through(round(seconds * numbers.rates.data_hz), PushSequence(drawn, robot.torque_limits, settings.pushes))
-    if not ideal:
-        add_noise(run, robot, numbers, rng["noise"])
+    rate_hz = numbers.rates.data_hz
+    rows = round(seconds * rate_hz)
+    noise = None if ideal else SensorNoise(robot, numbers, rows, rng["noise"])
     meta = {"scenario": "motion", "level": "ideal" if ideal else "hidden", "seed": seed}
-    return recording_of(run, robot.layout, numbers.rates.data_hz, meta)
+    for samples in run.pieces(rows, PushSequence(drawn, robot.torque_limits, settings.pushes)):
+        yield recording_of(noise.added(samples) if noise else samples, robot.layout, rate_hz, meta)
 
 
 def streams(names: Sequence[str], entropy: Sequence[int]) -> dict[str, np.random.Generator]:
@@ -80,7 +107,7 @@ def streams(names: Sequence[str], entropy: Sequence[int]) -> dict[str, np.random
 
 
 class FreeRun:
-    """A plant in motion, and its samples: q (T, nq), v (T, nv), acc (T, 3), tau (T, nu), ext (T, nv), pushed (T, 1)."""
+    """A plant in motion."""
 
     def __init__(
         self,
@@ -105,40 +132,39 @@ class FreeRun:
         self.gains = numbers.motion.tracking_rad_s**2, 2 * numbers.motion.tracking_rad_s
         self.imu = slice(model.sensor("imu_acc").adr[0], model.sensor("imu_acc").adr[0] + 3) if robot.imu else None
 
-    def through(self, samples: int, pushes: PushSequence) -> None:
-        """Simulate so many samples."""
-        model = self.model
-        data = self.data
-        nu = self.robot.layout.nu
+    def pieces(self, rows: int, pushes: PushSequence) -> Iterator[Samples]:
+        """Simulate so many samples, and yield a minute of them after the other."""
         rate_hz = self.numbers.rates.data_hz
-        self.q = np.zeros((samples, model.nq))
-        self.v = np.zeros((samples, model.nv))
-        self.tau = np.zeros((samples, nu))
-        self.ext = np.zeros((samples, model.nv))
-        self.push = np.zeros((samples, model.nv))
-        self.pushed = np.zeros((samples, 1))
-        self.acc = np.zeros((samples, 3))
-        before = self.control(*(self.motion(0.0, order) for order in range(3)))
+        nv = self.model.nv
+        self.before = self.control(*(self.motion(0.0, order) for order in range(3)))
+        self.held, self.pushed = np.zeros(nv), np.zeros(nv)  # over the sample that ends at the next tick
         told = time.monotonic()
-        for start in range(0, samples, CHUNK):
-            if time.monotonic() - told > TOLD_S:
-                told = time.monotonic()
-                log.info("%.0f of %.0f s simulated", start / rate_hz, samples / rate_hz)
-            times = np.arange(start, min(start + CHUNK, samples)) / rate_hz
-            for k, *wanted in zip(
-                range(start, samples), *(self.motion(times, order) for order in range(3)), strict=False
-            ):
-                self.q[k] = data.qpos
-                self.v[k] = data.qvel
-                self.acc[k] = 0.0 if self.imu is None else data.sensordata[self.imu]
-                torque = self.control(*wanted)
-                self.tau[k] = (before + torque) / 2
-                before = torque
-                held, pushed = self.step(torque, pushes)
-                if k + 1 < samples:
-                    self.ext[k + 1] = held + pushed
-                    self.push[k + 1] = pushed
-                    self.pushed[k + 1] = pushed.any()
+        for start in range(0, rows, PIECE):
+            count = min(PIECE, rows - start)
+            widths = (self.model.nq, nv, 3, self.robot.layout.nu, nv, nv, 1)
+            samples = Samples(*(np.zeros((count, width)) for width in widths))
+            for first in range(0, count, CHUNK):
+                if time.monotonic() - told > TOLD_S:
+                    told = time.monotonic()
+                    log.info("%.0f of %.0f s simulated", (start + first) / rate_hz, rows / rate_hz)
+                chunk = Samples(*(values[first : first + CHUNK] for values in samples))
+                self._through(chunk, (start + first + np.arange(len(chunk.q))) / rate_hz, pushes)
+            yield samples
+
+    def _through(self, samples: Samples, times: Array, pushes: PushSequence) -> None:
+        """Simulate the samples at successive times (n,) [s]."""
+        data = self.data
+        for k, wanted in enumerate(zip(*(self.motion(times, order) for order in range(3)), strict=True)):
+            samples.q[k] = data.qpos
+            samples.v[k] = data.qvel
+            samples.acc[k] = 0.0 if self.imu is None else data.sensordata[self.imu]
+            samples.ext[k] = self.held + self.pushed
+            samples.push[k] = self.pushed
+            samples.pushed[k] = self.pushed.any()
+            torque = self.control(*wanted)
+            samples.tau[k] = (self.before + torque) / 2
+            self.before = torque
+            self.held, self.pushed = self.step(torque, pushes)
 
     def control(self, q: Array, v: Array, acceleration: Array) -> Array:
         """Return the motors' torques (nu,) [N m] that follow a motion (nu,) by the model of the table."""
@@ -168,21 +194,49 @@ class FreeRun:
         return held, pushed
 
 
-def add_noise(run: FreeRun, robot: RobotDescription, numbers: Numbers, rng: np.random.Generator) -> None:
-    """Add errors of sensors to the samples: steps of encoders, noise of speeds, base and torques (Table 3, our own)."""
-    noise = numbers.plant.noise
-    own = numbers.plant.own_noise
-    nu = robot.layout.nu
-    rows = len(run.q)
-    run.q[:, -nu:] = own.encoder_step_rad * np.rint(run.q[:, -nu:] / own.encoder_step_rad)
-    run.v[:, -nu:] += noise.joint_velocity_rad_s * rng.normal(size=(rows, nu))
-    run.tau += numbers.motion.joints.torque_noise_share * robot.torque_limits * rng.normal(size=(rows, nu))
-    if robot.floating:
-        half = own.orientation_offset_rad * rng.normal(size=3) + own.orientation_rad * rng.normal(size=(rows, 3))
-        run.q[:, 3:NQ_BASE] = slightly_turned(run.q[:, 3:NQ_BASE], half / 2)
-        run.v[:, 3:N_VIRTUAL] += noise.base_angular_velocity_rad_s * rng.normal(size=(rows, 3))
-    if run.imu is not None:
-        run.acc += noise.base_acceleration_m_s2 * rng.normal(size=(rows, 3))
+class SensorNoise:
+    """Errors of sensors: steps of encoders, noise of speeds, base and torques (Table 3, our own)."""
+
+    def __init__(self, robot: RobotDescription, numbers: Numbers, rows: int, rng: np.random.Generator) -> None:
+        """Take the random numbers of a run of so many samples.
+
+        Each signal has those of all of its samples behind those of the signal before it, so that each gets a generator
+        of its own, which begins there: noise does not depend on the pieces in which it is added.
+        """
+        self._robot = robot
+        self._numbers = numbers
+        nu = robot.layout.nu
+        self._v, self._tau = _apart(rng, rows, nu), _apart(rng, rows, nu)
+        if robot.floating:
+            self._offset = numbers.plant.own_noise.orientation_offset_rad * rng.normal(size=3)
+            self._quaternion, self._omega = _apart(rng, rows, 3), _apart(rng, rows, 3)
+        self._acc = _apart(rng, rows, 3)
+
+    def added(self, samples: Samples) -> Samples:
+        """Return the samples that follow the last ones, with noise; what they hold is overwritten."""
+        robot = self._robot
+        noise = self._numbers.plant.noise
+        own = self._numbers.plant.own_noise
+        share = self._numbers.motion.joints.torque_noise_share
+        (rows, nu) = samples.tau.shape
+        samples.q[:, -nu:] = own.encoder_step_rad * np.rint(samples.q[:, -nu:] / own.encoder_step_rad)
+        samples.v[:, -nu:] += noise.joint_velocity_rad_s * self._v.normal(size=(rows, nu))
+        samples.tau[:] += share * robot.torque_limits * self._tau.normal(size=(rows, nu))
+        if robot.floating:
+            half = self._offset + own.orientation_rad * self._quaternion.normal(size=(rows, 3))
+            samples.q[:, 3:NQ_BASE] = slightly_turned(samples.q[:, 3:NQ_BASE], half / 2)
+            samples.v[:, 3:N_VIRTUAL] += noise.base_angular_velocity_rad_s * self._omega.normal(size=(rows, 3))
+        if robot.imu:
+            samples.acc[:] += noise.base_acceleration_m_s2 * self._acc.normal(size=(rows, 3))
+        return samples
+
+
+def _apart(rng: np.random.Generator, rows: int, width: int) -> np.random.Generator:
+    """Return a generator of the next normal numbers (rows, width); the given one goes on behind them."""
+    own = deepcopy(rng)
+    for start in range(0, rows, CHUNK):
+        rng.normal(size=(min(CHUNK, rows - start), width))
+    return own
 
 
 def slightly_turned(quaternion: Array, half: Array) -> Array:
@@ -193,8 +247,8 @@ def slightly_turned(quaternion: Array, half: Array) -> Array:
     return turned / np.linalg.norm(turned, axis=1, keepdims=True)
 
 
-def recording_of(run: FreeRun, layout: JointLayout, rate_hz: float, meta: dict[str, Any]) -> Recording:
-    """Return the samples of a run as a recording; what does not exist, and feet that touch nothing, are zero."""
+def recording_of(run: Samples, layout: JointLayout, rate_hz: float, meta: dict[str, Any]) -> Recording:
+    """Return samples of a run as a recording; what does not exist, and feet that touch nothing, are zero."""
     rows = len(run.q)
     values = {name: np.zeros((rows, len(columns))) for name, columns in recording_columns(layout).items()}
     values |= {"q": run.q, "v": run.v, "tau_des": run.tau, "tau_motor": run.tau}
