@@ -3,10 +3,11 @@
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 from experiments.plan.dry_run import PlannedJob
-from experiments.plan.files import SETS
+from experiments.plan.files import SETS, NetworkName
 from experiments.plan.lengths import steps_of, training_s, width_of
 from experiments.plan.parts import TOGETHER_S
 from experiments.plan.plan import Plan
@@ -91,19 +92,34 @@ def observed(plan: Plan, w: Any) -> tuple[Amounts, float]:
 
 
 def trained(plan: Plan, w: Any) -> tuple[Amounts, float]:
-    """Return the work of a training, and the numbers of training data that it holds."""
+    """Return the work of a training, and the numbers of training data that it holds.
+
+    A network that has learned in a stack has no steps of its own.
+    """
     files = plan.jobs.files(w)
     rate_hz = files.settings.rates.data_hz
     training = files.catalogue.training(w.method, w.limb)
     network = training.network
+    read = training_s(files, network.data)
+    held = read * rate_hz * (width_of(files, network) + len(files.settings.layout.limbs(network.joints)))
+    if "lesson" in plan.jobs.train(w):
+        return {SECONDS: read}, held
     hidden = training.network.hidden or 0
     ways = {"windows": training.learning.sequences == "windows", "spectral": network.spectral}
     cell = " ".join([network.cell, *(way for way, is_so in ways.items() if is_so)])
     steps = steps_of(files, w.method, w.limb)
-    read = training_s(files, network.data)
     grown = {"step": steps, "step x unit": steps * hidden, "step x unit^2": steps * hidden**2}
-    amounts = {SECONDS: read, **{f"{cell} {name}": amount for name, amount in grown.items()}}
-    return amounts, read * rate_hz * (width_of(files, network) + len(files.settings.layout.limbs(network.joints)))
+    return {SECONDS: read, **{f"{cell} {name}": amount for name, amount in grown.items()}}, held
+
+
+def stacked(plan: Plan, w: Any) -> tuple[Amounts, float]:
+    """Return the work of a stack but for what the GPU does, and the numbers of the largest training data."""
+    seconds, held = 0.0, 0.0
+    for robot, (method, limb, seed) in plan.jobs.stacks.members[w.stack]:
+        own = SimpleNamespace(robot=robot, method=method, limb=limb, seed=seed)
+        amounts, numbers = trained(plan, own)
+        seconds, held = seconds + amounts[SECONDS], max(held, numbers)
+    return {SECONDS: seconds}, held
 
 
 def estimated(plan: Plan, w: Any) -> tuple[Amounts, float]:
@@ -165,6 +181,7 @@ STEPS: Mapping[str, Callable[[Plan, Any], tuple[Amounts, float]]] = {  # kind ->
     "observe": observed,
     "fit": fitted,
     "train": trained,
+    "train_stack": stacked,
     "estimate": estimated,
     "score": scored,
     "detect": detected,
@@ -172,3 +189,45 @@ STEPS: Mapping[str, Callable[[Plan, Any], tuple[Amounts, float]]] = {  # kind ->
     "react": reacted,
     "falls": fallen,
 }
+
+
+@dataclass(frozen=True)
+class OnGpu:
+    """What a training does on a GPU.
+
+    Attributes:
+        networks: how many learn side by side; 0 of one that learns alone, by torch's own GRU or another layer.
+        steps: time steps from which each of them learns.
+        units: size of its state.
+        batch: sequences of an update.
+        horizon: time steps of an update.
+    """
+
+    networks: int
+    steps: float
+    units: int
+    batch: int
+    horizon: int
+
+    @property
+    def all_steps(self) -> float:
+        """Time steps of all of its networks."""
+        return self.steps * max(self.networks, 1)
+
+
+def on_gpu(plan: Plan, job: PlannedJob) -> OnGpu | None:
+    """Return what a job does on a GPU, where the plan has stacks: nothing if it trains nothing there."""
+    w = job.w
+    if job.rule == "train_stack":
+        members = plan.jobs.stacks.members[w.stack]
+        robot, name = members[0]
+    elif job.rule in ("train", "train_gray") and "lesson" not in plan.jobs.train(w):
+        members = ()
+        robot, name = w.robot, NetworkName(w.method, w.limb, int(w.seed))
+    else:
+        return None
+    files = plan.jobs.files_of(robot)
+    training = files.catalogue.training(name.method, name.limb)
+    steps = steps_of(files, name.method, name.limb)
+    network = training.network
+    return OnGpu(len(members), steps, network.hidden or 0, training.learning.batch_size, network.horizon_steps)

@@ -244,9 +244,7 @@ def told_of(done: Taught) -> tuple[dict[str, Tensor], list[dict[str, Any]]]:
     return best, rows
 
 
-def progress_of(
-    tensors: dict[str, Tensor], rows: Sequence[dict[str, Any]], chosen_by: Sequence[str]
-) -> list[Progress]:
+def progress_of(tensors: dict[str, Tensor], rows: Sequence[dict[str, Any]], chosen_by: Sequence[str]) -> list[Progress]:
     """Return the progress of each network from what `told_of` returned."""
     found: list[Progress] = []
     for k, (row, column) in enumerate(zip(rows, chosen_by, strict=True)):
