@@ -4,7 +4,6 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from experiments.plan.work import OnGpu
 from mobnet.core.notes import Count, Note, Positive, Text
@@ -64,5 +63,5 @@ def fitted(note: GpuNote) -> GpuRates:
     speeds = np.array(list(note.side_by_side.values()))
     measured_s = networks * note.batch * note.horizon / speeds
     columns = np.stack([1.0 / measured_s, networks / measured_s], axis=1)
-    found: NDArray[np.float64] = np.linalg.lstsq(columns, np.ones(len(networks)), rcond=None)[0]
+    found = np.linalg.lstsq(columns, np.ones(len(networks)), rcond=None)[0]
     return GpuRates(note, float(found[0]), float(found[1]))
