@@ -18,6 +18,7 @@ NAMES = (
     "collect_speed",
     "observer_speed",
     "train_speed",
+    "gpu_speed",
     "step_latency",
     "onnx_latency",
     "estimate_speed",

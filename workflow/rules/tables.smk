@@ -108,3 +108,10 @@ rule figures:
     # All figures.
     input:
         expand("<figures>/{figure}.{ending}", figure=PLAN.figures, ending=["pdf", "svg", "png", "csv"]),
+
+
+rule paper_core:
+    # Section 5.1 alone: forward walking and motion of the plant.
+    input:
+        expand("<tables>/{table}.{ending}", table=["table_05", "table_06"], ending=["csv", "tex", "md"]),
+        expand("<figures>/figure_05.{ending}", ending=["pdf", "svg", "png", "csv"]),

@@ -21,6 +21,7 @@ from mobnet.core.errors import CommandError, unknown_command
 
 COMMANDS = {
     "all": "make every table, figure and the paper (snakemake --cores 2 all); further options go to snakemake",
+    "paper_core": "make Tables 5 and 6 and Figure 5 alone, section 5.1; --config scale=paper: at the paper's size",
     "demo": "show one push as three methods estimate it, without training; --help says how",
     "test": "run every test and check, the workflow at a small scale included; further options go to pytest",
     "verify": "list the missing, changed and unexpected files of a run, by results/MANIFEST.sha256",
@@ -47,7 +48,13 @@ EXAMPLES = """
   ./reproduce tables/table_05.tex        make one file and what it needs; tables/smoke/table_05.tex at that scale"""
 OWN = {"clean", "setup"}  # commands with options of their own
 TRIALS = ("tuning", "recipes", "lengths", "random_torque")  # tables of trials, which `all` does not ask for
-TARGETS = {"all": "all", "report": "all", "films": "films", "docs": "docs"}  # command -> rule of the workflow
+TARGETS = {
+    "all": "all",
+    "paper_core": "paper_core",
+    "report": "all",
+    "films": "films",
+    "docs": "docs",
+}  # command -> rule of the workflow
 HELP = {"-h", "--help"}
 PARSERS = {
     "bench": bench_parser,

@@ -7,6 +7,7 @@ from typing import Any
 
 from experiments.jobs.train_gray import known_of
 from experiments.jobs.trainings import data_of
+from mobnet.core.files import MEMBERS, write_json
 from mobnet.learning.dataset import LimbData
 from mobnet.learning.job import TrainingJob
 from mobnet.learning.stacked.train import train_stack as train_on
@@ -20,7 +21,7 @@ def train_stack(members: Mapping[str, Given], state: Path, out: Path) -> None:
 
     Args:
         members: what each network's own training would get, by its name in the stack.
-        state: folder of the checkpoint.
+        state: folder of the checkpoint, and of a list of the networks' own folders.
         out: file of what they learn.
 
     Raises:
@@ -31,6 +32,7 @@ def train_stack(members: Mapping[str, Given], state: Path, out: Path) -> None:
     for name, given in members.items():
         job = TrainingJob(given["training"], given["seed"], given["root_seed"])
         found.append(Member(name, job, loader(given), given["state"], given.get("start")))
+    write_json(state / MEMBERS, {"folders": [str(member.state) for member in found]})
     train_on(found, state, out)
 
 

@@ -25,6 +25,8 @@ class PlannedJob:
         wildcards: of the rule.
         outputs: files and folders that it makes.
         resources: what it asks for.
+        inputs: files and folders that it reads.
+        priority: with which it starts before others.
     """
 
     rule: str
@@ -32,6 +34,8 @@ class PlannedJob:
     wildcards: Mapping[str, str]
     outputs: tuple[str, ...]
     resources: Mapping[str, str]
+    inputs: tuple[str, ...] = ()
+    priority: int = 0
 
     @property
     def w(self) -> SimpleNamespace:
@@ -73,6 +77,8 @@ def _job(rule: str, text: str) -> PlannedJob:
         wildcards=_pairs(told.get("wildcards", "")),
         outputs=tuple(told.get("output", "").split(", ")),
         resources=_pairs(told.get("resources", "")),
+        inputs=tuple(told.get("input", "").split(", ")),
+        priority=int(told.get("priority", 0)),
     )
 
 

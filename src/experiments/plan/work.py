@@ -3,14 +3,15 @@
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 from experiments.plan.dry_run import PlannedJob
-from experiments.plan.files import SETS
+from experiments.plan.files import SETS, NetworkName
 from experiments.plan.parts import TOGETHER_S
 from experiments.plan.plan import Plan
 from experiments.plan.reactions import walks_in
-from experiments.plan.stacks import inputs_of
+from experiments.plan.stacks import Stacked, inputs_of
 
 SECONDS = "s"
 Amounts = dict[str, float]
@@ -91,19 +92,34 @@ def observed(plan: Plan, w: Any) -> tuple[Amounts, float]:
 
 
 def trained(plan: Plan, w: Any) -> tuple[Amounts, float]:
-    """Return the work of a training, and the numbers of training data that it holds."""
+    """Return the work of a training, and the numbers of training data that it holds.
+
+    A network that has learned in a stack has no steps of its own.
+    """
     files = plan.jobs.files(w)
     rate_hz = files.settings.rates.data_hz
     training = files.catalogue.training(w.method, w.limb)
     network = training.network
+    read = files.training_s(network.data)
+    held = read * rate_hz * (inputs_of(files, network) + len(files.settings.layout.limbs(network.joints)))
+    if "lesson" in plan.jobs.train(w):
+        return {SECONDS: read}, held
     hidden = training.network.hidden or 0
     ways = {"windows": training.learning.sequences == "windows", "spectral": network.spectral}
     cell = " ".join([network.cell, *(way for way, is_so in ways.items() if is_so)])
     steps = files.learned_steps(w.method, w.limb)
-    read = files.training_s(network.data)
     grown = {"step": steps, "step x unit": steps * hidden, "step x unit^2": steps * hidden**2}
-    amounts = {SECONDS: read, **{f"{cell} {name}": amount for name, amount in grown.items()}}
-    return amounts, read * rate_hz * (inputs_of(files, network) + len(files.settings.layout.limbs(network.joints)))
+    return {SECONDS: read, **{f"{cell} {name}": amount for name, amount in grown.items()}}, held
+
+
+def stacked(plan: Plan, w: Any) -> tuple[Amounts, float]:
+    """Return the work of a stack but for what the GPU does, and the numbers of the largest training data."""
+    seconds, held = 0.0, 0.0
+    for robot, (method, limb, seed) in plan.jobs.stacks.members[w.stack]:
+        own = SimpleNamespace(robot=robot, method=method, limb=limb, seed=seed)
+        amounts, numbers = trained(plan, own)
+        seconds, held = seconds + amounts[SECONDS], max(held, numbers)
+    return {SECONDS: seconds}, held
 
 
 def estimated(plan: Plan, w: Any) -> tuple[Amounts, float]:
@@ -165,6 +181,7 @@ STEPS: Mapping[str, Callable[[Plan, Any], tuple[Amounts, float]]] = {  # kind ->
     "observe": observed,
     "fit": fitted,
     "train": trained,
+    "train_stack": stacked,
     "estimate": estimated,
     "score": scored,
     "detect": detected,
@@ -172,3 +189,46 @@ STEPS: Mapping[str, Callable[[Plan, Any], tuple[Amounts, float]]] = {  # kind ->
     "react": reacted,
     "falls": fallen,
 }
+
+
+@dataclass(frozen=True)
+class OnGpu:
+    """What a training does on a GPU.
+
+    Attributes:
+        networks: how many GRUs learn side by side; 0 where no rate of that was measured: of one that learns alone, or
+            of other cells.
+        steps: time steps from which the longest of them learns.
+        all_steps: those of all of its networks.
+        units: size of its state.
+        batch: sequences of an update.
+        horizon: time steps of an update.
+    """
+
+    networks: int
+    steps: float
+    all_steps: float
+    units: int
+    batch: int
+    horizon: int
+
+
+def on_gpu(plan: Plan, job: PlannedJob) -> OnGpu | None:
+    """Return what a job does on a GPU, where the plan has stacks: nothing if it trains nothing there."""
+    w = job.w
+    alone = job.rule in ("train", "train_gray") and "lesson" not in plan.jobs.train(w)
+    if job.rule == "train_stack":
+        members = plan.jobs.stacks.members[w.stack]
+    elif alone:
+        members = (Stacked(w.robot, NetworkName(w.method, w.limb, int(w.seed))),)
+    else:
+        return None
+    robot, first = members[0]
+    training = plan.jobs.files_of(robot).catalogue.training(first.method, first.limb)
+    network = training.network
+    steps: list[float] = []
+    for own in members:
+        steps.append(plan.jobs.files_of(own.robot).learned_steps(own.network.method, own.network.limb))
+    count = 0 if alone or network.cell != "GRU" else len(members)
+    batch = training.learning.batch_size
+    return OnGpu(count, max(steps), sum(steps), network.hidden or 0, batch, network.horizon_steps)

@@ -22,6 +22,7 @@ from mobnet.core.errors import DataError, not_accepted, refuse
 log = logging.getLogger(__name__)
 WEIGHTS, METRICS, RUN = "weights.safetensors", "metrics.csv", "run.json"  # files of a trained network
 CHECKPOINT = "checkpoint.safetensors"  # of a training that is under way, in a folder of its own with METRICS
+MEMBERS = "members.json"  # beside the checkpoint of networks that learn side by side: the folders of their METRICS
 TIME = "time.json"  # beside the checkpoint of a network: what its training took [s]
 PARTIAL = ".partial."  # first characters of the name of a file that is being written
 LOCKLESS = {errno.ENOLCK, errno.ENOSYS, errno.EOPNOTSUPP}  # what a file system says that has no locks

@@ -10,7 +10,6 @@ from typing import Protocol
 import torch
 from torch import Tensor, nn
 
-from mobnet.learning.gru import run_gru
 from mobnet.settings.networks import SIZES, CellKind, NetworkCell
 
 
@@ -54,6 +53,10 @@ class Gru(Carried, nn.GRU):
 
     def run(self, x: Tensor, state: Tensor) -> tuple[Tensor, Tensor]:
         """Return hidden states (h, B, hidden) for inputs (h, B, n_in), unitless, and the last (1, B, hidden)."""
+        if x.is_cuda:
+            return self(x, state)
+        from mobnet.learning.gru import run_gru  # here, as a GPU needs no loops, nor what compiles them
+
         return run_gru(self, x, state)
 
 

@@ -10,6 +10,7 @@ import pytest
 
 from experiments.evaluation.report import cost
 from experiments.evaluation.report.cost import main, overrides
+from experiments.evaluation.report.gpu import GPU_RATES
 from experiments.evaluation.report.rates import RATES
 from experiments.plan import dry_run as dry_runs
 from experiments.plan.dry_run import PlannedJob
@@ -152,3 +153,69 @@ def test_a_target_is_priced_at_the_scale_that_its_path_names(told: Told) -> None
     assert told().startswith("scale smoke, ")
     assert main(["tables/smoke/table_05.tex", "--config", "scale=default"]) == 1
     assert told() == "tables/smoke/table_05.tex: is not made at scale=default; accepted: --config scale=smoke"
+
+
+LEG = {"robot": "plant", "method": "MOB-Net", "limb": "LL", "seed": "0"}
+LSTM = {"robot": "robot_1", "method": "LSTM", "limb": "LL", "seed": "101"}
+ALONE = [  # two networks that learn
+    PlannedJob("train", "train/plant/MOB-Net-LL-s0", LEG, ("leg",), {}),
+    PlannedJob("train", "train/robot_1/LSTM-LL-s101", LSTM, ("lstm",), {}),
+]
+STACK = {"stack": "plant-MOB-Net-LL-s0"}
+SIDE_BY_SIDE = [
+    PlannedJob("train_stack", "train_stack/plant-MOB-Net-LL-s0", STACK, ("stack",), {}),
+    PlannedJob("train", "train/plant/MOB-Net-LL-s0", LEG, ("leg",), {}, ("stack",)),
+    ALONE[1],
+]
+
+
+@pytest.fixture
+def trained(rates: dict[str, object], monkeypatch: pytest.MonkeyPatch) -> list[list[str]]:
+    """Trainings, of which a core does 36 s of work, and a GPU an update of any networks in 3.2 s.
+
+    Returns:
+        Words of the configuration of each dry run.
+    """
+    asked: list[list[str]] = []
+
+    def planned(_: Sequence[str], config: Sequence[str], *, from_nothing: bool) -> list[PlannedJob]:
+        asked.append(list(config))
+        return SIDE_BY_SIDE if any("side_by_side" in word for word in config) else ALONE
+
+    monkeypatch.setattr(cost, "dry_run", planned)
+    kind = {"cpu_s": {"job": 36.0, "GRU step": 3.6}, "peak_mib": {"job": 500.0}}
+    write_json(RATES, {**rates, "kinds": {"train": kind}})
+    shape = {"batch": 64, "horizon": 50, "units": 150, "alone": 1000.0}
+    speeds = {"1": 1000.0, "2": 2000.0, "4": 4000.0}
+    made = {"device": "NVIDIA X", "date": "2026", "torch": "2", "made_by": "a prototype"}
+    write_json(GPU_RATES, {**made, **shape, "side_by_side": speeds, "trained": {}})
+    return asked
+
+
+def test_a_run_is_priced_without_a_gpu_and_with_one(told: Told, trained: list[list[str]]) -> None:
+    """Smoke: networks learn side by side from 16 000 steps each, 4 sequences of 50 in an update, the LSTM from 2000."""
+    assert main(["--config", "scale=smoke"]) == 0
+    alone, beside = told().split("with a GPU, on which networks of one shape learn side by side:\n")
+    assert trained[:2] == [["scale=smoke"], ["scale=smoke", 'stacks={"side_by_side": true}']]
+    steps = 16_000
+    gpu_s, lstm_s = 3.2 * steps / (4 * 50), 2000 / 1000
+    assert f"| train | 2 | {(36 * 2 + 3.6 * steps) / HOUR_S:.2f} |" in alone
+    assert f"time: {(36 + 3.6 * steps) / HOUR_S:.2f} h on 2 cores" in alone
+    assert "GPU" not in alone
+    assert f"| train | 3 | {36 * 3 / HOUR_S:.2f} |" in beside
+    (side, after) = [line.split(" | ") for line in beside.splitlines() if line.startswith(("| networks", "| one net"))]
+    assert side[1] == after[1] == "1"
+    assert float(side[3].rstrip(" |")) == pytest.approx(gpu_s / HOUR_S, abs=0.005)
+    assert float(after[3].rstrip(" |")) == pytest.approx(lstm_s / HOUR_S, abs=0.005)
+    assert "GPU-hours: rates of a prototype on an NVIDIA X (2026, torch 2), not of this code" in beside
+    assert f"time: {(36 * 2 + gpu_s) / HOUR_S:.2f} h on 16 cores and one GPU" in beside
+
+
+def test_what_the_configuration_says_of_stacks_stays(told: Told, trained: list[list[str]]) -> None:
+    """A run on this machine that has stacks is priced once."""
+    words = ["scale=smoke", "stacks={side_by_side: true, most: 3}"]
+    assert main(["--config", *words]) == 0
+    assert trained[:1] == [words]
+    assert "with a GPU" in told()
+    assert cost.with_stacks({"stacks": {"most": 3}})[0]["stacks"] == {"side_by_side": True, "most": 3}
+    assert cost.with_stacks({"stacks": {"side_by_side": False}})[1] == 'stacks={"side_by_side": false}'

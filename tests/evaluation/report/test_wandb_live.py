@@ -71,6 +71,21 @@ def test_a_training_shows_while_it_goes_on_and_ends(tmp_path: Path, followed: Fo
     assert {"state finished (exit code 0)", "epoch 3"} <= set(shown(tmp_path, "--summary").splitlines())
 
 
+def test_networks_that_learn_side_by_side_show_each(tmp_path: Path, followed: Follower) -> None:
+    """They share one checkpoint; the folder of the stack itself is no training."""
+    stack = tmp_path / "plant" / "state" / f"plant-{NAME}"
+    stack.mkdir(parents=True)
+    (stack / "members.json").write_text(json.dumps({"folders": [str(train(tmp_path, 2, done=True))]}))
+    (stack / "checkpoint.safetensors").write_bytes(b"")
+    followed.look()
+    assert wait(lambda: "epoch 2" in shown(tmp_path, "--summary"))
+    assert not any(line.startswith("state finished") for line in shown(tmp_path, "--summary").splitlines())
+    (stack / "checkpoint.safetensors").unlink()
+    followed.look()
+    assert "state finished (exit code 0)" in shown(tmp_path, "--summary").splitlines()
+    assert [path.name for path in (tmp_path / RUNS).iterdir()] == [FOLDER.format(NAME)]
+
+
 def test_a_training_that_goes_on_after_a_kill_is_logged_from_its_first_epoch(tmp_path: Path) -> None:
     for epochs in (2, 4):
         follower = follower_of(tmp_path)

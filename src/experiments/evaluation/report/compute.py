@@ -16,7 +16,7 @@ from mobnet.core.errors import DataError
 
 STAGES = {  # stage -> its rules; those of no stage make tables and figures
     "collect": ("motion", "collect", "observe"),
-    "train": ("fit", "train"),
+    "train": ("fit", "train_stack", "train"),
     "estimate": ("estimate",),
     "detect and react": ("detect", "watch", "react"),
     "score": ("score",),

@@ -1,25 +1,31 @@
 """What a run of the workflow will cost, priced by the rates of the published one: `./reproduce cost`.
 
 Without targets it prices a run from nothing; with some, what a run of them would start now: `./reproduce cost all`
-after an edit, or `./reproduce cost tables/table_06.tex`.
+after an edit, or `./reproduce cost tables/table_06.tex`. A run without a GPU is priced with one, too, on which networks
+of one shape learn side by side.
 """
 
+import json
 import logging
 import sys
 from argparse import Namespace
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from typing import Any
 
 import yaml
 
 from experiments.evaluation.report.compute import HOUR_S, STAGES, WHOLE, stage_of
+from experiments.evaluation.report.gpu import GPU_RATES, GpuNote, GpuRates
+from experiments.evaluation.report.gpu import fitted as fitted_rates
 from experiments.evaluation.report.paper import missing_packages
 from experiments.evaluation.report.rates import RATES, Kind, RatesNote, price
 from experiments.evaluation.tables.layout import markdown_table
 from experiments.plan.dry_run import PlannedJob, dry_run
 from experiments.plan.plan import Plan, make_plan
 from experiments.plan.room import RESOURCE
-from experiments.plan.work import Work, works_of
+from experiments.plan.schedule import Timed, elapsed_s
+from experiments.plan.work import SECONDS, OnGpu, Work, on_gpu, works_of
 from experiments.running.words import cost_parser, scale_of_targets
 from experiments.settings.load import load_settings
 from mobnet.core.errors import ConfigError
@@ -29,37 +35,105 @@ from mobnet.core.printed import printed
 log = logging.getLogger(__name__)
 
 HEADER = ("stage", "jobs", "core-hours", "memory [MiB]")
+GPU_HEADER = ("trainings on the GPU", "jobs", "time steps [1e9]", "GPU-hours")
+SIDE_BY_SIDE, ALONE = "networks side by side", "one network after another"
+CORES, CORES_WITH_GPU = 2, 16  # of machines
 MB_OF_GB = 1e3
+STEPS_UNIT = 1e9
 PERCENT = 100.0
 Cost = tuple[int, float, float]  # jobs, processor time [s], largest peak of the memory [MiB]
+STACK, TRAINING = "train_stack", ("train", "train_gray")  # rules
+LIKE = {STACK: "train"}  # kind of jobs -> that whose rates count where it has none: both read and are prepared
 
 
-def costs(works: Iterable[Work], kinds: dict[str, Kind]) -> dict[str, Cost]:
+@dataclass(frozen=True)
+class Priced:
+    """A job with its price.
+
+    Attributes:
+        planned: the job.
+        work: what it has to do; of a training on a GPU what a core does.
+        cpu_s: processor time [s].
+        peak_mib: peak of the memory [MiB].
+        on_gpu: what a GPU does.
+        gpu_s: time of the GPU [s].
+    """
+
+    planned: PlannedJob
+    work: Work
+    cpu_s: float
+    peak_mib: float
+    on_gpu: OnGpu | None = None
+    gpu_s: float = 0.0
+
+
+def costs(works: Iterable[Work], kinds: Mapping[str, Kind]) -> dict[str, Cost]:
     """Return what the jobs of each stage will take, then all of them; jobs without a rate do not count."""
     found: dict[str, Cost] = dict.fromkeys((*STAGES, WHOLE), (0, 0.0, 0.0))
     for work in works:
-        if work.kind in kinds:
-            cpu_s, peak_mib = price(work, kinds[work.kind])
+        if (kind := kind_of(work, kinds)) is not None:
+            cpu_s, peak_mib = price(work, kind)
             for stage in (stage_of(work.job), WHOLE):
                 jobs, before_s, most_mib = found[stage]
                 found[stage] = jobs + 1, before_s + cpu_s, max(most_mib, peak_mib)
     return {stage: cost for stage, cost in found.items() if cost[0]}
 
 
-def report(plan: Plan, rates: RatesNote, planned: Sequence[PlannedJob]) -> str:
-    """Return the price of some jobs of a plan as text: a row for each stage, the disk, and what has no rate."""
-    works = works_of(plan, planned)
+def kind_of(work: Work, kinds: Mapping[str, Kind]) -> Kind | None:
+    """Return the rates of a job's kind, or of the one that is like it; None where there are none."""
+    return kinds.get(work.kind) or kinds.get(LIKE.get(work.kind, work.kind))
+
+
+def priced(plan: Plan, rates: RatesNote, gpu: GpuRates | None, planned: Iterable[PlannedJob]) -> list[Priced]:
+    """Return the jobs of a plan with their prices, none for those without a rate; without a GPU none learns there."""
+    jobs = [job for job in planned if job.name != job.rule or job.outputs[0]]
+    found: list[Priced] = []
+    for job, work in zip(jobs, works_of(plan, jobs), strict=True):
+        there = on_gpu(plan, job) if gpu else None
+        own = replace(work, amounts={SECONDS: work.amounts[SECONDS]}) if there else work
+        kind = kind_of(own, rates.kinds)
+        cpu_s, peak_mib = price(own, kind) if kind else (0.0, 0.0)
+        found.append(Priced(job, own, cpu_s, peak_mib, there, gpu.seconds(there) if gpu and there else 0.0))
+    return found
+
+
+def time_s(jobs: Iterable[Priced], cores: int, gpus: int = 0) -> float:
+    """Return how long a machine takes for jobs that wait for each other [s]."""
+    return elapsed_s([Timed(job.planned, job.cpu_s + job.gpu_s, job.gpu_s > 0.0) for job in jobs], cores, gpus)
+
+
+def gpu_rows(jobs: Iterable[Priced]) -> list[list[str]]:
+    """Return the rows of a table of what a GPU does."""
+    rows: list[list[str]] = []
+    there = [(job.on_gpu, job.gpu_s) for job in jobs if job.on_gpu and job.gpu_s]
+    for name in (SIDE_BY_SIDE, ALONE):
+        own = [(work, seconds) for work, seconds in there if bool(work.networks) == (name == SIDE_BY_SIDE)]
+        steps = sum(work.all_steps for work, _ in own)
+        hours = sum(seconds for _, seconds in own) / HOUR_S
+        rows.append([name, str(len(own)), f"{steps / STEPS_UNIT:.2f}", f"{hours:.2f}"])
+    return rows
+
+
+def report(plan: Plan, rates: RatesNote, gpu: GpuRates | None, planned: Sequence[PlannedJob]) -> str:
+    """Return the price of some jobs of a plan as text: a row for each stage, the disk, time, and what has no rate.
+
+    With a GPU its rows follow, and only the rest of the trainings counts as core-hours.
+    """
+    jobs = priced(plan, rates, gpu, planned)
+    works = [job.work for job in jobs]
     found = costs(works, rates.kinds)
     rows = [[stage, str(n), f"{cpu_s / HOUR_S:.2f}", f"{mib:.0f}"] for stage, (n, cpu_s, mib) in found.items()]
-    unknown = sorted({work.kind for work in works} - {*rates.kinds})
+    unknown = sorted({work.kind for work in works if kind_of(work, rates.kinds) is None})
     disk_gb = sum(float(job.resources.get(RESOURCE, 0)) for job in planned) / MB_OF_GB
-    lines = [
-        f"scale {plan.settings.scale}, priced as on this processor: {rates.processor}",
-        "",
-        markdown_table(HEADER, rows) if works else "nothing would run: all is up to date",
-        f"disk: {disk_gb:.1f} GB; time: the core-hours over the number of cores",
-        "GPU-hours: none, as no training on a GPU has been measured",
-    ]
+    lines = [markdown_table(HEADER, rows) if works else "nothing would run: all is up to date"]
+    if gpu:
+        made = f"{gpu.note.made_by} on an {gpu.note.device} ({gpu.note.date}, torch {gpu.note.torch})"
+        lines += [markdown_table(GPU_HEADER, gpu_rows(jobs)), f"GPU-hours: rates of {made}, not of this code"]
+        times = f"{time_s(jobs, CORES_WITH_GPU, 1) / HOUR_S:.2f} h on {CORES_WITH_GPU} cores and one GPU"
+    else:
+        hours = [f"{time_s(jobs, cores) / HOUR_S:.2f} h on {cores} cores" for cores in (CORES, CORES_WITH_GPU)]
+        times = ", ".join(hours)
+    lines.append(f"disk: {disk_gb:.1f} GB; time: {times}")
     lines += [f"without a rate, and not counted: {', '.join(unknown)}"] if unknown else []
     return "\n".join(lines)
 
@@ -101,19 +175,42 @@ def overrides(words: Sequence[str]) -> dict[str, Any]:
 
 
 def run(options: Namespace) -> Iterator[str]:
-    """Yield what a run will cost, as the command's options say."""
+    """Yield what a run will cost, as the command's options say: without a GPU, and with one where networks learn."""
     with_pdf = not missing_packages()
     rates = read_note(RATES, RatesNote)
     given = overrides(options.config)
     if scale := scale_of_targets(options.targets, given.get("scale")):
         given["scale"] = scale  # as a run of these targets takes it
-    plan = make_plan(load_settings(overrides=given), with_pdf=with_pdf)
     targets = options.targets or ["all"]
-    planned = dry_run(targets, options.config, from_nothing=not options.targets)
+    nothing = not options.targets
+    planned = dry_run(targets, options.config, from_nothing=nothing)
+    has_gpu = any(job.rule == STACK for job in planned)
+    plan = make_plan(load_settings(overrides=given), with_pdf=with_pdf)
+    parts: list[str] = [f"scale {plan.settings.scale}, priced as on this processor: {rates.processor}"]
+    if not has_gpu:
+        parts.append(report(plan, rates, None, planned))
+    if any(job.rule in TRAINING for job in planned):
+        gpu = fitted_rates(read_note(GPU_RATES, GpuNote))
+        beside, word = with_stacks(given)
+        stacked = make_plan(load_settings(overrides=beside), with_pdf=with_pdf)
+        jobs = planned if has_gpu else dry_run(targets, [*options.config, word], from_nothing=nothing)
+        parts.append(
+            f"with a GPU, on which networks of one shape learn side by side:\n\n{report(stacked, rates, gpu, jobs)}"
+        )
     # A dry run takes seconds: the one that is priced often is that of the published run.
-    is_published = not options.targets and given.keys() <= {"scale"} and plan.settings.scale == rates.scale
-    works = works_of(plan, planned) if is_published else published(rates, with_pdf)
-    yield f"{report(plan, rates, planned)}\n{check(rates, works)}"
+    is_published = nothing and given.keys() <= {"scale"} and plan.settings.scale == rates.scale and not has_gpu
+    parts.append(check(rates, works_of(plan, planned) if is_published else published(rates, with_pdf)))
+    yield "\n\n".join(parts)
+
+
+def with_stacks(given: Mapping[str, Any]) -> tuple[dict[str, Any], str]:
+    """Return values of the configuration, and a word of a call, by which networks learn side by side.
+
+    A yes or no that is given stays.
+    """
+    own = given.get("stacks")
+    stacks = {"side_by_side": True, **(own if isinstance(own, dict) else {})}
+    return {**given, "stacks": stacks}, f"stacks={json.dumps(stacks)}"
 
 
 def main(words: Sequence[str]) -> int:

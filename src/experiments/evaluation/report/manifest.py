@@ -15,9 +15,10 @@ from mobnet.core.files import PARTIAL, read_text, write_text
 LINE = re.compile(r"([0-9a-f]{64})  (.+)")
 TIMES = "TIMES.sha256"  # beside the manifest
 RESULTS = "results"
-# Folders of results, and names of files, that no list has: logs, what a training goes on from, views, others' files
+# Folders of results, and names of files, that no list has: logs, what a training goes on from, what stacks have learned
+# (with its time), views, others' files
 STATE = "state"
-UNLISTED = ("logs", STATE, "wandb", "docs", "trials", "films")
+UNLISTED = ("logs", STATE, "stacks", "wandb", "docs", "trials", "films")
 KEPT = (".gitignore", ".snakemake_timestamp", TIMES, "MANIFEST.sha256")
 TIMED = ("runs.html", "main.pdf")  # they show what jobs took, as the table of compute does
 COMPUTE = "compute"

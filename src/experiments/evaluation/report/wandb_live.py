@@ -20,7 +20,7 @@ from experiments.evaluation.report.wandb_runs import begin, put, rows
 from mobnet.core.columns import Epoch
 from mobnet.core.epochs import read_epochs
 from mobnet.core.errors import DataError
-from mobnet.core.files import CHECKPOINT, METRICS, PARTIAL
+from mobnet.core.files import CHECKPOINT, MEMBERS, METRICS, PARTIAL, read_json
 
 if TYPE_CHECKING:
     from wandb import Run
@@ -56,11 +56,16 @@ class Follower:
         self._results = results
         self._scratch = scratch
         self._live: dict[Path, Live] = {}
+        self._checkpoint: dict[Path, Path] = {}  # that of each training, which networks of a stack share
         self._left = self._checkpoints()  # by an earlier run: their trainings need not go on
 
     def look(self) -> None:
         """Begin runs of trainings that have begun or gone on, log new epochs, and finish runs of those that ended."""
-        under_way = {path.parent for path, _ in self._checkpoints() - self._left}
+        under_way = set[Path]()
+        for path, _ in self._checkpoints() - self._left:
+            states = trainings_of(path)
+            under_way.update(states)
+            self._checkpoint |= dict.fromkeys(states, path)
         for state in sorted(under_way | self._live.keys()):
             try:
                 epochs, _ = read_epochs(state / METRICS)
@@ -70,7 +75,7 @@ class Follower:
                     self._end(state, 1)
                     live = self._live[state] = self._begin(state.name)
                 live.log(state)
-                if not (state / CHECKPOINT).exists():
+                if not self._checkpoint[state].exists():
                     self._end(state, 0)
             except (DataError, OSError) as error:  # a full disk, or a folder that somebody removes
                 log.warning("%s: not logged: %s", state, error)
@@ -102,6 +107,12 @@ class Follower:
     def _end(self, state: Path, status: int) -> None:
         if live := self._live.pop(state, None):
             live.run.finish(exit_code=status)
+
+
+def trainings_of(checkpoint: Path) -> list[Path]:
+    """Return the folders of the trainings that go on from a checkpoint: its own, or those of a stack's networks."""
+    members = checkpoint.parent / MEMBERS
+    return [Path(name) for name in read_json(members)["folders"]] if members.exists() else [checkpoint.parent]
 
 
 def follow(results: Path, ended: Callable[[], bool]) -> None:
