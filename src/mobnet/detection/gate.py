@@ -11,8 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array
-from mobnet.core.compilation import compiled
-from mobnet.core.held import Held
+from mobnet.core.compilation import Held, compiled
 from mobnet.detection.leg import Leg, foot_load, sole_height
 from mobnet.settings import detection as settings
 

@@ -13,8 +13,7 @@ from mobnet.control.upper_body import UpperBody, follow
 from mobnet.control.walker import Walker
 from mobnet.control.walking import walk
 from mobnet.core.arrays import Array
-from mobnet.core.compilation import compiled
-from mobnet.core.held import Held
+from mobnet.core.compilation import Held, compiled
 from mobnet.robot.description import LEG_JOINTS
 from mobnet.simulation.drives import Drives, drive
 from mobnet.simulation.faults import Faults, perceive

@@ -14,7 +14,7 @@ from mobnet.control.upper_body import UpperBody, follow
 from mobnet.control.walker import make_walker
 from mobnet.core.arrays import Array
 from mobnet.core.columns import recording_width
-from mobnet.core.held import Held, hold
+from mobnet.core.compilation import Held, hold
 from mobnet.robot.description import describe, for_walking
 from mobnet.settings.data import CommandSource, FixedCommand
 from mobnet.settings.walking import WalkSettings

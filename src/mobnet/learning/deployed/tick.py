@@ -11,8 +11,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mobnet.core.compilation import compiled
-from mobnet.core.held import Held
+from mobnet.core.compilation import Held, compiled
 from mobnet.learning.gates import MATHS, open_gates
 
 Array = NDArray[np.float32]
