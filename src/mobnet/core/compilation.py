@@ -126,10 +126,10 @@ matrix3 = on_stack(3, 3)
 
 @structref.register
 class HeldType(types.StructRef):
-    """The type of a `Held` in compiled code: it has the type of its value."""
+    """The type of a `HeldValue` in compiled code: it has the type of its value."""
 
 
-class Held(structref.StructRefProxy):
+class HeldValue(structref.StructRefProxy):
     """A value that compiled code finds as `value`; what it refers to may change, but not which objects those are.
 
     Attributes:
@@ -139,10 +139,10 @@ class Held(structref.StructRefProxy):
     of: Any
 
 
-structref.define_proxy(Held, HeldType, ["value"])
+structref.define_proxy(HeldValue, HeldType, ["value"])
 
 
-def hold(value: Any) -> Held:
+def hold(value: Any) -> HeldValue:
     """Return a value held for compiled code, such as a named tuple of arrays, records and other tuples.
 
     Only functions that are compiled as `allocating` take it, because it counts references.
@@ -155,4 +155,4 @@ def hold(value: Any) -> Held:
 @compiled(allocating=True)
 def _hold(value: Any) -> Any:
     """Return a value held for compiled code."""
-    return Held(value)
+    return HeldValue(value)
