@@ -5,8 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mobnet.core.compilation import compiled
-from mobnet.core.held import hold
+from mobnet.core.compilation import compiled, hold
 
 RECORD = np.dtype([("count", "i8"), ("sums", "f8", 2)])
 

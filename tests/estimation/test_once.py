@@ -2,8 +2,8 @@
 
 import numpy as np
 
+from mobnet.core.estimator import once
 from mobnet.estimation.observe import observer_of
-from mobnet.estimation.once import once
 
 
 class Sum:

@@ -14,7 +14,7 @@ from experiments.plan.parts import CaseWalks, MethodRun
 from mobnet.core.arrays import Array
 from mobnet.core.course import course_columns
 from mobnet.core.detections import Threshold
-from mobnet.core.estimator import TorqueEstimator
+from mobnet.core.estimator import TorqueEstimator, once
 from mobnet.core.files import write_text
 from mobnet.core.reactions import FORCE_SENSORS, NONE, TRIALS, Trial
 from mobnet.core.rows import csv_text, read_rows
@@ -22,7 +22,6 @@ from mobnet.core.store import write_array
 from mobnet.detection.detector import LegDetector
 from mobnet.detection.signals import Watched
 from mobnet.detection.watch import LegSetup
-from mobnet.estimation.once import once
 from mobnet.reaction.handler import Handler, Watcher
 from mobnet.reaction.loop import Course, walk_with
 from mobnet.reaction.watchers import FootWatcher, LegWatcher, LimbWatcher, OwnLegWatcher

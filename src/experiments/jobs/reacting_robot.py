@@ -8,11 +8,10 @@ from typing import Any
 from numpy.typing import NDArray
 
 from experiments.plan.parts import MethodRun
-from mobnet.core.estimator import TorqueEstimator
+from mobnet.core.estimator import TorqueEstimator, once
 from mobnet.detection.signals import Watched
 from mobnet.detection.watch import LegSetup
 from mobnet.estimation.observe import observer_of
-from mobnet.estimation.once import once
 from mobnet.estimation.recipe import Recipe, ResidualObserver, build_estimator
 from mobnet.robot.description import RobotDescription, describe
 from mobnet.settings.detection import Detection

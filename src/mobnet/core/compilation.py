@@ -1,4 +1,4 @@
-"""The decorator for compiled code, where its machine code is cached, and small arrays on its stack.
+"""The decorator for compiled code, its cache, small arrays on its stack, and arguments that it holds.
 
 Code under `compiled` owns no memory: numba then counts no references to arrays, which took half of the controller's
 time and keeps loops from vector instructions, and refuses code that allocates. Arrays come from the caller or from
@@ -8,6 +8,9 @@ To tell whether cached machine code is stale, numba looks only at the file of th
 functions it calls. The cache of each module therefore lives in a folder named after the hash of the module's code with
 all that it imports (`mobnet.core.code`), so that an edit of a called function is noticed, and one of a comment in its
 file is not.
+
+At each call from Python numba takes tuples, records and generators of random numbers apart, field by field, which takes
+longer than many a function that gets them. What `hold` returns is one pointer to fields that were taken apart before.
 
 The first process that needs a function compiles it, which takes up to half a minute for the plant's loop, and says so;
 those that find it in the cache say nothing.
@@ -27,6 +30,7 @@ from llvmlite import ir
 from numba import types
 from numba.core import cgutils
 from numba.core import event as events
+from numba.experimental import structref
 from numba.extending import intrinsic
 from numba.np.arrayobj import populate_array
 
@@ -118,3 +122,37 @@ def on_stack(*shape: int) -> Any:
 
 vector3 = on_stack(3)
 matrix3 = on_stack(3, 3)
+
+
+@structref.register
+class HeldType(types.StructRef):
+    """The type of a `HeldValue` in compiled code: it has the type of its value."""
+
+
+class HeldValue(structref.StructRefProxy):
+    """A value that compiled code finds as `value`; what it refers to may change, but not which objects those are.
+
+    Attributes:
+        of: the value in Python. A record in it is a mere address to compiled code, so that it has to live as long.
+    """
+
+    of: Any
+
+
+structref.define_proxy(HeldValue, HeldType, ["value"])
+
+
+def hold(value: Any) -> HeldValue:
+    """Return a value held for compiled code, such as a named tuple of arrays, records and other tuples.
+
+    Only functions that are compiled as `allocating` take it, because it counts references.
+    """
+    held = _hold(value)
+    held.of = value
+    return held
+
+
+@compiled(allocating=True)
+def _hold(value: Any) -> Any:
+    """Return a value held for compiled code."""
+    return HeldValue(value)

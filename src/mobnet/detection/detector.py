@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array
 from mobnet.core.columns import FEET
+from mobnet.core.compilation import HeldValue, hold
 from mobnet.core.estimator import Estimate
-from mobnet.core.held import Held, hold
 from mobnet.core.recording import Sensed, SensedRecording
 from mobnet.detection.chain import Chain, ChainState, advance_chain, chain_state, run_chain
 from mobnet.detection.gate import Gate, Spans, advance_held, gate_state, make_gate, run_gate
@@ -65,7 +65,7 @@ class LegGate:
         return cls(make_gate(numbers, rate_hz), leg, feet.index(f"{sides[limb]}_foot"))
 
     @cached_property
-    def _held(self) -> Held:
+    def _held(self) -> HeldValue:
         """Gate and leg, taken apart once: they have many fields."""
         return hold((self.gate, self.leg))
 

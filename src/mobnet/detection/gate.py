@@ -11,8 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array
-from mobnet.core.compilation import compiled
-from mobnet.core.held import Held
+from mobnet.core.compilation import HeldValue, compiled
 from mobnet.detection.leg import Leg, foot_load, sole_height
 from mobnet.settings import detection as settings
 
@@ -90,7 +89,7 @@ def advance_gate(gate: Gate, leg: Leg, s: Any, q: Array, tau: Array, swing: floa
 
 
 @compiled(allocating=True)
-def advance_held(held: Held, s: Any, q: Array, tau: Array, swing: float, landing: float) -> bool:
+def advance_held(held: HeldValue, s: Any, q: Array, tau: Array, swing: float, landing: float) -> bool:
     """Advance a gate of a leg, which are held together, as `advance_gate` does."""
     gate, leg = held.value
     return advance_gate(gate, leg, s, q, tau, swing, landing)

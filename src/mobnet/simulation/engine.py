@@ -13,8 +13,7 @@ from mobnet.control.upper_body import UpperBody, follow
 from mobnet.control.walker import Walker
 from mobnet.control.walking import walk
 from mobnet.core.arrays import Array
-from mobnet.core.compilation import compiled
-from mobnet.core.held import Held
+from mobnet.core.compilation import HeldValue, compiled
 from mobnet.robot.description import LEG_JOINTS
 from mobnet.simulation.drives import Drives, drive
 from mobnet.simulation.faults import Faults, perceive
@@ -116,7 +115,7 @@ class Loop(NamedTuple):
 
 
 @compiled(allocating=True)
-def run(held: Held, commands: Array, log: NDArray[np.float32]) -> int:
+def run(held: HeldValue, commands: Array, log: NDArray[np.float32]) -> int:
     """Simulate len(log) samples into log (n, C), columns of `recording_columns`; return how many before a fall.
 
     A `Loop` is held. A call takes few arguments, so that a walk with an estimator in it can call for each sample.

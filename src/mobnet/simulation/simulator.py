@@ -14,7 +14,7 @@ from mobnet.control.upper_body import UpperBody, follow
 from mobnet.control.walker import make_walker
 from mobnet.core.arrays import Array
 from mobnet.core.columns import recording_width
-from mobnet.core.held import Held, hold
+from mobnet.core.compilation import HeldValue, hold
 from mobnet.robot.description import describe, for_walking
 from mobnet.settings.data import CommandSource, FixedCommand
 from mobnet.settings.walking import WalkSettings
@@ -75,7 +75,7 @@ class Simulator:
         self.running_s = self.rng["running"].uniform(*chosen.running_s) if chosen else 0.0
         self.episode = seed  # the first of the scenario's kinds of episodes depends on the seed
         self.commands: Array = np.zeros((0, 0))
-        self._held: Held | None = None
+        self._held: HeldValue | None = None
         # terrains until all have been walked once more; seeds that follow each other begin on each in turn, so that
         # walks of one episode come to all of them equally often
         self.coming = [scenario.terrain[seed % len(scenario.terrain)]]

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from mobnet.core.errors import DataError, not_accepted
 from mobnet.core.joints import JointLayout
 from mobnet.core.recording import Sensed
-from mobnet.learning.deployed.networks import Array, GruNetwork, Prediction, Runnable, load_network
+from mobnet.learning.deployed.networks import Array, GruNetwork, GruNetworks, Prediction, Runnable, load_network
 from mobnet.learning.features import signal_names, signals
 
 State = tuple[Any, ...]  # of each network but GRUs, then of all GRUs together
@@ -30,8 +30,6 @@ class LimbNetworks:
         others = {k: network for k, network in enumerate(self.networks) if k not in grus}
         self._steppers: list[Any] = [_Alone(network, self._columns[k]) for k, network in others.items()]
         if grus:
-            from mobnet.learning.deployed.together import GruNetworks  # compiled code, as in `GruNetwork`
-
             self._steppers.append(GruNetworks(list(grus.values()), [self._columns[k] for k in grus]))
         of = np.repeat(np.arange(len(self.networks)), [len(network.joints) for network in self.networks])
         # of each number that the steppers predict, one after the other, the joint; and of each joint, the number

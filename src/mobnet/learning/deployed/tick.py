@@ -11,8 +11,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mobnet.core.compilation import compiled
-from mobnet.core.held import Held
+from mobnet.core.compilation import HeldValue, compiled
 from mobnet.learning.gates import MATHS, open_gates
 
 Array = NDArray[np.float32]
@@ -106,7 +105,7 @@ def row_of(networks: Sequence[GruWeights], columns: Sequence[NDArray[np.intp]]) 
 
 
 @compiled(allocating=True)
-def advance_row(held: Held, signals: Array, state: Array, after: Array, mean: Array, std: Array) -> None:
+def advance_row(held: HeldValue, signals: Array, state: Array, after: Array, mean: Array, std: Array) -> None:
     """Write of networks of which a `GruRow` is held, one after the other, what `advance` writes of each."""
     _advance_each(held.value, signals, state, after, mean, std)
 
