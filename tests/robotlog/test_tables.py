@@ -1,5 +1,7 @@
 """Parquet and files of arrays, as other programs write them."""
 
+import weakref
+
 import h5py
 import numpy as np
 import pyarrow as pa
@@ -8,6 +10,7 @@ from pyarrow import parquet
 from scipy.io import savemat
 
 from mobnet.core.errors import DataError
+from mobnet.robotlog.clocks import common_ticks
 from mobnet.robotlog.formats import column_names, read_log
 from mobnet.robotlog.observe import converted_log
 from mobnet.settings.robotlog import LogMap
@@ -110,3 +113,26 @@ def test_durations_are_seconds_and_other_types_are_named(tmp_path):
     np.testing.assert_allclose(read_log(tmp_path / "log.parquet")["t"].values, T, atol=1e-9)
     with pytest.raises(DataError, match="column 'note' holds string; accepted: numbers, dates as"):
         read_log(tmp_path / "log.parquet", ["note"])
+
+
+def test_columns_go_with_the_signals_that_are_made_of_them(tmp_path, arm, settings, monkeypatch):
+    """A long log would else be in memory twice."""
+    signals = {f"{name}.{k}": ARRAYS[name][:, k] for name in ("q", "v", "tau") for k in range(2)}
+    parquet.write_table(pa.table({"t": T} | signals), tmp_path / "log.parquet")
+    held = list[weakref.ref[np.ndarray]]()
+    left = list[int]()
+
+    def reading(*given):
+        columns = read_log(*given)
+        held.extend(weakref.ref(column.values) for column in columns.values())
+        return columns
+
+    def ticks(*given):
+        left.append(sum(values() is not None for values in held))
+        return common_ticks(*given)
+
+    monkeypatch.setattr("mobnet.robotlog.observe.read_log", reading)
+    monkeypatch.setattr("mobnet.robotlog.convert.common_ticks", ticks)
+    converted_log(tmp_path / "log.parquet", arm.layout, LogMap.model_validate(MAP), settings.robotlog)
+    assert len(held) == 7
+    assert left == [0]

@@ -78,15 +78,21 @@ def convert(path: Path, columns: Columns, meaning: LogMap, layout: JointLayout, 
     if meaning.clock.stamp == "header":
         hints += stamp_hints((columns[signal.columns[0]] for signal in given.values()), bounds)
     free = {"q": layout.nq - layout.nu, "v": layout.nv - layout.nu}  # for the base: one copy of a long signal less
-    signals = {
-        name: _timed(path, columns, signal, meaning, clock, bounds, free.get(name, 0)) for name, signal in given.items()
-    }
+    # A log may be as large as the memory: each column goes with the last signal that it is part of, and each signal as
+    # soon as it has its values.
+    left = dict(columns)
+    del columns
+    waiting = list(given)
+    signals = dict[str, Timed]()
+    while waiting:
+        name = waiting.pop(0)
+        signals[name] = _timed(path, left, given[name], meaning, clock, bounds, free.get(name, 0))
+        needed = set(chain.from_iterable(given[other].columns for other in waiting))
+        left = {column: own for column, own in left.items() if column in needed}
     _turn_base(path, signals, given)
     rate_hz = meaning.rate_hz or rate_of(signals["q"].time_s)
     clocks = {name: signal.time_s for name, signal in signals.items()}
     ticks = common_ticks(path, clocks, rate_hz, bounds)
-    # A log may be as large as the memory: its columns go now, and each signal as soon as it has its values.
-    del columns
     values = {}
     while signals:
         name, one = signals.popitem()

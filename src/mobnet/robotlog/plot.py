@@ -14,7 +14,7 @@ from mobnet.core.style import PAGE_INCH, settle, styled
 from mobnet.robotlog.flags import Flag, stretches
 from mobnet.settings.limb_thresholds import LimbThresholds
 
-MOST_POINTS = 4000  # of a line: more than a page shows
+MOST_POINTS = 4000  # of a line, two for each stretch: more than a page shows
 PANEL_INCH, EDGE_INCH, BETWEEN = 1.1, 0.5, 0.5  # height of a panel, edge of the page, and gap as a share of a panel
 PALE, DARK = 0.2, 0.5  # opacity of a flag in all panels, and in that of its joint
 LABELS = {"mean": "torque [N m]", "std": "sigma [N m]", "ratio": "torque / sigma [-]"}
@@ -26,26 +26,26 @@ def plot_residual(
 ) -> None:
     """Write the residual (T, nv) [N] and [N m] of a log over time as `stem.png`, one panel for each joint.
 
-    Time is counted in samples; a line is broken where a segment ends. Where the log tells when it was pushed (T,),
-    bands show it.
+    Time is counted in samples; a line is broken where a segment ends. Of a long log it goes through the lowest and the
+    highest value of each stretch that is narrower than a point of the page. Where the log tells when it was pushed
+    (T,), bands show it.
     """
     from matplotlib.figure import Figure
 
-    step = max(1, len(residual) // MOST_POINTS)
-    rows = np.arange(0, len(residual), step)
-    ends = np.array([end for _, end in read.segments])
-    breaks = np.flatnonzero(np.diff(np.searchsorted(ends, rows, side="right")) > 0) + 1
+    step = max(1, 2 * len(residual) // MOST_POINTS)
+    parts = [_peaks(np.arange(start, end) / read.rate_hz, residual[start:end], step) for start, end in read.segments]
+    gap = np.full((1, layout.nv), np.nan)
+    times = np.concatenate([np.append(time_s, time_s[-1]) for time_s, _ in parts])
+    shown = np.concatenate([np.concatenate([values, gap]) for _, values in parts])
     pushes = [] if pushed is None else stretches(pushed, read.segments, 0)
     height = PANEL_INCH * layout.nv + 2 * EDGE_INCH
     figure = Figure(figsize=(PAGE_INCH, height))
     figure.subplots_adjust(left=0.1, right=0.98, bottom=EDGE_INCH / height, top=1 - EDGE_INCH / height, hspace=BETWEEN)
     axes = figure.subplots(layout.nv, 1, sharex=True, squeeze=False)[:, 0]
     for k, (axis, joint) in enumerate(zip(axes, layout.names, strict=True)):
-        values = residual[rows, k].copy()
-        values[breaks] = np.nan
         for start, end in pushes:
             axis.axvspan(start / read.rate_hz, end / read.rate_hz, color="C1", alpha=0.3, linewidth=0)
-        axis.plot(rows / read.rate_hz, values, linewidth=0.7)
+        axis.plot(times, shown[:, k], linewidth=0.7)
         axis.set_title(joint, loc="left", y=1.0)  # a place of its own: else the ticks of all panels are measured for it
         axis.set_ylabel(f"[{layout.unit(joint)}]")
     axes[-1].set_xlim(0, len(residual) / read.rate_hz)
@@ -109,10 +109,13 @@ def _once(label: str, side: float) -> str | None:
 
 
 def _peaks(time_s: Array, values: Array, step: int) -> tuple[Array, Array]:
-    """Return lowest and highest value of each `step` samples, so that no short push is lost; all where it is 1."""
+    """Return lowest and highest value of each `step` samples (T, ...), so that no short push is lost.
+
+    The samples of a last stretch that is shorter are left out. Where the step is 1, all are returned.
+    """
     whole = len(values) // step * step
     if step == 1 or not whole:
         return time_s, values
-    parts = values[:whole].reshape(-1, step)
+    parts = values[:whole].reshape(-1, step, *values.shape[1:])
     both = np.stack([parts.min(axis=1), parts.max(axis=1)], axis=1)
-    return np.repeat(time_s[:whole:step], 2), both.ravel()
+    return np.repeat(time_s[:whole:step], 2), both.reshape(-1, *values.shape[1:])

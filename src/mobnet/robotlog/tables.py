@@ -53,10 +53,10 @@ def parquet_columns(path: Path, wanted: Collection[str]) -> dict[str, LogColumn]
                     lists[part.array] = _lists(path, part.array, file.read([part.array]).column(part.array))
                 found[name] = LogColumn(np.ascontiguousarray(lists[part.array][:, part.number]))
             elif is_numeric(kinds[part.array]):
-                # One at a time: a whole table of Arrow's would stay beside the columns.
-                found[name] = LogColumn(
-                    numbers(file.read([part.array], use_threads=False).column(part.array).combine_chunks())
-                )
+                # One at a time: a whole table of Arrow's would stay beside the columns. A copy: Arrow gives its memory
+                # to the next column, and not back to the system when a column is done with.
+                column = file.read([part.array], use_threads=False).column(part.array).combine_chunks()
+                found[name] = LogColumn(numbers(column).copy())
             else:
                 found[name] = LogColumn(np.empty(0), found=str(kinds[part.array]))
         return found

@@ -45,7 +45,7 @@ class Numbers(NamedTuple):
     rates: Rates
 
 
-class Samples(NamedTuple):
+class RunPiece(NamedTuple):
     """Successive samples of a run: q (n, nq), v (n, nv), acc (n, 3), tau (n, nu), ext, push (n, nv), pushed (n, 1)."""
 
     q: Array
@@ -132,7 +132,7 @@ class FreeRun:
         self.gains = numbers.motion.tracking_rad_s**2, 2 * numbers.motion.tracking_rad_s
         self.imu = slice(model.sensor("imu_acc").adr[0], model.sensor("imu_acc").adr[0] + 3) if robot.imu else None
 
-    def pieces(self, rows: int, pushes: PushSequence) -> Iterator[Samples]:
+    def pieces(self, rows: int, pushes: PushSequence) -> Iterator[RunPiece]:
         """Simulate so many samples, and yield a minute of them after the other."""
         rate_hz = self.numbers.rates.data_hz
         nv = self.model.nv
@@ -142,16 +142,16 @@ class FreeRun:
         for start in range(0, rows, PIECE):
             count = min(PIECE, rows - start)
             widths = (self.model.nq, nv, 3, self.robot.layout.nu, nv, nv, 1)
-            samples = Samples(*(np.zeros((count, width)) for width in widths))
+            samples = RunPiece(*(np.zeros((count, width)) for width in widths))
             for first in range(0, count, CHUNK):
                 if time.monotonic() - told > TOLD_S:
                     told = time.monotonic()
                     log.info("%.0f of %.0f s simulated", (start + first) / rate_hz, rows / rate_hz)
-                chunk = Samples(*(values[first : first + CHUNK] for values in samples))
+                chunk = RunPiece(*(values[first : first + CHUNK] for values in samples))
                 self._through(chunk, (start + first + np.arange(len(chunk.q))) / rate_hz, pushes)
             yield samples
 
-    def _through(self, samples: Samples, times: Array, pushes: PushSequence) -> None:
+    def _through(self, samples: RunPiece, times: Array, pushes: PushSequence) -> None:
         """Simulate the samples at successive times (n,) [s]."""
         data = self.data
         for k, wanted in enumerate(zip(*(self.motion(times, order) for order in range(3)), strict=True)):
@@ -212,7 +212,7 @@ class SensorNoise:
             self._quaternion, self._omega = _apart(rng, rows, 3), _apart(rng, rows, 3)
         self._acc = _apart(rng, rows, 3)
 
-    def added(self, samples: Samples) -> Samples:
+    def added(self, samples: RunPiece) -> RunPiece:
         """Return the samples that follow the last ones, with noise; what they hold is overwritten."""
         robot = self._robot
         noise = self._numbers.plant.noise
@@ -247,7 +247,7 @@ def slightly_turned(quaternion: Array, half: Array) -> Array:
     return turned / np.linalg.norm(turned, axis=1, keepdims=True)
 
 
-def recording_of(run: Samples, layout: JointLayout, rate_hz: float, meta: dict[str, Any]) -> Recording:
+def recording_of(run: RunPiece, layout: JointLayout, rate_hz: float, meta: dict[str, Any]) -> Recording:
     """Return samples of a run as a recording; what does not exist, and feet that touch nothing, are zero."""
     rows = len(run.q)
     values = {name: np.zeros((rows, len(columns))) for name, columns in recording_columns(layout).items()}

@@ -28,8 +28,8 @@ def base_hints(sensed: Sensed, spans: Sequence[slice], rate_hz: float, bounds: R
         near = meanings[nearest] if abs(size - nearest) < bounds.gravity * max(nearest, G) else ""
         yield f"acc: its mean has a size of {size:.3g} m/s^2 and not {G:.2f}{near}"
     # Where gravity is removed, acc has no direction in the mean that could tell the order of a quaternion.
-    upward = {name: turned(given, acc).mean(axis=1)[2] / max(size, 1e-9) for name, given in _orders(quat).items()}
-    if upward["w x y z"] < UPRIGHT and size > G / 2:
+    if _upward(quat, acc, size) < UPRIGHT and size > G / 2:
+        upward = {name: _upward(given, acc, size) for name, given in _orders(quat).items()}
         text = f"turned into world axes, acc points upwards by {upward['w x y z']:.2f} of its size"
         better = max(upward, key=lambda name: upward[name])
         meant = f"; as {better} by {upward[better]:.2f}" if upward[better] >= UPRIGHT else ""
@@ -37,6 +37,11 @@ def base_hints(sensed: Sensed, spans: Sequence[slice], rate_hz: float, bounds: R
     slope = _turning(quat, sensed.v[:, 3:6].T, spans, rate_hz, bounds)
     if slope is not None and not 1 - bounds.gravity < slope < 1 + bounds.gravity:
         yield f"omega: its integral is {slope:.3g} times the turn of the quaternion: unit, sign or axes"
+
+
+def _upward(quat: Array, acc: Array, size: float) -> float:
+    """Return which share of its size [m/s^2] the mean of acc (3, T) points upwards, turned by quaternions (4, T)."""
+    return float(turned(quat, acc).mean(axis=1)[2] / max(size, 1e-9))
 
 
 def weight_hints(
