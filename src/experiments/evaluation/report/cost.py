@@ -141,7 +141,8 @@ def report(plan: Plan, rates: RatesNote, gpu: GpuRates | None, planned: Sequence
 def check(rates: RatesNote, with_pdf: bool) -> str:
     """Return how the rates price the scale of the run to which they are fitted, as its sizes are now."""
     plan = make_plan(load_settings(overrides={"scale": rates.scale}), with_pdf=with_pdf)
-    works = works_of(plan, dry_run(["all"], [f"scale={rates.scale}"], from_nothing=True))
+    _, alone = with_stacks({"stacks": {"side_by_side": False}})  # as that run was
+    works = works_of(plan, dry_run(["all"], [f"scale={rates.scale}", alone], from_nothing=True))
     _, cpu_s, peak_mib = costs(works, rates.kinds)[WHOLE]
     gone = sorted({*rates.kinds} - {work.kind for work in works})
     pairs = {"core-hours": (cpu_s / HOUR_S, rates.core_h, 2), "MiB": (peak_mib, rates.peak_mib, 0)}
@@ -181,18 +182,18 @@ def run(options: Namespace) -> Iterator[str]:
     nothing = not options.targets
     planned = dry_run(targets, options.config, from_nothing=nothing)
     has_gpu = any(job.rule == STACK for job in planned)
-    parts: list[str] = [f"scale {load_settings(overrides=given).scale}, priced as on this processor: {rates.processor}"]
+    settings = load_settings(overrides=given)
+    parts: list[str] = [f"scale {settings.scale}, priced as on this processor: {rates.processor}"]
     if not has_gpu:
-        plan = make_plan(load_settings(overrides=given), with_pdf=with_pdf)
+        plan = make_plan(settings, with_pdf=with_pdf)
         parts.append(report(plan, rates, None, planned))
     if any(job.rule in TRAINING for job in planned):
         gpu = fitted_rates(read_note(GPU_RATES, GpuNote))
         beside, word = with_stacks(given)
         plan = make_plan(load_settings(overrides=beside), with_pdf=with_pdf)
         jobs = planned if has_gpu else dry_run(targets, [*options.config, word], from_nothing=nothing)
-        parts.append(
-            f"with a GPU, on which networks of one shape learn side by side:\n\n{report(plan, rates, gpu, jobs)}"
-        )
+        how = ", on which networks of one shape learn side by side" if any(job.rule == STACK for job in jobs) else ""
+        parts.append(f"with a GPU{how}:\n\n{report(plan, rates, gpu, jobs)}")
     parts.append(check(rates, with_pdf))
     yield "\n\n".join(parts)
 
