@@ -37,3 +37,8 @@ def test_a_job_of_higher_priority_goes_first() -> None:
 
 def test_nothing_takes_no_time() -> None:
     assert elapsed_s([], 2) == 0.0
+
+
+def test_the_order_in_which_jobs_are_told_has_no_part_in_it() -> None:
+    jobs = [timed(name, 1.0) for name in "abc"] + [timed("end", 3.0, ("a",))]
+    assert elapsed_s(jobs, 2) == elapsed_s(jobs[::-1], 2) == 4.0

@@ -100,6 +100,11 @@ def test_no_stack_waits_for_itself(plans: Mapping[str, Plan], scale: str) -> Non
     assert started > 0
 
 
+def test_a_plan_works_out_its_stacks_once(plans: Mapping[str, Plan]) -> None:
+    """Each look at them would take as long as the whole price of a scale."""
+    assert plans["paper"].jobs.stacks.members is plans["paper"].jobs.stacks.members
+
+
 def test_names_of_stacks_are_stable(plans: Mapping[str, Plan]) -> None:
     """A job is named by them: the same configuration gives the same ones, and more networks keep the first."""
     first = plans["paper"].jobs.stacks.members

@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 from once import once
 
+from experiments.evaluation.report.machines import stacks_word
 from experiments.plan.dry_run import dry_run
 from mobnet.core.compilation import cache_root
 
@@ -36,8 +37,13 @@ def snakemake():
 
 @pytest.fixture(scope="session")
 def planned():
-    """Return a function of a scale that returns all jobs of a dry run of everything."""
-    return cache(lambda scale: dry_run(["all"], [f"scale={scale}"], from_nothing=True))
+    """Return a function that returns all jobs of a dry run at a scale: of everything and without a GPU if not told."""
+
+    @cache
+    def asked(scale, target, side_by_side):
+        return dry_run([target], [f"scale={scale}", stacks_word(side_by_side)], from_nothing=True)
+
+    return lambda scale, target="all", side_by_side=False: asked(scale, target, side_by_side)
 
 
 @pytest.fixture(scope="session")

@@ -9,6 +9,7 @@ import pytest
 
 from experiments.evaluation.report.compute import HOUR_S, WHOLE
 from experiments.evaluation.report.cost import costs
+from experiments.evaluation.report.machines import ASKED, PAGE, block_of, row, table
 from experiments.evaluation.report.paper import missing_packages
 from experiments.evaluation.report.rates import RATES, RatesNote
 from experiments.plan.dry_run import dry_run
@@ -31,7 +32,7 @@ def test_rules_make_all_that_is_planned_once_and_say_what_they_need(planned, sca
     assert len(set(made)) == len(made)
     assert set(made) >= {name for product in plan.products for name in product.outputs}
     without = [job.rule for job in planned(scale) if not {"mem_mb", "runtime"} <= job.resources.keys()]
-    assert set(without) <= {"all", "tables", "figures"}  # which run nothing
+    assert set(without) <= {"all", "tables", "figures", "paper_core"}  # which run nothing
 
 
 def test_what_no_product_reads_is_not_made(planned):
@@ -49,6 +50,41 @@ def test_every_network_is_trained_by_a_job_of_its_own(planned):
     folders = {str(Path(job.outputs[0]).parent) for job in trained}
     assert len(trained) == len(folders)
     assert folders == set(map(str, plan.files.all_networks()))
+
+
+@pytest.mark.parametrize("scale", ["smoke", "paper"])
+def test_networks_learn_side_by_side_where_it_is_asked_for(planned, scale):
+    """A dry run ends at a cycle. All other jobs are the same."""
+    settings = load_settings(overrides={"scale": scale, "stacks": {"side_by_side": True}})
+    plan = make_plan(settings, with_pdf=False)
+    jobs = planned(scale, side_by_side=True)
+    stacks = [job for job in jobs if job.rule == "train_stack"]
+    assert sorted(job.wildcards["stack"] for job in stacks) == sorted(plan.jobs.stacks.members)
+    made = {job.outputs[0] for job in stacks}
+    taught = [job for job in jobs if job.rule in ("train", "train_gray") and made & set(job.inputs)]
+    assert len(taught) == len(plan.jobs.stacks.names)
+    others = [job.name for job in jobs if job.rule != "train_stack"]
+    assert sorted(others) == sorted(job.name for job in planned(scale))
+
+
+def test_the_core_of_the_paper_is_section_5_1_alone(planned):
+    """Where networks learn alone, nothing of a surrogate robot is made."""
+    jobs = planned("paper", "paper_core")
+    shown = {job.name for job in jobs if job.rule in ("table", "figure_with_bars")}
+    assert shown == {"table/table_05", "table/table_06", "figure/figure_05"}
+    assert {job.wildcards.get("robot", "plant") for job in jobs} == {"plant"}
+    trained = {(job.wildcards["method"], job.wildcards["limb"]) for job in jobs if job.rule == "train"}
+    assert {("MOB-Net", limb) for limb in ("LL", "RL", "LA", "RA", "W", "V")} | {("FTS-e2e", "LL")} <= trained
+
+
+@pytest.mark.parametrize("asked", ASKED, ids=lambda asked: asked.name)
+def test_the_page_says_what_each_scale_takes_on_which_machine(planned, asked):
+    """`python -m experiments.evaluation.report.machines` renews it."""
+    alone, beside = (planned(asked.scale, asked.target, side_by_side=yes) for yes in (False, True))
+    expected = row(asked, alone, beside, ROOT)
+    text = block_of((ROOT / PAGE).read_text())
+    (found,) = [line for line in text.splitlines() if line.startswith(f"| {asked.name} |")]
+    assert found == table([expected]).splitlines()[-1]
 
 
 def test_the_list_of_rules_is_the_same_at_every_scale_and_a_page(snakemake):
@@ -74,10 +110,13 @@ def drawn_in(graph):
 
 def test_the_graph_of_rules_is_a_page(snakemake):
     """That of a table of errors is the way from a motion to its numbers."""
-    whole = snakemake("all", "--config", "scale=default", "--rulegraph").stdout
+    alone = "stacks={side_by_side: false}"  # as on a machine without a GPU
+    whole = snakemake("all", "--config", "scale=default", alone, "--rulegraph").stdout
     assert 0 < whole.count("->") <= MOST_ARROWS
     assert drawn_in((ROOT / "docs" / "rules.svg").read_text()) == drawn_in(whole)
-    boxes = re.findall(r'label = "(\w+)"', snakemake("tables/smoke/table_06.tex", "--rulegraph").stdout)
+    boxes = re.findall(
+        r'label = "(\w+)"', snakemake("tables/smoke/table_06.tex", "--config", alone, "--rulegraph").stdout
+    )
     assert set(boxes) == {"motion", "collect", "observe", "fit", "train", "estimate", "score", "table"}
 
 

@@ -88,7 +88,7 @@ class Plan:
     tables: tuple[str, ...]
     figures: tuple[str, ...]
 
-    @property
+    @cached_property
     def jobs(self) -> Jobs:
         """What the jobs of the steps before products get."""
         return Jobs(self.files)

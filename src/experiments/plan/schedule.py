@@ -22,6 +22,7 @@ def elapsed_s(jobs: Sequence[Timed], cores: int, gpus: int = 0) -> float:
     Each job runs on a core when all that it reads is made; of those that can start, the one with the highest priority
     goes first, as Snakemake has it, and among equals the longest.
     """
+    jobs = sorted(jobs, key=lambda own: own.job.name)  # a dry run tells its jobs in any order
     waits = _waits(jobs)
     followers: list[list[int]] = [[] for _ in jobs]
     for place, before in waits.items():

@@ -141,7 +141,8 @@ def report(plan: Plan, rates: RatesNote, gpu: GpuRates | None, planned: Sequence
 def published(rates: RatesNote, with_pdf: bool) -> list[Work]:
     """Return what the jobs of the scale of the published run have to do, as its sizes are now."""
     plan = make_plan(load_settings(overrides={"scale": rates.scale}), with_pdf=with_pdf)
-    return works_of(plan, dry_run(["all"], [f"scale={rates.scale}"], from_nothing=True))
+    _, alone = with_stacks({"stacks": {"side_by_side": False}})  # as that run was
+    return works_of(plan, dry_run(["all"], [f"scale={rates.scale}", alone], from_nothing=True))
 
 
 def check(rates: RatesNote, works: Sequence[Work]) -> str:
@@ -194,9 +195,8 @@ def run(options: Namespace) -> Iterator[str]:
         beside, word = with_stacks(given)
         stacked = make_plan(load_settings(overrides=beside), with_pdf=with_pdf)
         jobs = planned if has_gpu else dry_run(targets, [*options.config, word], from_nothing=nothing)
-        parts.append(
-            f"with a GPU, on which networks of one shape learn side by side:\n\n{report(stacked, rates, gpu, jobs)}"
-        )
+        how = ", on which networks of one shape learn side by side" if any(job.rule == STACK for job in jobs) else ""
+        parts.append(f"with a GPU{how}:\n\n{report(stacked, rates, gpu, jobs)}")
     # A dry run takes seconds: the one that is priced often is that of the published run.
     is_published = nothing and given.keys() <= {"scale"} and plan.settings.scale == rates.scale and not has_gpu
     parts.append(check(rates, works_of(plan, planned) if is_published else published(rates, with_pdf)))
