@@ -3,12 +3,12 @@
 import pytest
 
 from experiments.plan.dry_run import PlannedJob
-from experiments.plan.schedule import Timed, elapsed_s
+from experiments.plan.schedule import TimedJob, elapsed_s
 
 
-def timed(name: str, seconds: float, reads: tuple[str, ...] = (), *, gpu: bool = False, priority: int = 0) -> Timed:
+def timed(name: str, seconds: float, reads: tuple[str, ...] = (), *, gpu: bool = False, priority: int = 0) -> TimedJob:
     """Return a job that makes the file of its name."""
-    return Timed(PlannedJob("made", name, {}, (name,), {}, reads, priority), seconds, gpu)
+    return TimedJob(PlannedJob("made", name, {}, (name,), {}, reads, priority), seconds, gpu)
 
 
 FORK = (timed("a", 3.0), timed("b", 2.0), timed("c", 2.0), timed("end", 1.0, ("a", "b", "c", "a file that is there")))

@@ -1,7 +1,7 @@
 """The rule `train_stack`: networks of one shape that learn side by side on a GPU."""
 
 import functools
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -29,15 +29,23 @@ def train_stack(members: Mapping[str, Given], state: Path, out: Path) -> None:
         DataError: a recording, a residual or a fit is damaged or too short.
     """
     found: list[Member] = []
+    last: dict[str, LimbData] = {}
     for name, given in members.items():
         job = TrainingJob(given["training"], given["seed"], given["root_seed"])
-        found.append(Member(name, job, loader(given), given["state"], given.get("start")))
+        found.append(Member(name, job, functools.partial(read, given, last), given["state"], given.get("start")))
     write_json(state / MEMBERS, {"folders": [str(member.state) for member in found]})
     train_on(found, state, out)
 
 
-def loader(given: Given) -> Callable[[], LimbData]:
-    """Return a function that reads the data of a network."""
-    known = known_of(given["layout"], given["observer"], given["fitted"]) if "fitted" in given else None
+def read(given: Given, last: dict[str, LimbData]) -> LimbData:
+    """Return the data of a network: those that were read `last`, if they are the same, as of another seed."""
     names = ("layout", "training", "recordings", "residuals", "rate_hz", "margins")
-    return functools.partial(data_of, **{name: given[name] for name in names if name in given}, known=known)
+    arguments = {name: given[name] for name in names if name in given}
+    training = given["training"]
+    of_data = training.target, training.network, training.held_out, training.learning.data_s
+    key = repr((of_data, arguments["recordings"], given.get("fitted"), given.get("margins")))
+    if key not in last:
+        last.clear()
+        known = known_of(given["layout"], given["observer"], given["fitted"]) if "fitted" in given else None
+        last[key] = data_of(**arguments, known=known)
+    return last[key]

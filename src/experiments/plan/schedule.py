@@ -8,7 +8,7 @@ from experiments.plan.dry_run import PlannedJob
 
 
 @dataclass(frozen=True)
-class Timed:
+class TimedJob:
     """A job with the time that it takes [s], and whether it needs a GPU for itself all the while."""
 
     job: PlannedJob
@@ -16,7 +16,7 @@ class Timed:
     gpu: bool = False
 
 
-def elapsed_s(jobs: Sequence[Timed], cores: int, gpus: int = 0) -> float:
+def elapsed_s(jobs: Sequence[TimedJob], cores: int, gpus: int = 0) -> float:
     """Return the time from the first start to the last end [s].
 
     Each job runs on a core when all that it reads is made; of those that can start, the one with the highest priority
@@ -59,7 +59,7 @@ def elapsed_s(jobs: Sequence[Timed], cores: int, gpus: int = 0) -> float:
                 enqueue(after)
 
 
-def _waits(jobs: Sequence[Timed]) -> Mapping[int, set[int]]:
+def _waits(jobs: Sequence[TimedJob]) -> Mapping[int, set[int]]:
     """Return the places of the jobs for which each job waits."""
     makers: dict[str, int] = {}
     for place, own in enumerate(jobs):

@@ -43,6 +43,7 @@ class Stacks:
                     alike.setdefault(shape_of(files, network, training), []).append(
                         Stacked(files.results.name, network)
                     )
+        # A GPU has so much memory: more networks of one shape learn in several stacks, one after the other.
         most = self.plant.settings.stacks.most
         found: dict[str, tuple[Stacked, ...]] = {}
         for networks in alike.values():

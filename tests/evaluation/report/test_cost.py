@@ -156,10 +156,10 @@ def test_a_target_is_priced_at_the_scale_that_its_path_names(told: Told) -> None
 
 
 LEG = {"robot": "plant", "method": "MOB-Net", "limb": "LL", "seed": "0"}
-LSTM = {"robot": "robot_1", "method": "LSTM", "limb": "LL", "seed": "101"}
+SPECTRAL = {"robot": "robot_1", "method": "GRU-spectral", "limb": "LL", "seed": "101"}
 ALONE = [  # two networks that learn
     PlannedJob("train", "train/plant/MOB-Net-LL-s0", LEG, ("leg",), {}),
-    PlannedJob("train", "train/robot_1/LSTM-LL-s101", LSTM, ("lstm",), {}),
+    PlannedJob("train", "train/robot_1/GRU-spectral-LL-s101", SPECTRAL, ("spectral",), {}),
 ]
 STACK = {"stack": "plant-MOB-Net-LL-s0"}
 SIDE_BY_SIDE = [
@@ -193,12 +193,12 @@ def trained(rates: dict[str, object], monkeypatch: pytest.MonkeyPatch) -> list[l
 
 
 def test_a_run_is_priced_without_a_gpu_and_with_one(told: Told, trained: list[list[str]]) -> None:
-    """Smoke: networks learn side by side from 16 000 steps each, 4 sequences of 50 in an update, the LSTM from 2000."""
+    """Smoke: stacks learn from 16 000 steps each, 4 sequences of 50 in an update, one network alone from 2000."""
     assert main(["--config", "scale=smoke"]) == 0
     alone, beside = told().split("with a GPU, on which networks of one shape learn side by side:\n")
     assert trained[:2] == [["scale=smoke"], ["scale=smoke", 'stacks={"side_by_side": true}']]
     steps = 16_000
-    gpu_s, lstm_s = 3.2 * steps / (4 * 50), 2000 / 1000
+    gpu_s, alone_s = 3.2 * steps / (4 * 50), 2000 / 1000
     assert f"| train | 2 | {(36 * 2 + 3.6 * steps) / HOUR_S:.2f} |" in alone
     assert f"time: {(36 + 3.6 * steps) / HOUR_S:.2f} h on 2 cores" in alone
     assert "GPU" not in alone
@@ -206,7 +206,7 @@ def test_a_run_is_priced_without_a_gpu_and_with_one(told: Told, trained: list[li
     (side, after) = [line.split(" | ") for line in beside.splitlines() if line.startswith(("| networks", "| one net"))]
     assert side[1] == after[1] == "1"
     assert float(side[3].rstrip(" |")) == pytest.approx(gpu_s / HOUR_S, abs=0.005)
-    assert float(after[3].rstrip(" |")) == pytest.approx(lstm_s / HOUR_S, abs=0.005)
+    assert float(after[3].rstrip(" |")) == pytest.approx(alone_s / HOUR_S, abs=0.005)
     assert "GPU-hours: rates of a prototype on an NVIDIA X (2026, torch 2), not of this code" in beside
     assert f"time: {(36 * 2 + gpu_s) / HOUR_S:.2f} h on 16 cores and one GPU" in beside
 

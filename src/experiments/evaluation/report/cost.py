@@ -24,7 +24,7 @@ from experiments.evaluation.tables.layout import markdown_table
 from experiments.plan.dry_run import PlannedJob, dry_run
 from experiments.plan.plan import Plan, make_plan
 from experiments.plan.room import RESOURCE
-from experiments.plan.schedule import Timed, elapsed_s
+from experiments.plan.schedule import TimedJob, elapsed_s
 from experiments.plan.work import SECONDS, OnGpu, Work, on_gpu, works_of
 from experiments.running.words import cost_parser, scale_of_targets
 from experiments.settings.load import load_settings
@@ -36,7 +36,7 @@ log = logging.getLogger(__name__)
 
 HEADER = ("stage", "jobs", "core-hours", "memory [MiB]")
 GPU_HEADER = ("trainings on the GPU", "jobs", "time steps [1e9]", "GPU-hours")
-SIDE_BY_SIDE, ALONE = "networks side by side", "one network after another"
+SIDE_BY_SIDE, ALONE = "networks side by side", "one network after another, or of other cells"
 CORES, CORES_WITH_GPU = 2, 16  # of machines
 MB_OF_GB = 1e3
 STEPS_UNIT = 1e9
@@ -99,7 +99,7 @@ def priced(plan: Plan, rates: RatesNote, gpu: GpuRates | None, planned: Iterable
 
 def time_s(jobs: Iterable[Priced], cores: int, gpus: int = 0) -> float:
     """Return how long a machine takes for jobs that wait for each other [s]."""
-    return elapsed_s([Timed(job.planned, job.cpu_s + job.gpu_s, job.gpu_s > 0.0) for job in jobs], cores, gpus)
+    return elapsed_s([TimedJob(job.planned, job.cpu_s + job.gpu_s, job.gpu_s > 0.0) for job in jobs], cores, gpus)
 
 
 def gpu_rows(jobs: Iterable[Priced]) -> list[list[str]]:
