@@ -1,4 +1,4 @@
-"""Which networks learn side by side on a GPU: those of one shape that learn alike, of all robots."""
+"""Which networks learn side by side on a GPU: those of one shape that learn alike, of the plant or of all robots."""
 
 import json
 from collections.abc import Mapping
@@ -78,6 +78,8 @@ def shape_of(files: Files, name: NetworkName, training: Training) -> str:
     layout = files.settings.layout
     network = training.network
     shape = {
+        # The tables of the plant wait for no recording of a robot.
+        "robot": bool(files.robot),
         **network.model_dump(mode="json", include={"cell", *SIZES[network.cell]}),
         "inputs": inputs_of(files, network),
         "joints": len(layout.limbs(network.joints)),
