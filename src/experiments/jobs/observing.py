@@ -1,11 +1,13 @@
 """The rule `observe`: the observer's residual of recordings, and the torque that it should have followed."""
 
 import logging
+from collections import deque
 from collections.abc import Sequence
 from dataclasses import fields
 from pathlib import Path
 
 from mobnet.core.columns import EXTERNAL, residual_columns
+from mobnet.core.errors import DataError
 from mobnet.core.notes import read_array_note
 from mobnet.core.recording import Sensed, read_blocks
 from mobnet.core.store import NOTE, array_writer, check_rate, file_of, spans_and_rate
@@ -83,9 +85,16 @@ def observe(
     }
     sensed = [field.name for field in fields(Sensed)]
     # Both parts of the target (O7) are written, not their difference: FTS-e2e learns the second, scores need it too.
+    blocks = read_blocks(recording, layout, [*sensed, EXTERNAL, *wrenches.values()], BLOCK_ROWS)
     with array_writer(out, residual_columns(layout, labelled)) as writer:
-        for first, block in read_blocks(recording, layout, [*sensed, EXTERNAL, *wrenches.values()], BLOCK_ROWS):
+        for first, block in blocks:
             loads = {side: block[name] for side, name in wrenches.items()}
             own = Sensed(**{name: block[name] for name in sensed})
-            writer.append(observed.block(first, own, block[EXTERNAL], loads))
+            residual = observed.block(first, own, block[EXTERNAL], loads)
+            try:
+                writer.append(residual)
+            except DataError:
+                # What cannot be written follows from a fault of the recording, which is told at its end.
+                deque(blocks, maxlen=0)
+                raise
         writer.close(meta, segments)

@@ -32,9 +32,9 @@ class LimbNetworks:
         if grus:
             self._steppers.append(GruNetworks(list(grus.values()), [self._columns[k] for k in grus]))
         of = np.repeat(np.arange(len(self.networks)), [len(network.joints) for network in self.networks])
-        # of each number that the steppers predict, one after the other, the joint; and of each joint, the number
-        predicted = np.concatenate([np.flatnonzero(of == k) for k in (*others, *grus)])
-        self._order = np.argsort(predicted)
+        # Numbers come stepper after stepper: where that of each joint stands among them.
+        ranks = {k: rank for rank, k in enumerate((*others, *grus))}
+        self._order = np.argsort(np.argsort([ranks[int(k)] for k in of], kind="stable"))
 
     def init(self) -> State:
         """Return the states before the first sample."""
