@@ -78,7 +78,7 @@ def test_an_arm_goes_from_a_log_to_flags_and_to_a_program(run):
 
 
 def test_an_extra_that_is_missing_is_one_line_with_the_remedy(run):
-    said = run("mobnet", "learn", "free_observed", status=1)
+    said = run("mobnet", "learn", "free_observed", "--limb", "LL", status=1)
     assert said == "mobnet learn: torch is not installed; accepted: what `pip install 'mobnet[learn]'` installs\n"
 
 
