@@ -97,9 +97,7 @@ def read_checkpoint(path: Path, fingerprint: str) -> tuple[dict[str, Tensor], di
     if not path.exists():
         return None
     try:
-        with safe_open(path, framework="pt") as file:
-            note = parse_json((file.metadata() or {}).get("note", "{}"), str(path))
-            tensors = {name: file.get_tensor(name) for name in file.keys()}  # noqa: SIM118, not a dict
+        tensors, note = read_noted(path)
     except (SafetensorError, OSError, ValueError, DataError) as error:
         log.warning("%s: damaged (%s); starting afresh", path, error)
         return None
@@ -111,6 +109,19 @@ def read_checkpoint(path: Path, fingerprint: str) -> tuple[dict[str, Tensor], di
             fingerprint,
         )
         return None
+    return tensors, note
+
+
+def read_noted(path: Path) -> tuple[dict[str, Tensor], dict[str, Any]]:
+    """Return the tensors of a file and its note.
+
+    Raises:
+        DataError: the note is no JSON.
+        SafetensorError, OSError, ValueError: the file is missing or damaged.
+    """
+    with safe_open(path, framework="pt") as file:
+        note = parse_json((file.metadata() or {}).get("note", "{}"), str(path))
+        tensors = {name: file.get_tensor(name) for name in file.keys()}  # noqa: SIM118, not a dict
     return tensors, note
 
 

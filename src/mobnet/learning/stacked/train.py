@@ -1,21 +1,18 @@
 """What a stack of networks has learned, as a file: the jobs of its networks take their weights from there."""
 
-import json
 import logging
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 import torch
-from safetensors import SafetensorError, safe_open
-from safetensors.torch import save as to_bytes
-from torch import Tensor
+from safetensors import SafetensorError
 
 from mobnet.core.columns import Epoch
 from mobnet.core.errors import DataError, TrainingError, not_accepted
-from mobnet.core.files import CHECKPOINT, atomic_path, parse_json
+from mobnet.core.files import CHECKPOINT
 from mobnet.core.machine import one_thread
-from mobnet.learning.checkpoint import Progress, below
+from mobnet.learning.checkpoint import Progress, below, read_noted, write_checkpoint
 from mobnet.learning.stacked.trainer import Member, StackedTrainer, told_of
 from mobnet.learning.trainer import own_device
 
@@ -44,8 +41,7 @@ def train_stack(members: Sequence[Member], state: Path, out: Path) -> None:
     for own, row in zip(members, rows, strict=True):
         row |= {"name": own.name, "fingerprint": trainer.fingerprints[own.name], "told": done.told.get(own.name)}
     note = {"networks": rows, "device": device.type, "seconds": share}
-    with atomic_path(out) as temporary:
-        temporary.write_bytes(to_bytes(best, {"note": json.dumps(note)}))
+    write_checkpoint(out, trainer.fingerprint, best, note)
     (state / CHECKPOINT).unlink(missing_ok=True)
     log.info("%d networks: done, %.0f s", len(members), done.seconds)
 
@@ -85,9 +81,7 @@ def read_lesson(path: Path, name: str) -> Lesson:
         DataError: the file is missing or damaged, or the network is not in it.
     """
     try:
-        with safe_open(path, framework="pt") as file:
-            note = parse_json((file.metadata() or {}).get("note", "{}"), str(path))
-            tensors: dict[str, Tensor] = {key: file.get_tensor(key) for key in file.keys()}  # noqa: SIM118, not a dict
+        tensors, note = read_noted(path)
     except (SafetensorError, OSError) as error:
         raise DataError(f"{path}: cannot be read as networks that learned side by side: {error}") from None
     names = [row["name"] for row in note["networks"]]
