@@ -18,7 +18,7 @@ from mobnet.core.compilation import cache_root
 ROOT = Path(__file__).parents[2]
 PARTS = (
     "Snakefile", "workflow", "profiles", "configs", "src", "docs", "paper", "reproduce", "environment.lock",
-    "README.md", "CONTRIBUTING.md", "CHANGELOG.md", "CITATION.cff",
+    "README.md", "CONTRIBUTING.md", "CHANGELOG.md", "CITATION.cff", "SECURITY.md",
 )  # fmt: skip
 COMPILED = Path(".cache") / "numba"
 

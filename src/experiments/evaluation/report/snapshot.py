@@ -16,6 +16,7 @@ from experiments.evaluation.measure.story import StoredPush
 from experiments.evaluation.report.demo import lines_of, title_of
 from experiments.evaluation.report.demo_data import copy_demo
 from experiments.evaluation.report.manifest import differences, file_hash
+from experiments.evaluation.report.model_card import CARD, card
 from experiments.evaluation.report.paper import missing_packages
 from experiments.evaluation.report.rates import RATES, measured
 from experiments.evaluation.report.readme import blocks
@@ -285,6 +286,7 @@ def store(manifest: Path) -> None:
     write_single_rows(detections, reactions, tuple(settings.reaction.cases), SNAPSHOT)
     copy_demo(RESULTS / FOLDER, DEMO)
     tell_demo(StoredPush(DEMO, settings), DEMO_PAGE)
+    write_text(CARD, card(DEMO, SNAPSHOT))
     write_history(SEEDS, [*published, run])
     jobs = map(read_account, sorted((RESULTS / LOGS).rglob("*.json")))
     works = works_of(plan, dry_run(["all"], from_nothing=True))
