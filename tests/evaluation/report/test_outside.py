@@ -33,7 +33,7 @@ def test_the_model_card_is_that_of_the_stored_network_and_of_the_published_table
 
 
 def test_a_folder_without_one_network_is_one_line(tmp_path):
-    with pytest.raises(DataError, match="0 networks are not accepted; accepted: one, with run.json"):
+    with pytest.raises(DataError, match=r"0 networks are not accepted; accepted: one, with run\.json"):
         model_card.card(tmp_path, ROOT / model_card.RESULTS)
 
 

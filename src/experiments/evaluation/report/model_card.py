@@ -47,8 +47,8 @@ MADE = """
 Commit `{commit}` trained it with seed {seed}. The weights are `{file}` of that run, sha256
 `{sha256}`. The licence is that of the project, MIT. No person's data is in it, and nothing was measured on a robot.
 """
-MEANS = """RMSE [N m], mean over the joints of the leg, over walks and over the networks of all robots, of which this is one,
-with 95% intervals.
+MEANS = """RMSE [N m], mean over the joints of the leg, over walks and over the networks of all robots, of which this is
+one, with 95% intervals.
 """
 MEASURED = {  # what is measured -> its place in the table of changed conditions
     "random walking on the robot that it learned from": {"scenario": "walk_test", "level": "robots"},
