@@ -10,7 +10,7 @@ from mobnet.core.errors import DataError
 
 REPO = Path(__file__).parents[3]
 DOC, MAIN = REPO / "docs/deviations.md", REPO / "paper/main.tex"
-PUBLISHED_LOAD_SHARE = 0.166  # friction over the transmitted torque of a harmonic drive (note 0028)
+PUBLISHED_LOAD_SHARE = 0.166  # friction over the transmitted torque of a harmonic drive (docs/notes/surrogate.md)
 CHOICES = {  # that a reader of the paper's text would not expect
     "Robot of sections 5.2 to 7", "What the surrogate robots are not", "Results on the robot", "Learning for the robot",
     "Self-collision, section 4.3",
