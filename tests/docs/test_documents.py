@@ -29,6 +29,7 @@ CITING = sorted(path for part in (*TEXTS, "tests/**/*.py") for path in ROOT.glob
 COMMAND = re.compile(r"`\./reproduce ([^`]+)`")
 CODE_BLOCK = re.compile(r"^ {4}(\./reproduce .+)$", re.MULTILINE)
 LINK = re.compile(r"\]\(([^)#:\s]+)(?:#[^)]*)?\)")
+BESIDE = re.compile(r"^```.*?^```$|^(?: {4}|\|)[^\n]*$", re.MULTILINE | re.DOTALL)  # what is no prose: code and tables
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())
 
 
@@ -165,3 +166,10 @@ def test_the_guide_draws_the_packages_as_the_import_linter_checks_them():
         named = re.findall(r"`(\w+)`", "".join(re.findall(r"^\| (`.*?) \|", table, re.MULTILINE)))
         modules = [module.name for module in pkgutil.iter_modules([str(ROOT / "src" / wing)])]
         assert sorted(named) == sorted(name for name in modules if name != "__main__")
+
+
+@pytest.mark.parametrize("name", ["robots.md", "logs.md"])
+def test_a_guide_of_the_lab_is_read_in_ten_minutes(name):
+    """Words beside code and tables, at 200 a minute."""
+    prose = BESIDE.sub("", (ROOT / "docs" / name).read_text())
+    assert 1000 <= len(prose.split()) <= 2000
