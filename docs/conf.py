@@ -13,6 +13,7 @@ root_doc = "index"
 html_theme = "furo"
 html_static_path = ["docs/site.css"]
 html_css_files = ["site.css"]
+html_search_scorer = "docs/scorer.js"  # pages of modules come behind texts
 html_copy_source = html_show_sourcelink = html_show_sphinx = html_show_copyright = False
 html_show_search_summary = False  # it loads each page found, which a browser refuses without a server
 html_last_updated_fmt = None  # the same pages on every day
