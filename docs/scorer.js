@@ -1,4 +1,5 @@
-// How the search of the documentation's pages orders what it finds: pages of modules and of all keys come behind texts.
+// How the search of the documentation's pages orders what it finds: pages of modules and of
+// all keys, and the list of changes, come behind texts.
 var Scorer = {
   objNameMatch: 11,
   objPartialMatch: 6,
@@ -9,5 +10,5 @@ var Scorer = {
   term: 5,
   partialTerm: 2,
   score: ([docname, title, anchor, descr, score]) =>
-    /^reference\/(?!commands$)/.test(docname) ? score - 1000 : score,
+    /^(CHANGELOG$|reference\/(?!commands$))/.test(docname) ? score - 1000 : score,
 };
