@@ -43,8 +43,17 @@ def test_every_link_leads_to_a_file_and_to_a_heading_of_it(page):
 
 
 def test_a_link_to_no_file_or_no_heading_is_found(tmp_path):
-    (tmp_path / "b.md").write_text("# One: two, three\n\n## Same\n\n## Same\n")
-    links = ("b.md", "b.md#one-two-three", "b.md#same-1", "https://x.org", "b.md#four", "c.md", "#nowhere")
+    (tmp_path / "b.md").write_text('# One: two, three\n\n## Same\n\n## Same\n\n<a id="old-1"></a>\n')
+    links = (
+        "b.md",
+        "b.md#one-two-three",
+        "b.md#same-1",
+        "b.md#old-1",
+        "https://x.org",
+        "b.md#four",
+        "c.md",
+        "#nowhere",
+    )
     (tmp_path / "a.md").write_text("\n".join(f"[x]({link})" for link in links) + "\n\n    [x](code.md)\n")
     assert [line.split(": ")[1] for line in broken([tmp_path / "a.md"])] == ["b.md#four", "c.md", "#nowhere"]
 

@@ -7,8 +7,9 @@ import pytest
 from browser import with_browser
 from links import broken, outside
 
-from experiments.evaluation.report.docs import build, modules_of, relinked, with_words
+from experiments.evaluation.report.docs import SEARCHED, build, modules_of, relinked, with_words
 from mobnet.core.errors import DataError
+from mobnet.settings.reading import read_yaml
 
 ROOT = Path(__file__).parents[3]
 
@@ -35,6 +36,14 @@ def test_words_for_the_search_are_behind_the_title_or_a_heading():
     assert heading == "Before\n# A page: one\n\n## Run it\n\n```{index} ! resume, ! ctrl-c\n```\ntext\n"
     with pytest.raises(DataError, match=r"search\.yaml: a\.md#run: the page has no such heading"):
         with_words(text, "run", ["resume"], "search.yaml: a.md#run")
+
+
+def test_every_page_of_the_search_has_its_heading_and_each_word_once():
+    for place, words in read_yaml(ROOT / SEARCHED).items():
+        name, _, heading = place.partition("#")
+        with_words((ROOT / name).read_text(), heading, words, place)
+        assert len(set(words)) == len(words)
+        assert [word for word in words if word != word.lower() or "," in word] == []
 
 
 def test_modules_that_are_run_and_packages_that_are_not_public_have_no_page():
