@@ -4,6 +4,8 @@ import re
 from importlib import import_module
 from pathlib import Path
 
+from docutils import nodes
+
 project = "MOB-Net, reproduced"
 html_title = project
 extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon"]
@@ -11,6 +13,7 @@ root_doc = "index"
 html_theme = "furo"
 html_static_path = ["docs/site.css"]
 html_css_files = ["site.css"]
+html_search_scorer = "docs/scorer.js"  # pages of modules come behind texts
 html_copy_source = html_show_sourcelink = html_show_sphinx = html_show_copyright = False
 html_show_search_summary = False  # it loads each page found, which a browser refuses without a server
 html_last_updated_fmt = None  # the same pages on every day
@@ -34,6 +37,7 @@ def setup(app):  # noqa: ANN001, ANN201, D103
     app.connect("builder-inited", loaded)
     app.connect("autodoc-skip-member", skipped)
     app.connect("autodoc-process-signature", shortened)
+    app.connect("doctree-read", anchored)
 
 
 def loaded(app):  # noqa: ANN001, ANN201
@@ -41,6 +45,16 @@ def loaded(app):  # noqa: ANN001, ANN201
     for page in sorted(Path(app.srcdir).glob("reference/*.md")):
         for name in re.findall(r"automodule:: (\S+)", page.read_text()):
             import_module(name)
+
+
+def anchored(app, doctree):  # noqa: ANN001, ANN201
+    """Let links lead to anchors in HTML, such as `<a id="note-0028"></a>`, which work on code hosts, too."""
+    metadata = app.env.metadata[app.env.docname]
+    places = dict(metadata.get("myst_slugs", {}))
+    for node in doctree.findall(nodes.raw):
+        for name in re.findall(r'<a id="([\w-]+)">', node.astext()):
+            places[name] = (node.line, name, name)
+    metadata["myst_slugs"] = places
 
 
 def skipped(app, what, name, member, skip, options):  # noqa: ANN001, ANN201

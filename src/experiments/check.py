@@ -1,4 +1,4 @@
-"""Check files from outside before anything reads them: `./reproduce check FILE...` (docs/robots.md).
+"""Check files from outside before anything reads them: `./reproduce check FILE...` (docs/log_formats.md).
 
 Readers of jobs ask for the same contract; here all columns of a file are looked at, in the memory of a minute of it.
 """

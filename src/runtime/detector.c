@@ -1,6 +1,6 @@
 /* From an estimate to an alarm: gate of a leg, low-pass, threshold, a time without a gap.
  *
- * (D1) to (D8) are derived in docs/notes/0036-detection.md.
+ * (D1) to (D8) are derived in docs/notes/detection.md.
  */
 #include <math.h>
 

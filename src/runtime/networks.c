@@ -2,7 +2,7 @@
  *
  * The time goes into reading the weights once. They lie in blocks of rows, column by column, so that a vector
  * instruction takes rows and no sum changes its order: every compiler and processor gives the same numbers, but for exp
- * and log. (N1) to (N11) are derived in docs/notes/0035-networks.md.
+ * and log. (N1) to (N11) are derived in docs/notes/networks.md.
  */
 #include <math.h>
 #include <string.h>
@@ -103,7 +103,7 @@ void mobnet_predict(const struct mobnet *m, const struct network *net, const mob
         size_t joint = net->joint[k];
         next->mean[joint] = net->output[k] * net->target_std[k] + net->target_mean[k];
         next->std[joint] = (soft < net->std_min ? net->std_min : soft) * net->std_unit[k];
-        /* (O9) of note 0034, from (15). */
+        /* (O9) of docs/notes/observer.md, from (15). */
         next->tau_ext[joint] = net->direct ? next->mean[joint] : next->residual[joint] - next->mean[joint];
     }
 }

@@ -1,4 +1,4 @@
-/* The momentum observer in discrete time; (O1) to (O5) are derived in docs/notes/0034-observer.md. */
+/* The momentum observer in discrete time; (O1) to (O5) are derived in docs/notes/observer.md. */
 #include <math.h>
 
 #include "internal.h"

@@ -11,10 +11,10 @@ SOURCE = ROOT / "src"
 
 
 @pytest.mark.parametrize(("note", "letter", "code"), [
-    ("0019-walking-controller", "W", ["mobnet/control/*.py", "mobnet/simulation/start.py"]),
-    ("0034-observer", "O", ["mobnet/estimation/**/*.py", "experiments/jobs/observing.py"]),
-    ("0035-networks", "N", ["mobnet/learning/**/*.py"]),
-    ("0036-detection", "D", ["mobnet/detection/**/*.py", "experiments/jobs/*.py", "experiments/evaluation/**/*.py"]),
+    ("walking", "W", ["mobnet/control/*.py", "mobnet/simulation/start.py"]),
+    ("observer", "O", ["mobnet/estimation/**/*.py", "experiments/jobs/observing.py"]),
+    ("networks", "N", ["mobnet/learning/**/*.py"]),
+    ("detection", "D", ["mobnet/detection/**/*.py", "experiments/jobs/*.py", "experiments/evaluation/**/*.py"]),
 ])  # fmt: skip
 def test_every_equation_of_a_note_is_cited_in_the_code_and_no_other(note, letter, code):
     """A range such as (W2) to (W4) cites all that lie in it; a module's docstring, which names such a range, none."""

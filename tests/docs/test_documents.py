@@ -5,7 +5,6 @@ import pkgutil
 import re
 import shlex
 import tomllib
-from itertools import pairwise
 from pathlib import Path
 
 import pytest
@@ -20,9 +19,17 @@ from experiments.settings.load import load_settings
 ROOT = Path(__file__).parents[2]
 INDEX = ROOT / "docs" / "README.md"
 PAGES = sorted(path for part in ("*.md", "paper/*.md", "docs/*.md", "docs/notes/*.md") for path in ROOT.glob(part))
+NUMBERED = ROOT / "docs" / "notes" / "README.md"  # where the notes with numbers are
+NOTES = sorted(path for path in NUMBERED.parent.glob("*.md") if path != NUMBERED)
+ANCHOR = re.compile(r'^<a id="note-(\d{4})"></a>$', re.MULTILINE)
+CITED = re.compile(r"\bnotes?[\s_#*-]+\d{4}\b(?:(?:,| and| to)[\s#*]+\d{4}\b)*", re.IGNORECASE)
+TEXTS = ("*.md", "*.lock", "paper/*.tex", "docs/**/*.md", "configs/**/*.yaml", "workflow/**/*.*", "src/**/*.[pc]*")
+BINARY = (".pyc", ".png", ".svg")
+CITING = sorted(path for part in (*TEXTS, "tests/**/*.py") for path in ROOT.glob(part) if path.suffix not in BINARY)
 COMMAND = re.compile(r"`\./reproduce ([^`]+)`")
 CODE_BLOCK = re.compile(r"^ {4}(\./reproduce .+)$", re.MULTILINE)
 LINK = re.compile(r"\]\(([^)#:\s]+)(?:#[^)]*)?\)")
+BESIDE = re.compile(r"^```.*?^```$|^(?: {4}|\|)[^\n]*$", re.MULTILINE | re.DOTALL)  # what is no prose: code and tables
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())
 
 
@@ -36,8 +43,17 @@ def test_every_link_leads_to_a_file_and_to_a_heading_of_it(page):
 
 
 def test_a_link_to_no_file_or_no_heading_is_found(tmp_path):
-    (tmp_path / "b.md").write_text("# One: two, three\n\n## Same\n\n## Same\n")
-    links = ("b.md", "b.md#one-two-three", "b.md#same-1", "https://x.org", "b.md#four", "c.md", "#nowhere")
+    (tmp_path / "b.md").write_text('# One: two, three\n\n## Same\n\n## Same\n\n<a id="old-1"></a>\n')
+    links = (
+        "b.md",
+        "b.md#one-two-three",
+        "b.md#same-1",
+        "b.md#old-1",
+        "https://x.org",
+        "b.md#four",
+        "c.md",
+        "#nowhere",
+    )
     (tmp_path / "a.md").write_text("\n".join(f"[x]({link})" for link in links) + "\n\n    [x](code.md)\n")
     assert [line.split(": ")[1] for line in broken([tmp_path / "a.md"])] == ["b.md#four", "c.md", "#nowhere"]
 
@@ -81,20 +97,39 @@ def test_every_document_and_every_folder_of_documents_is_in_the_index_once():
     assert [path for path in wanted if found.count(path) != 1] == []
 
 
-def test_the_index_says_one_sentence_of_each_note_once_and_which_numbers_have_none():
-    rows = re.findall(r"^\| \[(\d{4})\]\(notes/(\d{4})-[^)]*\) \| ([A-Z].*\.) \|$", INDEX.read_text(), re.MULTILINE)
-    numbers = [int(number) for number, file, _ in rows if number == file]
-    notes = [int(path.name[:4]) for path in sorted((ROOT / "docs" / "notes").glob("*.md"))]
-    assert sorted(numbers) == notes
-    unused = [number for low, high in pairwise(notes) for number in range(low + 1, high)]
-    told = re.search(r"The numbers ([\d,\s]*and \d{4}) are not used", INDEX.read_text())
-    assert told
-    assert [int(number) for number in re.findall(r"\d{4}", told[1])] == unused
+def test_the_index_says_one_sentence_of_each_note_once():
+    rows = re.findall(r"^\| \[[^]]+\]\(notes/(\w+\.md)\) \| [A-Z].*\. \|$", INDEX.read_text(), re.MULTILINE)
+    assert sorted(rows) == sorted([*(path.name for path in NOTES), NUMBERED.name])
 
 
-def test_a_note_begins_with_its_number_and_a_title():
-    notes = (ROOT / "docs" / "notes").glob("*.md")
-    assert [path for path in notes if not path.read_text().startswith(f"# {path.name[:4]}: ")] == []
+def test_notes_are_few_and_named_by_their_subjects():
+    assert 1 < len(NOTES) <= 18
+    assert [path.name for path in NOTES if not re.fullmatch(r"[a-z]+(_[a-z]+)*\.md", path.name)] == []
+    assert [path for path in NOTES if not re.match(r"# [A-Z]", path.read_text())] == []
+
+
+def test_the_table_of_old_numbers_leads_to_each_anchor_once():
+    rows = re.findall(r"^\| (\d{4}) \| \[[^]]+\]\((\w+\.md)#note-(\d{4})\) \|$", NUMBERED.read_text(), re.MULTILINE)
+    assert [number for number, _, anchor in rows if number != anchor] == []
+    placed = [(path.name, number) for path in NOTES for number in ANCHOR.findall(path.read_text())]
+    assert sorted((name, number) for number, name, _ in rows) == sorted(placed)
+    unused = re.findall(r"\d{4}", NUMBERED.read_text().rsplit("\n\n", 1)[1])
+    numbers = sorted(int(number) for number in [*unused, *(number for number, _, _ in rows)])
+    assert numbers == list(range(1, 49))
+
+
+def test_every_number_and_every_file_of_a_note_that_is_named_anywhere_leads_somewhere():
+    known = {number for path in NOTES for number in ANCHOR.findall(path.read_text())}
+    named, lost = 0, list[str]()
+    for path in CITING:
+        text = path.read_text(encoding="utf-8")
+        numbers = [number for found in CITED.findall(text) for number in re.findall(r"\d{4}", found)]
+        named += len(numbers)
+        lost += [f"{path}: note {number}" for number in numbers if number not in known]
+        files = set(re.findall(r"docs/notes/(\d{4}|[\w-]+\.md)", text))
+        lost += [f"{path}: {name}" for name in files if not (ROOT / "docs" / "notes" / name).is_file()]
+    assert lost == []
+    assert named > 10
 
 
 def test_the_newest_version_is_that_of_the_published_results_and_of_the_citation():
@@ -140,3 +175,10 @@ def test_the_guide_draws_the_packages_as_the_import_linter_checks_them():
         named = re.findall(r"`(\w+)`", "".join(re.findall(r"^\| (`.*?) \|", table, re.MULTILINE)))
         modules = [module.name for module in pkgutil.iter_modules([str(ROOT / "src" / wing)])]
         assert sorted(named) == sorted(name for name in modules if name != "__main__")
+
+
+@pytest.mark.parametrize("name", ["robots.md", "logs.md"])
+def test_a_guide_of_the_lab_is_read_in_ten_minutes(name):
+    """Words beside code and tables, at 200 a minute."""
+    prose = BESIDE.sub("", (ROOT / "docs" / name).read_text())
+    assert 1000 <= len(prose.split()) <= 2000

@@ -105,7 +105,7 @@ def test_needs_little_memory_beside_its_result(observer, pushed):
 
 
 def test_is_the_form_of_bledt_2018(nominal, observer, pushed):
-    """Its filter has p itself as an input and starts at b p_0 (docs/notes/0034-observer.md)."""
+    """Its filter has p itself as an input and starts at b p_0 (docs/notes/observer.md)."""
     sensed, _ = pushed(RATE_HZ)
     p, beta = momentum_and_beta(nominal, sensed.q, sensed.v)
     b = (1 - observer.pole) * RATE_HZ / observer.pole

@@ -1,16 +1,18 @@
-"""The map of docs/robots.md is one, and a log that it describes is read as it says."""
+"""The maps of docs/logs.md and docs/log_formats.md, and the Python of the former, are right."""
 
 import re
 from pathlib import Path
 
 import numpy as np
+import yaml
 
+from experiments.check import main as check
 from mobnet.robotlog.convert import convert
 from mobnet.robotlog.formats import FORMATS, read_log
 from mobnet.settings.lab import load_section
-from mobnet.settings.robotlog import LogMap
+from mobnet.settings.robotlog import LogMap, Signal, Tool
 
-PAGE = Path("docs/robots.md")
+PAGE, FORMATS_PAGE = Path("docs/logs.md"), Path("docs/log_formats.md")
 
 
 def test_the_map_of_the_page_reads_the_log_that_it_describes(clean, arm, settings, tmp_path):
@@ -32,5 +34,27 @@ def test_the_map_of_the_page_reads_the_log_that_it_describes(clean, arm, setting
 
 
 def test_the_page_names_every_format():
-    page = PAGE.read_text()
+    page = FORMATS_PAGE.read_text()
     assert all(f"`{ending}`" in page for ending in FORMATS if ending.startswith("."))
+
+
+def test_the_page_names_every_key_of_a_map_and_of_a_signal():
+    part = FORMATS_PAGE.read_text().partition("## Keys of a map")[2].partition("\n## ")[0]
+    rows = [line.split("|")[1] for line in part.splitlines() if line.startswith("| `")]
+    assert set(re.findall(r"`(\w+)`", "".join(rows))) == set(LogMap.model_fields)
+    assert set(Signal.model_fields) - set(re.findall(r"`(\w+)`", part)) == set()
+    (tool,) = re.findall(r"^ {4}tool: (\{.*\})$", part, re.MULTILINE)
+    assert Tool.model_validate(yaml.safe_load(tool)).body == "hand"
+
+
+def test_the_python_of_the_page_runs_and_its_command_checks_what_it_wrote(tmp_path, monkeypatch):
+    page = PAGE.read_text()
+    (code,) = re.findall(r"^```python\n(.*?)^```$", page, re.DOTALL | re.MULTILINE)
+    (words,) = re.findall(r"^ {4}\./reproduce check (.*)$", page, re.MULTILINE)
+    (tmp_path / "tests").symlink_to(Path("tests").resolve())
+    monkeypatch.chdir(tmp_path)
+    names = {}
+    exec(code, names)
+    assert names["residual"].shape == (500, 2)
+    assert check(words.split()) == 0
+    assert check([*words.split()[:-1], "500"]) == 1

@@ -43,7 +43,7 @@ APART_MAP = {
     "tau_motor": {"columns": ["/torque.effort"]},
 }
 JOINT_MAP = {name: {"columns": [f"{TOPIC}.{field}"]} for name, field in (("q", "position"), ("v", "velocity"))}
-PAGE = Path("docs/robots.md")
+PAGE = Path("docs/logs.md")
 EPOCH_NS = 1_764_000_000_000_000_000  # a day of 2025
 
 

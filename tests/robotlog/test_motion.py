@@ -18,7 +18,7 @@ from mobnet.settings.robot import RobotTable
 from mobnet.simulation.free_run import Numbers, record_motion
 
 ARM = Path("tests/data/arm.yaml")
-PAGE = Path("docs/robots.md").read_text()
+PAGE = Path("docs/logs.md").read_text()
 PANDA = Path("configs/robots/panda.yaml")
 
 

@@ -25,7 +25,8 @@ rule fit:
 
 
 rule train_stack:
-    # Networks of one shape side by side on a GPU (docs/notes/0038); where each learns alone, no job asks for this.
+    # Networks of one shape side by side on a GPU (docs/notes/training.md); where each learns alone, no job asks for
+    # this.
     input:
         read=lambda w: made_by_jobs(JOBS.read_by_stack(w)),
     output:

@@ -115,7 +115,8 @@ class Jobs:
         if start := files.start(w.method, w.limb, int(w.seed)):
             arguments["start"] = start
         if training.learning.labels == "swing":
-            # Without a sensor a leg knows its external torque only where it surely touches nothing (note 0029).
+            # Without a sensor a leg knows its external torque only where it surely touches nothing
+            # (docs/notes/fine_tuning.md).
             swings = self.settings.evaluation.changed
             arguments["margins"] = (swings.lift_off_s, swings.landing_s)
         own = Stacked(w.robot, NetworkName(w.method, w.limb, int(w.seed)))

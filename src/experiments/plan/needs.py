@@ -148,7 +148,7 @@ def first_robot_tests(files: Files, _: Any) -> tuple[tuple[Path, ...], ...]:
 
 @need
 def walks_by_kind(files: Files, _: Any) -> Mapping[str, list[Path]]:
-    """Return all recordings by what is walked: falls are counted by what disturbs a walk (note 0042)."""
+    """Return all recordings by what is walked: falls are counted by what disturbs a walk (docs/notes/measures.md)."""
     walks = defaultdict[str, list[Path]](list)
     for own in files.owners:
         for scenario, level, seed in own.recorded():

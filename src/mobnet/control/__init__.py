@@ -1,1 +1,1 @@
-"""Walking controller, compiled; docs/notes/0019-walking-controller.md derives its laws."""
+"""Walking controller, compiled; docs/notes/walking.md derives its laws."""

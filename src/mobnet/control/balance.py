@@ -1,6 +1,6 @@
 """From the error of the DCM to a ground force, a new foothold and a new step duration.
 
-The equations (W2) to (W20) are derived in docs/notes/0019-walking-controller.md. Arguments that recur: `par`, numbers
+The equations (W2) to (W20) are derived in docs/notes/walking.md. Arguments that recur: `par`, numbers
 of the controller; `s`, its state; `pose`, kinematics of the sensed state; `ankle`, the stance ankle (3,) [m]; `dt`, a
 tick [s]; `work`, scratch (3,).
 """

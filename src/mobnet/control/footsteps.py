@@ -2,7 +2,7 @@
 
 The DCM xi = c + cdot / w obeys xidot = w (xi - z), with z the zero moment point (ZMP). Errors of xi grow forwards in
 time and decay backwards, so the DCM at the end of a step follows from the coming footholds, step by step backwards.
-World axes, metres. The equations (W5) to (W12) are derived in docs/notes/0019-walking-controller.md.
+World axes, metres. The equations (W5) to (W12) are derived in docs/notes/walking.md.
 """
 
 import numpy as np

@@ -1,4 +1,4 @@
-"""Inverse kinematics of a leg in closed form, (W35) to (W38) of docs/notes/0019-walking-controller.md.
+"""Inverse kinematics of a leg in closed form, (W35) to (W38) of docs/notes/walking.md.
 
 It asks for axes of hip yaw, roll and pitch that meet in one point, a knee pitch, axes of ankle pitch and roll that meet
 in one point, and a thigh as long as the shank.

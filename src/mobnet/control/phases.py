@@ -1,7 +1,7 @@
 """Phases of a step: lift-off, touch-down and what changes with them.
 
 Load of the feet, height and yaw of the pelvis, the ground's slope, and the reference of a robot that stands. The
-equations (W21) to (W29) are derived in docs/notes/0019-walking-controller.md.
+equations (W21) to (W29) are derived in docs/notes/walking.md.
 """
 
 import numpy as np

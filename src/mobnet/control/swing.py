@@ -1,6 +1,6 @@
 """Where the swing foot should be: to its target on a quintic, up and down again, and further down when it is late.
 
-The equations (W31) to (W34) are derived in docs/notes/0019-walking-controller.md.
+The equations (W31) to (W34) are derived in docs/notes/walking.md.
 """
 
 import numpy as np

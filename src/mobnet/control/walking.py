@@ -2,7 +2,7 @@
 
 Omnidirectional walking by commands (step x, y, turn, duration, foot height), recovered by the ankle, by the foothold
 and by the duration of the step. It knows the nominal model and the sensed state only. Its laws are derived in
-docs/notes/0019-walking-controller.md.
+docs/notes/walking.md.
 """
 
 import numpy as np

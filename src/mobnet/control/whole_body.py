@@ -1,7 +1,7 @@
 """From the ground's force and the feet's targets to joint torques.
 
 Stance legs transmit the force to the ground, the swing leg and the upper body follow their references. The equations
-(W39) to (W46) are derived in docs/notes/0019-walking-controller.md. Arguments that recur: `s`, the controller's state;
+(W39) to (W46) are derived in docs/notes/walking.md. Arguments that recur: `s`, the controller's state;
 `k`, a leg (0 left, 1 right); `q` (nq,) and `v` (nv,), sensed position and velocity; `dt`, a tick [s].
 """
 

@@ -1,7 +1,7 @@
 """What is accepted of the numbers of an array, by the names of its columns; every reader of arrays asks here.
 
 Bounds are physical and wide, so that the log of a real robot passes and a wrong unit does not. Those of a joint's
-position, velocity and torque come from the robot's table. `docs/robots.md` describes them.
+position, velocity and torque come from the robot's table. `docs/log_formats.md` describes them.
 """
 
 import functools

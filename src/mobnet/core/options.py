@@ -23,7 +23,7 @@ def observe_parser() -> argparse.ArgumentParser:
         description="Make a recording and the momentum observer's residual of a robot's log, with a plot of it, and "
         "say what looks wrong with the log.",
         epilog="LOG is a text with a separator, .parquet, .h5, .mat, .npz, .mcap, .bag, .db3, or a folder that "
-        "`ros2 bag` wrote (docs/robots.md).",
+        "`ros2 bag` wrote (docs/log_formats.md).",
     )
     parser.add_argument("log", type=Path, metavar="LOG", help="log of a robot")
     add_robot(parser)
@@ -130,7 +130,7 @@ def motion_parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog=command("motion"),
         description="Simulate a robot of a table whose joints move at random while it does not walk, and write its log "
-        f"with the columns that {command('observe')} takes without a map (docs/robots.md).",
+        f"with the columns that {command('observe')} takes without a map (docs/logs.md).",
     )
     add_robot(parser)
     parser.add_argument("--minutes", type=float, default=1.0, help="how long it moves (default: %(default)s)")
@@ -197,7 +197,7 @@ def calibrate_parser() -> argparse.ArgumentParser:
         description="Print thresholds for a wanted rate of false alarms, from recordings that nothing pushes: of a leg "
         "from its swings, of any other limb from windows of time.",
         epilog="In place of folders, --recording with --estimate takes arrays, .parquet with their .json "
-        "(docs/robots.md), in one order.",
+        "(docs/log_formats.md), in one order.",
     )
     parser.add_argument("folders", type=Path, nargs="*", metavar="FOLDER", help=f"what `{command('observe')}` wrote")
     parser.add_argument("--network", type=Path, metavar="NET", help="what `learn` wrote (default: the observer alone)")

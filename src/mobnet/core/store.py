@@ -28,7 +28,7 @@ from mobnet.core.notes import check_array_note, pair_differences, read_array_not
 
 ARRAY = ".parquet"
 NOTE = ".json"
-# Note 0010 has the measurements behind these numbers.
+# docs/notes/workflow.md has the measurements behind these numbers.
 GROUP_ROWS = 60_000  # rows stored together, a minute at 1 kHz: writer and reader hold as many besides their result
 BLOCK_ROWS = 256  # rows transposed together: they fit into the processor's cache
 STREAMED = {"buffer_size": 2**16, "pre_buffer": False}  # a foreign file may be a single group of rows

@@ -1,4 +1,4 @@
-"""A detector of a leg with thresholds from walking that nothing pushes, and its false alarms there (note 0036)."""
+"""A detector of a leg with thresholds from walking that nothing pushes; docs/notes/detection.md has its laws."""
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace

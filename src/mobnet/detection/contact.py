@@ -29,7 +29,7 @@ LEAST = 1.0  # force for which the cone still has a width [N]
 #
 # -2 log p = const - h^T f + log det(A P), A = B^T J C^-1 J^T B + P^-1, f = A^-1 h, h = B^T J C^-1 tau, (a)
 #
-# the residual of weighted least squares, and what is paid for a force that goes far to fit (docs/notes/0044).
+# the residual of weighted least squares, and what is paid for a force that goes far to fit (docs/notes/contact.md).
 def explain(wrenches: Array, weight: Array, seen: Array, settings: ContactPoint) -> tuple[Array, Array]:
     """Return -2 log p of (a) at k points (k,), infinite where no force presses there, and the forces (k, 3) [N].
 

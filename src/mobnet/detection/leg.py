@@ -72,7 +72,7 @@ def foot_load(leg: Leg, q: Array, tau: Array) -> bool:
     tau = J^T F with the six rows of the leg, at a generalized position q (nq,) [m, -, rad] and torques tau (6,) [N m].
     """
     # (D5): six joints and six numbers of a wrench, so that one pose gives one wrench. Ground, a hit on another link and
-    # the error of the estimate all go into it, see note 0036.
+    # the error of the estimate all go into it, see docs/notes/detection.md.
     update(leg.tree, q, leg.still, 0.0, leg.pose)
     arm = leg.load[:3]  # room
     for j in range(LEG_JOINTS):

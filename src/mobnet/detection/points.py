@@ -23,7 +23,8 @@ AXES = "xyz"
 
 
 # Section 5.4 takes thresholds for an indirect estimate of what a detector can feel. This is that estimate: the torques
-# of a push of 1 N follow from the pose, and what the filters leave of a short one from the filters (note 0036).
+# of a push of 1 N follow from the pose, and what the filters leave of a short one from the filters
+# (docs/notes/detection.md).
 def found_forces(setup: LegSetup, poses: Array, thresholds: Array) -> dict[str, float]:
     """Return point of the leg -> the force [N] that a short collision must have there, in most poses of a swing.
 

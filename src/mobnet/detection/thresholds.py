@@ -2,7 +2,8 @@
 
 In each swing a detector's signals have a largest value, over their scale. A rate of one false alarm in an hour is one
 in some thousands of swings, more than a lab records, so that a generalised Pareto law is fitted to the tail of these
-values (note 0036, section 7). The interval of the expected rate widens where the fit goes beyond what was seen.
+values (docs/notes/detection.md, section 7). The interval of the expected rate widens where the fit goes beyond what was
+seen.
 """
 
 from collections.abc import Sequence

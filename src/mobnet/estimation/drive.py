@@ -8,7 +8,7 @@ Coulomb and viscous friction and an offset are the model that is identified of r
 model identification for industrial robots", IEEE Control Systems 27(5), 2007; a load term is that of harmonic drives.
 s is a smooth sign of the velocity, tanh(v / width): a sign would switch with the noise of a joint at rest, where
 friction takes any value. Where the table has an angle of breakaway, s is the bend of Dahl's law, (O19) of
-docs/notes/0034-observer.md, which does not switch with noise either, because it follows the angle.
+docs/notes/observer.md, which does not switch with noise either, because it follows the angle.
 """
 
 from collections.abc import Mapping, Sequence

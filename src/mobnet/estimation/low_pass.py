@@ -17,7 +17,8 @@ def exact_pole(gain_hz: float, rate_hz: float) -> float:
     """
     if gain_hz <= 0 or rate_hz <= 0:
         raise ConfigError(f"observer gain {gain_hz} 1/s at {rate_hz} Hz; accepted: numbers above 0")
-    # (O3) of note 0034. Euler's pole, 1 - K_0 T, would make r lag behind a truth that is filtered as (11) says.
+    # (O3) of docs/notes/observer.md. Euler's pole, 1 - K_0 T, would make r lag behind a truth that is filtered as (11)
+    # says.
     return float(np.exp(-gain_hz / rate_hz))
 
 

@@ -1,6 +1,6 @@
 """The momentum observer of section 3.2, in discrete time, second order in the sample time.
 
-The equations (O1) to (O5) are derived in docs/notes/0034-observer.md, p and beta in `mobnet.robot.momentum`.
+The equations (O1) to (O5) are derived in docs/notes/observer.md, p and beta in `mobnet.robot.momentum`.
 """
 
 import logging

@@ -1,6 +1,6 @@
 """Regression of models of friction, that of (23) first, on r - tau_e, joint by joint, one recording at a time.
 
-Derived in docs/notes/0034-observer.md, (O10) to (O13); note 0015 has what it finds.
+Derived in docs/notes/observer.md, (O10) to (O13); docs/notes/friction.md has what it finds.
 """
 
 import logging

@@ -1,6 +1,6 @@
 """A factor per joint on the predicted standard deviation, learned on validation data alone, after the training.
 
-docs/notes/0035-networks.md derives (N25) to (N27), note 0017 compares them on walks.
+docs/notes/networks.md derives (N25) to (N27), docs/notes/sigma.md compares them on walks.
 """
 
 from collections.abc import Sequence

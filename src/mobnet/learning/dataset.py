@@ -139,7 +139,8 @@ def _load_one(
 
 def read_target(stem: Path, joints: Sequence[str], target: Target) -> NDArray[np.float32]:
     """Return the torque to learn of some joints, (T, n) [N, N m], from a residual file and its label."""
-    # Both targets lag behind alike, as the file has tau_e behind the observer's low-pass, (O7) of note 0034.
+    # Both targets lag behind alike, as the file has tau_e behind the observer's low-pass, (O7) of
+    # docs/notes/observer.md.
     external, _ = read_array(stem, named(label_of(stem), joints))
     if target == "external":
         return external

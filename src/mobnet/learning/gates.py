@@ -178,7 +178,7 @@ def go_back(
             for j in range(len(output)):
                 d[i, j] += output[j, i]
         # (N14) and (N15). Gradients of weights are summed step by step, as one product after the loop would round
-        # and reorder its factors once more, which takes longer (note 0014).
+        # and reorder its factors once more, which takes longer (docs/notes/precision.md).
         close_gates(g[0], g[1], g[2], g[3], states[k], flat, d_gates[0], d_gates[1], d_gates[2], d_gates[3])
         lay_left(d_gates.reshape(1, d_gates.size), left.reshape(1, left.size))
         lay_right(d_gates[:3].reshape(3 * n, lanes), right)

@@ -2,7 +2,7 @@
 
 The loops over time are compiled with all their products (`gates`, `tiles`). Those with the state and those of the
 gradients are in float32, or in bfloat16 from float32 weights into float32 gates, states and gradients
-(docs/notes/0014). Weights are laid out as `torch.nn.GRU` documents them: reset, update, new.
+(docs/notes/precision.md). Weights are laid out as `torch.nn.GRU` documents them: reset, update, new.
 """
 
 from typing import Any

@@ -53,7 +53,8 @@ class TrainingJob:
     def rate(self, epoch: int) -> float:
         """Return the learning rate of an epoch: linear to its last value, then constant (section 4.4)."""
         learning = self.training.learning
-        # (N22) with a share of our own: half of a short training at the last rate would teach nothing (note 0009).
+        # (N22) with a share of our own: half of a short training at the last rate would teach nothing
+        # (docs/notes/training.md).
         passed = min(1.0, epoch / max(1.0, learning.rate_decay_share * self.training.epochs))
         return learning.rate_first * (1.0 - (1.0 - learning.rate_last_ratio) * passed)
 

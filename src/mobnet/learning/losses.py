@@ -1,8 +1,8 @@
 """What a training minimises: the likelihood (22), or a loss that weighs its samples otherwise.
 
-docs/notes/0035-networks.md derives (N16) to (N18), note 0025 says why (22) has two others beside it: `beta_likelihood`
-(beta-NLL, Seitzer et al. 2022, arXiv:2203.09168), and `squared` (faithful heteroscedastic regression, Stirn et al.
-2023, arXiv:2212.09184), with which the mean is what it would be without a sigma.
+docs/notes/networks.md derives (N16) to (N18), docs/notes/training.md says why (22) has two others beside it:
+`beta_likelihood` (beta-NLL, Seitzer et al. 2022, arXiv:2203.09168), and `squared` (faithful heteroscedastic regression,
+Stirn et al. 2023, arXiv:2212.09184), with which the mean is what it would be without a sigma.
 """
 
 from collections.abc import Callable, Mapping

@@ -81,7 +81,7 @@ class LimbNetwork(nn.Module):
         """Let the cell keep its state for so many times as many steps, where a gate says how long: GRU and LSTM.
 
         Of the torque that the state stands for, as much is left then after the same time at a stride that is smaller by
-        the same factor (docs/notes/0037).
+        the same factor (docs/notes/training.md).
         """
         # The second gate of both keeps the state, and g / (1 - g) is the time that it is kept for, in steps.
         bias = self.get_parameter("cell.bias_ih_l0")

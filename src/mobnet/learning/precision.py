@@ -2,7 +2,7 @@
 
 A unit for bfloat16 does not tell that a GRU learns faster in it: on processors with matrix units (AMX), the
 instruction for pairs that `tiles` uses is slower than float32. Both formats are therefore tried, once for each kind of
-processor and each state of the code, and what they took is kept beside the machine code (docs/notes/0014).
+processor and each state of the code, and what they took is kept beside the machine code (docs/notes/precision.md).
 """
 
 import contextlib

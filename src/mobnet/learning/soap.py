@@ -1,4 +1,4 @@
-"""SOAP: Adam in the eigenbasis of a matrix's gradients, for the matrix of each gate by itself (docs/notes/0037).
+"""SOAP: Adam in the eigenbasis of a matrix's gradients, for the matrix of each gate by itself (docs/notes/training.md).
 
 Vyas et al. (2024), arXiv:2409.11321, algorithm 3. G is the gradient of one gate's matrix, W_ir, W_iz, W_in, W_hr, W_hz
 or W_hn of a GRU; L and R are averages of G G' and G' G. In the eigenvectors of L and R the moments of Adam belong to

@@ -2,9 +2,9 @@
 
 A tile of the result stays in the processor's registers while rows of the left factor, one number at a time, and vectors
 of the right one pass by. Neither factor is copied, which takes a third of the time that a library needs at the size of
-a GRU's time step (docs/notes/0014). In bfloat16 two rows of the right factor lie side by side, as one word of 32 bits a
-column, and so do two columns of the left one: x86 multiplies and adds such pairs with one instruction, where it has
-`avx512_bf16`. Elsewhere they are taken apart and multiplied in float32.
+a GRU's time step (docs/notes/precision.md). In bfloat16 two rows of the right factor lie side by side, as one word of
+32 bits a column, and so do two columns of the left one: x86 multiplies and adds such pairs with one instruction, where
+it has `avx512_bf16`. Elsewhere they are taken apart and multiplied in float32.
 """
 
 from typing import Any

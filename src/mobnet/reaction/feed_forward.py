@@ -1,7 +1,7 @@
 """Feed-forward of the learned uncertainty torque (section 9.1): motors make up for what the model gets wrong.
 
 Only the leg that swings is fed: a leg that carries the robot is held by the ground's force, and the upper body follows
-its references no better with it (docs/notes/0043).
+its references no better with it (docs/notes/reaction.md).
 """
 
 from dataclasses import dataclass

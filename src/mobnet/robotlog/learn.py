@@ -1,4 +1,4 @@
-"""A network of a limb from logs of one's own: `./reproduce learn FOLDER... --robot TABLE` (docs/robots.md).
+"""A network of a limb from logs of one's own: `./reproduce learn FOLDER... --robot TABLE` (docs/logs.md).
 
 It learns, as the networks of the paper do, the residual of the observer less the external torque that is known: of a
 limb that nothing touched the residual itself. What trained it, how, and the free-motion check stand in `run.json`.

@@ -1,4 +1,4 @@
-"""A simulated log of any robot of a table that moves without walking: `./reproduce motion` (docs/robots.md)."""
+"""A simulated log of any robot of a table that moves without walking: `./reproduce motion` (docs/logs.md)."""
 
 import contextlib
 import logging

@@ -1,4 +1,4 @@
-"""From a robot's log to the observer's residual: `./reproduce observe LOG --robot TABLE --map FILE` (docs/robots.md).
+"""From a robot's log to the observer's residual: `./reproduce observe LOG --robot TABLE --map FILE` (docs/logs.md).
 
 It writes the log as a recording, the residual as an estimate of the external torque (method MOB), and a plot. It prints
 what was made of the log and what looks wrong with it.

@@ -1,4 +1,4 @@
-"""The external wrench at a point of a limb, from the torques of its joints: `--wrench NAME` (note 0048).
+"""The external wrench at a point of a limb, from the torques of its joints: `--wrench NAME` (docs/notes/contact.md).
 
 Damped least squares: of the wrenches that explain the torques within their errors, the smallest. Where the joints feel
 nothing of a direction, as near a singular pose, the damping gives zero in place of a huge number, the standard

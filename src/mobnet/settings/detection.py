@@ -87,7 +87,9 @@ class Detection(Section):
 
 
 class ContactPoint(Section):
-    """Where on a limb a contact is sought, and what is known of its force and of the torques' errors (note 0044).
+    """Where on a limb a contact is sought, and what is known of its force and of the torques' errors.
+
+    docs/notes/contact.md has the reasons.
 
     Points of the surface are `spacing_m` apart, and the place follows from the likeliest `candidates` of them. Forces
     have the size `force_n`, and their part along the surface is at most `friction` times that into it. Errors of this

@@ -177,7 +177,7 @@ class LogLearning(Section):
 
 
 class WrenchEstimate(Section):
-    """How an external wrench follows from torques of joints (note 0048).
+    """How an external wrench follows from torques of joints (docs/notes/contact.md).
 
     Attributes:
         torque_error: error of an external torque without a standard deviation, as a share of its motor's largest one.

@@ -1,4 +1,4 @@
-"""Numbers of the walking controller (docs/notes/0019-walking-controller.md)."""
+"""Numbers of the walking controller (docs/notes/walking.md)."""
 
 from typing import Annotated
 

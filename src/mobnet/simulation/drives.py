@@ -2,7 +2,7 @@
 
 Rotor and link are coupled by the spring of the gear, so an encoder on the motor reads the rotor. Friction acts on the
 rotor; it follows a reversal over a presliding angle (Dahl), grows with the torque that the gear transmits, differs
-between directions, varies along a turn and falls while the gear warms up (docs/notes/0028-surrogate-robots.md).
+between directions, varies along a turn and falls while the gear warms up (docs/notes/surrogate.md).
 """
 
 from typing import Any, NamedTuple

@@ -1,4 +1,4 @@
-"""A recording of any robot that moves without walking: plan, plant, control, sensors, truth (docs/robots.md)."""
+"""A recording of any robot that moves without walking: plan, plant, control, sensors, truth (docs/logs.md)."""
 
 import logging
 import time

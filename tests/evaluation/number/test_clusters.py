@@ -126,7 +126,7 @@ def test_no_value_is_no_number() -> None:
     assert rate_in([], [], [], STATISTICS) == Number(None, unit="1/h")
 
 
-def test_of_a_full_grid_the_mean_s_interval_is_that_of_note_0022() -> None:
+def test_of_a_full_grid_the_mean_s_interval_is_that_of_intervals() -> None:
     from experiments.evaluation.number.intervals import RunGrid, summarise
 
     values = np.exp(np.random.default_rng(3).normal(size=(ROBOTS, WALKS)))

@@ -10,7 +10,7 @@ from mobnet.core.errors import DataError
 
 REPO = Path(__file__).parents[3]
 DOC, MAIN = REPO / "docs/deviations.md", REPO / "paper/main.tex"
-PUBLISHED_LOAD_SHARE = 0.166  # friction over the transmitted torque of a harmonic drive (note 0028)
+PUBLISHED_LOAD_SHARE = 0.166  # friction over the transmitted torque of a harmonic drive (docs/notes/surrogate.md)
 CHOICES = {  # that a reader of the paper's text would not expect
     "Robot of sections 5.2 to 7", "What the surrogate robots are not", "Results on the robot", "Learning for the robot",
     "Self-collision, section 4.3",
@@ -29,6 +29,7 @@ def test_every_row_of_the_document_reaches_the_paper_in_order(tmp_path: Path) ->
 
 def test_code_is_set_as_code_and_specials_are_escaped() -> None:
     assert tex_text("tau_d of `a_b`, 5 %") == r"tau\_d of \texttt{a\_b}, 5 \%"
+    assert tex_text("(note [falls](notes/walking.md#note-0013)) `a`") == r"(note falls) \texttt{a}"
 
 
 @pytest.mark.parametrize(

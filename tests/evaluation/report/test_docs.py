@@ -1,13 +1,15 @@
 """The documentation's pages: every link leads somewhere, nothing comes from elsewhere, search works from a folder."""
 
+import re
 from pathlib import Path
 
 import pytest
 from browser import with_browser
 from links import broken, outside
 
-from experiments.evaluation.report.docs import build, modules_of, relinked
+from experiments.evaluation.report.docs import SEARCHED, build, modules_of, relinked, with_words
 from mobnet.core.errors import DataError
+from mobnet.settings.reading import read_yaml
 
 ROOT = Path(__file__).parents[3]
 
@@ -24,6 +26,24 @@ def test_links_to_folders_and_to_the_readme_lead_to_pages(tmp_path, monkeypatch)
         "[a](results/README.md) [b](../index.md#limits) [c](../configs/one.yaml) [d](b.md) [e](https://x.org/README.md)"
     )
     assert (sources / "configs" / "one.yaml").read_text() == "a: 1\n"
+
+
+def test_words_for_the_search_are_behind_the_title_or_a_heading():
+    text = "Before\n# A page: one\n\n## Run it\ntext\n"
+    title = with_words(text, "", ["docker"], "x")
+    assert title == "Before\n# A page: one\n\n```{index} ! docker\n```\n\n## Run it\ntext\n"
+    heading = with_words(text, "run-it", ["resume", "ctrl-c"], "x")
+    assert heading == "Before\n# A page: one\n\n## Run it\n\n```{index} ! resume, ! ctrl-c\n```\ntext\n"
+    with pytest.raises(DataError, match=r"search\.yaml: a\.md#run: the page has no such heading"):
+        with_words(text, "run", ["resume"], "search.yaml: a.md#run")
+
+
+def test_every_page_of_the_search_has_its_heading_and_each_word_once():
+    for place, words in read_yaml(ROOT / SEARCHED).items():
+        name, _, heading = place.partition("#")
+        with_words((ROOT / name).read_text(), heading, words, place)
+        assert len(set(words)) == len(words)
+        assert [word for word in words if word != word.lower() or "," in word] == []
 
 
 def test_modules_that_are_run_and_packages_that_are_not_public_have_no_page():
@@ -74,7 +94,27 @@ def test_search_finds_a_page_without_a_server(site, running):
     running.go(f"{(site / 'search.html').as_uri()}?q=momentum+observer")
     running.until("document.querySelectorAll('#search-results li a').length > 5", True)
     links = running.value("[...document.querySelectorAll('#search-results li a')].map(a => a.href)")
-    assert any("0034-observer.html" in link for link in links)
+    assert any("observer.html" in link for link in links)
     assert [event for event in running.events if event["method"] == "Runtime.exceptionThrown"] == []
     asked = [event["params"]["request"]["url"] for event in running.events if event["method"].endswith("WillBeSent")]
     assert [url for url in asked if not url.startswith(("file:", "data:", "about:"))] == []
+
+
+@pytest.mark.slow
+@with_browser
+@pytest.mark.parametrize(("word", "page"), [
+    ("resume", "docs/guide.html"),
+    ("docker", "docs/cluster.html"),
+    ("tolerance", "docs/guide.html"),
+    ("ROS", "docs/log_formats.html"),
+    ("threshold", "docs/detection.html"),
+    ("urdf", "docs/robots.html"),
+])  # fmt: skip
+def test_a_search_finds_the_guide_first_and_pages_of_modules_behind_all_texts(site, running, word, page):
+    running.go(f"{(site / 'search.html').as_uri()}?q={word}")
+    running.until("/finished/.test(document.querySelector('.search-summary')?.innerText)", True)
+    links = running.value("[...document.querySelectorAll('#search-results li > a')].map(a => a.href)")
+    names = [re.split("[?#]", link.removeprefix(f"{site.as_uri()}/"))[0] for link in links]
+    assert names[0] == page
+    texts = [name for name in names if not re.match(r"CHANGELOG\.|reference/(?!commands\.)", name)]
+    assert names[: len(texts)] == texts

@@ -65,8 +65,8 @@ def read_pair(run: Run, layout: JointLayout) -> Pair:
     joints = tuple(joint for joint in layout.names if f"{EXTERNAL}.{joint}" in held)
     if not joints:
         raise DataError(f"{run.estimate}.json: no column {EXTERNAL}.<joint>; it holds {', '.join(held)}")
-    # Networks of surrogate robots learn what foot sensors say of the truth (note 0028): errors against this label are
-    # measured beside those against the truth.
+    # Networks of surrogate robots learn what foot sensors say of the truth (docs/notes/surrogate.md): errors against
+    # this label are measured beside those against the truth.
     signal = label_of(run.residual)
     return Pair(
         run,

@@ -1,7 +1,7 @@
 """Intervals of single collisions and walks, which come in clusters: of few robots, and of walks that the robots share.
 
 What a robot does in one walk tells what it does in the next, so that a hundred collisions of three robots say less
-than a hundred of independent ones. As in `intervals` (docs/notes/0022-intervals.md) the variance of a mean is the sum
+than a hundred of independent ones. As in `intervals` (docs/notes/measures.md) the variance of a mean is the sum
 of two, that over robots and that over walks of the same seed, each with a quantile of Student's law of its own; of one
 robot it is that over its walks alone, and of a single walk there is no interval. Robots and walks need not have equally
 many values, and a value may be missing.

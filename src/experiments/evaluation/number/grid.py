@@ -57,7 +57,8 @@ def run_grid(scores: Sequence[Score], wanted: Wanted) -> RunGrid:
         DataError: no run, two rows of the same run, or a network that misses a test.
     """
     rows = wanted.rows(scores)
-    # In ascending order column k of every grid is the walk of the same seed, over which numbers are paired (note 0022).
+    # In ascending order column k of every grid is the walk of the same seed, over which numbers are paired
+    # (docs/notes/measures.md).
     networks = sorted({row.network_seed for row in rows})
     tests = sorted({row.test_seed for row in rows})
     values = {(row.network_seed, row.test_seed): row.value for row in rows}

@@ -1,4 +1,4 @@
-"""Intervals over networks and walks that hold what they print, also with few of both (docs/notes/0022-intervals.md).
+"""Intervals over networks and walks that hold what they print, also with few of both (docs/notes/measures.md).
 
 Runs are a grid, every network on every walk: a run's error is a mean, an effect of its network, an effect of its walk
 and a rest. The variance of a number is estimated as the sum of two: that of its rows over the networks, for each method

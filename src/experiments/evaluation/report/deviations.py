@@ -9,6 +9,7 @@ from mobnet.core.files import read_text, write_text
 
 WIDTHS = (0.12, 0.25, 0.25, 0.32)  # shares of the text width, one a column
 CAPTION = r"\deviationscaption"  # the paper's
+LINK = re.compile(r"\[([^]]*)\]\([^)]*\)")
 
 
 def deviations(markdown: Path, out: Path) -> None:
@@ -43,6 +44,6 @@ def markdown_rows(text: str, name: str) -> list[list[str]]:
 
 
 def tex_text(text: str) -> str:
-    """Return Markdown text with `code` as TeX."""
-    parts = re.split(r"`([^`]*)`", text)
+    """Return Markdown text with `code` as TeX, of links their words alone."""
+    parts = re.split(r"`([^`]*)`", LINK.sub(r"\1", text))
     return "".join(rf"\texttt{{{tex_escape(part)}}}" if i % 2 else tex_escape(part) for i, part in enumerate(parts))

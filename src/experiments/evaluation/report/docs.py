@@ -21,12 +21,14 @@ from experiments.evaluation.report.site.results import result_pages
 from experiments.settings.claims import Claim
 from mobnet.core.errors import DataError
 from mobnet.core.files import read_text, write_text
+from mobnet.settings.reading import read_yaml
 
 log = logging.getLogger(__name__)
 
 INDEX = Path("docs/README.md")
 RESULTS = Path("docs/results")
 TRIALS = Path("docs/trials")
+SEARCHED = Path("docs/search.yaml")  # page or heading -> words for which the search finds it first
 FIRST = "index.md"  # the README, where a browser looks for the first page
 MADE = {  # section of the index -> pages that are made
     "Reference": ("reference/commands.md", "reference/configuration.md", "reference/python.md"),
@@ -87,6 +89,9 @@ def write_sources(
         write_text(folder / path, listing(path.parent))
     first = read_text(Path(README)) + "\n" + "\n".join(menus(index, MADE))
     write_text(folder / README, first)
+    for place, words in read_yaml(SEARCHED).items():
+        name, _, heading = place.partition("#")
+        write_text(folder / name, with_words(read_text(folder / name), heading, words, f"{SEARCHED}: {place}"))
     for page in sorted(folder.rglob("*.md")):
         write_text(page, relinked(read_text(page), page.relative_to(folder), folder))
     shutil.move(folder / README, folder / FIRST)
@@ -120,6 +125,28 @@ def modules_of(modules: Sequence[Path]) -> dict[str, list[str]]:
     for package in PUBLIC:
         found[package] = [name for name in names if name.startswith(f"mobnet.{package}.")]
     return found
+
+
+def with_words(text: str, heading: str, words: Sequence[str], name: str) -> str:
+    """Return the text of a page with words for the search behind a heading, or behind its title if that is empty.
+
+    Raises:
+        DataError: the page has no such heading.
+    """
+    lines = text.splitlines()
+    for row, line in enumerate(lines):
+        title = re.match(r"#+ +(.+)", line)
+        if title and heading in ("", anchor_of(title[1])):
+            # Main entries of the index stand above all else that a search finds.
+            entries = ", ".join(f"! {word}" for word in words)
+            lines.insert(row + 1, f"\n```{{index}} {entries}\n```")
+            return "\n".join(lines) + "\n"
+    raise DataError(f"{name}: the page has no such heading; accepted: a heading as it is in links to it")
+
+
+def anchor_of(title: str) -> str:
+    """Return the name of a heading in links to it, as code hosts make it."""
+    return re.sub(r"[^\w\- ]", "", title.lower()).replace(" ", "-")
 
 
 def relinked(text: str, page: Path, folder: Path) -> str:

@@ -114,7 +114,7 @@ def watched_rows(scene: PageScene, detection: Detection, robot: RobotDescription
 def standing_poses(robot: RobotDescription, q: Array) -> Array:
     """Return positions (P, nq) of a robot that begins over the origin and stands on its lower sole.
 
-    The sensed position of the base drifts (note 0007) and jumps where the ground repeats itself.
+    The sensed position of the base drifts (docs/notes/observer.md) and jumps where the ground repeats itself.
     """
     poses = q.copy()
     steps = np.diff(poses[:, :2], axis=0, prepend=poses[:1, :2])

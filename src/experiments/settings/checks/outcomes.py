@@ -2,7 +2,7 @@
 
 A share of few walks, or of the walks of few robots, has a long interval, so that a bound may be out of reach whatever
 happens in them. The best outcome is that of alike robots: their walks then count as so many independent ones as have an
-interval as wide (`experiments.evaluation.number.clusters`, docs/notes/0022).
+interval as wide (`experiments.evaluation.number.clusters`, docs/notes/measures.md).
 """
 
 from collections.abc import Iterator

@@ -1,7 +1,7 @@
 """MOB-fric-dahl: the residual minus friction with a memory, eight numbers and one state for each joint.
 
 The state is Dahl's: friction follows a reversal over an angle, as gears of robots have it and (23) does not. (O19) and
-(O20) of docs/notes/0034-observer.md have the law, note 0041 what it leaves.
+(O20) of docs/notes/observer.md have the law, docs/notes/friction.md what it leaves.
 """
 
 from collections.abc import Mapping, Sequence

@@ -1,6 +1,6 @@
 """MOB-fric of section 5.2: the residual minus a friction model of the joints, regressed on r - tau_e of training data.
 
-The model has the form of (23); (O10) and (O11) of docs/notes/0034-observer.md say how it is regressed and subtracted.
+The model has the form of (23); (O10) and (O11) of docs/notes/observer.md say how it is regressed and subtracted.
 """
 
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence

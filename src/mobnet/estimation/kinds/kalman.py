@@ -1,6 +1,6 @@
 """A disturbance Kalman filter of the generalised momentum, Wahrburg et al. 2018 (10.1109/TASE.2017.2717405).
 
-It is computed as a filter on the output of another method, (O15) to (O18) of docs/notes/0034-observer.md.
+It is computed as a filter on the output of another method, (O15) to (O18) of docs/notes/observer.md.
 """
 
 from collections.abc import Iterator

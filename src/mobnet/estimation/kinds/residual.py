@@ -84,7 +84,8 @@ class ResidualEstimator:
 
     def _estimate(self, residual: NDArray[np.float64], prediction: Prediction | None = None) -> Estimate:
         """Return tau_e of the estimated joints, (..., n) [N, N m]."""
-        # (O9) of note 0034, from (15). The observer's lag stays in it: what is estimated is the low-passed torque.
+        # (O9) of docs/notes/observer.md, from (15). The observer's lag stays in it: what is estimated is the low-passed
+        # torque.
         tau = residual[..., self._columns]
         if prediction is None:
             return Estimate(tau)

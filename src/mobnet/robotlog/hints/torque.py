@@ -54,7 +54,7 @@ def torque_hints(nominal: NominalModel, windows: MotionWindows, bounds: RobotLog
         found = _best(_seen(nominal, windows, asked, bounds))
         if not found:
             break
-        # A mistake is undone before the next one is looked for (note 0045).
+        # A mistake is undone before the next one is looked for (docs/notes/robot_logs.md).
         best, *others = found
         windows = best.windows
         asked = best.asked

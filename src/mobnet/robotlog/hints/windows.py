@@ -1,6 +1,6 @@
-"""Short windows of a log, in which the momentum of the nominal model must change by the mean torque (O1 of note 0034).
+"""Short windows of a log, in which the momentum of the nominal model must change by the mean torque.
 
-No acceleration is needed. All hints on torques look at these windows.
+This is (O1) of docs/notes/observer.md. No acceleration is needed. All hints on torques look at these windows.
 """
 
 import math

@@ -1,6 +1,7 @@
 """What each unknown of a robot contributes to the observer's raw residual, in windows of a log of free motion.
 
-Nothing touches the robot, so that the residual s of (O1) in note 0034 is what the model gets wrong. With the law of
+Nothing touches the robot, so that the residual s of (O1) in docs/notes/observer.md is what the model gets wrong. With
+the law of
 `mobnet.estimation.drive`, a rotor of the inertia I and links whose numbers differ by delta from those of the table,
 -s is linear in what is unknown:
 

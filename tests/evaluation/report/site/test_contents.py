@@ -16,10 +16,10 @@ INDEX = """# Index
 Text with a [link](other.md).
 
 ### Observer, and friction
-| [0001](notes/0001-a.md) | one |
+| [observer](notes/observer.md) | one |
 
 ### Walking
-| [0002](notes/0002-b.md) | two |
+| [walking](notes/walking.md) | two |
 
 ## Results
 | [results](results) | a folder |
@@ -38,9 +38,9 @@ def test_a_group_is_a_page_with_its_table_and_its_documents() -> None:
     first, second = sections(INDEX)["Explain"].groups
     assert (first.path, second.path) == ("docs/observer-and-friction.md", "docs/walking.md")
     assert first.page.startswith("# Observer, and friction\n")
-    assert "| [0001](notes/0001-a.md) | one |" in first.page
-    assert "/docs/notes/0001-a\n" in first.page
-    assert "0002" not in first.page
+    assert "| [observer](notes/observer.md) | one |" in first.page
+    assert "/docs/notes/observer\n" in first.page
+    assert "notes/walking" not in first.page
 
 
 def test_menus_have_made_pages_behind_documents_and_before_groups() -> None:

@@ -91,7 +91,8 @@ def contacts_of(
     finders: dict[tuple[str, bool], ContactLocator] = {}
     for leg in settings.legs:
         finders[leg, False] = ContactLocator.of(numbers, robot, leg, joints)
-        # The hit leg alone, too: its torques are fewer than the unknowns of a hit above the foot (note 0044).
+        # The hit leg alone, too: its torques are fewer than the unknowns of a hit above the foot
+        # (docs/notes/contact.md).
         finders[leg, True] = ContactLocator.of(numbers, robot, leg, robot.layout.limb(leg))
     for recording in dict.fromkeys(run.recording for run in runs):
         walked = _walked(robot, joints, gain_hz, [run for run in runs if run.recording == recording])
@@ -151,7 +152,8 @@ def _found(
     for title, line in settings.lines.items():
         row = row_after(settings.after_s if line.after_s is None else line.after_s)
         own = finders[hit.leg, line.alone]
-        # The base feels the unknown wrench of the ground on the standing foot, too (note 0044), a leg alone does not.
+        # The base feels the unknown wrench of the ground on the standing foot, too (docs/notes/contact.md), a leg alone
+        # does not.
         contact = own.locate(walked.q[row], *_torques(walked, line, own, finder, row), () if line.alone else standing)
         if contact is not None:
             said = contact.spread_m, *_compared(contact.force, walked.force[row])

@@ -29,7 +29,8 @@ def measure(pair: Pair, scene: Scene, settings: Bode) -> Measures:
                 place = pair.joints.index(joint)
                 (start, end) = max(spans, key=lambda span: span[1] - span[0])
                 signals = shown.push[start:end, place], shown.estimate[start:end, place]
-                # Over the whole injection, lines of other joints and of the gait do not leak into this one (note 0024).
+                # Over the whole injection, lines of other joints and of the gait do not leak into this one
+                # (docs/notes/measures.md).
                 found[place] = transfer(*signals, frequencies[k], pair.rate_hz)
         yield Measured(GAIN.format(band_hz), np.abs(found))
         yield Measured(PHASE.format(band_hz), np.angle(found, deg=True))

@@ -31,7 +31,8 @@ def measure(pair: Pair, scene: Scene, settings: Peaks) -> Measures:
     shown = shown_pushes(pair, scene)
     motors = np.isin(pair.joints, scene.layout.actuated)
     windows = list(push_rows(scene.pushed, pair.spans, settings, pair.rate_hz))
-    # At a joint that a push does not load, the observer's error changes by more than its share of the push (note 0024).
+    # At a joint that a push does not load, the observer's error changes by more than its share of the push
+    # (docs/notes/measures.md).
     turned = [turned_joints(shown.push[rise], settings.turned_share, motors) for _, rise in windows]
     yield Measured(SHARE, slopes(shown, [around for around, _ in windows], turned))
     for suffix, signal in (("", shown.estimate), (OBSERVER, shown.behind)):

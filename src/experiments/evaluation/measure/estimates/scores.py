@@ -89,7 +89,7 @@ def score_run(run: Run, scene: Scene) -> list[Score]:
             defined = {joint: value for joint, value in values.items() if not isnan(value)}
             for limb, joint, value, unit in limb_values(layout, defined):
                 # A network that stands in for several seeds is one network: with a row for each seed it would have no
-                # variance over networks and yet count as several (note 0022).
+                # variance over networks and yet count as several (docs/notes/measures.md).
                 if limb in run.repeated or (average_only and joint != AVERAGE):
                     continue
                 rows.append(Score(*names, limb, joint, metric, value, unit_of_metric(metric, unit)))

@@ -160,7 +160,8 @@ def run_cells(
     factors = np.array([noted.get(joint, 1.0) for joint in pair.joints])
     arrays = pair.estimate.astype(np.float64) - pair.truth, std.astype(np.float64)
     error, scaled = (np.concatenate(parts(array, spans or pair.spans)) for array in arrays)
-    # What is stored is calibrated; without the factors, which validation data gave (note 0017), it is as learned.
+    # What is stored is calibrated; without the factors, which validation data gave (docs/notes/sigma.md), it is as
+    # learned.
     fits = [fit_of(error, one, shares) for one in (scaled / factors, scaled)]
     own = {key: columns for key, columns in limb_columns(layout, pair.joints).items() if key[0] not in run.repeated}
     for key, columns in own.items():
