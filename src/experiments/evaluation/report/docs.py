@@ -15,8 +15,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from experiments.evaluation.report.site.contents import README, menus, sections
-from experiments.evaluation.report.site.reference import PUBLIC, reference_pages
+from experiments.evaluation.report.site.contents import README, menu, menus, sections
+from experiments.evaluation.report.site.reference import INTERNALS, PUBLIC, reference_pages
 from experiments.evaluation.report.site.results import result_pages
 from experiments.settings.claims import Claim
 from mobnet.core.errors import DataError
@@ -27,9 +27,10 @@ log = logging.getLogger(__name__)
 INDEX = Path("docs/README.md")
 RESULTS = Path("docs/results")
 TRIALS = Path("docs/trials")
+INTERFACE = Path("docs/interface.md")
 FIRST = "index.md"  # the README, where a browser looks for the first page
 MADE = {  # section of the index -> pages that are made
-    "Reference": ("reference/commands.md", "reference/configuration.md", "reference/python.md"),
+    "Reference": ("reference/commands.md", "reference/configuration.md"),
     "Project": ("docs/README.md",),
 }
 LINK = re.compile(r"(?<=\]\()([^)#:\s]+)(?=[)#])")
@@ -82,6 +83,8 @@ def write_sources(
     pages = [*grouped, *result_pages(RESULTS, captions, claims), *trial_pages(), *reference_pages(modules_of(modules))]
     for path, text in pages:
         write_text(folder / path, text)
+    # Modules are internal: their pages are below that of the names for programs of others, not beside the guides.
+    write_text(folder / INTERFACE, f"{read_text(INTERFACE)}\n{menu([INTERNALS])}")
     # The index also links folders, for which Sphinx needs a page.
     for path in sorted(path for path in listed if not (folder / path).exists()):
         write_text(folder / path, listing(path.parent))

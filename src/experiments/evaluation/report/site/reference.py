@@ -12,7 +12,14 @@ from experiments.evaluation.report.site.contents import menu
 from experiments.settings.settings import Settings
 
 PLACE = "reference"
-PUBLIC = {  # packages with an interface for others -> what it is for
+INTERNALS = f"{PLACE}/internals.md"
+INTERNALS_HEAD = """# Internals
+
+For those who change this project: its packages by what their docstrings say. They may change with any release; programs
+of others take the ten names of [Use it from Python](../docs/interface.md).
+
+"""
+PUBLIC = {  # packages whose modules are shown -> what they are for
     "core": "recordings, estimates and files",
     "robot": "models of the robot",
     "simulation": "simulated plant and recordings",
@@ -43,8 +50,7 @@ def reference_pages(modules: Mapping[str, Sequence[str]]) -> Iterator[tuple[str,
     for package, names in modules.items():
         yield f"{PLACE}/{package}.md", package_page(package, names)
     listed = "".join(f"* [mobnet.{name}]({name}.md): {text}\n" for name, text in PUBLIC.items())
-    intro = "# Python interface\n\nThe packages that code of others may use, by what their docstrings say.\n\n"
-    yield f"{PLACE}/python.md", f"{intro}{listed}\n{menu(f'{PLACE}/{name}' for name in PUBLIC)}"
+    yield INTERNALS, f"{INTERNALS_HEAD}{listed}\n{menu(f'{PLACE}/{name}' for name in PUBLIC)}"
 
 
 def commands_page() -> str:
