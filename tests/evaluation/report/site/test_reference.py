@@ -8,7 +8,7 @@ from experiments.evaluation.report.site.reference import (
     PUBLIC,
     accepted,
     commands_page,
-    configuration_page,
+    configuration_pages,
     described,
     reference_pages,
 )
@@ -24,7 +24,11 @@ def test_every_command_has_its_help() -> None:
 
 def test_every_section_of_the_configuration_stands_once_with_all_its_keys() -> None:
     schema = Settings.model_json_schema()
-    page = configuration_page(schema)
+    pages = dict(configuration_pages(schema))
+    page = "\n\n".join(pages.values())
+    below = [path.removesuffix(".md") for path in pages if path != "reference/configuration.md"]
+    assert len(below) > 20
+    assert [path for path in below if f"\n/{path}\n" not in pages["reference/configuration.md"]] == []
     places = [found.start() for found in re.finditer(r"^## ", page, re.MULTILINE)] + [len(page)]
     tables = {
         page[a:b].split("\n")[0][3:]: re.findall(r"^\| `(\w+)` \|", page[a:b], re.MULTILINE)
