@@ -15,10 +15,13 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
+from experiments.evaluation.report.claims_page import claims_page
+from experiments.evaluation.report.pages import titled
 from experiments.evaluation.report.site.contents import README, menu, menus, sections
 from experiments.evaluation.report.site.reference import INTERNALS, PUBLIC, reference_pages
-from experiments.evaluation.report.site.results import result_pages
+from experiments.evaluation.report.site.results import ALL_CLAIMS, CLAIMS_PAGE, result_pages
 from experiments.settings.claims import Claim
+from experiments.settings.runs import Statistics
 from mobnet.core.errors import DataError
 from mobnet.core.files import read_text, write_text
 
@@ -38,7 +41,13 @@ FIXED = {"SOURCE_DATE_EPOCH": "0", "PYTHONHASHSEED": "0"}  # equal pages from eq
 
 
 def docs(
-    documents: Sequence[Path], captions: Sequence[Path], modules: Sequence[Path], claims: Mapping[str, Claim], out: Path
+    documents: Sequence[Path],
+    captions: Sequence[Path],
+    modules: Sequence[Path],
+    claims: Mapping[str, Claim],
+    statistics: Statistics,
+    templates: Sequence[Path],
+    out: Path,
 ) -> None:
     """Write the documentation as HTML pages into the folder `out`.
 
@@ -47,6 +56,8 @@ def docs(
         captions: of tables and figures, reStructuredText.
         modules: files of all modules, of which those of public packages are shown.
         claims: of the paper, by name.
+        statistics: have the confidence of the claims' intervals.
+        templates: that of the page of claims, and its parts.
         out: gets `index.html`.
 
     Raises:
@@ -56,6 +67,10 @@ def docs(
         folder = Path(made) / "sources"
         write_sources(folder, documents, captions, modules, claims)
         built = build(folder, Path(made) / "pages")
+        (caption,) = (path for path in captions if path.stem == ALL_CLAIMS and path.parent.name == "tables")
+        published = RESULTS / f"{ALL_CLAIMS}.csv"
+        page = claims_page(published, statistics.confidence, *titled(read_text(caption)), templates[0])
+        write_text(built / CLAIMS_PAGE, page)
         shutil.rmtree(out, ignore_errors=True)
         shutil.copytree(built, out)
     log.info("%s: %d pages", out, len(list(out.rglob("*.html"))))
