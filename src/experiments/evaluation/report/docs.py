@@ -37,6 +37,13 @@ MADE = {  # section of the index -> pages that are made
     "Project": ("docs/README.md",),
 }
 LINK = re.compile(r"(?<=\]\()([^)#:\s]+)(?=[)#])")
+ACCESSIBLE = {  # what the theme writes -> the same as screen readers and keyboards need it
+    'role="heading"': 'role="heading" aria-level="2"',
+    '<aside class="sidebar-drawer': '<aside aria-label="all pages" class="sidebar-drawer',
+    '<aside class="toc-drawer': '<aside aria-label="this page" class="toc-drawer',
+    '<div class="table-wrapper': '<div tabindex="0" class="table-wrapper',
+    "<pre": '<pre tabindex="0"',
+}
 FIXED = {"SOURCE_DATE_EPOCH": "0", "PYTHONHASHSEED": "0"}  # equal pages from equal documents
 
 
@@ -175,4 +182,15 @@ def build(folder: Path, out: Path) -> Path:
         raise DataError(done.stderr.replace(f"{folder}/", "").strip() or f"sphinx ended with {done.returncode}")
     for left in (".buildinfo", ".buildinfo.bak", "objects.inv"):  # nobody reads them here
         (out / left).unlink(missing_ok=True)
+    for page in out.rglob("*.html"):
+        write_text(page, accessible(read_text(page)))
     return out
+
+
+def accessible(page: str) -> str:
+    """Return a page of the theme with names for its landmarks, and with tables and code that scroll by the keyboard."""
+    if "sidebar-drawer" not in page:  # a page of its own, such as explore.html
+        return page
+    for written, wanted in ACCESSIBLE.items():
+        page = page.replace(written, wanted)
+    return page
