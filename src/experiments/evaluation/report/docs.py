@@ -43,6 +43,7 @@ ACCESSIBLE = {  # what the theme writes -> the same as screen readers and keyboa
     '<aside class="toc-drawer': '<aside aria-label="this page" class="toc-drawer',
     '<div class="table-wrapper': '<div tabindex="0" class="table-wrapper',
     "<pre": '<pre tabindex="0"',
+    '<div id="search-results"': '<h1>Search</h1>\n<div id="search-results"',
 }
 FIXED = {"SOURCE_DATE_EPOCH": "0", "PYTHONHASHSEED": "0"}  # equal pages from equal documents
 
