@@ -4,6 +4,7 @@ import json
 import pkgutil
 import re
 import shlex
+import sys
 import tomllib
 from pathlib import Path
 
@@ -162,6 +163,13 @@ def test_readme_citation_and_references_name_the_original_by_one_doi_and_the_ver
     keys = re.findall(r"@\w+\{(\w+),", readme)
     assert keys == ["lim2024mobnet", "mobnet2026reproduction"]
     assert f"version = {{{PROJECT['project']['version']}}}" in readme
+
+
+@pytest.mark.slow
+def test_the_environment_has_as_many_files_as_the_page_of_clusters_says():
+    (told,) = re.findall(r"environment has about ([\d ]+) files", (ROOT / "docs" / "cluster.md").read_text())
+    files = sum(path.is_file() for path in Path(sys.prefix).rglob("*"))
+    assert files == pytest.approx(int(told.replace(" ", "")), rel=0.15)
 
 
 def test_the_guide_draws_the_packages_as_the_import_linter_checks_them():

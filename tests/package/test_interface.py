@@ -1,5 +1,6 @@
 """The ten names that programs of others import: what they accept, and that they are those of the page."""
 
+import inspect
 import re
 import shutil
 import subprocess
@@ -18,6 +19,7 @@ from mobnet.settings.limb_thresholds import LimbThresholds
 
 ROOT = Path(__file__).parents[2]
 ARM, DEMO = ROOT / "tests" / "data" / "arm.yaml", ROOT / "docs" / "demo"
+PAGE = (ROOT / "docs" / "interface.md").read_text()
 LEG = DEMO / "networks" / "MOB-Net-LL"
 JOINTS = tuple(f"LL{k}" for k in range(1, 7))
 HEAVY = ("numpy", "pinocchio", "numba", "torch", "mujoco")
@@ -59,13 +61,55 @@ def thresholds(tmp_path, humanoid):
 
 
 def test_the_names_are_those_of_the_page_and_each_is_told():
-    page = (ROOT / "docs" / "interface.md").read_text()
-    table = page.partition("| name | what it is |")[2].partition("\n\n")[0]
+    table = PAGE.partition("| name | what it is |")[2].partition("\n\n")[0]
     rows = [line.split("|")[1] for line in table.splitlines() if line.startswith("| `")]
     assert sorted(re.findall(r"`(\w+)`", "".join(rows))) == mobnet.__all__ == dir(mobnet)
     assert all(getattr(mobnet, name).__doc__ for name in mobnet.__all__)
     with pytest.raises(AttributeError, match="no attribute 'Detektor'"):
         mobnet.Detektor  # noqa: B018
+
+
+def test_signatures_of_the_page_are_those_of_the_code():
+    lines = "".join(re.findall(r"^```text\n(.*?)^```$", PAGE, re.DOTALL | re.MULTILINE)).splitlines()
+    told = dict(re.match(r"([\w.]+)\((.*?)\)(?: ->|$)", line).groups() for line in lines)
+    assert {name.partition(".")[0] for name in told} == set(mobnet.__all__) - {"MobnetError"}
+    for name, arguments in told.items():
+        place, _, method = name.partition(".")
+        function = getattr(mobnet, place)
+        parameters = inspect.signature(getattr(function, method) if method else function).parameters.values()
+        plain = [one.replace(annotation=inspect.Parameter.empty) for one in parameters if one.name != "self"]
+        written = [str(one).replace("'", '"').replace(" = ", "=") for one in plain]
+        assert arguments == ", ".join(written), name
+
+
+def test_every_class_and_function_has_an_example():
+    code = "".join(re.findall(r"^```python\n(.*?)^```$", PAGE, re.DOTALL | re.MULTILINE))
+    assert [name for name in mobnet.__all__ if f"mobnet.{name}" not in code] == []
+    for name in ("Detector", "Robot", "Observer", "Estimator", "ContactFinder", "ReactionHandler"):
+        public = {method for method in vars(getattr(mobnet, name)) if not method.startswith("_")}
+        assert [method for method in public if f"{name}.{method}(" not in PAGE and f"`{method}`" not in PAGE] == []
+
+
+def test_the_examples_of_a_humanoid_run(humanoid, walk, thresholds, capsys):
+    blocks = re.findall(r"^```python\n(.*?)^```$", PAGE, re.DOTALL | re.MULTILINE)
+    locate, react = [block for block in blocks if "humanoid" in block]
+    q = np.zeros(humanoid.description.layout.nq)
+    q[3] = 1.0
+    knee = next(point for point in humanoid.description.points if point.name == "left_knee_side")
+    torques = pushed(humanoid.description, q, knee.body, knee.pos, [0.0, -50.0, 0.0])
+    joints = humanoid.limbs["LL"] + humanoid.limbs["RL"] + humanoid.limbs["V"]
+    columns = humanoid.description.layout.columns(joints)
+    found = thresholds(thresholds=(4.0, 12.0, 20.0, 12.0, 6.0, 5.0))
+    names = {
+        "mobnet": mobnet, "humanoid": humanoid, "q": q, "tau": torques[columns], "std": np.full(len(columns), 0.1),
+        "leg_estimator": mobnet.Estimator.from_folder(humanoid, LEG),
+        "leg_detector": mobnet.Detector.from_files(humanoid, None, found),
+        "walk": [walk.sensed[k] for k in range(len(walk.sensed))],
+    }  # fmt: skip
+    exec(locate, names)
+    assert capsys.readouterr().out.startswith(f"{knee.body}: ")
+    exec(react, names)
+    assert capsys.readouterr().out.startswith("LL was hit: ")
 
 
 def test_the_import_alone_loads_no_package():

@@ -6,6 +6,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from push_notebook import FOLDER, program
 
 from experiments.commands.tools import Tools
 
@@ -64,6 +65,10 @@ def test_the_demo_runs(run):
     errors = {line.split()[0]: line.split()[-2:] for line in lines if line.startswith("LL")}
     assert len(errors) == 6
     assert all(float(network) < float(observer) for observer, network in errors.values())
+
+
+def test_the_notebook_runs(run):
+    assert "MOB-Net   RMSE" in run("python", "-c", f"import os\nos.chdir({str(FOLDER)!r})\n{program()}")
 
 
 def test_an_arm_goes_from_a_log_to_flags_and_to_a_program(run):

@@ -15,7 +15,7 @@ from experiments.plan.call import Call
 from experiments.plan.detection import level_of_detectors
 from experiments.plan.files import PLANT, Files, made_by_jobs
 from experiments.plan.jobs import Jobs
-from experiments.plan.products import CAPTIONS, Folders, Product, Products
+from experiments.plan.products import CAPTIONS, TEMPLATES, Folders, Product, Products
 from experiments.plan.reactions import courses_of, is_pushed
 from experiments.plan.trials import trial_products
 from experiments.running.words import MAIN
@@ -32,6 +32,15 @@ ROOT = ("README.md", "CONTRIBUTING.md", "CHANGELOG.md", "CITATION.cff", "SECURIT
 DOCUMENTS = "docs/**/*.*"
 # All of them: docstrings and settings are shown, which the hash of the code leaves out.
 MODULES = ("src/mobnet/**/*.py", "src/experiments/**/*.py")
+CLAIMS_PAGE = (
+    "claims.html",
+    "page.html",
+    "page.css",
+    "page.js",
+    "bar.html",
+    "claims.css",
+    "claims.js",
+)  # and its parts
 
 
 def film_products(files: Files) -> Iterator[Product]:
@@ -60,9 +69,12 @@ def documentation(files: Files) -> Iterator[Product]:
         "documents": [*map(Path, ROOT), *_found(DOCUMENTS)],
         "captions": [*_found(f"{CAPTIONS}/figures/*.rst"), *_found(f"{CAPTIONS}/tables/*.rst")],
         "modules": modules,
+        "templates": [TEMPLATES / name for name in CLAIMS_PAGE],
     }
     out = files.shared / "docs"
-    call = Call("experiments.evaluation.report.docs:docs", {**given, "claims": files.settings.claims, "out": out})
+    settings = files.settings
+    shared = {"claims": settings.claims, "statistics": settings.evaluation.statistics, "out": out}
+    call = Call("experiments.evaluation.report.docs:docs", {**given, **shared})
     yield Product("docs", call, tuple(made_by_jobs(given)), (str(out),))
 
 

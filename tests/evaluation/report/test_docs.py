@@ -1,13 +1,15 @@
 """The documentation's pages: every link leads somewhere, nothing comes from elsewhere, search works from a folder."""
 
+import json
 import re
+from importlib.resources import files
 from pathlib import Path
 
 import pytest
 from browser import with_browser
 from links import broken, outside
 
-from experiments.evaluation.report.docs import SEARCHED, build, modules_of, relinked, with_words
+from experiments.evaluation.report.docs import SEARCHED, accessible, build, modules_of, relinked, with_words
 from mobnet.core.errors import DataError
 from mobnet.settings.reading import read_yaml
 
@@ -65,6 +67,11 @@ def test_a_link_that_leads_nowhere_stops_the_build_with_its_line(tmp_path):
         build(tmp_path / "sources", tmp_path / "pages")
 
 
+def test_a_page_that_is_not_of_the_theme_stays_as_it_is():
+    assert accessible("<pre>") == "<pre>"
+    assert accessible('<aside class="sidebar-drawer"><pre>').endswith('<pre tabindex="0">')
+
+
 @pytest.mark.slow
 def test_every_link_of_every_page_leads_to_a_file_and_a_place_in_it(site):
     pages = sorted(site.rglob("*.html"))
@@ -85,6 +92,44 @@ def test_every_document_is_a_page_and_every_published_figure_is_shown(site):
     gallery = (site / "docs" / "results" / "README.html").read_text()
     drawn = [path.stem for path in (ROOT / "docs" / "results").glob("*.png")]
     assert [name for name in drawn if f"{name}.png" not in gallery] == []
+
+
+@pytest.mark.slow
+@with_browser
+@pytest.mark.parametrize("page", [
+    "index", "docs/map", "docs/robots", "docs/logs", "docs/interface", "docs/results/README", "docs/results/claims",
+    "docs/results/all_claims", "docs/results/table_05", "reference/configuration/plant", "reference/commands",
+    "reference/internals", "reference/export", "docs/notes/0034-observer", "search",
+])  # fmt: skip
+def test_axe_finds_no_fault_of_access_on_a_page_of_each_kind(site, running, page):
+    with running.sized(1280):
+        running.go((site / f"{page}.html").as_uri())
+        running.value((files("axe_core_python") / "axe.min.js").read_text())
+        running.value("axe.run().then((found) => { window.axeFound = found.violations; })")
+        running.until("Boolean(window.axeFound)", True)
+        nodes = "one.nodes.map((node) => node.html.slice(0, 100))"
+        found = json.loads(running.value(f"JSON.stringify(axeFound.map((one) => [one.id, {nodes}]))"))
+    assert found == []
+
+
+@pytest.mark.slow
+@with_browser
+def test_tables_of_the_map_fit_the_page_of_a_laptop(site, running):
+    with running.sized(1280):
+        running.go((site / "docs/map.html").as_uri())
+        wide = "[...document.querySelectorAll('.table-wrapper')].filter((one) => one.scrollWidth > one.clientWidth + 1)"
+        assert running.value(f"[document.querySelectorAll('.table-wrapper').length, {wide}.length]") == [3, 0]
+
+
+@pytest.mark.slow
+@with_browser
+def test_modules_are_below_the_page_of_the_names_for_programs(site, running):
+    """No module and no package is in the first level of the menu."""
+    running.go((site / "index.html").as_uri())
+    first = running.value("[...document.querySelectorAll('.sidebar-tree li.toctree-l1 > a')].map((a) => a.href)")
+    assert any(link.endswith("docs/interface.html") for link in first)
+    made = [link.rpartition("/reference/")[2] for link in first if "/reference/" in link]
+    assert made == ["commands.html", "configuration.html"]
 
 
 @pytest.mark.slow

@@ -15,10 +15,13 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from experiments.evaluation.report.site.contents import README, menus, sections
-from experiments.evaluation.report.site.reference import PUBLIC, reference_pages
-from experiments.evaluation.report.site.results import result_pages
+from experiments.evaluation.report.claims_page import claims_page
+from experiments.evaluation.report.pages import titled
+from experiments.evaluation.report.site.contents import README, menu, menus, sections
+from experiments.evaluation.report.site.reference import INTERNALS, PUBLIC, reference_pages
+from experiments.evaluation.report.site.results import ALL_CLAIMS, CLAIMS_PAGE, result_pages
 from experiments.settings.claims import Claim
+from experiments.settings.runs import Statistics
 from mobnet.core.errors import DataError
 from mobnet.core.files import read_text, write_text
 from mobnet.settings.reading import read_yaml
@@ -29,17 +32,32 @@ INDEX = Path("docs/README.md")
 RESULTS = Path("docs/results")
 TRIALS = Path("docs/trials")
 SEARCHED = Path("docs/search.yaml")  # page or heading -> words for which the search finds it first
+INTERFACE = Path("docs/interface.md")
 FIRST = "index.md"  # the README, where a browser looks for the first page
 MADE = {  # section of the index -> pages that are made
-    "Reference": ("reference/commands.md", "reference/configuration.md", "reference/python.md"),
+    "Reference": ("reference/commands.md", "reference/configuration.md"),
     "Project": ("docs/README.md",),
 }
 LINK = re.compile(r"(?<=\]\()([^)#:\s]+)(?=[)#])")
+ACCESSIBLE = {  # what the theme writes -> the same as screen readers and keyboards need it
+    'role="heading"': 'role="heading" aria-level="2"',
+    '<aside class="sidebar-drawer': '<aside aria-label="all pages" class="sidebar-drawer',
+    '<aside class="toc-drawer': '<aside aria-label="this page" class="toc-drawer',
+    '<div class="table-wrapper': '<div tabindex="0" class="table-wrapper',
+    "<pre": '<pre tabindex="0"',
+    '<div id="search-results"': '<h1>Search</h1>\n<div id="search-results"',
+}
 FIXED = {"SOURCE_DATE_EPOCH": "0", "PYTHONHASHSEED": "0"}  # equal pages from equal documents
 
 
 def docs(
-    documents: Sequence[Path], captions: Sequence[Path], modules: Sequence[Path], claims: Mapping[str, Claim], out: Path
+    documents: Sequence[Path],
+    captions: Sequence[Path],
+    modules: Sequence[Path],
+    claims: Mapping[str, Claim],
+    statistics: Statistics,
+    templates: Sequence[Path],
+    out: Path,
 ) -> None:
     """Write the documentation as HTML pages into the folder `out`.
 
@@ -48,6 +66,8 @@ def docs(
         captions: of tables and figures, reStructuredText.
         modules: files of all modules, of which those of public packages are shown.
         claims: of the paper, by name.
+        statistics: have the confidence of the claims' intervals.
+        templates: that of the page of claims, and its parts.
         out: gets `index.html`.
 
     Raises:
@@ -57,6 +77,10 @@ def docs(
         folder = Path(made) / "sources"
         write_sources(folder, documents, captions, modules, claims)
         built = build(folder, Path(made) / "pages")
+        (caption,) = (path for path in captions if path.stem == ALL_CLAIMS and path.parent.name == "tables")
+        published = RESULTS / f"{ALL_CLAIMS}.csv"
+        page = claims_page(published, statistics.confidence, *titled(read_text(caption)), templates[0])
+        write_text(built / CLAIMS_PAGE, page)
         shutil.rmtree(out, ignore_errors=True)
         shutil.copytree(built, out)
     log.info("%s: %d pages", out, len(list(out.rglob("*.html"))))
@@ -84,6 +108,8 @@ def write_sources(
     pages = [*grouped, *result_pages(RESULTS, captions, claims), *trial_pages(), *reference_pages(modules_of(modules))]
     for path, text in pages:
         write_text(folder / path, text)
+    # Modules are internal: their pages are below that of the names for programs of others, not beside the guides.
+    write_text(folder / INTERFACE, f"{read_text(INTERFACE)}\n{menu([INTERNALS])}")
     # The index also links folders, for which Sphinx needs a page.
     for path in sorted(path for path in listed if not (folder / path).exists()):
         write_text(folder / path, listing(path.parent))
@@ -184,4 +210,15 @@ def build(folder: Path, out: Path) -> Path:
         raise DataError(done.stderr.replace(f"{folder}/", "").strip() or f"sphinx ended with {done.returncode}")
     for left in (".buildinfo", ".buildinfo.bak", "objects.inv"):  # nobody reads them here
         (out / left).unlink(missing_ok=True)
+    for page in out.rglob("*.html"):
+        write_text(page, accessible(read_text(page)))
     return out
+
+
+def accessible(page: str) -> str:
+    """Return a page of the theme with names for its landmarks, and with tables and code that scroll by the keyboard."""
+    if "sidebar-drawer" not in page:  # a page of its own, such as explore.html
+        return page
+    for written, wanted in ACCESSIBLE.items():
+        page = page.replace(written, wanted)
+    return page

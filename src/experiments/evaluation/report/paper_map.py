@@ -25,15 +25,16 @@ ITEM = re.compile(rf"({'|'.join(KINDS)}) \(?([\d.]*\d)")  # Table 7, Equation (1
 TITLED = re.compile(r"^(Table|Figure) \d+: ")  # the start of a caption's title that the paper's item has too
 OURS = " (ours)"  # at the end of a caption's title
 SHOWN = 3  # files of a product that are named
-HEADER = ("paper", "what it shows", "rule", "made by", "files", "test")
+TESTS = Path("tests/evaluation")  # where all of them are that check a product
+HEADER = ("paper", "what it shows", "files", "test", "made by")
 HEAD = f"""# Map of the paper
 
 Generated from the plan, the captions and `{SOURCE}` by
 `python -m experiments.evaluation.report.paper_map`: do not edit.
 The first table lists every table, figure and evaluated section of the paper, the second what this repository adds to
-them, each with the rule that makes it, the function `module:name` that the rule calls, its files at the main scale, and
-the test that checks it. Where the numbers of a table are inputs, it has their key in the configuration. The third table
-lists systems and scenarios.
+them, each with its files at the main scale, the test in `{TESTS}` that checks it, the rule that makes it, and the
+function in `src/experiments/evaluation` that the rule calls. Where the numbers of a table are inputs, they are made by
+a key of the configuration. The third table lists systems and scenarios.
 """
 
 
@@ -98,14 +99,13 @@ def paper_map(plan: Plan, known: MapNotes) -> str:
     tests: dict[str, Path] = {}
     for path, names in known.tests.items():
         tests |= dict.fromkeys(names, Path(path))
-    rows = [[item, row.shows, "-", f"`{row.key}`", f"`{row.file}`", "-"] for item, row in known.inputs.items()]
+    rows = [[item, row.shows, f"`{row.file}`", "-", f"`{row.key}`"] for item, row in known.inputs.items()]
     ours: list[list[str]] = []
     for product in products:
         item = paper_item(product.name, known.paper)
-        function = product.call.function
-        told = [product.rule, function, test_of(product, tests).as_posix()]
-        rule, made_by, test = (f"`{name}`" for name in told)
-        row = [item, shows(product, known.shows), rule, made_by, files_of(product.outputs), test]
+        test = test_of(product, tests).relative_to(TESTS)
+        made_by = f"`{product.rule}`: `{_function(product)}`"
+        row = [item, shows(product, known.shows), files_of(product.outputs), f"`{test}`", made_by]
         if item:
             rows.append(row)
         else:

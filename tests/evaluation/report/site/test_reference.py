@@ -8,7 +8,7 @@ from experiments.evaluation.report.site.reference import (
     PUBLIC,
     accepted,
     commands_page,
-    configuration_page,
+    configuration_pages,
     described,
     reference_pages,
 )
@@ -24,7 +24,11 @@ def test_every_command_has_its_help() -> None:
 
 def test_every_section_of_the_configuration_stands_once_with_all_its_keys() -> None:
     schema = Settings.model_json_schema()
-    page = configuration_page(schema)
+    pages = dict(configuration_pages(schema))
+    page = "\n\n".join(pages.values())
+    below = [path.removesuffix(".md") for path in pages if path != "reference/configuration.md"]
+    assert len(below) > 20
+    assert [path for path in below if f"\n/{path}\n" not in pages["reference/configuration.md"]] == []
     places = [found.start() for found in re.finditer(r"^## ", page, re.MULTILINE)] + [len(page)]
     tables = {
         page[a:b].split("\n")[0][3:]: re.findall(r"^\| `(\w+)` \|", page[a:b], re.MULTILINE)
@@ -54,7 +58,7 @@ def test_the_attributes_of_a_section_are_a_list() -> None:
     assert text == "A part.\n\n* one: first\n  of all.\n* two: second.\n"
 
 
-def test_every_public_package_is_a_page_of_its_modules() -> None:
+def test_every_shown_package_is_a_page_of_its_modules_below_that_of_internals() -> None:
     pages = dict(reference_pages({name: [f"mobnet.{name}.one"] for name in PUBLIC}))
     assert all(f".. automodule:: mobnet.{name}.one" in pages[f"reference/{name}.md"] for name in PUBLIC)
-    assert all(f"({name}.md)" in pages["reference/python.md"] for name in PUBLIC)
+    assert all(f"({name}.md)" in pages["reference/internals.md"] for name in PUBLIC)

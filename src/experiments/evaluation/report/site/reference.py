@@ -12,7 +12,15 @@ from experiments.evaluation.report.site.contents import menu
 from experiments.settings.settings import Settings
 
 PLACE = "reference"
-PUBLIC = {  # packages with an interface for others -> what it is for
+INTERNALS = f"{PLACE}/internals.md"
+CONFIGURATION = f"{PLACE}/configuration"
+INTERNALS_HEAD = """# Internals
+
+For those who change this project: its packages by what their docstrings say. They may change with any release; programs
+of others take the ten names of [Use it from Python](../docs/interface.md).
+
+"""
+PUBLIC = {  # packages whose modules are shown -> what they are for
     "core": "recordings, estimates and files",
     "robot": "models of the robot",
     "simulation": "simulated plant and recordings",
@@ -39,12 +47,11 @@ COMMAND = re.compile(r"^ {2}(\w+) {2,}\w", re.MULTILINE)  # in the list of comma
 def reference_pages(modules: Mapping[str, Sequence[str]]) -> Iterator[tuple[str, str]]:
     """Yield path and text of each page; `modules` are the dotted names of the modules of each public package."""
     yield f"{PLACE}/commands.md", commands_page()
-    yield f"{PLACE}/configuration.md", configuration_page(Settings.model_json_schema())
+    yield from configuration_pages(Settings.model_json_schema())
     for package, names in modules.items():
         yield f"{PLACE}/{package}.md", package_page(package, names)
     listed = "".join(f"* [mobnet.{name}]({name}.md): {text}\n" for name, text in PUBLIC.items())
-    intro = "# Python interface\n\nThe packages that code of others may use, by what their docstrings say.\n\n"
-    yield f"{PLACE}/python.md", f"{intro}{listed}\n{menu(f'{PLACE}/{name}' for name in PUBLIC)}"
+    yield INTERNALS, f"{INTERNALS_HEAD}{listed}\n{menu(f'{PLACE}/{name}' for name in PUBLIC)}"
 
 
 def commands_page() -> str:
@@ -63,21 +70,32 @@ def printed_by(*words: str) -> str:
     return done.stdout.strip()
 
 
-def configuration_page(schema: Mapping[str, Any]) -> str:
-    """Return the page of a JSON schema: a table of keys for each kind of section, as they are met."""
-    sections = {schema["title"]: schema}
-    for title in sections_of(schema, schema["$defs"]):
-        sections.setdefault(title, schema["$defs"][title])
+def configuration_pages(schema: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
+    """Yield the page of a JSON schema's first keys, and for each key that has sections a page of these.
+
+    A section that several keys have is on the page of the first one, where links of all find it.
+    """
+    left = {title: schema["$defs"][title] for title in sections_of(schema, schema["$defs"])}
+    below: list[str] = []
+    for key, value in schema["properties"].items():
+        titles = [title for title in sections_of(value, schema["$defs"]) if title in left]
+        if titles:
+            parts = [f"# {key}", *(section_part(title, left.pop(title)) for title in titles)]
+            below.append(f"{CONFIGURATION}/{key}")
+            yield f"{below[-1]}.md", "\n\n".join(parts)
     intro = "Files in `configs` hold these keys. `python -m experiments.settings` prints the schema for editors."
-    parts = [f"# Configuration\n\n{intro}"]
-    for title, section in sections.items():
-        rows = "".join(
-            f"| `{key}` | {accepted(value)} | {'yes' if key in section.get('required', ()) else 'no'} |\n"
-            for key, value in section.get("properties", {}).items()
-        )
-        table = f"| key | accepted | needed |\n| --- | --- | --- |\n{rows}"
-        parts.append(f"({anchor(title)})=\n## {title}\n\n{described(section)}\n\n{table}")
-    return "\n\n".join(parts)
+    first = section_part(schema["title"], schema)
+    yield f"{CONFIGURATION}.md", f"# Configuration\n\n{intro}\n\n{first}\n{menu(below)}"
+
+
+def section_part(title: str, section: Mapping[str, Any]) -> str:
+    """Return a section's heading, what it says, and the table of its keys."""
+    rows = "".join(
+        f"| `{key}` | {accepted(value)} | {'yes' if key in section.get('required', ()) else 'no'} |\n"
+        for key, value in section.get("properties", {}).items()
+    )
+    table = f"| key | accepted | needed |\n| --- | --- | --- |\n{rows}"
+    return f"({anchor(title)})=\n## {title}\n\n{described(section)}\n\n{table}"
 
 
 def sections_of(schema: Mapping[str, Any], known: Mapping[str, Any]) -> dict[str, None]:

@@ -15,6 +15,7 @@ FIGURES = "figures"  # folder of their captions and of the CSVs of their numbers
 PRINTED = re.compile(r"\b(Table|Figure) (\d+)")
 PAPER = re.compile(r"(table|figure)_\d")
 ALL_CLAIMS = "claims"
+CLAIMS_PAGE = f"{PLACE}/all_claims.html"  # the page of the report: as a plain table the claims are 24 000 px high
 HEAD = """# Tables and figures
 
 What the newest version published: each table and figure with its caption, the command that makes it, its numbers as CSV
@@ -86,11 +87,18 @@ def _page(item: Item, claims: Sequence[str]) -> str:
     csvs = ", ".join(f"[{path}]({path})" for path in item.csvs)
     made = f"`./reproduce {item.target}` makes it." + (f" Its numbers: {csvs}." if csvs else "")
     picture = item.shown.name
-    shown = f"[![{item.title}]({picture})]({picture})" if item.is_figure else read_text(item.shown).strip()
+    shown = f"[![{item.title}]({picture})]({picture})" if item.is_figure else _table(item)
     parts = [f"# {item.title}", f"```{{eval-rst}}\n{item.caption}\n```", shown, made]
     if claims:
         parts.append("## Claims about it\n\n" + "\n".join(claims))
     return "\n\n".join(parts) + "\n"
+
+
+def _table(item: Item) -> str:
+    """Return the table of an item, or the link to the page of all claims, which is no page of Sphinx."""
+    if item.name == ALL_CLAIMS:
+        return f'<p><a href="{Path(CLAIMS_PAGE).name}">All claims, to filter, sort and open</a></p>'
+    return read_text(item.shown).strip()
 
 
 def _gallery(items: Sequence[Item]) -> str:
