@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import lcm
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -87,7 +88,7 @@ def draw_hits(group: PushGroup, joint: str, source: str) -> Figure:
 NUMBERS = ("errors", "shares", "delays")  # panels below the curves
 
 
-def _places(count: int) -> list[list[str]]:
+def _places(count: int) -> list[Any]:
     """Return the places of all panels: a row of so many curves, or of an empty panel, and a row of numbers."""
     curves = [str(k) for k in range(max(count, 1))]
     # so many columns that the panels of each row get equally many of them
