@@ -45,7 +45,7 @@ from mobnet.settings.data import Recordings
 REPO = Path(__file__).parents[3]
 GOLDEN, PUBLISHED = REPO / "tests/golden", REPO / "docs/results"
 DETECTION = ("table_09", "table_13", "false_alarms", "found_by_rate", "smallest_force", "links")
-TEXT = PaperText(scale="default", pages=8)
+TEXT = PaperText(scale="default", pages=8, type_pt=6.5)
 EDGE_MM = 8.0  # of a page's lower edge
 SHOWN = 4  # columns of another table whose text nobody published yet
 SOURCE = r"""\documentclass{article}

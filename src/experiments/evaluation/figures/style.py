@@ -12,6 +12,7 @@ from typing import Any
 import matplotlib as mpl
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.text import Text
 
 from experiments.evaluation.number.rows import Field, write_csv
 from mobnet.core.files import atomic_path
@@ -152,7 +153,13 @@ def save_figure(figure: Figure, stem: Path, columns: Sequence[str], rows: Iterab
     """Write the plotted numbers as `stem.csv`, and `stem.pdf` (fonts embedded), `.svg` and `.png` without dates.
 
     So equal numbers give equal files.
+
+    Raises:
+        ValueError: letters of a text would be drawn as outlines, so that nobody could read their size from the PDF.
     """
+    outlined = [text.get_text() for text in figure.findobj(Text) if text.get_path_effects() and text.get_text()]
+    if outlined:
+        raise ValueError(f"{stem}: text with path effects: {outlined[0]!r}; give it a box as background instead")
     write_csv(stem.with_suffix(".csv"), columns, rows)
     with mpl.rc_context(STYLE):
         settle(figure)
