@@ -28,7 +28,7 @@ def test_a_step_is_a_column_wide_above_its_errors() -> None:
     one = group(1.0)
     figure = draw_step(one.panels, one.errors, "LL3", "RMSE")
     assert figure.get_figwidth() == pytest.approx(COLUMN_INCH)
-    assert [axis.get_title(loc="left") for axis in figure.axes] == ["(a) push 0", "(b) RMSE"]
+    assert [axis.get_title(loc="left") for axis in figure.axes] == ["(a) push 0", "(b) RMSE [N m]"]
     assert not draw_step([], one.errors, "LL3", "RMSE").axes[0].lines
 
 

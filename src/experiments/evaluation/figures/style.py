@@ -5,6 +5,7 @@ import logging
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from math import ceil
 from pathlib import Path
 from typing import Any
@@ -22,6 +23,7 @@ from mobnet.core.style import COLUMN_INCH, PAGE_INCH, STYLE, settle
 log = logging.getLogger(__name__)
 
 LETTERS = "abcdefghijkl"
+NAME_POINTS = 7.0  # size of a name at a line
 CLIP = re.compile(r"(?:(?<=id=\")|(?<=url\(#))p[0-9a-f]{10}\b")  # name of an area that a drawing is cut to
 PATHS = re.compile(r' d="[^"]*"')
 DIGITS = re.compile(r"(\.\d\d)\d+")
@@ -148,6 +150,18 @@ def legend(figure: Figure, axes: Sequence[Axes], columns: int | None = None, las
         if n == 1 or key.get_window_extent().width <= figure.bbox.width:
             return
         key.remove()
+
+
+def apart(places: Sequence[float], gap: float, top: float) -> list[float]:
+    """Return places (n,) on an axis for names of lines that end at these places: none nearer than a gap, none above."""
+    order = sorted(range(len(places)), key=lambda k: places[k])
+    moved = list(places)
+    for below, k in pairwise(order):
+        moved[k] = max(moved[k], moved[below] + gap)
+    for k in reversed(order):
+        moved[k] = min(moved[k], top)
+        top = moved[k] - gap
+    return moved
 
 
 def save_figure(figure: Figure, stem: Path, columns: Sequence[str], rows: Iterable[Sequence[Field]]) -> None:

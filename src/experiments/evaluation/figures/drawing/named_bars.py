@@ -15,7 +15,7 @@ from experiments.evaluation.number.number import Number, shown_name
 MINUS = "\N{MINUS SIGN}"
 BAR_INCH = 0.135  # height that a bar takes
 BAR_SHARE = 0.72  # of it that is filled
-NUMBER_POINTS = 6.5  # size of names and numbers
+NUMBER_POINTS = 7.0  # size of names and numbers
 PAPER = {"marker": "D", "markersize": 3.2, "color": "white", "markeredgecolor": "black", "markeredgewidth": 0.7}
 DRAWN = {"marker": "o", "markersize": 2.6, "color": "white", "markeredgecolor": "black", "markeredgewidth": 0.5}
 LINE = {"color": "0.4", "linewidth": 0.7, "linestyle": (0, (2, 2)), "zorder": 1.0}  # at a number to compare with
@@ -45,7 +45,8 @@ class NamedBar:
     def text(self) -> str:
         """The number as it is written at the end of the bar, with three digits."""
         value = self.number.value or 0.0
-        return self.number.text(2 - (abs(value) >= 10.0) - (abs(value) >= 100.0)).replace("-", MINUS)
+        digits = 2 - (abs(value) >= 10.0) - (abs(value) >= 100.0) + (0.0 < abs(value) < 0.1)
+        return self.number.text(digits).replace("-", MINUS)
 
 
 def draw_named_bars(

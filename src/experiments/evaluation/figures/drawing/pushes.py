@@ -1,7 +1,7 @@
 """Curves around pushes, above numbers of each method: error, share of the push that it shows, delay. Drawing only."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import lcm
 from typing import Any
 
@@ -15,10 +15,11 @@ from experiments.evaluation.figures.drawing.named_bars import BAR_INCH, NamedBar
 from experiments.evaluation.figures.style import entitle, legend
 from mobnet.core.style import COLUMN_INCH, PAGE_INCH, styled
 
-STEP_INCH, HIT_INCH = 1.6, 1.15  # height of curves in one column of the paper and in two
-REST_INCH, LABELS_INCH = 0.95, 1.35  # of legend, titles and labels in one column and in two
+STEP_INCH, HIT_INCH = 1.0, 1.15  # height of curves in one column of the paper and in two
+STEP_REST_INCH, LABELS_INCH = 0.8, 1.35  # of legend, titles and labels in one column and in two
 FROM_PUSH = "time from push [s]"
 EACH = "RMSE of each push"
+MARKED = ("push",)  # flags that are drawn where the title says the phase
 
 
 @dataclass(frozen=True)
@@ -49,14 +50,20 @@ def draw_step(panels: Sequence[Panel], bars: Sequence[NamedBar], joint: str, tit
     It is as wide as a column of the paper.
     """
     heights = STEP_INCH, BAR_INCH * len(bars)
-    figure = Figure(figsize=(COLUMN_INCH, sum(heights) + REST_INCH), layout="constrained")
+    figure = Figure(figsize=(COLUMN_INCH, sum(heights) + STEP_REST_INCH), layout="constrained")
     curves, below = figure.subplots(2, 1, height_ratios=heights).tolist()
     for panel in panels:
-        _curves(curves, panel)
+        # The push alone is marked: all of what is shown is in the phase that the title names.
+        flags = {name: flag for name, flag in panel.flags.items() if name in MARKED}
+        _curves(curves, replace(panel, flags=flags))
         entitle(curves, 0, panel.title)
     curves.set(xlabel=FROM_PUSH, ylabel=f"{joint} [N m]")
-    draw_named_bars(below, bars, "N m")
-    entitle(below, 1, title)
+    draw_named_bars(below, bars, "N m", source="RMSE of paper", marked="RMSE of (a)")
+    entitle(below, 1, f"{title} [N m]")
+    # The numbers at the bars say what an axis would, in less room.
+    below.set_xlabel("")
+    below.set_xticks([])
+    below.spines["bottom"].set_visible(False)
     legend(figure, [curves, below], 4)
     return figure
 
