@@ -297,7 +297,12 @@ class Evaluation(Section):
         MadeBy("figures.paper.figure_21:figure_21", needs={"courses": "courses_of_case"}, figure=True, pictured=True),
     ]
     figure_22: Annotated[
-        Figure22, MadeBy("figures.paper.figure_22:figure_22", needs={"courses": "courses"}, figure=True)
+        Figure22,
+        MadeBy(
+            "figures.paper.figure_22:figure_22",
+            needs={"reactions": "reactions", "courses": "first_courses"},
+            figure=True,
+        ),
     ]
     story: Story
     films: Films
