@@ -163,12 +163,11 @@ class Figure18(Section):
 
 
 class Figure19(Section):
-    """Figure 19: velocity and torque at so many samples of training and tests; an outline holds a share of these."""
+    """Figure 19: velocity and torque at so many samples of training and tests."""
 
     joints: base.Distinct[base.MotorName]
     dots: base.Whole = Field(ge=10, le=1_000_000)
     test_dots: base.Whole = Field(ge=10, le=1_000_000)
-    outlined: base.PositiveShare
 
 
 class Figure20(Checked):
