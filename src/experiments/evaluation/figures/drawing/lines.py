@@ -44,6 +44,7 @@ class LinePanel:
     Attributes:
         bands: what is the same at all places: label -> a number, drawn as a line across the panel in its interval.
         guide: a value [unit of y] that a thin grey line marks.
+        upright: a place [unit of x] that a thin grey line marks.
         ends: of the y axis [its unit], None for what the lines need; with both, a value outside is an arrow.
         note: a text in a corner, the upper right one or the lower left one.
         scale: panels of one scale share their y axis.
@@ -57,6 +58,7 @@ class LinePanel:
     lines: Sequence[Line]
     bands: Mapping[str, Number] = field(default_factory=dict[str, Number])
     guide: float | None = None
+    upright: float | None = None
     ends: tuple[float | None, float | None] = (0.0, None)
     note: str = ""
     note_below: bool = False
@@ -94,6 +96,8 @@ def _draw(axis: Axes, panel: LinePanel, styles: Mapping[str, Look]) -> None:
     """Draw the bands, lines, places and the note of a panel."""
     if panel.guide is not None:
         axis.axhline(panel.guide, **GUIDE)
+    if panel.upright is not None:
+        axis.axvline(panel.upright, **GUIDE)
     for label, number in panel.bands.items():
         mean, low, high = number.range
         if mean is not None and low is not None and high is not None:
