@@ -60,6 +60,18 @@ use rule figure as figure_with_table with:
         figure=one_of(PLAN.made_by("figure_with_table")),
 
 
+use rule table as figure_10 with:
+    # Hits of a knee in the air, and in a figure of their own those of a knee on the ground.
+    input:
+        made_from=PLAN.product("figure_10").inputs,
+    output:
+        [flagged(name) for name in PLAN.product("figure_10").outputs],
+    log:
+        "<logs>/figure/figure_10.log",
+    params:
+        **PLAN.product("figure_10").params,
+
+
 use rule table as bode with:
     # The observer's response in a figure of two joints, and in one of the whole leg.
     input:

@@ -130,6 +130,7 @@ class Evaluation(Section):
             "figures.paper.figure_10:figure_10",
             needs={"scores": "scores", "runs": "first_runs_by_title"},
             figure=True,
+            further=("figure_10_support",),
             bars=True,
             pictured=True,
         ),

@@ -97,12 +97,13 @@ class Figure08(GaitFigure):
 class Figure10(Checked, PushWindow):
     """Figure 10: knee collisions; errors are increases over the walk that nothing pushes.
 
-    The curves of some methods are drawn.
+    The first test is that of the leg in the air, the second that of the leg on the ground. The curves of some methods
+    are drawn.
     """
 
     drawn: base.MethodNames
     joint: base.LegJointName
-    tests: Annotated[dict[base.Text, PushedRuns], Field(min_length=1)]
+    tests: Annotated[dict[base.Text, PushedRuns], Field(min_length=2, max_length=2)]
     against: QuietRuns
 
     def problems(self, results: "Results", place: Place) -> Iterator[Problem]:

@@ -1,4 +1,4 @@
-"""Figures 21 and 22 and the films: footsteps from above, pictures of walks into obstacles, frames that scroll."""
+"""Figures 21 and 22 and the films: footsteps over time, pictures of walks into obstacles, frames that scroll."""
 
 import numpy as np
 import pytest
@@ -8,7 +8,7 @@ from PIL import Image
 from experiments.evaluation.figures.drawing.robot import draw_scene, projection, solid_of
 from experiments.evaluation.figures.drawing.solids import outline_of
 from experiments.evaluation.figures.further.films import films, read_curves
-from experiments.evaluation.figures.paper.figure_21 import figure_21, sole_corners
+from experiments.evaluation.figures.paper.figure_21 import draw_strips, figure_21, sole_corners, stances_of
 from experiments.evaluation.figures.paper.figure_22 import figure_22, moments_of
 from experiments.settings.load import load_settings
 from mobnet.core.course import read_course
@@ -53,7 +53,30 @@ def test_figure_21_has_the_feet_at_the_start_and_where_they_land(tmp_path, cours
     assert [(row["foot"], row["reacting"]) for row in rows] == [("left", "0"), ("right", "0"), ("left", "1")]
     assert float(rows[2]["time_s"]) == pytest.approx(0.7)
     assert float(rows[0]["y_m"]) > 0.05 > -0.05 > float(rows[1]["y_m"])
+    # the left foot is in the air from 0.3 to 0.7 s, the right one never
+    assert [float(row["until_s"]) for row in rows] == pytest.approx([0.3, 0.999, 0.999])
     assert (tmp_path / "figure_21.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_figure_21_has_a_strip_for_each_foot_and_the_obstacle_where_it_is_in_its_way(course, layout, robot):
+    walk = read_course(course, layout)
+    left, right = draw_strips(walk, list(stances_of(robot, walk)), SETTINGS.obstacles).axes
+    soles = [[patch.get_bbox().bounds for patch in axis.patches] for axis in (left, right)]
+    assert [(x, width) for x, _, width, _ in soles[0]] == [pytest.approx((0.0, 0.3)), pytest.approx((0.7, 0.299))]
+    assert {round(height, 6) for _, _, _, height in soles[0]} == {round(2 * robot.sole.box_half[0], 6)}
+    assert [text.get_text() for text in (*left.texts, *right.texts)] == ["1"]
+    lines = [{line.get_label(): line for line in axis.lines} for axis in (left, right)]
+    assert set(lines[1]) == {"pelvis", "first contact", "reaction"}
+    assert set(lines[0]) - set(lines[1]) == {"front of the obstacle"}  # the block is ahead of the left foot alone
+    assert lines[0]["front of the obstacle"].get_ydata()[0] == pytest.approx(0.6)
+    assert lines[0]["reaction"].get_xdata()[0] == pytest.approx(0.52)
+
+
+def test_figure_21_of_a_walk_without_a_reaction_marks_none(tmp_path, layout, robot):
+    walk = read_course(write_made_course(tmp_path / "calm", layout, None), layout)
+    left, _ = draw_strips(walk, list(stances_of(robot, walk)), SETTINGS.obstacles).axes
+    assert "reaction" not in {line.get_label() for line in left.lines}
+    assert not left.texts
 
 
 def test_a_sole_seen_from_above_has_its_size(robot):

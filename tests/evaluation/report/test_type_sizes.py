@@ -65,9 +65,8 @@ def test_a_size_is_that_of_the_smallest_print(tmp_path: Path) -> None:
     assert found.printed_pt == pytest.approx(4.0, abs=1e-3)
     assert type_faults([found], 3.9) == []
     (fault,) = type_faults([found], 6.5)
-    assert fault.startswith(
-        "arm: its smallest type is 4.00 pt in print (8 pt at 0.500 of the drawn size), accepted: 6.5;"
-    )
+    assert fault.startswith("arm: smallest type in print 4.00 pt, drawn at 8 pt and printed at 0.500 of its size; ")
+    assert "accepted: 6.5 pt, so draw it less high" in fault
 
 
 def test_what_is_no_picture_is_named(tmp_path: Path) -> None:

@@ -15,6 +15,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.text import Text
 
+from experiments.evaluation.number.number import shown_name
 from experiments.evaluation.number.rows import Field, write_csv
 from mobnet.core.files import atomic_path
 from mobnet.core.style import COLUMN_INCH, PAGE_INCH, STYLE, settle
@@ -138,7 +139,7 @@ def legend(figure: Figure, axes: Sequence[Axes], columns: int | None = None, las
     found: dict[str, Any] = {}
     for axis in axes:
         for handle, label in zip(*axis.get_legend_handles_labels(), strict=True):
-            found.setdefault(label, handle)
+            found.setdefault(shown_name(label), handle)
     if last in found:
         found[last] = found.pop(last)
     look = {"handlelength": 1.8, "columnspacing": 0.9, "handletextpad": 0.4, "borderpad": 0.0, **look}

@@ -9,7 +9,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from experiments.evaluation.number.number import Number
+from experiments.evaluation.number.number import Number, shown_name
 from experiments.evaluation.number.rows import Field, write_csv
 from mobnet.core.files import write_text
 
@@ -118,8 +118,8 @@ def tex_table(columns: str, header: Sequence[str], lines: Sequence[Line]) -> str
 
 def text_table(columns: str, header: Sequence[str], lines: Sequence[Line]) -> str:
     """Return a tabular environment of plain text; `columns` is a TeX column specification."""
-    escaped = [line if isinstance(line, str) else list(map(tex_escape, line)) for line in lines]
-    return tex_table(columns, list(map(tex_escape, header)), escaped)
+    escaped = [line if isinstance(line, str) else list(map(tex_cell, line)) for line in lines]
+    return tex_table(columns, list(map(tex_cell, header)), escaped)
 
 
 def long_table(columns: str, caption: str, header: Sequence[str], lines: Sequence[Line]) -> str:
@@ -127,8 +127,8 @@ def long_table(columns: str, caption: str, header: Sequence[str], lines: Sequenc
 
     `columns` and `caption` are TeX, and so are lines that are no cells. The caption stands once: it defines a label.
     """
-    escaped = [line if isinstance(line, str) else list(map(tex_escape, line)) for line in lines]
-    return long_tex_table(columns, caption, list(map(tex_escape, header)), escaped)
+    escaped = [line if isinstance(line, str) else list(map(tex_cell, line)) for line in lines]
+    return long_tex_table(columns, caption, list(map(tex_cell, header)), escaped)
 
 
 def long_tex_table(columns: str, caption: str, header: Sequence[str], lines: Sequence[Line]) -> str:
@@ -137,6 +137,11 @@ def long_tex_table(columns: str, caption: str, header: Sequence[str], lines: Seq
     parts = [rf"\begin{{longtable}}{{{columns}}}", rf"{caption} \\", *head, r"\endfirsthead", *head, r"\endhead"]
     body = [line if isinstance(line, str) else tex_row(line) for line in lines]
     return "\n".join([*parts, r"\bottomrule", r"\endfoot", *body, r"\end{longtable}"]) + "\n"
+
+
+def tex_cell(text: str) -> str:
+    """Return a cell of plain text as TeX, a method by the name that readers see."""
+    return tex_escape(shown_name(text))
 
 
 def tex_row(cells: Sequence[str]) -> str:
@@ -150,7 +155,7 @@ def markdown_table(header: Sequence[str], lines: Sequence[Line], left: int = 1) 
     rows = [header, marks, *(line for line in lines if not isinstance(line, str))]
     text = ""
     for row in rows:
-        cells = [cell.replace("|", r"\|") for cell in row]  # a bare bar would end the cell
+        cells = [shown_name(cell).replace("|", r"\|") for cell in row]  # a bare bar would end the cell
         text += f"| {' | '.join(cells)} |\n"
     return text
 

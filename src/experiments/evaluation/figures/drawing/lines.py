@@ -24,12 +24,11 @@ ARROW_SHARE = 0.025  # distance of an arrow from the end of the axis [share of i
 
 @dataclass(frozen=True)
 class Line:
-    """A number with its interval at sizes, lengths or steps (n,) [units of the panel]; `dots` are its single runs."""
+    """A number with its interval at sizes, lengths or steps (n,) [units of the panel]."""
 
     label: str
     x: Sequence[float]
     numbers: Sequence[Number]
-    dots: Sequence[Sequence[float]] = ()
 
     @property
     def columns(self) -> NDArray[np.float64]:
@@ -119,22 +118,10 @@ def _moved(x: Sequence[float], off: float, logarithmic: bool) -> NDArray[np.floa
 
 
 def _line(axis: Axes, line: Line, look: Look, x: NDArray[np.float64], ends: tuple[float | None, float | None]) -> None:
-    """Draw a line with marks at places (n,), its intervals or single runs, and arrows where it leaves the axis."""
+    """Draw a line with marks at places (n,), its intervals, and arrows where it leaves the axis."""
     mean, low, high = line.columns
-    marked = [] if line.dots else None  # single runs stand in place of their mean, which the legend marks like them
-    axis.plot(x, mean, label=line.label, marker=look.marker, markersize=3.5, markevery=marked, **look.line)
+    axis.plot(x, mean, label=line.label, marker=look.marker, markersize=3.5, **look.line)
     axis.vlines(x, low, high, color=look.colour, linewidth=0.8, zorder=look.order)
-    for place, dots in zip(x, line.dots, strict=False):
-        axis.plot(
-            [place] * len(dots),
-            dots,
-            look.marker,
-            markersize=3.5,
-            color=look.colour,
-            markeredgewidth=0.0,
-            alpha=0.6,
-            zorder=4,
-        )
     bottom, top = ends
     if bottom is None or top is None:
         return

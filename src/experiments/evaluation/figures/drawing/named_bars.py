@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from experiments.evaluation.compare.curves import ZERO
 from experiments.evaluation.figures.style import looks
-from experiments.evaluation.number.number import Number
+from experiments.evaluation.number.number import Number, shown_name
 
 MINUS = "\N{MINUS SIGN}"
 BAR_INCH = 0.135  # height that a bar takes
@@ -70,7 +70,7 @@ def draw_named_bars(
     axis.set_xlim(0.0, reach * (1.0 + NUMBER_ROOM))
     for place, bar, end in zip(places, bars, _ends(bars, high, published), strict=True):
         _number(axis, bar, place, None if is_cut and bar.method == ZERO else end)
-    axis.set_yticks(places, [bar.name for bar in bars], fontsize=NUMBER_POINTS)
+    axis.set_yticks(places, [shown_name(bar.name) for bar in bars], fontsize=NUMBER_POINTS)
     axis.tick_params(axis="y", length=0.0)
     axis.set(ylim=(len(bars) - 0.4, -0.6), xlabel=f"RMSE [{unit}]")
 
@@ -81,7 +81,7 @@ def draw_named_dots(axis: Axes, rows: Sequence[NamedBar], x_label: str, at: floa
     value, low, high, _ = ends_of(rows)
     if at is not None:
         axis.axvline(at, **LINE)
-    axis.set_yticks(range(len(rows)), [row.name for row in rows], fontsize=NUMBER_POINTS)
+    axis.set_yticks(range(len(rows)), [shown_name(row.name) for row in rows], fontsize=NUMBER_POINTS)
     axis.grid(axis="y", linewidth=0.3, color="0.85")
     axis.set_axisbelow(True)
     axis.tick_params(axis="y", length=0.0)
