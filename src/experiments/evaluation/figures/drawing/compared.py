@@ -20,12 +20,13 @@ from mobnet.core.columns import JOINT_ERRORS
 from mobnet.core.style import COLUMN_INCH, PAGE_INCH, styled
 
 TORQUE_INCH, ERROR_INCH, REST_INCH = 1.15, 0.85, 0.95  # height of rows, and of legend, titles and labels together
-SHARE = 0.75  # of these heights that joints side by side have, which stand in the main text
+SHARE = 0.76  # of these heights that joints side by side have, which stand in the main text
 SIDE_BY_SIDE, LEG_INCH = 3, 1.05  # joints of a leg in a row, and height of their torque
 REACH = 1.25  # of the axis of errors, over the largest error of the last method, ours
 ERROR_WIDTH = 0.75  # of the lines of errors, which are noisier, over those of the torque
 SIGMAS = {1: 0.3, 2: 0.15}  # multiples of the standard deviation that are drawn, and how opaque
 MARGIN = 0.2  # below and above the curves that the axis of torque holds [of their range]
+ABOVE = 6.0  # zorder of the axis below numbers on grounds
 CLEAR = {"facecolor": "white", "edgecolor": "none", "pad": 0.4}  # behind a number that lies on a line
 ZERO_LINE = {"color": "black", "linewidth": 0.5, "zorder": 1.0}
 
@@ -108,6 +109,7 @@ def draw_relative_columns(
         axis.axvline(1.0, **LINE)
         for text in axis.texts:
             text.set_bbox(CLEAR)
+        axis.spines["bottom"].set_zorder(ABOVE)
         axis.set_xlabel(f"relative RMSE of {limb} [-]")
     right = max(axis.get_xlim()[1] for axis in grid[-1])
     for axis in grid[-1]:
@@ -125,7 +127,7 @@ def _columns(
 ) -> tuple[Figure, NDArray[Any]]:
     """Return a figure and its panels (3, n), with torques and errors of joints (n,) and an empty row for bars."""
     rows = max(len(own) for own in bars)
-    heights = (SHARE * TORQUE_INCH, SHARE * ERROR_INCH, BAR_INCH * rows)
+    heights = (SHARE * TORQUE_INCH, SHARE * ERROR_INCH, BAR_INCH * (rows + 0.5))
     figure = Figure(figsize=(PAGE_INCH, sum(heights) + REST_INCH), layout="constrained")
     grid = figure.subplots(3, len(pairs), squeeze=False, height_ratios=heights)
     for k, pair in enumerate(pairs):

@@ -43,8 +43,9 @@ class LinePanel:
     Attributes:
         bands: what is the same at all places: label -> a number, drawn as a line across the panel in its interval.
         guide: a value [unit of y] that a thin grey line marks.
+        upright: a place [unit of x] that a thin grey line marks.
         ends: of the y axis [its unit], None for what the lines need; with both, a value outside is an arrow.
-        note: a text in a corner, the upper right one or the lower left one.
+        note: a text in the lower left corner.
         scale: panels of one scale share their y axis.
         logarithmic: whether the x axis is.
         dodge: distance between the marks of two lines at one place [unit of x, decades of a logarithmic axis].
@@ -56,9 +57,9 @@ class LinePanel:
     lines: Sequence[Line]
     bands: Mapping[str, Number] = field(default_factory=dict[str, Number])
     guide: float | None = None
+    upright: float | None = None
     ends: tuple[float | None, float | None] = (0.0, None)
     note: str = ""
-    note_below: bool = False
     scale: str = ""
     logarithmic: bool = True
     dodge: float = 0.0
@@ -93,6 +94,8 @@ def _draw(axis: Axes, panel: LinePanel, styles: Mapping[str, Look]) -> None:
     """Draw the bands, lines, places and the note of a panel."""
     if panel.guide is not None:
         axis.axhline(panel.guide, **GUIDE)
+    if panel.upright is not None:
+        axis.axvline(panel.upright, **GUIDE)
     for label, number in panel.bands.items():
         mean, low, high = number.range
         if mean is not None and low is not None and high is not None:
@@ -102,9 +105,7 @@ def _draw(axis: Axes, panel: LinePanel, styles: Mapping[str, Look]) -> None:
         off = panel.dodge * (k - (len(panel.lines) - 1) / 2.0)
         _line(axis, line, styles[line.label], _moved(line.x, off, panel.logarithmic), panel.ends)
     _places(axis, panel)
-    corner: dict[str, Any] = {"ha": "left", "va": "bottom"} if panel.note_below else {"ha": "right", "va": "top"}
-    place = (0.03, 0.04) if panel.note_below else (1.0, 0.98)
-    axis.text(*place, panel.note, transform=axis.transAxes, fontsize=NOTE_POINTS, **corner)
+    axis.text(0.03, 0.04, panel.note, transform=axis.transAxes, fontsize=NOTE_POINTS, ha="left", va="bottom")
 
 
 def _moved(x: Sequence[float], off: float, logarithmic: bool) -> NDArray[np.float64]:
