@@ -37,7 +37,7 @@ use rule table as figure with:
         function=lambda w: PLAN.product(w.figure).function,
         given=lambda w: PLAN.product(w.figure).arguments,
         code=lambda w: PLAN.product(w.figure).code,
-        caption=lambda w: PLAN.caption(w.figure),
+        caption=lambda w: PLAN.folders.captions / "figures" / f"{w.figure}.rst",
 
 
 use rule figure as figure_with_bars with:

@@ -81,13 +81,14 @@ def test_the_paper_is_refused_with_a_figure_whose_type_is_too_small(tmp_path: Pa
     """At any scale; a height that shrinks a figure shrinks its type, as the one that was printed has it."""
     for name in ("paper", "tables", "figures"):
         (tmp_path / name).mkdir()
-    numbers = tmp_path / "tables/numbers.tex"
-    numbers.write_text("")
+    tables = [tmp_path / f"tables/{name}.tex" for name in ("numbers", "captions")]
+    for path in tables:
+        path.write_text("")
     (tmp_path / "paper/refs.bib").write_text("")
     main = tmp_path / "paper/main.tex"
     draw(tmp_path / "figures/shown.pdf")
     text: PaperText = settings.evaluation.paper
-    given = (tmp_path / "paper/refs.bib", [numbers], [tmp_path / "figures/shown.pdf"], tmp_path / "build.json")
+    given = (tmp_path / "paper/refs.bib", tables, [tmp_path / "figures/shown.pdf"], tmp_path / "build.json")
     main.write_text(SOURCE.replace("WIDE", "2.54"))  # as high as drawn
     paper("smoke", text, main, *given)
     assert (tmp_path / "main.pdf").is_file()

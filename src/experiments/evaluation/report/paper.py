@@ -38,7 +38,7 @@ NEEDED = {  # file that TeX must find -> Debian package that holds it
 }
 PACKAGES = ("texlive-latex-recommended", "texlive-publishers", "texlive-fonts-recommended", "latexmk")
 TABLES, FIGURES = "tables", "figures"  # folders beside the copy of the paper that TeX reads
-NUMBERS = "numbers.tex"  # of the tables: what the text's macros are
+NUMBERS, CAPTIONS = "numbers.tex", "captions.tex"  # of the tables: what the text's macros are, and captions with some
 PLACES = rf"\def\tables{{{TABLES}}}\def\figures{{{FIGURES}}}\def\results{{{TABLES}}}"
 LATEXMK = ("latexmk", "-pdf", "-norc", "-interaction=nonstopmode", "-halt-on-error", f"-usepretex={PLACES}")
 LOG_LINES = 15
@@ -177,7 +177,8 @@ def copy_sources(sources: Mapping[str, Sequence[Path]], folder: Path) -> None:
 def set_paper(source: Path, out: Path, settings: PaperText, judged: bool) -> None:
     """Set a copied paper and write its PDF if all is in its place; its guards need to hold where it is `judged`."""
     # The words were chosen for the results of one scale: at another one a guard that turned is no fault.
-    turned = turned_guards(read_text(source), defined_texts(read_text(source.parent / TABLES / NUMBERS)))
+    text = read_text(source) + read_text(source.parent / TABLES / CAPTIONS)
+    turned = turned_guards(text, defined_texts(read_text(source.parent / TABLES / NUMBERS)))
     if judged and turned:
         raise PaperError(f"{out}: the text does not fit its results: {'; '.join(turned)}")
     for line in turned:

@@ -5,7 +5,7 @@ In TeX only booktabs is needed, and longtable for a table of several pages.
 
 import logging
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -120,6 +120,30 @@ def text_table(columns: str, header: Sequence[str], lines: Sequence[Line]) -> st
     """Return a tabular environment of plain text; `columns` is a TeX column specification."""
     escaped = [line if isinstance(line, str) else list(map(tex_cell, line)) for line in lines]
     return tex_table(columns, list(map(tex_cell, header)), escaped)
+
+
+def tex_in_groups(first: str, groups: Mapping[str, Iterable[str]], lines: Sequence[Line]) -> str:
+    """Return a tabular environment of plain text: a column of names, then groups of columns of numbers with gaps.
+
+    `groups` are title -> heads; `first` is the head of the names.
+    """
+    columns = "l"
+    titles = [""]
+    rules = ""
+    heads = [first]
+    for title, own in groups.items():
+        begin = len(heads) + 1
+        heads += own
+        count = len(heads) + 1 - begin
+        columns += r"@{\hspace{1.5em}}" + "r" * count
+        titles.append(rf"\multicolumn{{{count}}}{{c}}{{{tex_escape(title)}}}")
+        rules += rf"\cmidrule(lr){{{begin}-{len(heads)}}}"
+    body = [line if isinstance(line, str) else tex_row(list(map(tex_cell, line))) for line in lines]
+    above = [tex_row(titles), rules, tex_row(list(map(tex_cell, heads))), RULE]
+    return (
+        "\n".join([rf"\begin{{tabular}}{{{columns}}}", r"\toprule", *above, *body, r"\bottomrule", r"\end{tabular}"])
+        + "\n"
+    )
 
 
 def long_table(columns: str, caption: str, header: Sequence[str], lines: Sequence[Line]) -> str:
