@@ -295,7 +295,6 @@ def _ring(axis: Axes, one: DetectorLine, look: Look) -> None:
 
 def _mark(axis: Axes, x: float, one: DetectorLine, look: Look) -> None:
     """Draw a single number with its interval at a place."""
-    mean, low, high = one.numbers[0].range
-    if mean is not None:
-        axis.plot(x, mean, marker=look.marker, markersize=MARKER_POINTS, color=look.colour, zorder=look.order)
-        axis.vlines(x, low, high, color=look.colour, linewidth=0.6, alpha=0.7, zorder=look.order)
+    mean, low, high = np.array(one.numbers[0].range, dtype=np.float64)
+    axis.plot(x, mean, marker=look.marker, markersize=MARKER_POINTS, color=look.colour, zorder=look.order)
+    axis.vlines(x, low, high, color=look.colour, linewidth=0.6, alpha=0.7, zorder=look.order)
