@@ -23,7 +23,8 @@ from mobnet.core.style import COLUMN_INCH, PAGE_INCH, STYLE, settle
 log = logging.getLogger(__name__)
 
 LETTERS = "abcdefghijkl"
-NAME_POINTS = 7.0  # size of a name at a line
+# Of a name at a line, beside its place.
+NAME: Mapping[str, Any] = {"textcoords": "offset points", "va": "center_baseline", "fontsize": 7.0}
 CLIP = re.compile(r"(?:(?<=id=\")|(?<=url\(#))p[0-9a-f]{10}\b")  # name of an area that a drawing is cut to
 PATHS = re.compile(r' d="[^"]*"')
 DIGITS = re.compile(r"(\.\d\d)\d+")

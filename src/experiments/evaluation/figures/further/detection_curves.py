@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from experiments.evaluation.figures.style import LOOKS, NAME_POINTS, Look, apart, beside, entitle, save_figure
+from experiments.evaluation.figures.style import LOOKS, NAME, Look, apart, beside, entitle, save_figure
 from experiments.evaluation.measure.detection.results import (
     MS,
     Detections,
@@ -259,8 +259,7 @@ def _name(axis: Axes, courses: Sequence[DetectorLine], styles: Mapping[str, Look
         start = max(one.x[-1], RATE_FLOOR)
         axis.plot([NAMES_END, start], [place, share], color=look.colour, linewidth=0.4, zorder=1.0)
         axis.plot(NAMES_END, place, marker=look.marker, markersize=MARKER_POINTS + 1.0, color=look.colour)
-        axis.annotate(one.detector, (NAMES_END, place), (-4.0, 0.0), textcoords="offset points", ha="right",
-                      va="center_baseline", fontsize=NAME_POINTS)  # fmt: skip
+        axis.annotate(one.detector, (NAMES_END, place), (-4.0, 0.0), ha="right", **NAME)
 
 
 def looks_of(detectors: Iterable[str]) -> dict[str, Look]:
@@ -295,7 +294,6 @@ def _ring(axis: Axes, one: DetectorLine, look: Look) -> None:
 
 def _mark(axis: Axes, x: float, one: DetectorLine, look: Look) -> None:
     """Draw a single number with its interval at a place."""
-    mean, low, high = one.numbers[0].range
-    if mean is not None:
-        axis.plot(x, mean, marker=look.marker, markersize=MARKER_POINTS, color=look.colour, zorder=look.order)
-        axis.vlines(x, low, high, color=look.colour, linewidth=0.6, alpha=0.7, zorder=look.order)
+    mean, low, high = np.array(one.numbers[0].range, dtype=np.float64)
+    axis.plot(x, mean, marker=look.marker, markersize=MARKER_POINTS, color=look.colour, zorder=look.order)
+    axis.vlines(x, low, high, color=look.colour, linewidth=0.6, alpha=0.7, zorder=look.order)

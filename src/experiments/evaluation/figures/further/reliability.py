@@ -12,7 +12,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
-from experiments.evaluation.figures.style import NAME_POINTS, apart, beside, entitle, looks, save_figure
+from experiments.evaluation.figures.style import NAME, apart, beside, entitle, looks, save_figure
 from experiments.evaluation.measure.learning.calibration import CoverageGrid
 from experiments.settings.measures import CalibrationTable
 from mobnet.core.columns import RELIABILITY
@@ -126,8 +126,7 @@ def _name(axis: Axes, curves: Sequence[CoverageCurve], colours: Mapping[str, str
     for curve, end, place in zip(curves, ends, apart(ends, NAMES_APART, MOST), strict=True):
         x = 100.0 * float(curve.nominal[-1])
         axis.plot([x, NAMES_FROM], [end, place], color=colours[curve.method], linewidth=0.4)
-        axis.annotate(curve.text, (NAMES_FROM, place), (2.0, 0.0), textcoords="offset points", ha="left",
-                      va="center_baseline", fontsize=NAME_POINTS)  # fmt: skip
+        axis.annotate(curve.text, (NAMES_FROM, place), (2.0, 0.0), ha="left", **NAME)
 
 
 def curve_rows(curves: Sequence[CoverageCurve]) -> Iterator[tuple[str, str, str, float, float, float]]:
