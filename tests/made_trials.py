@@ -43,8 +43,11 @@ def write_trials(folder: Path, rows: Sequence[Trial]) -> dict[str, dict[str, Pat
     return found
 
 
-def write_made_course(stem: Path, layout: JointLayout, reacted_s: float | None) -> Path:
-    """Write a course of a second in which the block pushes from 0.5 to 0.6 s, and the left foot lands at 0.7 s."""
+def write_made_course(stem: Path, layout: JointLayout, reacted_s: float | None, level: str = HIT.level) -> Path:
+    """Write a course of a second, that of `HIT` with a robot.
+
+    The block pushes from 0.5 to 0.6 s, and the left foot lands at 0.7 s.
+    """
     columns = course_columns(layout, layout.names)
     names, array = [name for name, *_ in columns], np.zeros((1000, len(columns)), np.float32)
     array[500:600, names.index("obstacle.force_x")] = -FORCE_N
@@ -52,6 +55,7 @@ def write_made_course(stem: Path, layout: JointLayout, reacted_s: float | None) 
     array[:, names.index("q.quat_w")], array[:, names.index("true_base_z")] = 1.0, 0.9
     array[:, [name.startswith("std.") for name in names]] = 1.0
     array[300:700, names.index("swing.left_foot")] = 1.0
-    note = {"rate_hz": 1000.0, "contact_s": 0.5, "reacted_s": reacted_s, "obstacles": {"foot_block": [0.6, 0.0, 0.0]}}
+    note = {"rate_hz": 1000.0, "contact_s": 0.5, "reacted_s": reacted_s, "obstacles": {"foot_block": [0.6, 0.0, 0.0]},
+            "level": level, "seed": HIT.seed}  # fmt: skip
     write_array(stem, array, columns, note, [(0, len(array))])
     return stem

@@ -83,6 +83,8 @@ def report(make_project, snakemake, outputs):
         caption = titled((CAPTIONS / "tables" / f"{table.stem}.rst").read_text())
         page = table_page(TABLE_HTML, table.read_text(), *caption)
         write_text(folder / "results" / "smoke" / "pages" / f"{table.stem}.html", page)
+    for kind in ("tables", "figures"):
+        shutil.copytree(CAPTIONS / kind, folder / "results" / "smoke" / "captions" / kind, dirs_exist_ok=True)
     done = snakemake("--config", "scale=smoke", "--report", "report.html", folder=folder)
     assert (folder / "report.html").is_file(), done.stdout + done.stderr
     return folder / "report.html"
@@ -118,7 +120,7 @@ def test_a_table_is_shown_and_says_where_it_comes_from(report, open_page):
     text = text_of_frame(browser)
     assert "1.25" in text
     for told in (text, explain(browser, "table_07")):
-        assert "The paper measured its Table 7 (section 5.2) on its robot" in " ".join(told.split())
+        assert "The original measured its Table 7 (section 5.2) on its robot" in " ".join(told.split())
 
 
 @with_browser

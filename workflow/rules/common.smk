@@ -174,7 +174,11 @@ def flagged(name):
     if how is None:
         return output
     labels = {"file": Path(name).stem, "shows": how.title}
-    return report(output, caption=how.caption and ROOT / how.caption, category=how.category, labels=labels)
+    # Results lie in the working folder, also captions with numbers, which are there once a report is made.
+    caption = how.caption and PLAN.folders.caption(how.caption)
+    if caption:
+        caption = (ROOT if caption == how.caption else Path.cwd()) / caption
+    return report(output, caption=caption, category=how.category, labels=labels)
 
 
 def check_targets():

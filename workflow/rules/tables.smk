@@ -37,7 +37,7 @@ use rule table as figure with:
         function=lambda w: PLAN.product(w.figure).function,
         given=lambda w: PLAN.product(w.figure).arguments,
         code=lambda w: PLAN.product(w.figure).code,
-        caption=lambda w: PLAN.caption(w.figure),
+        caption=lambda w: PLAN.folders.captions / "figures" / f"{w.figure}.rst",
 
 
 use rule figure as figure_with_bars with:
@@ -58,6 +58,18 @@ use rule figure as figure_with_table with:
         multiext("<tables>/{figure}", ".csv", ".tex", ".md"),
     wildcard_constraints:
         figure=one_of(PLAN.made_by("figure_with_table")),
+
+
+use rule table as figure_10 with:
+    # Hits of a knee in the air, and in a figure of their own those of a knee on the ground.
+    input:
+        made_from=PLAN.product("figure_10").inputs,
+    output:
+        [flagged(name) for name in PLAN.product("figure_10").outputs],
+    log:
+        "<logs>/figure/figure_10.log",
+    params:
+        **PLAN.product("figure_10").params,
 
 
 use rule table as bode with:

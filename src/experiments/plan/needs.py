@@ -12,7 +12,7 @@ from typing import Any, TypeVar
 from experiments.plan.detection import Detections, all_detections, detection_files
 from experiments.plan.files import Files, SweptSize
 from experiments.plan.parts import PageScene
-from experiments.plan.reactions import Reactions, all_reactions, courses_of
+from experiments.plan.reactions import Reactions, all_reactions, courses_of, courses_of_robots
 from experiments.plan.runs import Run
 from experiments.settings.asked import tests_in
 from experiments.settings.products import MadeBy
@@ -305,6 +305,12 @@ def reactions(files: Files, _: Any) -> Reactions:
 def courses(files: Files, section: Any) -> Mapping[str, Path]:
     """Return the first walk of each case of a section."""
     return courses_of(files, section.cases)
+
+
+@need
+def first_courses(files: Files, section: Any) -> Reactions:
+    """Return the first walk of every robot in each case of a section."""
+    return courses_of_robots(files, section.cases)
 
 
 @need

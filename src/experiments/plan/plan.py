@@ -169,12 +169,8 @@ class Plan:
 
     def title(self, figure: str) -> str:
         """Return the first line of a figure's caption, or its name."""
-        return self.caption(figure).partition("\n")[0] or figure
-
-    def caption(self, figure: str) -> str:
-        """Return the caption of a figure; nothing where it has none."""
         path = CAPTIONS / "figures" / f"{figure}.rst"
-        return path.read_text(encoding="utf-8") if path.is_file() else ""
+        return path.read_text(encoding="utf-8").partition("\n")[0] if path.is_file() else figure
 
     def made_by(self, rule: str) -> list[str]:
         """Return the names of the products that a rule makes."""

@@ -58,6 +58,16 @@ class Folders:
     paper: Path
     manifest: Path
 
+    @property
+    def captions(self) -> Path:
+        """Folder of the captions of tables and figures in which fields are numbers of this scale."""
+        return self.results / "captions"
+
+    def caption(self, written: Path) -> Path:
+        """Return the caption with numbers of one as it was written; those of other pages of the report have none."""
+        kind = written.parent.name
+        return self.captions / kind / written.name if kind in ("tables", "figures") else written
+
 
 @dataclass(frozen=True)
 class Product:
@@ -241,7 +251,8 @@ class Products:
             "claims_csv": tables / "claims.csv",
             "summary_csv": tables / "claims_summary.csv",
         }
-        yield self._report_product("numbers", numbers, [tables / "numbers.tex", tables / "captions.tex", *made])
+        written = [tables / "numbers.tex", tables / "captions.tex", *made, *map(self.folders.caption, self._captions())]
+        yield self._report_product("numbers", numbers, written)
         yield self._report_product("deviations", {"markdown": Path("docs/deviations.md")}, [tables / "deviations.tex"])
         networks = {"folders": self.files.all_networks()}
         names = ("runs.html", "page.html", "page.css", "runs.css", "page.js", "runs.js", "overlay.js")
@@ -273,7 +284,8 @@ class Products:
         yield self._report_product("paper", {**sources, "figures": figures}, built)
         listed = [*(tables / f"{name}.md" for name in self.table_names), results / "compute.md"]
         pages = [results / "pages" / f"{path.stem}.html" for path in listed]
-        captions = [found.caption for page in pages if (found := shown(str(page)))]
+        told = [found.caption for page in pages if (found := shown(str(page)))]
+        captions = [caption and self.folders.caption(caption) for caption in told]
         pages.append(results / "pages" / "index.html")
         yield self._report_product("pages", {"tables": listed, "captions": captions, **self._first_page()}, pages)
         listed = [self.folders.manifest, self.folders.manifest.with_name(TIMES)]
@@ -286,7 +298,7 @@ class Products:
         parts = [TEMPLATES / name for name in names]
         return {
             "pictures": [
-                (self.folders.figures / f"{name}.png", CAPTIONS / "figures" / f"{name}.rst")
+                (self.folders.figures / f"{name}.png", self.folders.caption(CAPTIONS / "figures" / f"{name}.rst"))
                 for name in self.figure_names
                 if row_of(self.settings.evaluation, name).pictured
             ],
@@ -323,6 +335,7 @@ class Products:
             "sizes": self.settings.sizes,
             "table_dir": self.folders.tables,
             "figure_dir": self.folders.figures,
+            "captions_dir": self.folders.captions,
         }
 
     def _own(self, name: str) -> dict[str, object]:

@@ -9,7 +9,7 @@ from experiments.settings.scales import ReactionSizes
 from mobnet.settings.reaction import watches_of
 
 OTHERS = "scenarios"  # job of the cases that compare little
-Reactions = Mapping[str, Mapping[str, Path]]  # level of a robot -> case -> file of its trials
+Reactions = Mapping[str, Mapping[str, Path]]  # level of a robot -> case -> file of its trials, or a course
 
 
 def cases_of_jobs(files: Files) -> dict[str, tuple[str, ...]]:
@@ -76,6 +76,15 @@ def courses_of(files: Files, cases: Iterable[str]) -> Mapping[str, Path]:
     """Return the courses of the first robot in some cases."""
     own = next(own for own in files.owners if level_of_detectors(own))
     return {case: course_file(own, case) for case in cases}
+
+
+def courses_of_robots(files: Files, cases: Iterable[str]) -> Reactions:
+    """Return the courses of every robot in some cases."""
+    found: dict[str, dict[str, Path]] = {}
+    for own in files.owners:
+        if level := level_of_detectors(own):
+            found[level] = {case: course_file(own, case) for case in cases}
+    return found
 
 
 def all_reactions(files: Files) -> Reactions:

@@ -130,6 +130,7 @@ class Evaluation(Section):
             "figures.paper.figure_10:figure_10",
             needs={"scores": "scores", "runs": "first_runs_by_title"},
             figure=True,
+            further=("figure_10_support",),
             bars=True,
             pictured=True,
         ),
@@ -296,7 +297,12 @@ class Evaluation(Section):
         MadeBy("figures.paper.figure_21:figure_21", needs={"courses": "courses_of_case"}, figure=True, pictured=True),
     ]
     figure_22: Annotated[
-        Figure22, MadeBy("figures.paper.figure_22:figure_22", needs={"courses": "courses"}, figure=True)
+        Figure22,
+        MadeBy(
+            "figures.paper.figure_22:figure_22",
+            needs={"reactions": "reactions", "courses": "first_courses"},
+            figure=True,
+        ),
     ]
     story: Story
     films: Films

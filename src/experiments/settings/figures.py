@@ -97,12 +97,13 @@ class Figure08(GaitFigure):
 class Figure10(Checked, PushWindow):
     """Figure 10: knee collisions; errors are increases over the walk that nothing pushes.
 
-    The curves of some methods are drawn.
+    The first test is that of the leg in the air, the second that of the leg on the ground. The curves of some methods
+    are drawn.
     """
 
     drawn: base.MethodNames
     joint: base.LegJointName
-    tests: Annotated[dict[base.Text, PushedRuns], Field(min_length=1)]
+    tests: Annotated[dict[base.Text, PushedRuns], Field(min_length=2, max_length=2)]
     against: QuietRuns
 
     def problems(self, results: "Results", place: Place) -> Iterator[Problem]:
@@ -162,12 +163,11 @@ class Figure18(Section):
 
 
 class Figure19(Section):
-    """Figure 19: velocity and torque at so many samples of training and tests; an outline holds a share of these."""
+    """Figure 19: velocity and torque at so many samples of training and tests."""
 
     joints: base.Distinct[base.MotorName]
     dots: base.Whole = Field(ge=10, le=1_000_000)
     test_dots: base.Whole = Field(ge=10, le=1_000_000)
-    outlined: base.PositiveShare
 
 
 class Figure20(Checked):

@@ -85,13 +85,13 @@ class CalibrationTest(CoverageTest):
 class CalibrationTable(Section):
     """How far the networks' standard deviations can be trusted; nominal shares are those of section `learning`.
 
-    The figure has a panel for each of the `parts` of the body, and calls tests with pushes by their `names`.
+    The figure has the limbs `drawn`, and calls tests with pushes by their `names`.
     """
 
     tolerance: base.Real = Field(ge=0.001, le=0.5)
     points: base.Whole = Field(ge=3, le=1000)
     methods: base.Distinct[base.LearnedName]
-    parts: Annotated[dict[base.Text, base.Distinct[base.LimbName]], Field(min_length=1)]
+    drawn: base.Distinct[base.LimbName]
     names: dict[base.ScenarioName, base.Text]
     tests: base.Some[CalibrationTest]
 

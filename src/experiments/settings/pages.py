@@ -138,7 +138,11 @@ class Explore(Section):
 
 
 class PaperText(Section):
-    """The text of the paper: the scale for whose results its words were chosen, and the pages of its main text."""
+    """The text of the paper: the scale for whose results its words were chosen, and the pages of its main text.
+
+    No letter of a figure may be smaller than `type_pt` [points] in print.
+    """
 
     scale: base.LowerName
     pages: Annotated[base.Count, Field(le=100)]
+    type_pt: base.Real = Field(ge=4, le=12)

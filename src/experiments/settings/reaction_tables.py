@@ -50,7 +50,10 @@ class Figure21(Section):
 
 
 class Figure22(Checked):
-    """Pictures of the first walk of each case: moments from the contact on, and azimuth and elevation of each view."""
+    """Pictures of a walk of each case: moments from the contact on [s], and azimuth and elevation of each view [deg].
+
+    The moment of the largest force and the end of the walk are shown besides.
+    """
 
     cases: base.Distinct[base.CaseName]
     moments_s: base.Some[base.Real]

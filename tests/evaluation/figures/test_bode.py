@@ -1,4 +1,4 @@
-"""Gain and phase are drawn at the lines of each joint, beside the observer's low-pass."""
+"""Gain and phase are drawn at the lines of each joint, relative to the observer's low-pass."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -6,12 +6,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 from csv_files import check_golden, read_table
+from numpy.typing import NDArray
 
-from experiments.evaluation.figures.further.bode import REFERENCE, Answer, bode, draw_bode
+from experiments.evaluation.figures.further.bode import ENDS, REFERENCE, Answer, bode, draw_bode
 from experiments.evaluation.number.number import Number
 from experiments.settings.evaluation import Evaluation
 from experiments.settings.runs import LimbRuns
 from experiments.settings.settings import Settings
+from mobnet.core.arrays import Array
 from mobnet.core.joints import JointLayout
 
 METRICS = {"gain_0.5hz": (0.9, "-"), "phase_0.5hz": (-5.0, "deg"), "gain_2hz": (0.5, "-"), "phase_2hz": (-40.0, "deg")}
@@ -37,26 +39,35 @@ def test_numbers_stand_at_the_frequency_that_is_injected_on_their_joint(
     check_golden(tmp_path / "bode.csv", tmp_path / "bode_all.csv")
 
 
-def test_every_joint_has_a_panel_of_gain_above_one_of_phase_with_the_reference() -> None:
+def half(frequency_hz: NDArray[np.float64]) -> Array:
+    """A low-pass that halves every frequency (n,) [Hz] and delays it by 10 degrees (n,) [-]."""
+    return np.full(len(frequency_hz), 0.5 * np.exp(-1j * np.deg2rad(10.0)))
+
+
+def test_every_joint_has_a_panel_of_gain_and_one_of_phase_with_the_reference() -> None:
     numbers = {0.5: Number(0.9, 0.8, 1.0), 2.0: Number(0.5)}
-    joints = ["LL1", "LL2", "LL3", "LL4"]
+    joints = ["LL1", "LL2", "LL3"]
     answers = [Answer("MOB", joint, quantity, numbers) for joint in joints for quantity in ("gain", "phase")]
-    frequencies = np.array([0.5, 5.0])
-    figure = draw_bode(answers, joints, (frequencies, {"gain": np.ones(2), "phase": np.zeros(2)}), 1.0)
+    figure = draw_bode(answers, joints, half, 1.0)
     shown = [axis for axis in figure.axes if axis.get_visible()]
-    assert len(shown) == 8
-    assert [axis.get_title("left") for axis in shown if axis.get_title("left")] == [
-        "(a) LL1", "(b) LL2", "(c) LL3", "(d) LL4",
+    assert [axis.get_title("left") for axis in shown] == [
+        "(a) LL1, gain", "(b) LL1, phase", "(c) LL2, gain", "(d) LL2, phase", "(e) LL3, gain", "(f) LL3, phase",
     ]  # fmt: skip
-    gains = [axis for axis in shown if axis.get_title("left")]
-    assert {axis.get_ylim() for axis in gains} == {gains[0].get_ylim()}
-    assert gains[0].get_ylim()[0] == 0.0
     for axis in shown:
         assert REFERENCE in [line.get_label() for line in axis.lines]
         assert axis.get_xscale() == "log"
+        is_gain = "gain" in axis.get_title("left")
+        assert axis.get_ylim() == ENDS["gain" if is_gain else "phase"]
+
+
+def test_gain_and_phase_are_those_over_the_low_pass() -> None:
+    answers = [Answer("MOB", "LL1", "gain", {0.5: Number(0.5)}), Answer("MOB", "LL1", "phase", {0.5: Number(-30.0)})]
+    gain, phase = draw_bode(answers, ["LL1"], half, 1.0).axes
+    shown = [{str(line.get_label()): line.get_ydata() for line in axis.lines} for axis in (gain, phase)]
+    np.testing.assert_allclose([own["MOB"] for own in shown], [[1.0], [-20.0]])
+    np.testing.assert_allclose([own[REFERENCE] for own in shown], [[1.0, 1.0], [0.0, 0.0]])
 
 
 def test_without_a_push_the_reference_is_drawn_alone() -> None:
-    response = np.ones(2), {"gain": np.ones(2), "phase": np.zeros(2)}
-    figure = draw_bode([Answer("MOB", "LL1", "gain", {})], ["LL1"], response, 1.0)
+    figure = draw_bode([Answer("MOB", "LL1", "gain", {})], ["LL1"], half, 1.0)
     assert [len(axis.lines) for axis in figure.axes if axis.get_visible()] == [1, 1]

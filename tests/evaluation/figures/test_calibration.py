@@ -1,20 +1,23 @@
-"""The reliability plot draws observed less nominal coverage, a panel for each part of the body, a colour for a case."""
+"""The reliability plot draws observed minus nominal coverage, and names the curves that leave the band."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 from csv_files import read_table
+from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
 
 from experiments.evaluation.figures.further.reliability import (
+    WITHIN,
     CoverageCurve,
-    ReliabilityPanel,
     curve_rows,
     curves_of,
     draw_reliability,
-    panels_of,
     reliability,
 )
+from experiments.evaluation.figures.style import LOOKS
 from experiments.evaluation.measure.learning.calibration import CoverageGrid
 from experiments.settings.settings import Settings
 
@@ -32,36 +35,35 @@ def grid(test: str, limb: str, pushed: str = "", method: str = "MOB-Net") -> Cov
     return CoverageGrid(test, "robots", pushed, method, limb, "N m", values)
 
 
-def test_lines_are_observed_less_nominal_in_points_as_learned_pale_and_scaled_full() -> None:
-    figure = draw_reliability([ReliabilityPanel("legs", [curve("walk", "LL")])], 0.05)
-    axis = figure.axes[0]
-    pale, full = (line for line in axis.lines if len(np.asarray(line.get_xdata())) == len(NOMINAL))
-    np.testing.assert_allclose(np.asarray(pale.get_ydata()), -10.0)
-    np.testing.assert_allclose(np.asarray(full.get_ydata()), 1.0)
-    assert (pale.get_alpha() or 1.0) < (full.get_alpha() or 1.0) == 1.0
-    low, high = axis.get_ylim()
+def drawn_in(axis: Axes) -> list[Line2D]:
+    """Return the lines of curves in a panel."""
+    return [line for line in axis.lines if len(np.asarray(line.get_xdata())) == len(NOMINAL)]
+
+
+def test_lines_are_observed_minus_nominal_in_points_as_learned_and_scaled() -> None:
+    learned, scaled = draw_reliability([curve("walk", "LL")], 0.05).axes
+    np.testing.assert_allclose(np.asarray(drawn_in(learned)[0].get_ydata()), -10.0)
+    np.testing.assert_allclose(np.asarray(drawn_in(scaled)[0].get_ydata()), 1.0)
+    low, high = scaled.get_ylim()
     assert (low, high) == (-high, high)
-    (band,) = axis.patches
+    (band,) = scaled.patches
     assert (band.get_y(), band.get_height()) == (-5.0, 10.0)  # type: ignore[attr-defined]
 
 
-def test_a_case_has_one_colour_in_every_panel_and_two_limbs_differ_in_width() -> None:
-    panels = [
-        ReliabilityPanel("legs", [curve("walk", "LL"), curve("walk", "RL"), curve("hit", "LL")]),
-        ReliabilityPanel("waist", [curve("hit", "W")]),
-    ]
-    figure = draw_reliability(panels, 0.05)
-    first, second = (
-        [line for line in axis.lines if len(np.asarray(line.get_xdata())) == 3] for axis in figure.axes[:2]
-    )
-    assert first[0].get_color() == first[2].get_color() != first[4].get_color() == second[0].get_color()
-    assert first[0].get_linewidth() > first[2].get_linewidth()
-    key = figure.axes[2].get_legend()
-    assert key is not None
-    assert [text.get_text() for text in key.get_texts()][:2] == ["walk", "hit"]
+def test_a_scaled_curve_that_leaves_the_band_has_its_methods_colour_and_a_name_and_others_are_grey() -> None:
+    far = replace(curve("hit", "RA", "MOB-Net"), after=NOMINAL - 0.2)
+    other = replace(curve("hit", "LL", "FTS-e2e"), after=NOMINAL - 0.21)
+    learned, scaled = draw_reliability([curve("walk", "LL", "MOB-Net"), far, other], 0.05).axes
+    for axis in (learned, scaled):
+        colours = [line.get_color() for line in drawn_in(axis)]
+        assert colours == [WITHIN["color"], LOOKS["MOB-Net"].colour, LOOKS["FTS-e2e"].colour]
+    assert not learned.texts
+    places = {text.get_text(): text.xy[1] for text in scaled.texts}  # type: ignore[attr-defined]
+    assert set(places) == {"RA, hit", "LL, hit"}
+    assert places["RA, hit"] - places["LL, hit"] == pytest.approx(4.5)  # a point apart, they would overlap
 
 
-def test_limbs_stand_in_the_panel_of_their_part_and_the_neck_in_none(settings: Settings, tmp_path: Path) -> None:
+def test_limbs_are_drawn_with_the_name_of_their_case_and_the_neck_is_not(settings: Settings, tmp_path: Path) -> None:
     section = settings.evaluation.calibration
     grids = [
         grid("walk_test", "LL"),
@@ -71,9 +73,12 @@ def test_limbs_stand_in_the_panel_of_their_part_and_the_neck_in_none(settings: S
         grid("knee_swing", "LL", "LL3", "FTS-e2e"),
     ]
     curves = curves_of(grids, section, 2, NOMINAL.tolist())
-    panels = panels_of(curves, section)
-    assert [panel.title for panel in panels] == ["legs (LL), MOB-Net", "legs (LL), FTS-e2e", "arms (LA, RA), MOB-Net"]
-    assert [one.case for one in panels[2].curves] == ["in distribution", section.names["hand_wrench"]]
+    assert "N" not in section.drawn
+    texts = [one.text for one in curves]
+    assert texts == [
+        "LL, in distribution", "N, in distribution", "LA, in distribution",
+        f"RA, {section.names['hand_wrench']}", f"LL, {section.names['knee_swing']}",
+    ]  # fmt: skip
     np.testing.assert_allclose(curves[0].after, [0.2, 0.5, 0.8])
     reliability(section, grids, 2, NOMINAL.tolist(), tmp_path)
     rows = read_table(tmp_path / "calibration.csv")

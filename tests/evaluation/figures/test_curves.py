@@ -10,8 +10,14 @@ import pytest
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from experiments.evaluation.compare.curves import ZERO, Panel, TorqueCurve, compared
-from experiments.evaluation.figures.drawing.compared import bars_of, draw_columns, draw_leg, draw_stack
+from experiments.evaluation.compare.curves import ZERO, Curves, Panel, TorqueCurve, compared
+from experiments.evaluation.figures.drawing.compared import (
+    bars_of,
+    draw_columns,
+    draw_leg,
+    draw_relative_columns,
+    draw_stack,
+)
 from experiments.evaluation.figures.drawing.curves import draw_panel, held, table_of
 from experiments.evaluation.figures.style import UNDATED, save_figure, shortened, with_stable_names
 from experiments.evaluation.number.number import Number
@@ -112,7 +118,7 @@ def test_errors_have_an_axis_of_their_own_with_one_and_two_standard_deviations(p
     for times in (1, 2):
         edges = bands[f"\N{PLUS-MINUS SIGN} {times} std of MOB-Net"]
         assert (edges.min(), edges.max()) == (-2.0 * times, 2.0 * times)
-    assert [text.get_text() for text in below.get_yticklabels()] == list(NUMBERS)
+    assert [text.get_text() for text in below.get_yticklabels()] == ["no estimate", *list(NUMBERS)[1:]]
     assert (torque.get_ylabel(), error.get_ylabel()) == ("torque [N m]", "error [N m]")
 
 
@@ -121,6 +127,30 @@ def test_a_method_far_off_the_others_is_cut_by_the_axis_of_torque(panel: Panel) 
     figure = draw_columns([compared(far)], [bars_of(NUMBERS, {})], ["N m"], ["MOB-Net"], "time [s]", "paper")
     low, high = figure.axes[0].get_ylim()
     assert low < TRUTH.min() < TRUTH.max() + 1.5 < high < 100.0
+
+
+def test_errors_of_limbs_are_shares_on_one_scale_with_a_line_at_one(panel: Panel) -> None:
+    shares = [bars_of({"MOB": Number(size), "MOB-Net": Number(0.02)}, {}) for size in (0.5, 2.0)]
+    figure = draw_relative_columns(
+        [compared(panel)] * 2, shares, ["N m", "N"], ["MOB-Net"], "time [s]", ["W", "V1 to V3"]
+    )
+    first, second = figure.axes[-2:]
+    assert first.get_xlim() == second.get_xlim()
+    assert first.get_xlim()[1] > 2.0
+    assert [text.get_text() for text in first.texts] == ["0.50", "0.020"]
+    assert second.get_xlabel() == "relative RMSE of V1 to V3 [-]"
+    assert [list(line.get_xdata()) for line in second.lines][-1] == [1.0, 1.0]
+
+
+def test_a_low_pass_smooths_all_curves_from_their_first_values_on() -> None:
+    steps = np.repeat([1.0, 3.0], 500)[:, None]
+    curves = Curves(("LL3",), steps, steps, {"MOB": steps + 1.0}, {"MOB": None}, {}, (), 1000.0)
+    smooth = curves.low_passed(15.0)
+    assert smooth.truth[499, 0] == pytest.approx(1.0)
+    after = round(1000.0 / (2.0 * np.pi * 15.0))  # a time constant after the step
+    assert smooth.truth[499 + after, 0] == pytest.approx(3.0 - 2.0 * np.exp(-1.0), rel=0.02)
+    np.testing.assert_allclose(smooth.estimates["MOB"], smooth.truth + 1.0)
+    assert smooth.stds == {"MOB": None}
 
 
 def test_joints_of_two_units_name_them_in_their_titles_alone(panel: Panel) -> None:

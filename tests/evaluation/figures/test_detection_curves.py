@@ -5,10 +5,17 @@ from pathlib import Path
 import numpy as np
 import pytest
 from csv_files import check_golden, read_table
-from made_detections import write_detections
+from made_detections import HOURS, write_detections
 
-from experiments.evaluation.figures.further.detection_curves import area_of, detection_curves, looks_of
+from experiments.evaluation.figures.further.detection_curves import (
+    DetectorLine,
+    area_of,
+    detection_curves,
+    draw_courses,
+    looks_of,
+)
 from experiments.evaluation.figures.style import LOOKS
+from experiments.evaluation.number.number import Number
 from experiments.settings.settings import Settings
 
 
@@ -24,7 +31,12 @@ def test_curves_and_areas_follow_from_the_files(settings: Settings, tmp_path: Pa
     assert all(row.x <= 1000.0 for row in found)
     forces = [row for row in rows if (row.panel, row.detector) == ("found by force", "MOB-Net-OR")]
     assert [row.value for row in forces] == [1.0] * len(forces)
-    assert {row.panel for row in rows if row.unit == "ms"} == {"delay"}
+    assert {row.panel for row in rows if row.unit == "ms"} == {"delay", "delay at 1/h"}
+    # at the thresholds for one false alarm an hour, at the rate that was counted
+    (promised,) = (row for row in rows if (row.panel, row.detector) == ("found collisions at 1/h", "MOB-Net-OR"))
+    assert (promised.value, promised.x) == (1.0, pytest.approx(1.0 / HOURS))  # one of the swings lies above them
+    (quiet,) = (row for row in rows if (row.panel, row.detector) == ("found without a hit", "MOB-Net-OR"))
+    assert quiet.value == 1.0  # every swing between collisions lies above the paper's thresholds
     assert sum(row.panel == "area" for row in rows) == 2
     check_golden(tmp_path / "detection_curves.csv")
     assert {path.suffix for path in tmp_path.glob("detection_curves.*")} == {".csv", ".pdf", ".svg", ".png"}
@@ -50,4 +62,17 @@ def test_a_detector_has_the_colour_of_its_method_and_two_of_a_method_differ(sett
     assert found["MOB-Net-ratio"] == LOOKS["MOB-Net"]
     assert found["FTS-e2e-mean"] == LOOKS["FTS-e2e"]
     same = [found[name] for name in found if found[name].colour == LOOKS["MOB-Net"].colour]
-    assert len({str(look.dash) for look in same}) == len({look.marker for look in same}) == len(same) == 3
+    assert len({look.marker for look in same}) == len(same) == 3
+
+
+def test_names_stand_left_of_their_lines_with_their_markers() -> None:
+    lines = [
+        DetectorLine("found collisions", name, [10.0, 0.0], [Number(0.9), Number(share)], [5, 5])
+        for name, share in (("MOB", 0.5), ("MOB-Net-OR", 0.51))
+    ]
+    first = draw_courses(lines).axes[0]
+    names = {text.get_text(): text.xy for text in first.texts}  # type: ignore[attr-defined]
+    assert set(names) == {"MOB", "MOB-Net-OR"}
+    (x, low), (_, high) = names["MOB"], names["MOB-Net-OR"]
+    assert x < 0.3
+    assert high - low == pytest.approx(0.085)  # two names that would overlap are moved apart

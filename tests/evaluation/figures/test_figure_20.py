@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 from csv_files import check_golden, read_table
 
-from experiments.evaluation.figures.paper.figure_20 import figure_20, growth_line, printed_size
+from experiments.evaluation.figures.paper.figure_20 import figure_20, growth_line, printed_place
 from experiments.evaluation.measure.learning.sizes import sizes_of
 from experiments.evaluation.number.number import Number
 from experiments.plan.runs import SweptSize
@@ -63,13 +63,13 @@ def test_the_ratio_has_an_interval_where_there_are_several_networks_and_else_non
     assert printed.ratio.value == 1.0
     (alone,) = sizes_of([SweptSize("samples", "MOB-Net", several[1].folders[:1])], STATISTICS)
     assert (alone.ratio.value, alone.ratio.low) == (1.0, None)
-    assert printed_size([small, printed], "MOB-Net") == "MOB-Net: 1 is 6.10 N m"
+    assert printed_place([small, printed], "samples") == 2.0
+    assert printed_place([small, printed], "parameters") is None
 
 
-def test_line_is_drawn_over_thousands_of_what_has_a_ratio(write_training: Write) -> None:
-    folders = (write_training("a", parameters=83712),)
-    swept = [SweptSize("parameters", "MOB-Net", folders), SweptSize("samples", "MOB-Net", folders)]
-    line = growth_line([size for size in sizes_of(swept, STATISTICS) if size.panel == "parameters"], "MOB-Net")
+def test_line_is_the_error_over_thousands(write_training: Write) -> None:
+    folders = (write_training("a", 0, -4.0, parameters=83712),)
+    line = growth_line(sizes_of([SweptSize("parameters", "MOB-Net", folders)], STATISTICS), "MOB-Net")
     assert line.x == pytest.approx([83.712])
-    assert [number.value for number in line.numbers] == [1.0]
-    assert growth_line(sizes_of(swept[:1], STATISTICS), "MOB-Net").x == []
+    assert [number.value for number in line.numbers] == [6.0]
+    assert growth_line([], "MOB-Net").x == []

@@ -81,17 +81,18 @@ def test_figure_10_shows_both_tests(
 ) -> None:
     titles = ("swing knee", "support knee")
     draw(figure_10, evaluation.figure_10, dict.fromkeys(titles, runs), scores)
-    rows = read_table(tmp_path / "figure_10.csv")
-    assert list(dict.fromkeys(row.panel for row in rows)) == [f"{title} {k}" for title in titles for k in range(1, 5)]
-    assert "MOB" not in vars(rows[0])  # its curve is not drawn
-    assert {vars(row)["MOB-Net std"] for row in rows} == {0.5}
+    for picture, title in zip(("figure_10", "figure_10_support"), titles, strict=True):
+        rows = read_table(tmp_path / f"{picture}.csv")
+        assert list(dict.fromkeys(row.panel for row in rows)) == [f"{title} {k}" for k in range(1, 5)]
+        assert "MOB" not in vars(rows[0])  # its curve is not drawn
+        assert {vars(row)["MOB-Net std"] for row in rows} == {0.5}
     bars = read_table(tmp_path / "figure_10_bars.csv")
     assert {row.scenario for row in bars} == {"knee_swing", "knee_support"}
     assert {(row.push, row.measure) for row in bars} == {
         *((push, "rmse") for push in (1, 2, "avg", "increase")),
         *(("avg", measure) for measure in ("push_share", "rise_delay", "rise_delay_observer")),
     }
-    check_golden(tmp_path / "figure_10.csv", tmp_path / "figure_10_bars.csv")
+    check_golden(*(tmp_path / f"figure_10{part}.csv" for part in ("", "_support", "_bars")))
 
 
 def test_figure_10_has_the_share_and_the_delay_that_were_measured(

@@ -1,14 +1,17 @@
-"""Figures 21 and 22 and the films: footsteps from above, pictures of walks into obstacles, frames that scroll."""
+"""Figures 21 and 22 and the films: footsteps over time, pictures of walks into obstacles, frames that scroll."""
+
+from dataclasses import replace
 
 import numpy as np
 import pytest
-from made_trials import FORCE_N, write_made_course
+from made_trials import FORCE_N, HIT, write_made_course, write_trials
 from PIL import Image
 
 from experiments.evaluation.figures.drawing.robot import draw_scene, projection, solid_of
 from experiments.evaluation.figures.drawing.solids import outline_of
 from experiments.evaluation.figures.further.films import films, read_curves
-from experiments.evaluation.figures.paper.figure_21 import figure_21, sole_corners
+from experiments.evaluation.figures.paper import figure_22 as pictures
+from experiments.evaluation.figures.paper.figure_21 import draw_strips, figure_21, sole_corners, stances_of
 from experiments.evaluation.figures.paper.figure_22 import figure_22, moments_of
 from experiments.settings.load import load_settings
 from mobnet.core.course import read_course
@@ -53,26 +56,84 @@ def test_figure_21_has_the_feet_at_the_start_and_where_they_land(tmp_path, cours
     assert [(row["foot"], row["reacting"]) for row in rows] == [("left", "0"), ("right", "0"), ("left", "1")]
     assert float(rows[2]["time_s"]) == pytest.approx(0.7)
     assert float(rows[0]["y_m"]) > 0.05 > -0.05 > float(rows[1]["y_m"])
+    # the left foot is in the air from 0.3 to 0.7 s, the right one never
+    assert [float(row["until_s"]) for row in rows] == pytest.approx([0.3, 0.999, 0.999])
     assert (tmp_path / "figure_21.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_figure_21_has_a_strip_for_each_foot_and_the_obstacle_where_it_is_in_its_way(course, layout, robot):
+    walk = read_course(course, layout)
+    left, right = draw_strips(walk, list(stances_of(robot, walk)), SETTINGS.obstacles).axes
+    soles = [[patch.get_bbox().bounds for patch in axis.patches] for axis in (left, right)]
+    assert [(x, width) for x, _, width, _ in soles[0]] == [pytest.approx((0.0, 0.3)), pytest.approx((0.7, 0.299))]
+    assert {round(height, 6) for _, _, _, height in soles[0]} == {round(2 * robot.sole.box_half[0], 6)}
+    assert [text.get_text() for text in (*left.texts, *right.texts)] == ["1"]
+    lines = [{line.get_label(): line for line in axis.lines} for axis in (left, right)]
+    assert set(lines[1]) == {"pelvis", "first contact", "reaction"}
+    assert set(lines[0]) - set(lines[1]) == {"front of the obstacle"}  # the block is ahead of the left foot alone
+    assert lines[0]["front of the obstacle"].get_ydata()[0] == pytest.approx(0.6)
+    assert lines[0]["reaction"].get_xdata()[0] == pytest.approx(0.52)
+
+
+def test_figure_21_of_a_walk_without_a_reaction_marks_none(tmp_path, layout, robot):
+    walk = read_course(write_made_course(tmp_path / "calm", layout, None), layout)
+    left, _ = draw_strips(walk, list(stances_of(robot, walk)), SETTINGS.obstacles).axes
+    assert "reaction" not in {line.get_label() for line in left.lines}
+    assert not left.texts
 
 
 def test_a_sole_seen_from_above_has_its_size(robot):
     assert np.ptp(sole_corners(robot), axis=0) / 2 == pytest.approx(robot.sole.box_half[:2])
 
 
-def test_figure_22_shows_moments_from_the_contact_on_and_the_end(tmp_path, course):
+def made_walks(folder, layout, fell_s):
+    """Return trials and courses of robots, whose first walks of each case fall at a time or, for None, do not."""
+    cases = SETTINGS.evaluation.figure_22.cases
+    trials, courses = [], {}
+    for k, at_s in enumerate(fell_s, start=1):
+        level = f"robot_{k}"
+        stem = write_made_course(folder / level, layout, 0.52, level)
+        courses[level] = dict.fromkeys(cases, stem)
+        trials += [replace(HIT, case=case, level=level, fell_s=at_s) for case in cases]
+    return write_trials(folder / "trials", trials), courses
+
+
+def test_figure_22_shows_a_walk_that_ends_well_and_one_that_falls_with_their_counts(tmp_path, layout, monkeypatch):
+    drawn = []
+    monkeypatch.setattr(pictures, "save_figure", lambda figure, stem, columns, rows: drawn.append((figure, list(rows))))
     section = SETTINGS.evaluation.figure_22
-    figure_22(section, *DRESSED, dict.fromkeys(section.cases, course), tmp_path)
+    figure_22(section, *DRESSED, SETTINGS.reaction, *made_walks(tmp_path, layout, (0.9, None, 0.8, None)), tmp_path)
+    ((figure, rows),) = drawn
+    titles = [title for axis in figure.axes if (title := axis.get_title(loc="left"))]
+    assert titles == [
+        "(a) cart: 2 of 4 walks end without a fall; this one is that of robot 2",
+        "(b) cart: 2 of 4 walks end in a fall; this one is that of robot 1",
+        "(c) door: 2 of 4 walks end without a fall; this one is that of robot 2",
+        "(d) door: 2 of 4 walks end in a fall; this one is that of robot 1",
+    ]
+    said = [axis.texts[-1].get_text() for axis in figure.axes[:4]]
+    assert said == [f"0.00 s, {FORCE_N:.0f} N", "0.50 s", "0.50 s", "0.50 s, end"]  # the walk ends 0.499 s after it
+    assert {(row[0], *row[-2:]) for row in rows} == {
+        (case, robot, fell) for case in section.cases for robot, fell in (("robot_2", 0), ("robot_1", 1))
+    }
+
+
+def test_figure_22_has_no_row_of_what_did_not_happen(tmp_path, layout):
+    section = SETTINGS.evaluation.figure_22
+    figure_22(section, *DRESSED, SETTINGS.reaction, *made_walks(tmp_path, layout, (None,)), tmp_path)
     rows = read_texts(tmp_path / "figure_22.csv")
-    assert len(rows) == len(section.cases) * (len(section.moments_s) + 1)
-    assert [float(row["time_s"]) for row in rows[:2]] == pytest.approx(section.moments_s[:2])
-    assert float(rows[1]["force_x_n"]) == -FORCE_N
-    assert float(rows[4]["time_s"]) == pytest.approx(0.499)
+    assert len(rows) == len(section.cases) * (len(section.moments_s) + 2)
+    assert {row["fell"] for row in rows} == {"0"}
+    assert float(rows[0]["force_x_n"]) == -FORCE_N
+    assert float(rows[3]["time_s"]) == pytest.approx(0.499)
+    assert (tmp_path / "figure_22.png").read_bytes().startswith(b"\x89PNG")
 
 
-def test_moments_stay_in_the_walk(course, layout):
-    section = SETTINGS.evaluation.figure_22.model_copy(update={"moments_s": (-9.0, 9.0)})
-    assert list(moments_of(read_course(course, layout), section).values()) == [0, 999, 999]
+def test_moments_are_in_order_and_stay_in_the_walk(course, layout):
+    section = SETTINGS.evaluation.figure_22.model_copy(update={"moments_s": (9.0, -9.0)})
+    found = moments_of(read_course(course, layout), section)
+    assert found == {"-9 s": 0, "largest force": 500, "9 s": 999, "end": 999}
+    assert list(found.values()) == sorted(found.values())
 
 
 def test_a_scene_has_an_arrow_where_something_touches(course, layout, robot):

@@ -5,7 +5,7 @@ from pathlib import Path
 
 from csv_files import read_table
 
-from experiments.evaluation.figures.further.learning_curve import AXES, beside, curves_of, learning_curve
+from experiments.evaluation.figures.further.learning_curve import beside_of, curves_of, draw_learning, learning_curve
 from experiments.evaluation.number.rows import write_csv
 from experiments.settings.figures import LearningCurve
 from mobnet.core.columns import TRIALS, TrialError
@@ -14,7 +14,7 @@ SETTINGS = LearningCurve(
     data="lengths.csv",
     titles={"plant_leg": "left leg"},
     recipes={"adam": "Adam"},
-    beside={"zero": "estimating nothing"},
+    beside={"zero": "no estimate"},
 )
 
 
@@ -33,18 +33,32 @@ def test_it_shows_the_mean_over_joints_of_trainings_that_did_not_diverge(tmp_pat
     assert (tmp_path / "learning_curve.png").read_bytes().startswith(b"\x89PNG")
 
 
-def test_a_place_is_the_mean_of_its_networks() -> None:
+def bare(error: float, method: str = "zero") -> TrialError:
+    """Return the error of a method that does not learn."""
+    return TrialError("plant_leg", method, "", "", 0, None, None, "", None, "avg", error, 0.1, 6, 0)
+
+
+def test_trainings_of_a_length_are_together_the_shortest_first() -> None:
     rows = [row(3_000_000, 2.0), row(3_000_000, 4.0, seed=1), row(1_000_000, 5.0)]
-    (line,), (timed,) = (curves_of(SETTINGS, rows, place) for place in AXES.values())
-    assert (line.label, line.x, timed.x) == ("LSTM, Adam", [1.0, 3.0], [2.0, 6.0])
-    assert [number.value for number in line.numbers] == [5.0, 3.0]
-    assert line.dots == [[5.0], [2.0, 4.0]]
+    assert curves_of(SETTINGS, rows) == {"LSTM, Adam": {1_000_000: rows[2:], 3_000_000: rows[:2]}}
+    assert curves_of(SETTINGS, [bare(33.8)]) == {}
 
 
-def test_methods_that_do_not_learn_stand_in_the_panel_unless_nothing_pushes() -> None:
-    def of(error: float) -> TrialError:
-        return TrialError("plant_leg", "zero", "", "", 0, None, None, "", None, "avg", error, 0.1, 6, 0)
+def test_every_training_is_a_mark_and_lines_go_through_the_means() -> None:
+    rows = [row(3_000_000, 2.0), row(3_000_000, 4.0, seed=1), row(1_000_000, 5.0), bare(6.0)]
+    (axis,) = draw_learning(SETTINGS, {"plant_leg": rows}).axes
+    assert (axis.get_xscale(), axis.get_yscale()) == ("log", "log")
+    shorter, longer, means, across = (line.get_xydata().tolist() for line in axis.lines)
+    assert (shorter, longer) == ([[2.0, 5.0]], [[6.0, 2.0], [6.0, 4.0]])
+    assert means == [[2.0, 5.0], [6.0, 3.0]]
+    assert {y for _, y in across} == {6.0}
+    assert {text.get_text() for text in axis.texts} >= {"1 M", "3 M", "no estimate: 6.00 N m"}
+    for (low, high), values in ((axis.get_xlim(), (2.0, 6.0)), (axis.get_ylim(), (2.0, 6.0))):
+        assert low < values[0] < values[1] < high
 
-    assert beside(SETTINGS, [of(33.774), row(3, 2.0)]) == "estimating nothing: 33.77 N m"
-    assert beside(SETTINGS, [of(0.0)]) == ""
-    assert curves_of(SETTINGS, [of(33.774)], AXES["processor time [s]"]) == []
+
+def test_methods_that_do_not_learn_are_lines_unless_far_above_or_where_nothing_pushes() -> None:
+    near, far = bare(5.9), bare(6.1)
+    assert beside_of(SETTINGS, [near, row(3, 2.0)]) == ([near], [])
+    assert beside_of(SETTINGS, [far, row(3, 2.0)]) == ([], [far])
+    assert beside_of(SETTINGS, [bare(0.0), bare(1.0, "MOB"), row(3, 2.0)]) == ([], [])

@@ -69,14 +69,6 @@ def test_marks_at_one_place_stand_beside_each_other_in_the_order_of_the_lines() 
     np.testing.assert_allclose([np.asarray(line.get_xdata())[0] for line in axis.lines], [0.9, 1.0, 1.1])
 
 
-def test_single_runs_stand_in_place_of_their_mean() -> None:
-    line = Line("MOB", [1.0, 2.0], [Number(1.5), Number(2.0)], [[1.0, 2.0], [1.5, 2.5]])
-    axis = draw_lines([LinePanel("one", "x", "y", [line])]).axes[0]
-    mean, *dots = axis.lines
-    assert mean.get_markevery() == []
-    assert [np.asarray(own.get_ydata()).tolist() for own in dots] == [[1.0, 2.0], [1.5, 2.5]]
-
-
 def test_panels_share_the_axis_of_their_scale_alone() -> None:
     small, large = (Line("a", [1.0, 50.0], [Number(size), Number(2.0 * size)]) for size in (1.0, 100.0))
     panels = [

@@ -1,4 +1,6 @@
-"""A group's curves share one scale, its numbers stand below them, and numbers of groups share theirs."""
+"""The curves of a test share one scale, and the numbers of all methods are below them."""
+
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -11,6 +13,7 @@ from mobnet.core.style import COLUMN_INCH, PAGE_INCH
 
 TIME = np.linspace(-0.1, 0.2, 31)
 METHODS = ("zero", "MOB", "MOB-Net")
+LABELS = ("RMSE [N m]", "share of the push shown [-]", "delay of the rise [ms]")
 
 
 def group(*sizes: float, number: float = 3.0) -> PushGroup:
@@ -25,42 +28,47 @@ def test_a_step_is_a_column_wide_above_its_errors() -> None:
     one = group(1.0)
     figure = draw_step(one.panels, one.errors, "LL3", "RMSE")
     assert figure.get_figwidth() == pytest.approx(COLUMN_INCH)
-    assert [axis.get_title(loc="left") for axis in figure.axes] == ["(a) push 0", "(b) RMSE"]
+    assert [axis.get_title(loc="left") for axis in figure.axes] == ["(a) push 0", "(b) RMSE [N m]"]
     assert not draw_step([], one.errors, "LL3", "RMSE").axes[0].lines
 
 
-@pytest.mark.parametrize("groups", [[group(1.0)], [group(1.0, 2.0), group(1.0)], [group(*range(1, 5))] * 2])
-def test_curves_and_numbers_are_lettered_in_order(groups: list[PushGroup]) -> None:
-    figure = draw_hits(groups, "LL3", "paper")
+@pytest.mark.parametrize("count", [1, 2, 4])
+def test_curves_and_numbers_are_lettered_in_order(count: int) -> None:
+    figure = draw_hits(group(*range(1, count + 1)), "LL3", "paper")
     assert figure.get_figwidth() == pytest.approx(PAGE_INCH)
     titles = [axis.get_title(loc="left") for axis in figure.axes]
-    lettered = sorted(title for title in titles if title.startswith("("))
-    expected = [text for k in range(len(groups)) for text in (f"({'ac'[k]}) push 0", f"({'bd'[k]}) numbers")]
-    assert lettered == expected
-    assert len(figure.axes) == sum(len(one.panels) + 3 for one in groups)
+    assert sorted(title for title in titles if title.startswith("(")) == ["(a) push 0", "(b) numbers"]
+    assert len(figure.axes) == count + 3
 
 
-def test_curves_of_a_group_share_a_scale_that_holds_them_all() -> None:
-    figure = draw_hits([group(1.0, 5.0, 2.0), group(1.0)], "LL3", "paper")
+def test_a_page_wide_figure_is_flat_enough_for_the_paper() -> None:
+    """Of as many methods as there are it needs less than a page's third, so that its type is not shrunk."""
+    rows = [*group().errors, *group().shares]
+    many = replace(group(*range(1, 5)), errors=rows, shares=rows, delays=rows)
+    assert draw_hits(many, "LL3", "paper").get_figheight() < 8.8 / 2.54
+
+
+def test_curves_share_a_scale_that_holds_them_all() -> None:
+    figure = draw_hits(group(1.0, 5.0, 2.0), "LL3", "paper")
     curves = [axis for axis in figure.axes if "push" in axis.get_title(loc="left")]
-    assert len(curves) == 4
-    scales = {axis.get_ylim() for axis in curves}
-    assert len(scales) == 2
-    assert max(top for _, top in scales) >= 5.0
-    assert [axis.get_ylabel() for axis in curves] == ["LL3 [N m]", "", "", "LL3 [N m]"]
+    ((_, top),) = {axis.get_ylim() for axis in curves}
+    assert len(curves) == 3
+    assert top >= 5.0
+    assert [axis.get_ylabel() for axis in curves] == ["LL3 [N m]", "", ""]
 
 
-def test_numbers_of_one_kind_share_a_scale_that_holds_them_all() -> None:
-    figure = draw_hits([group(1.0), group(1.0, number=30.0)], "LL3", "paper")
-    labels = ("RMSE [N m]", "share of the push shown [-]", "delay of the rise [ms]")
-    for label in labels:
-        limits = {axis.get_xlim() for axis in figure.axes if axis.get_xlabel() == label}
-        ((low, high),) = limits
-        assert low < 3.0 < 31.0 < high
+def test_rows_of_methods_are_named_once_and_what_a_perfect_estimate_has_is_marked() -> None:
+    figure = draw_hits(group(1.0), "LL3", "paper")
+    by_label = {axis.get_xlabel(): axis for axis in figure.axes}
+    errors, shares, delays = (by_label[label] for label in LABELS)
+    assert [text.get_text() for text in errors.get_yticklabels()] == ["no estimate", "MOB", "MOB-Net"]
+    for axis, ideal in ((shares, 1.0), (delays, 9.0)):
+        assert axis.get_ylim() == errors.get_ylim()
+        assert not axis.yaxis.get_tick_params()["labelleft"]
+        assert ideal in [np.asarray(line.get_xdata())[0] for line in axis.lines]
 
 
-def test_a_group_without_pushes_has_no_curves() -> None:
-    empty = PushGroup([], "numbers", [], [], [], None)
-    figure = draw_hits([empty, empty], "LL3", "paper")
-    assert len(figure.axes) == 8
-    assert [len(axis.lines) for axis in figure.axes if axis.get_ylabel() == "LL3 [N m]"] == [0, 0]
+def test_a_test_without_pushes_has_no_curves() -> None:
+    figure = draw_hits(PushGroup([], "numbers", [], [], [], None), "LL3", "paper")
+    assert len(figure.axes) == 4
+    assert [len(axis.lines) for axis in figure.axes if axis.get_ylabel() == "LL3 [N m]"] == [0]

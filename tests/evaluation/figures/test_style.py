@@ -8,7 +8,7 @@ import pytest
 from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 
-from experiments.evaluation.figures.style import KINDS, LOOKS, PALETTE, Look, legend, looks
+from experiments.evaluation.figures.style import KINDS, LOOKS, PALETTE, Look, apart, legend, looks
 from experiments.settings.settings import Settings
 from mobnet.core.style import PAGE_INCH, STYLE
 
@@ -80,3 +80,10 @@ def test_a_legend_takes_as_many_rows_as_its_figure_is_wide(entries: int, rows: i
     assert key.get_window_extent().width <= figure.bbox.width
     assert [text.get_text() for text in key.get_texts()] == [f"robot_walk_plain {k}" for k in range(entries)]
     assert len({round(text.get_window_extent().y0) for text in key.get_texts()}) == rows
+
+
+def test_names_of_lines_are_moved_apart_and_stay_below_the_top() -> None:
+    assert apart([0.2, 0.9], 0.1, 1.0) == [0.2, 0.9]
+    assert apart([1.0, 0.98, 0.2], 0.1, 1.0) == pytest.approx([1.0, 0.9, 0.2])
+    assert apart([0.5, 0.5], 0.1, 1.0) == pytest.approx([0.5, 0.6])
+    assert apart([], 0.1, 1.0) == []

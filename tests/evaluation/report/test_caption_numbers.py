@@ -2,6 +2,7 @@
 
 import re
 from pathlib import Path
+from statistics import mean
 
 import pytest
 from csv_files import read_table
@@ -11,7 +12,9 @@ from experiments.settings.settings import Settings
 ROOT = Path(__file__).parents[3]
 CAPTIONS = ROOT / "workflow/report"
 RESULTS, TRIALS = ROOT / "docs/results", ROOT / "docs/trials"
-OLDER = r"The published (?:table|figure) is of an older run.* their order is (.+), which is not the paper's"
+OLDER = (
+    r"The published (?:table|figure) is of an older run.* their order is (.+), which is not the (?:paper|original)'s"
+)
 
 
 def words(caption: str) -> str:
@@ -48,3 +51,17 @@ def test_the_learning_curve_says_that_its_robots_are_older() -> None:
     numbers = [f"{errors[method]:.1f}" for errors in (tried, shown) for method in ("MOB", "MOB-fric")]
     robot, today = "an error of {} N m and MOB-fric one of {} N m on it", "Table 7 has {} and {} N m"
     assert f"{robot}, where {today}".format(*numbers) in words("figures/learning_curve")
+
+
+def test_the_error_falls_with_the_length_of_training_as_the_learning_curve_says() -> None:
+    """The trials give no field, so that the sentence is tested: of each task and recipe, mean over networks."""
+    errors: dict[tuple[str, ...], dict[int, list[float]]] = {}
+    for row in read_table(TRIALS / "lengths.csv"):
+        if row.joint == "avg" and row.recipe:
+            lengths = errors.setdefault((row.task, row.method, row.recipe), {})
+            lengths.setdefault(int(row.steps), []).append(row.rmse_nm)
+    assert len(errors) > 1
+    for lengths in errors.values():
+        means = [mean(lengths[steps]) for steps in sorted(lengths)]
+        assert means == sorted(means, reverse=True)
+    assert words("figures/learning_curve").count("The error falls with the length of the training") == 1

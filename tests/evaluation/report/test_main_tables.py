@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pytest
 
+from experiments.evaluation.number.number import shown_name
 from experiments.evaluation.report.main_tables import main_tables
 from experiments.plan.products import MAIN_TABLES, sources
 from experiments.settings.settings import Settings
@@ -48,7 +49,21 @@ def test_the_legs_are_those_of_their_tables(made: Path, settings: Settings) -> N
     (push,) = rows(PUBLISHED / "peaks.csv", **asked)
     assert rows(made / "legs.csv", row="MOB-Net", quantity="knee_swing@robots@push_share")[0]["value"] == push["value"]
     methods = settings.evaluation.main_tables.legs.methods
-    assert [cells(made / "legs.md", method)[0] for method in methods] == list(methods)
+    assert [cells(made / "legs.md", shown_name(method))[0] for method in methods] == list(map(shown_name, methods))
+
+
+def test_a_delay_that_ends_with_the_window_is_a_bound(made: Path) -> None:
+    (delay,) = rows(made / "legs.csv", row="FTS-e2e", quantity="hip_pitch_step@all_uncertainty@rise_delay")
+    assert cells(made / "legs.md", "FTS-e2e")[5] == f">{float(delay['value']):.0f}"
+    assert not any(cell.startswith(">") for cell in cells(made / "legs.md", "MOB-Net"))
+
+
+def test_halves_of_a_table_have_titles_and_a_gap(made: Path) -> None:
+    columns, _, titles, rules, heads = (made / "legs.tex").read_text().splitlines()[:5]
+    assert columns == r"\begin{tabular}{l@{\hspace{1.5em}}rrrrr@{\hspace{1.5em}}rrrrr}"
+    assert titles == r" & \multicolumn{5}{c}{plant of section 5.1} & \multicolumn{5}{c}{surrogate robots} \\"
+    assert rules == r"\cmidrule(lr){2-6}\cmidrule(lr){7-11}"
+    assert heads.count(" & ") == 10
 
 
 def test_a_limb_s_error_is_divided_by_that_of_zero_and_marked_above_it(made: Path) -> None:
@@ -57,7 +72,7 @@ def test_a_limb_s_error_is_divided_by_that_of_zero_and_marked_above_it(made: Pat
                            metric="rmse_pushed")[0]["value"])
         for method in ("zero", "MOB-Net")
     }  # fmt: skip
-    (row,) = rows(made / "limbs.csv", row="10 N on hand, 5.1, arm", quantity="MOB-Net")
+    (row,) = rows(made / "limbs.csv", row="10 N in the hand (plant), arm", quantity="MOB-Net")
     assert float(row["value"]) == pytest.approx(values["MOB-Net"] / values["zero"], rel=1e-5)
     lines = (made / "limbs.md").read_text().splitlines()[2:]
     shares = [cell for line in lines for cell in line[2:-2].split(" | ")[3:] if cell != "-"]

@@ -17,7 +17,6 @@ from mobnet.settings.data import Recordings
 
 REPO = Path(__file__).parents[3]
 TABLE_05 = REPO / "tests/golden/table_05.csv"
-CAPTION = REPO / "workflow/report/tables/legs.rst"
 TRAIN = Recordings(shards=3, shard_s=600.0)
 
 
@@ -25,8 +24,11 @@ def defined(table: Path, claims_csv: Path, summary_csv: Path, settings: Settings
     """Return name -> text of the numbers of a table and of claims."""
     out, sizes = claims_csv.with_name("numbers.tex"), (settings.scale, settings.rates, settings.sizes, settings.fleet)
     further = [REPO / f"tests/golden/{name}.csv" for name in quoted()]
+    caption = out.with_name("legs.rst")
+    caption.write_text("The left leg\n\nBy {found:rte-walk}.\n")
     compared = settings.evaluation.main_tables
-    numbers(*sizes, TRAIN, [table], further, claims_csv, summary_csv, [CAPTION], compared, [], out)
+    folder = out.with_name("captions")
+    numbers(*sizes, TRAIN, [table], further, claims_csv, summary_csv, [caption], compared, [], folder, out)
     return defined_texts(out.read_text())
 
 
@@ -96,7 +98,10 @@ def test_a_number_of_any_table_is_named_by_table_row_and_column(texts: dict[str,
 
 def test_captions_stand_beside_the_numbers(texts: dict[str, str], claims_csv: Path) -> None:
     assert texts
-    assert r"capt@tables/legs\endcsname{\textbf{The left leg" in claims_csv.with_name("captions.tex").read_text()
+    folder = claims_csv.parent
+    title = rf"capt@{folder.name}/legs\endcsname{{\textbf{{The left leg.}} By \found{{rte-walk}}."
+    assert title in (folder / "captions.tex").read_text()
+    assert (folder / f"captions/{folder.name}/legs.rst").read_text() == "The left leg\n\nBy 1.00.\n"
 
 
 def test_sizes_are_those_of_the_scale(settings: Settings) -> None:

@@ -19,7 +19,7 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 from experiments.evaluation.report.deviations import deviations
-from experiments.evaluation.report.numbers import LOOKUP, numbers
+from experiments.evaluation.report.numbers import GUARDS, numbers
 from experiments.evaluation.report.paper import (
     PACKAGES,
     PaperError,
@@ -45,7 +45,7 @@ from mobnet.settings.data import Recordings
 REPO = Path(__file__).parents[3]
 GOLDEN, PUBLISHED = REPO / "tests/golden", REPO / "docs/results"
 DETECTION = ("table_09", "table_13", "false_alarms", "found_by_rate", "smallest_force", "links")
-TEXT = PaperText(scale="default", pages=8)
+TEXT = PaperText(scale="default", pages=8, type_pt=6.5)
 EDGE_MM = 8.0  # of a page's lower edge
 SHOWN = 4  # columns of another table whose text nobody published yet
 SOURCE = r"""\documentclass{article}
@@ -61,7 +61,8 @@ def source(tmp_path: Path) -> Path:
     for name in ("paper", "tables", "figures"):
         (tmp_path / name).mkdir()
     (tmp_path / "tables/table_05.tex").write_text("nineteen")
-    (tmp_path / "tables/numbers.tex").write_text("")
+    for name in ("numbers", "captions"):
+        (tmp_path / f"tables/{name}.tex").write_text("")
     (tmp_path / "paper/refs.bib").write_text("")
     (tmp_path / "paper/main.tex").write_text(SOURCE)
     return tmp_path / "paper/main.tex"
@@ -123,7 +124,7 @@ def in_parts(header: list[str], lines: list[list[str]], left: int, parts: Sequen
 def build(source: Path, scale: str = "smoke") -> Any:
     """Build the paper, whose words are those of another scale, into a folder `out` and return the note."""
     root = source.parents[1]
-    tables = [root / f"tables/{name}.tex" for name in ("table_05", "numbers")]
+    tables = [root / f"tables/{name}.tex" for name in ("table_05", "numbers", "captions")]
     paper(scale, TEXT, source, source.with_name("refs.bib"), tables, [], root / "out/build.json")
     return json.loads((root / "out/build.json").read_text())
 
@@ -188,7 +189,9 @@ def write_numbers(products: Products, settings: Settings, claims_csv: Path, summ
     captions = [REPO / path for path in wanted["captions"]]
     used = [published(name) for name in sources(settings.evaluation)]
     compared = settings.evaluation.main_tables
-    numbers(*sizes, train, tables, further, claims_csv, summary_csv, captions, compared, used, out)
+    numbers(
+        *sizes, train, tables, further, claims_csv, summary_csv, captions, compared, used, out.with_name("said"), out
+    )
     known = defined_texts(out.read_text())
     made = (name for name in asked_names((REPO / "paper/main.tex").read_text()) if name not in known)
     out.write_text(
@@ -264,7 +267,7 @@ def test_words_that_do_not_fit_the_results_stop_the_text_s_own_scale_only(
 ) -> None:
     r"""Elsewhere they are logged; `smoke`'s verdicts mean nothing."""
     (source.parents[1] / "tables/numbers.tex").write_text(
-        LOOKUP + "\\expandafter\\def\\csname verdict@a-claim\\endcsname{inconclusive}\n"
+        GUARDS + "\\expandafter\\def\\csname verdict@a-claim\\endcsname{inconclusive}\n"
     )
     guarded = r"\begin{document}\input{\tables/numbers}it holds\holds{a-claim}{reproduced,direction}\end{document}"
     source.write_text(re.sub(r"\\begin\{doc.*", lambda _: guarded, SOURCE))

@@ -32,6 +32,13 @@ def test_markdown_rows_have_the_same_cells_and_rules_are_left_out() -> None:
     assert lines == ["| a | b |", "| --- | ---: |", "| x\\|y | 1 |", "| z | 2 |"]
 
 
+def test_readers_see_a_name_that_says_that_a_method_estimates_nothing(tmp_path: Path) -> None:
+    write_table(tmp_path / "t", Table(["method"], [["zero"]], ["Method", "zero"], [["zero", "0.50"]]))
+    assert (tmp_path / "t.csv").read_text() == "method\nzero\n"
+    assert "zero" not in (tmp_path / "t.md").read_text() + (tmp_path / "t.tex").read_text()
+    assert r"no estimate & 0.50 \\" in (tmp_path / "t.tex").read_text()
+
+
 def test_a_long_table_has_its_caption_once_repeats_its_header_and_ends_each_page_with_a_rule() -> None:
     lines = long_table("lr", r"\caption{c}", ["a_1", "b"], [["50 %", "1"], r"\multicolumn{2}{l}{why} \\"]).splitlines()
     head = [r"\toprule", r"a\_1 & b \\", RULE]

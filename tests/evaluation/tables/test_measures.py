@@ -55,8 +55,8 @@ def test_parts_stand_side_by_side_and_what_a_limb_lacks_is_a_dash(
     table = make_table("phases", settings=settings, scores=[path])
     lines = table.with_suffix(".md").read_text().splitlines()
     assert lines[0] == "| Test | Limb | Method | all | swing | touch-down | stance | stuck | moving |"
-    assert lines[2] == "| walk test | LL | zero | 2.00 | 3.00 | 4.00 | 5.00 | 6.00 | 7.00 |"
-    assert lines[4] == "| walk test | W | zero | 2.00 | - | - | - | 6.00 | 7.00 |"
+    assert lines[2] == "| walk test | LL | no estimate | 2.00 | 3.00 | 4.00 | 5.00 | 6.00 | 7.00 |"
+    assert lines[4] == "| walk test | W | no estimate | 2.00 | - | - | - | 6.00 | 7.00 |"
     rows = {(row.method, row.limb, row.joint, row.metric): row for row in read_table(table)}
     assert rows["MOB", "LL", "LL4", "rmse_stance"].value == pytest.approx(5.5)
     assert ("MOB", "W", "W1", "rmse_stance") not in rows

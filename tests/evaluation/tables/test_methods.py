@@ -64,10 +64,10 @@ def test_where_the_truth_is_zero_there_is_no_skill(make_table: Make, write_limb_
 def test_tests_stand_below_one_another_with_dashes_where_a_column_is_not_theirs(table: Path) -> None:
     lines = markdown_cells(table)
     assert lines[0] == ["Test", "Method", "", "LL3", "LL avg", "W avg", "RA avg"]
-    assert lines[2] == ["walk test, all uncertainty", "zero", "RMSE", "10.00", "10.00", "-", "-"]
+    assert lines[2] == ["walk test, all uncertainty", "no estimate", "RMSE", "10.00", "10.00", "-", "-"]
     assert [line[2] for line in lines[2:9]] == ["RMSE", "95%", "raw truth", "RMSE", "95%", "raw truth", "skill"]
     assert lines[13] == ["motion test, all uncertainty", "MOB", "RMSE", "-", "-", "9.00", "9.00"]
-    assert [line[1] for line in lines[2:] if line[1]] == ["zero", "MOB", "MOB-Net", "MOB", "MOB-Net"]
+    assert [line[1] for line in lines[2:] if line[1]] == ["no estimate", "MOB", "MOB-Net", "MOB", "MOB-Net"]
     tex = table.with_suffix(".tex").read_text()
     assert tex.count(r"\midrule") == 3  # below the head of the first page and of the others, and between the tests
     assert tex.startswith(r"\begin{longtable}{lllrrrr}" + "\n" + r"\methodscaption")

@@ -15,6 +15,7 @@ from mobnet.core.columns import RESIDUAL, SWING, foot_of, named
 from mobnet.core.errors import DataError
 from mobnet.core.joints import JointLayout
 from mobnet.core.store import read_array
+from mobnet.estimation.low_pass import low_pass
 
 TRUTH, TARGET = "truth", "target"  # labels: tau_e, and what is learned of the uncertainty, r - tau_e (section 4.2.3)
 ZERO = "zero"  # the method that estimates no torque at all: its error is the torque
@@ -55,6 +56,23 @@ class Curves:
     flags: Mapping[str, NDArray[np.bool_]]
     spans: Spans
     rate_hz: float
+
+    def low_passed(self, cut_off_hz: float) -> "Curves":
+        """Return all curves behind the first-order low-pass of the detector, which starts at their first values."""
+        return replace(
+            self,
+            truth=self._low_passed(self.truth, cut_off_hz),
+            residual=self._low_passed(self.residual, cut_off_hz),
+            estimates={name: self._low_passed(values, cut_off_hz) for name, values in self.estimates.items()},
+            stds={
+                name: None if values is None else self._low_passed(values, cut_off_hz)
+                for name, values in self.stds.items()
+            },
+        )
+
+    def _low_passed(self, values: NDArray[Any], cut_off_hz: float) -> NDArray[Any]:
+        """Return curves (T, n) behind a first-order low-pass."""
+        return low_pass(values, 2.0 * np.pi * cut_off_hz, self.rate_hz, before=values[0])
 
     def panel(self, title: str, joint: str, rows: slice, *, zero: int = 0, band: bool = False) -> Panel:
         """Return a panel of a joint's truth and estimates in some rows [N m], V1..V3 [N]; time 0 is at row `zero`.

@@ -5,6 +5,7 @@ import logging
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from math import ceil
 from pathlib import Path
 from typing import Any
@@ -12,7 +13,9 @@ from typing import Any
 import matplotlib as mpl
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.text import Text
 
+from experiments.evaluation.number.number import shown_name
 from experiments.evaluation.number.rows import Field, write_csv
 from mobnet.core.files import atomic_path
 from mobnet.core.style import COLUMN_INCH, PAGE_INCH, STYLE, settle
@@ -20,6 +23,8 @@ from mobnet.core.style import COLUMN_INCH, PAGE_INCH, STYLE, settle
 log = logging.getLogger(__name__)
 
 LETTERS = "abcdefghijkl"
+# Of a name at a line, beside its place.
+NAME: Mapping[str, Any] = {"textcoords": "offset points", "va": "center_baseline", "fontsize": 7.0}
 CLIP = re.compile(r"(?:(?<=id=\")|(?<=url\(#))p[0-9a-f]{10}\b")  # name of an area that a drawing is cut to
 PATHS = re.compile(r' d="[^"]*"')
 DIGITS = re.compile(r"(\.\d\d)\d+")
@@ -135,7 +140,7 @@ def legend(figure: Figure, axes: Sequence[Axes], columns: int | None = None, las
     found: dict[str, Any] = {}
     for axis in axes:
         for handle, label in zip(*axis.get_legend_handles_labels(), strict=True):
-            found.setdefault(label, handle)
+            found.setdefault(shown_name(label), handle)
     if last in found:
         found[last] = found.pop(last)
     look = {"handlelength": 1.8, "columnspacing": 0.9, "handletextpad": 0.4, "borderpad": 0.0, **look}
@@ -148,11 +153,29 @@ def legend(figure: Figure, axes: Sequence[Axes], columns: int | None = None, las
         key.remove()
 
 
+def apart(places: Sequence[float], gap: float, top: float) -> list[float]:
+    """Return places (n,) on an axis for names of lines that end at these places: none nearer than a gap, none above."""
+    order = sorted(range(len(places)), key=lambda k: places[k])
+    moved = list(places)
+    for below, k in pairwise(order):
+        moved[k] = max(moved[k], moved[below] + gap)
+    for k in reversed(order):
+        moved[k] = min(moved[k], top)
+        top = moved[k] - gap
+    return moved
+
+
 def save_figure(figure: Figure, stem: Path, columns: Sequence[str], rows: Iterable[Sequence[Field]]) -> None:
     """Write the plotted numbers as `stem.csv`, and `stem.pdf` (fonts embedded), `.svg` and `.png` without dates.
 
     So equal numbers give equal files.
+
+    Raises:
+        ValueError: letters of a text would be drawn as outlines, so that nobody could read their size from the PDF.
     """
+    outlined = [text.get_text() for text in figure.findobj(Text) if text.get_path_effects() and text.get_text()]
+    if outlined:
+        raise ValueError(f"{stem}: text with path effects: {outlined[0]!r}; give it a box as background instead")
     write_csv(stem.with_suffix(".csv"), columns, rows)
     with mpl.rc_context(STYLE):
         settle(figure)

@@ -4,6 +4,9 @@ from dataclasses import dataclass
 
 from experiments.settings.published import PublishedTable
 
+# Names of methods that a reader would take for something else: of an error "below zero" nobody thinks of a method.
+SHOWN = {"zero": "no estimate"}
+
 
 @dataclass(frozen=True)
 class Number:
@@ -85,3 +88,8 @@ def published_row(table: PublishedTable, place: str, method: str) -> dict[str, f
 def published_value(table: PublishedTable, place: str, method: str, column: str) -> float | None:
     """Return the paper's number in one column [its unit]; None where it prints none."""
     return published_row(table, place, method).get(column)
+
+
+def shown_name(name: str) -> str:
+    """Return what readers of tables and figures see of a method's name: of most methods the name itself."""
+    return SHOWN.get(name, name)

@@ -66,9 +66,9 @@ def _picture(file: Path, caption: Path) -> Picture:
 
 
 def first_paragraph(lines: Sequence[str]) -> str:
-    """Return the first paragraph of a text as one line, without the marks of code."""
+    """Return the first paragraph of a text as one line, without the marks of code and emphasis."""
     paragraphs = "\n".join(lines).strip().split("\n\n")
-    return " ".join(paragraphs[0].replace("``", "").split())
+    return " ".join(paragraphs[0].replace("``", "").replace("*", "").split())
 
 
 def _content(file: Path) -> bytes:

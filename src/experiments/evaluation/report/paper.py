@@ -9,6 +9,7 @@ import tempfile
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
+from experiments.evaluation.report.type_sizes import printed_types, type_faults
 from experiments.settings.pages import PaperText
 from mobnet.core.errors import DataError, MobnetError
 from mobnet.core.files import atomic_path, check_room, read_text, write_json
@@ -37,7 +38,7 @@ NEEDED = {  # file that TeX must find -> Debian package that holds it
 }
 PACKAGES = ("texlive-latex-recommended", "texlive-publishers", "texlive-fonts-recommended", "latexmk")
 TABLES, FIGURES = "tables", "figures"  # folders beside the copy of the paper that TeX reads
-NUMBERS = "numbers.tex"  # of the tables: what the text's macros are
+NUMBERS, CAPTIONS = "numbers.tex", "captions.tex"  # of the tables: what the text's macros are, and captions with some
 PLACES = rf"\def\tables{{{TABLES}}}\def\figures{{{FIGURES}}}\def\results{{{TABLES}}}"
 LATEXMK = ("latexmk", "-pdf", "-norc", "-interaction=nonstopmode", "-halt-on-error", f"-usepretex={PLACES}")
 LOG_LINES = 15
@@ -126,12 +127,13 @@ def paper(
     The note holds the scale, the name of the PDF beside it or null, and the missing packages. Tables are TeX files that
     the paper inputs, figures PDF files. The text's words were chosen for the results of one scale, that of `settings`:
     there its guards and its number of pages have to hold. At another scale they cannot be expected to (the verdicts of
-    `smoke` mean nothing), so that a guard that turned is only logged, and marked in the text by a dagger.
+    `smoke` mean nothing), so that a guard that turned is only logged, and marked in the text by a dagger. The type of
+    the figures has to be large enough at each.
 
     Raises:
         PaperError: TeX failed, and the message holds the end of its log; or something runs off its page or column, a
-            label is defined twice or not at all, a guard turned or the main text is too long, and the message names
-            each.
+            label is defined twice or not at all, a guard turned, the main text is too long or the type of a figure is
+            too small in print, and the message names each.
     """
     pdf = out.with_name(f"{main.stem}.pdf")
     missing = missing_packages()
@@ -142,7 +144,7 @@ def paper(
     else:
         with tempfile.TemporaryDirectory() as folder:
             copy_sources({".": [main, references], TABLES: tables, FIGURES: figures}, Path(folder))
-            set_paper(Path(folder) / main.name, pdf, settings if scale == settings.scale else None)
+            set_paper(Path(folder) / main.name, pdf, settings, judged=scale == settings.scale)
     write_json(out, {"scale": scale, "pdf": None if missing else pdf.name, "missing_packages": missing})
 
 
@@ -172,11 +174,12 @@ def copy_sources(sources: Mapping[str, Sequence[Path]], folder: Path) -> None:
             shutil.copy(path, folder / name)
 
 
-def set_paper(source: Path, out: Path, settings: PaperText | None) -> None:
-    """Set a copied paper and write its PDF if all is in its place; without settings its guards need not hold."""
+def set_paper(source: Path, out: Path, settings: PaperText, judged: bool) -> None:
+    """Set a copied paper and write its PDF if all is in its place; its guards need to hold where it is `judged`."""
     # The words were chosen for the results of one scale: at another one a guard that turned is no fault.
-    turned = turned_guards(read_text(source), defined_texts(read_text(source.parent / TABLES / NUMBERS)))
-    if settings is not None and turned:
+    text = read_text(source) + read_text(source.parent / TABLES / CAPTIONS)
+    turned = turned_guards(text, defined_texts(read_text(source.parent / TABLES / NUMBERS)))
+    if judged and turned:
         raise PaperError(f"{out}: the text does not fit its results: {'; '.join(turned)}")
     for line in turned:
         log.info("%s: marked by a dagger: %s", out, line)
@@ -185,8 +188,12 @@ def set_paper(source: Path, out: Path, settings: PaperText | None) -> None:
             "%s: %d guarded sentences do not fit the results of this scale, a dagger marks each", out, len(turned)
         )
     compile_pdf(source)
-    faults = page_faults(_read(source.with_suffix(".log")))
-    if settings is not None:
+    told = _read(source.with_suffix(".log"))
+    types = printed_types(told, source.parent)
+    for one in types:
+        log.info("%s: smallest type in print %.2f pt, drawn at %g pt", one.name, one.printed_pt, one.native_pt)
+    faults = [*page_faults(told), *type_faults(types, settings.type_pt)]
+    if judged:
         faults += place_faults(label_pages(_read(source.with_suffix(".aux"))), settings.pages)
     if faults:
         raise PaperError(f"{out}: the paper does not fit its pages: {'; '.join(faults)}")

@@ -5,11 +5,11 @@ In TeX only booktabs is needed, and longtable for a table of several pages.
 
 import logging
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from experiments.evaluation.number.number import Number
+from experiments.evaluation.number.number import Number, shown_name
 from experiments.evaluation.number.rows import Field, write_csv
 from mobnet.core.files import write_text
 
@@ -118,8 +118,32 @@ def tex_table(columns: str, header: Sequence[str], lines: Sequence[Line]) -> str
 
 def text_table(columns: str, header: Sequence[str], lines: Sequence[Line]) -> str:
     """Return a tabular environment of plain text; `columns` is a TeX column specification."""
-    escaped = [line if isinstance(line, str) else list(map(tex_escape, line)) for line in lines]
-    return tex_table(columns, list(map(tex_escape, header)), escaped)
+    escaped = [line if isinstance(line, str) else list(map(tex_cell, line)) for line in lines]
+    return tex_table(columns, list(map(tex_cell, header)), escaped)
+
+
+def tex_in_groups(first: str, groups: Mapping[str, Iterable[str]], lines: Sequence[Line]) -> str:
+    """Return a tabular environment of plain text: a column of names, then groups of columns of numbers with gaps.
+
+    `groups` are title -> heads; `first` is the head of the names.
+    """
+    columns = "l"
+    titles = [""]
+    rules = ""
+    heads = [first]
+    for title, own in groups.items():
+        begin = len(heads) + 1
+        heads += own
+        count = len(heads) + 1 - begin
+        columns += r"@{\hspace{1.5em}}" + "r" * count
+        titles.append(rf"\multicolumn{{{count}}}{{c}}{{{tex_escape(title)}}}")
+        rules += rf"\cmidrule(lr){{{begin}-{len(heads)}}}"
+    body = [line if isinstance(line, str) else tex_row(list(map(tex_cell, line))) for line in lines]
+    above = [tex_row(titles), rules, tex_row(list(map(tex_cell, heads))), RULE]
+    return (
+        "\n".join([rf"\begin{{tabular}}{{{columns}}}", r"\toprule", *above, *body, r"\bottomrule", r"\end{tabular}"])
+        + "\n"
+    )
 
 
 def long_table(columns: str, caption: str, header: Sequence[str], lines: Sequence[Line]) -> str:
@@ -127,8 +151,8 @@ def long_table(columns: str, caption: str, header: Sequence[str], lines: Sequenc
 
     `columns` and `caption` are TeX, and so are lines that are no cells. The caption stands once: it defines a label.
     """
-    escaped = [line if isinstance(line, str) else list(map(tex_escape, line)) for line in lines]
-    return long_tex_table(columns, caption, list(map(tex_escape, header)), escaped)
+    escaped = [line if isinstance(line, str) else list(map(tex_cell, line)) for line in lines]
+    return long_tex_table(columns, caption, list(map(tex_cell, header)), escaped)
 
 
 def long_tex_table(columns: str, caption: str, header: Sequence[str], lines: Sequence[Line]) -> str:
@@ -137,6 +161,11 @@ def long_tex_table(columns: str, caption: str, header: Sequence[str], lines: Seq
     parts = [rf"\begin{{longtable}}{{{columns}}}", rf"{caption} \\", *head, r"\endfirsthead", *head, r"\endhead"]
     body = [line if isinstance(line, str) else tex_row(line) for line in lines]
     return "\n".join([*parts, r"\bottomrule", r"\endfoot", *body, r"\end{longtable}"]) + "\n"
+
+
+def tex_cell(text: str) -> str:
+    """Return a cell of plain text as TeX, a method by the name that readers see."""
+    return tex_escape(shown_name(text))
 
 
 def tex_row(cells: Sequence[str]) -> str:
@@ -150,7 +179,7 @@ def markdown_table(header: Sequence[str], lines: Sequence[Line], left: int = 1) 
     rows = [header, marks, *(line for line in lines if not isinstance(line, str))]
     text = ""
     for row in rows:
-        cells = [cell.replace("|", r"\|") for cell in row]  # a bare bar would end the cell
+        cells = [shown_name(cell).replace("|", r"\|") for cell in row]  # a bare bar would end the cell
         text += f"| {' | '.join(cells)} |\n"
     return text
 

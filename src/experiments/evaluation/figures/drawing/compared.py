@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from experiments.evaluation.compare.curves import Compared, Panel, TorqueCurve
 from experiments.evaluation.figures.drawing.curves import FROM_LIFT_OFF, draw_panel, table_of
-from experiments.evaluation.figures.drawing.named_bars import BAR_INCH, NamedBar, draw_named_bars
+from experiments.evaluation.figures.drawing.named_bars import BAR_INCH, LINE, NamedBar, draw_named_bars
 from experiments.evaluation.figures.style import entitle, legend, looks, save_figure
 from experiments.evaluation.number.number import Number
 from experiments.evaluation.number.rows import Field, write_csv
@@ -20,11 +20,14 @@ from mobnet.core.columns import JOINT_ERRORS
 from mobnet.core.style import COLUMN_INCH, PAGE_INCH, styled
 
 TORQUE_INCH, ERROR_INCH, REST_INCH = 1.15, 0.85, 0.95  # height of rows, and of legend, titles and labels together
+SHARE = 0.76  # of these heights that joints side by side have, which stand in the main text
 SIDE_BY_SIDE, LEG_INCH = 3, 1.05  # joints of a leg in a row, and height of their torque
 REACH = 1.25  # of the axis of errors, over the largest error of the last method, ours
 ERROR_WIDTH = 0.75  # of the lines of errors, which are noisier, over those of the torque
 SIGMAS = {1: 0.3, 2: 0.15}  # multiples of the standard deviation that are drawn, and how opaque
 MARGIN = 0.2  # below and above the curves that the axis of torque holds [of their range]
+ABOVE = 6.0  # zorder of the axis below numbers on grounds
+CLEAR = {"facecolor": "white", "edgecolor": "none", "pad": 0.4}  # behind a number that lies on a line
 ZERO_LINE = {"color": "black", "linewidth": 0.5, "zorder": 1.0}
 
 
@@ -80,25 +83,72 @@ def draw_columns(
     The errors of some methods are drawn, those of others are far beyond them. The legend calls the paper's numbers
     `source`.
     """
-    heights = (TORQUE_INCH, ERROR_INCH, BAR_INCH * max(len(own) for own in bars))
+    figure, grid = _columns(pairs, bars, units, methods, x_label)
+    for axis, own, unit in zip(grid[-1], bars, units, strict=True):
+        draw_named_bars(axis, own, unit, source=source)
+    _finish(figure, grid)
+    return figure
+
+
+@styled
+def draw_relative_columns(
+    pairs: Sequence[Compared],
+    bars: Sequence[Sequence[NamedBar]],
+    units: Sequence[str],
+    methods: Sequence[str],
+    x_label: str,
+    limbs: Sequence[str],
+) -> Figure:
+    """Draw joints side by side as `draw_columns` does, over errors of their limbs on one scale, as shares [-].
+
+    The shares are those of the error that an estimate of no torque has, which is marked.
+    """
+    figure, grid = _columns(pairs, bars, units, methods, x_label)
+    for axis, own, limb in zip(grid[-1], bars, limbs, strict=True):
+        draw_named_bars(axis, own, "-")
+        axis.axvline(1.0, **LINE)
+        for text in axis.texts:
+            text.set_bbox(CLEAR)
+        axis.spines["bottom"].set_zorder(ABOVE)
+        axis.set_xlabel(f"relative RMSE of {limb} [-]")
+    right = max(axis.get_xlim()[1] for axis in grid[-1])
+    for axis in grid[-1]:
+        axis.set_xlim(0.0, right)
+    _finish(figure, grid)
+    return figure
+
+
+def _columns(
+    pairs: Sequence[Compared],
+    bars: Sequence[Sequence[NamedBar]],
+    units: Sequence[str],
+    methods: Sequence[str],
+    x_label: str,
+) -> tuple[Figure, NDArray[Any]]:
+    """Return a figure and its panels (3, n), with torques and errors of joints (n,) and an empty row for bars."""
+    rows = max(len(own) for own in bars)
+    heights = (SHARE * TORQUE_INCH, SHARE * ERROR_INCH, BAR_INCH * (rows + 0.5))
     figure = Figure(figsize=(PAGE_INCH, sum(heights) + REST_INCH), layout="constrained")
     grid = figure.subplots(3, len(pairs), squeeze=False, height_ratios=heights)
-    for k, (pair, own, unit) in enumerate(zip(pairs, bars, units, strict=True)):
-        torque, error, below = grid[:, k].tolist()
+    for k, pair in enumerate(pairs):
+        torque, error, _ = grid[:, k].tolist()
         draw_torque(torque, pair, methods)
         entitle(torque, k, pair.torque.title)
         torque.tick_params(labelbottom=False)
         draw_error(error, pair, methods)
         error.set_xlabel(x_label)
-        draw_named_bars(below, own, unit, source=source)
-        if k:
-            below.tick_params(labelleft=False)
     # Joints of one unit share its label; where units differ each title has its own.
     one = f" [{units[0]}]" if len(set(units)) == 1 else ""
     grid[0, 0].set_ylabel(f"torque{one}" if one else "torque or force")
     grid[1, 0].set_ylabel(f"error{one}")
+    return figure, grid
+
+
+def _finish(figure: Figure, grid: NDArray[Any]) -> None:
+    """Name the bars at the left alone, and put the legend on top."""
+    for axis in grid[-1, 1:]:
+        axis.tick_params(labelleft=False)
     legend(figure, grid.ravel().tolist())
-    return figure
 
 
 @styled

@@ -24,12 +24,11 @@ ARROW_SHARE = 0.025  # distance of an arrow from the end of the axis [share of i
 
 @dataclass(frozen=True)
 class Line:
-    """A number with its interval at sizes, lengths or steps (n,) [units of the panel]; `dots` are its single runs."""
+    """A number with its interval at sizes, lengths or steps (n,) [units of the panel]."""
 
     label: str
     x: Sequence[float]
     numbers: Sequence[Number]
-    dots: Sequence[Sequence[float]] = ()
 
     @property
     def columns(self) -> NDArray[np.float64]:
@@ -44,8 +43,9 @@ class LinePanel:
     Attributes:
         bands: what is the same at all places: label -> a number, drawn as a line across the panel in its interval.
         guide: a value [unit of y] that a thin grey line marks.
+        upright: a place [unit of x] that a thin grey line marks.
         ends: of the y axis [its unit], None for what the lines need; with both, a value outside is an arrow.
-        note: a text in a corner, the upper right one or the lower left one.
+        note: a text in the lower left corner.
         scale: panels of one scale share their y axis.
         logarithmic: whether the x axis is.
         dodge: distance between the marks of two lines at one place [unit of x, decades of a logarithmic axis].
@@ -57,9 +57,9 @@ class LinePanel:
     lines: Sequence[Line]
     bands: Mapping[str, Number] = field(default_factory=dict[str, Number])
     guide: float | None = None
+    upright: float | None = None
     ends: tuple[float | None, float | None] = (0.0, None)
     note: str = ""
-    note_below: bool = False
     scale: str = ""
     logarithmic: bool = True
     dodge: float = 0.0
@@ -94,6 +94,8 @@ def _draw(axis: Axes, panel: LinePanel, styles: Mapping[str, Look]) -> None:
     """Draw the bands, lines, places and the note of a panel."""
     if panel.guide is not None:
         axis.axhline(panel.guide, **GUIDE)
+    if panel.upright is not None:
+        axis.axvline(panel.upright, **GUIDE)
     for label, number in panel.bands.items():
         mean, low, high = number.range
         if mean is not None and low is not None and high is not None:
@@ -103,9 +105,7 @@ def _draw(axis: Axes, panel: LinePanel, styles: Mapping[str, Look]) -> None:
         off = panel.dodge * (k - (len(panel.lines) - 1) / 2.0)
         _line(axis, line, styles[line.label], _moved(line.x, off, panel.logarithmic), panel.ends)
     _places(axis, panel)
-    corner: dict[str, Any] = {"ha": "left", "va": "bottom"} if panel.note_below else {"ha": "right", "va": "top"}
-    place = (0.03, 0.04) if panel.note_below else (1.0, 0.98)
-    axis.text(*place, panel.note, transform=axis.transAxes, fontsize=NOTE_POINTS, **corner)
+    axis.text(0.03, 0.04, panel.note, transform=axis.transAxes, fontsize=NOTE_POINTS, ha="left", va="bottom")
 
 
 def _moved(x: Sequence[float], off: float, logarithmic: bool) -> NDArray[np.float64]:
@@ -115,22 +115,10 @@ def _moved(x: Sequence[float], off: float, logarithmic: bool) -> NDArray[np.floa
 
 
 def _line(axis: Axes, line: Line, look: Look, x: NDArray[np.float64], ends: tuple[float | None, float | None]) -> None:
-    """Draw a line with marks at places (n,), its intervals or single runs, and arrows where it leaves the axis."""
+    """Draw a line with marks at places (n,), its intervals, and arrows where it leaves the axis."""
     mean, low, high = line.columns
-    marked = [] if line.dots else None  # single runs stand in place of their mean, which the legend marks like them
-    axis.plot(x, mean, label=line.label, marker=look.marker, markersize=3.5, markevery=marked, **look.line)
+    axis.plot(x, mean, label=line.label, marker=look.marker, markersize=3.5, **look.line)
     axis.vlines(x, low, high, color=look.colour, linewidth=0.8, zorder=look.order)
-    for place, dots in zip(x, line.dots, strict=False):
-        axis.plot(
-            [place] * len(dots),
-            dots,
-            look.marker,
-            markersize=3.5,
-            color=look.colour,
-            markeredgewidth=0.0,
-            alpha=0.6,
-            zorder=4,
-        )
     bottom, top = ends
     if bottom is None or top is None:
         return

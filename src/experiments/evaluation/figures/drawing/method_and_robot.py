@@ -25,7 +25,8 @@ from mobnet.settings.robot import RobotTable
 METHOD_COLUMNS = ("from", "to", "signal")
 ROBOT_COLUMNS = ("part", "kind", "x_m", "y_m", "z_m")
 SIGMA = "\N{GREEK SMALL LETTER SIGMA}"
-METHOD_INCH, ROBOT_INCH = 2.35, 3.9  # heights
+METHOD_INCH, ROBOT_INCH = 2.1, 2.4  # heights
+SIZE_M = 0.2  # from the arrow's end to the middle of the force's size, in this small a picture
 SENSED, MODEL, LEARNED, USED = "#EEF1F5", "#DCEAF6", "#FBE6D8", "#E3F1EA"  # grounds of blocks
 
 
@@ -46,17 +47,17 @@ def draw_method(limbs: list[str]) -> tuple[Figure, list[tuple[str, str, str]]]:
     """Draw the method as blocks; return the figure and from, to and signal of each arrow."""
     figure, axis = sheet(PAGE_INCH, METHOD_INCH)
     inputs = {
-        "encoders": Box((0.62, 2.05), (1.1, 0.36), ["encoders", "joint positions"], SENSED),
-        "IMU": Box((0.62, 1.55), (1.1, 0.36), ["IMU", "motion of the base"], SENSED),
-        "motors": Box((0.62, 1.05), (1.1, 0.36), ["motors", "torque"], SENSED),
+        "encoders": Box((0.62, 1.83), (1.1, 0.36), ["encoders", "joint positions"], SENSED),
+        "IMU": Box((0.62, 1.37), (1.1, 0.36), ["IMU", "motion of the base"], SENSED),
+        "motors": Box((0.62, 0.91), (1.1, 0.36), ["motors", "torque"], SENSED),
     }
-    feet = Box((0.62, 0.3), (1.1, 0.36), ["foot sensors", "in training only"], SENSED, dashed=True)
-    formula = Box((2.4, 2.12), (1.4, 0.36), ["friction formula", "in MOB-Net-gray only"], MODEL, dashed=True)
-    observer = Box((2.4, 1.48), (1.4, 0.5), ["momentum observer", "external torque", "+ error of its model"], MODEL)
-    network = Box((2.4, 0.55), (1.4, 0.82), ["one GRU for each limb", "error of the model", "", ""], LEARNED)
-    torque = Box((5.25, 1.48), (1.05, 0.5), ["external torque", "of every joint", f"with its {SIGMA}"], USED)
-    detector = Box((6.42, 1.48), (0.9, 0.36), ["detector", "thresholds"], USED)
-    reaction = Box((6.42, 0.55), (0.9, 0.36), ["reaction", "steps back"], USED)
+    feet = Box((0.62, 0.27), (1.1, 0.36), ["foot sensors", "in training only"], SENSED, dashed=True)
+    formula = Box((2.4, 1.88), (1.4, 0.36), ["friction formula", "in MOB-Net-gray only"], MODEL, dashed=True)
+    observer = Box((2.4, 1.3), (1.4, 0.5), ["momentum observer", "external torque", "+ error of its model"], MODEL)
+    network = Box((2.4, 0.48), (1.4, 0.82), ["one GRU for each limb", "error of the model", "", ""], LEARNED)
+    torque = Box((5.25, 1.3), (1.05, 0.5), ["external torque", "of every joint", f"with its {SIGMA}"], USED)
+    detector = Box((6.42, 1.3), (0.9, 0.36), ["detector", "thresholds"], USED)
+    reaction = Box((6.42, 0.48), (0.9, 0.36), ["reaction", "steps back"], USED)
     for box in (*inputs.values(), feet, formula, observer, network, torque, detector, reaction):
         draw_box(axis, box)
     for k, limb in enumerate(limbs):
@@ -113,7 +114,7 @@ def _arrows(
     )
     draw_path(axis, [(second[0] + SUM_RADIUS, y), torque.side(-1, 0)])
     draw_path(axis, [torque.side(1, 0), detector.side(-1, 0)])
-    draw_path(axis, [detector.side(0, -1), reaction.side(0, 1)], "alarm, link", (6.37, 1.03), ha="right")
+    draw_path(axis, [detector.side(0, -1), reaction.side(0, 1)], "alarm, link", (6.37, 0.89), ha="right")
     sensed = [(name, to, "sensed") for name in inputs for to in ("momentum observer", "networks", "friction formula")]
     return [
         *sensed,
@@ -150,7 +151,7 @@ def draw_parts(
     found = axes_of(robot, placed, robot.layout.limb(settings.leg))
     draw_axes(axis, found, view)
     point = place_of(robot, placed, str(push.point))
-    draw_force(axis, point, np.array([-settings.force_n, 0.0, 0.0]), view)
+    draw_force(axis, point, np.array([-settings.force_n, 0.0, 0.0]), view, SIZE_M)
     rotation, position = poses_of(robot, placed)
     parts = [(joint, "axis", place) for joint, (place, _) in found.items()]
     parts += [("push", "force", point)]

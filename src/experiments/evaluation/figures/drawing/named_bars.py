@@ -10,12 +10,12 @@ from numpy.typing import NDArray
 
 from experiments.evaluation.compare.curves import ZERO
 from experiments.evaluation.figures.style import looks
-from experiments.evaluation.number.number import Number
+from experiments.evaluation.number.number import Number, shown_name
 
 MINUS = "\N{MINUS SIGN}"
 BAR_INCH = 0.135  # height that a bar takes
 BAR_SHARE = 0.72  # of it that is filled
-NUMBER_POINTS = 6.5  # size of names and numbers
+NUMBER_POINTS = 7.0  # size of names and numbers
 PAPER = {"marker": "D", "markersize": 3.2, "color": "white", "markeredgecolor": "black", "markeredgewidth": 0.7}
 DRAWN = {"marker": "o", "markersize": 2.6, "color": "white", "markeredgecolor": "black", "markeredgewidth": 0.5}
 LINE = {"color": "0.4", "linewidth": 0.7, "linestyle": (0, (2, 2)), "zorder": 1.0}  # at a number to compare with
@@ -45,7 +45,8 @@ class NamedBar:
     def text(self) -> str:
         """The number as it is written at the end of the bar, with three digits."""
         value = self.number.value or 0.0
-        return self.number.text(2 - (abs(value) >= 10.0) - (abs(value) >= 100.0)).replace("-", MINUS)
+        digits = 2 - (abs(value) >= 10.0) - (abs(value) >= 100.0) + (0.0 < abs(value) < 0.1)
+        return self.number.text(digits).replace("-", MINUS)
 
 
 def draw_named_bars(
@@ -69,7 +70,7 @@ def draw_named_bars(
     axis.set_xlim(0.0, reach * (1.0 + NUMBER_ROOM))
     for place, bar, end in zip(places, bars, _ends(bars, high, published), strict=True):
         _number(axis, bar, place, None if is_cut and bar.method == ZERO else end)
-    axis.set_yticks(places, [bar.name for bar in bars], fontsize=NUMBER_POINTS)
+    axis.set_yticks(places, [shown_name(bar.name) for bar in bars], fontsize=NUMBER_POINTS)
     axis.tick_params(axis="y", length=0.0)
     axis.set(ylim=(len(bars) - 0.4, -0.6), xlabel=f"RMSE [{unit}]")
 
@@ -80,7 +81,7 @@ def draw_named_dots(axis: Axes, rows: Sequence[NamedBar], x_label: str, at: floa
     value, low, high, _ = ends_of(rows)
     if at is not None:
         axis.axvline(at, **LINE)
-    axis.set_yticks(range(len(rows)), [row.name for row in rows], fontsize=NUMBER_POINTS)
+    axis.set_yticks(range(len(rows)), [shown_name(row.name) for row in rows], fontsize=NUMBER_POINTS)
     axis.grid(axis="y", linewidth=0.3, color="0.85")
     axis.set_axisbelow(True)
     axis.tick_params(axis="y", length=0.0)

@@ -47,8 +47,8 @@ def draw_pushed(
         draw_force(axis, place_of(robot, q, point), force, view)
 
 
-def draw_force(axis: Axes, place: Array, force: Array, view: Array) -> None:
-    """Draw a force (3,) [N] at a place (3,) [m] as an arrow that ends there, with its size."""
+def draw_force(axis: Axes, place: Array, force: Array, view: Array, beside_m: float = BESIDE_M) -> None:
+    """Draw a force (3,) [N] at a place (3,) [m] as an arrow that ends there, with its size so far behind [m]."""
     (x, y) = view[:2] @ place
     (from_x, from_y) = view[:2] @ (place - ARROW_M_N * force)
     arrow = FancyArrow(
@@ -67,6 +67,6 @@ def draw_force(axis: Axes, place: Array, force: Array, view: Array) -> None:
     )
     axis.add_patch(arrow)
     beside = (np.array([from_x, from_y]) - (x, y)) / max(float(np.hypot(x - from_x, y - from_y)), WIDTH_M)
-    text_x, text_y = np.array([from_x, from_y]) + BESIDE_M * beside
+    text_x, text_y = np.array([from_x, from_y]) + beside_m * beside
     size = f"{np.linalg.norm(force):.0f} N"
     axis.text(text_x, text_y, size, color=PUSH, ha="center", va="center", fontweight="bold", zorder=6)

@@ -1,10 +1,11 @@
 """Curves around pushes, above numbers of each method: error, share of the push that it shows, delay. Drawing only."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import lcm
 from typing import Any
 
+import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
@@ -14,10 +15,11 @@ from experiments.evaluation.figures.drawing.named_bars import BAR_INCH, NamedBar
 from experiments.evaluation.figures.style import entitle, legend
 from mobnet.core.style import COLUMN_INCH, PAGE_INCH, styled
 
-STEP_INCH, HIT_INCH = 1.6, 1.15  # height of curves in one column of the paper and in two
-REST_INCH, GROUP_INCH = 0.95, 0.66  # of legend and labels in one column; of titles and labels of a group in two
+STEP_INCH, HIT_INCH = 1.0, 1.15  # height of curves in one column of the paper and in two
+STEP_REST_INCH, LABELS_INCH = 0.8, 1.35  # of legend, titles and labels in one column and in two
 FROM_PUSH = "time from push [s]"
 EACH = "RMSE of each push"
+MARKED = ("push",)  # flags that are drawn where the title says the phase
 
 
 @dataclass(frozen=True)
@@ -48,77 +50,61 @@ def draw_step(panels: Sequence[Panel], bars: Sequence[NamedBar], joint: str, tit
     It is as wide as a column of the paper.
     """
     heights = STEP_INCH, BAR_INCH * len(bars)
-    figure = Figure(figsize=(COLUMN_INCH, sum(heights) + REST_INCH), layout="constrained")
+    figure = Figure(figsize=(COLUMN_INCH, sum(heights) + STEP_REST_INCH), layout="constrained")
     curves, below = figure.subplots(2, 1, height_ratios=heights).tolist()
     for panel in panels:
-        _curves(curves, panel)
+        # The push alone is marked: all of what is shown is in the phase that the title names.
+        flags = {name: flag for name, flag in panel.flags.items() if name in MARKED}
+        _curves(curves, replace(panel, flags=flags))
         entitle(curves, 0, panel.title)
     curves.set(xlabel=FROM_PUSH, ylabel=f"{joint} [N m]")
-    draw_named_bars(below, bars, "N m")
-    entitle(below, 1, title)
+    draw_named_bars(below, bars, "N m", source="RMSE of paper", marked="RMSE of (a)")
+    entitle(below, 1, f"{title} [N m]")
+    # The numbers at the bars say what an axis would, in less room.
+    below.set_xlabel("")
+    below.set_xticks([])
+    below.spines["bottom"].set_visible(False)
     legend(figure, [curves, below], 4)
     return figure
 
 
 @styled
-def draw_hits(groups: Sequence[PushGroup], joint: str, source: str) -> Figure:
-    """Draw groups of pushes below one another, as wide as a page: curves side by side, below them numbers by method.
+def draw_hits(group: PushGroup, joint: str, source: str) -> Figure:
+    """Draw a test's pushes as wide as a page: curves [N m] side by side on one scale, below them numbers by method.
 
-    Curves [N m] of a group have one scale; the legend calls the paper's numbers `source`.
+    The legend calls the paper's numbers `source`.
     """
-    rows = max(len(group.errors) for group in groups)
-    heights = (HIT_INCH, BAR_INCH * max(rows, 1)) * len(groups)
-    figure = Figure(
-        figsize=(PAGE_INCH, sum(heights) + REST_INCH + GROUP_INCH * (2 * len(groups) - 1)), layout="constrained"
-    )
-    axes = figure.subplot_mosaic(_places(groups), height_ratios=heights)
-    for k, group in enumerate(groups):
-        curves = [axes[f"{k}.{i}"] for i in range(max(len(group.panels), 1))]
-        _row(curves, group, joint)
-        entitle(curves[0], 2 * k, curves[0].get_title(loc="left"))
-        errors, shares, delays = (axes[f"{k}.{name}"] for name in NUMBERS)
-        draw_named_bars(errors, group.errors, "N m", source=source, marked=EACH)
-        entitle(errors, 2 * k + 1, group.title)
-        draw_named_dots(shares, group.shares, "share of the push shown [-]", 1.0)
-        draw_named_dots(delays, group.delays, "delay of the rise [ms]", group.observer_ms)
-        for axis in (shares, delays):
-            axis.tick_params(labelleft=False)
-    # Groups stand below one another to be compared, so a number has one scale in all of them.
-    for name in NUMBERS:
-        _one_scale([axes[f"{k}.{name}"] for k in range(len(groups))])
+    heights = HIT_INCH, BAR_INCH * max(len(group.errors), 1)
+    figure = Figure(figsize=(PAGE_INCH, sum(heights) + LABELS_INCH), layout="constrained")
+    axes = figure.subplot_mosaic(_places(len(group.panels)), height_ratios=heights)
+    curves = [axes[str(k)] for k in range(max(len(group.panels), 1))]
+    errors, shares, delays = (axes[name] for name in NUMBERS)
+    _row(curves, group, joint)
+    entitle(curves[0], 0, curves[0].get_title(loc="left"))
+    draw_named_bars(errors, group.errors, "N m", source=source, marked=EACH)
+    entitle(errors, 1, group.title)
+    draw_named_dots(shares, group.shares, "share of the push shown [-]", 1.0)
+    draw_named_dots(delays, group.delays, "delay of the rise [ms]", group.observer_ms)
+    # The rows of all three are the methods, which the first one names.
+    for axis in (shares, delays):
+        axis.tick_params(labelleft=False)
     legend(figure, list(axes.values()))
     return figure
 
 
-NUMBERS = ("errors", "shares", "delays")  # panels of a group below its curves
+NUMBERS = ("errors", "shares", "delays")  # panels below the curves
 
 
-def _places(groups: Sequence[PushGroup]) -> list[Any]:
-    """Return the places of all panels: of each group a row of curves, and one of numbers."""
-    # so many columns that the panels of every row, however many, get equally many of them each
-    width = lcm(len(NUMBERS), *(max(len(group.panels), 1) for group in groups))
-    places: list[Any] = []
-    for k, group in enumerate(groups):
-        count = max(len(group.panels), 1)
-        curves: list[str] = []
-        for i in range(count):
-            curves += [f"{k}.{i}"] * (width // count)
-        numbers: list[str] = []
-        for name in NUMBERS:
-            numbers += [f"{k}.{name}"] * (width // len(NUMBERS))
-        places += [curves, numbers]
-    return places
-
-
-def _one_scale(axes: Sequence[Axes]) -> None:
-    """Let the horizontal axes of groups have one scale, which holds them all."""
-    ends = [end for axis in axes for end in axis.get_xlim()]
-    for axis in axes:
-        axis.set_xlim(min(ends), max(ends))
+def _places(count: int) -> list[Any]:
+    """Return the places of all panels: a row of so many curves, or of an empty panel, and a row of numbers."""
+    curves = [str(k) for k in range(max(count, 1))]
+    # so many columns that the panels of each row get equally many of them
+    width = lcm(len(NUMBERS), len(curves))
+    return [np.repeat(curves, width // len(curves)).tolist(), np.repeat(NUMBERS, width // len(NUMBERS)).tolist()]
 
 
 def _row(axes: Sequence[Axes], group: PushGroup, joint: str) -> None:
-    """Draw a group's curves [N m] on one scale; only the first panel names it."""
+    """Draw a test's curves [N m] on one scale; only the first panel names it."""
     for axis, panel in zip(axes, group.panels, strict=False):
         _curves(axis, panel)
         axis.set_title(panel.title, loc="left", pad=3)

@@ -23,10 +23,12 @@ LIMBS: Mapping[str, str] = {  # limb -> its colour, none that a method has
     "N": "#B4BAC2",
 }
 LEFT_AS_IT_IS = ("joint", "rubber", "glass", "lamp", "dark")  # tones that no limb colours
-AXIS_M = 0.13  # half length of the axis of a joint
-NAME_M = 0.05  # from an arrow to its name
+AXIS_M = 0.15  # half length of the axis of a joint
+NAME_M = 0.07  # from an arrow to its name
+NAME_POINTS = 7.0  # size of the name of a joint
 INK = "#1B1F24"
-HALO = [withStroke(linewidth=2.2, foreground="white")]
+HALO = [withStroke(linewidth=2.2, foreground="white")]  # of lines: around text it would turn letters into outlines
+GROUND = {"facecolor": "white", "alpha": 0.75, "edgecolor": "none", "pad": 0.4}  # behind the name of a joint
 
 
 def limbs_of(robot: RobotDescription) -> dict[str, str]:
@@ -78,7 +80,7 @@ def draw_axes(axis: Axes, found: Mapping[str, tuple[Array, Array]], view: Array)
         )
         axis.add_patch(arrow)
         x, y = end + NAME_M * (end - start) / np.linalg.norm(end - start)
-        axis.text(x, y, joint, ha="center", va="center", fontsize=6.5, zorder=8, path_effects=HALO)
+        axis.text(x, y, joint, ha="center", va="center", fontsize=NAME_POINTS, zorder=8, bbox=GROUND)
 
 
 def draw_note(axis: Axes, text: str, place: Array, at: tuple[float, float]) -> None:

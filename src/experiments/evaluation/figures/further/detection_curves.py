@@ -4,13 +4,14 @@ from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import StrMethodFormatter
+from matplotlib.lines import Line2D
 
-from experiments.evaluation.figures.style import LOOKS, Look, beside, entitle, legend, save_figure
+from experiments.evaluation.figures.style import LOOKS, NAME, Look, apart, beside, entitle, save_figure
 from experiments.evaluation.measure.detection.results import (
     MS,
     Detections,
@@ -26,7 +27,7 @@ from experiments.evaluation.number.clusters import ClusterKey, share_in
 from experiments.evaluation.number.number import Number
 from experiments.settings.detection_tables import DetectionCurves
 from experiments.settings.runs import Statistics
-from mobnet.core.detections import COLLISION, HELD_OUT, CurvePoint, FreeSwing, Promise
+from mobnet.core.detections import COLLISION, HELD_OUT, UNPUSHED, CurvePoint, FreeSwing, Promise
 from mobnet.core.style import styled
 from mobnet.settings.detection import Detection
 
@@ -35,21 +36,28 @@ FOUND = "found collisions"
 DELAY = "delay"
 FORCE = "found by force"
 AREA = "area"
+SET = {FOUND: f"{FOUND} at {{:g}}/h", DELAY: f"{DELAY} at {{:g}}/h"}  # by thresholds for the promised rate [1/h]
+NO_HIT = "found without a hit"
 LABELS = {
     FOUND: ("false alarms of a leg [1/h]", "found share [-]"),
     DELAY: ("false alarms of a leg [1/h]", "delay [ms]"),
     FORCE: ("largest force [N]", "found share [-]"),
 }
-HEIGHT_INCH = 2.5
+HEIGHT_INCH, WIDTHS = 2.05, (2.1, 1.0, 1.1)  # of the figure; of its panels, the first one with the names
 RATE_MOST = 1000.0  # false alarms in an hour above which nobody detects
 RATE_FLOOR = 0.3  # false alarms in an hour below which a rate is drawn here: none was counted
 BREAK = 0.4  # where the axis breaks between no false alarm and one
 RATES = (RATE_FLOOR, 1.0, 10.0, 100.0, 1000.0)  # that are named
+NAMES_END = 0.22  # where names end left of the first panel's lines [1/h]
+NAMES_FROM = 4e-5  # where the first panel begins, to have room for them [1/h]
+NAMES_APART = 0.085  # least distance between two names [share of the axis]
+NO_HIT_N, NO_HIT_BREAK_N = 0.9, 1.3  # where swings without a hit are drawn, and the axis breaks [N]
+FORCES = (NO_HIT_N, 3.0, 10.0, 30.0, 100.0)  # that are named [N]
+BROKEN: Mapping[str, Any] = {"color": "0.6", "linewidth": 0.6, "linestyle": (0, (2, 2)), "zorder": 0}
 BAND_ALPHA = 0.12  # opacity of intervals
-OTHERS = (
-    ((0, (1.5, 1)), "v"),
-    ((0, (6, 1.5, 1, 1.5)), "X"),
-)  # dash and marker of the second and third detector of a method
+MARKER_POINTS = 3.0  # size of a point of a line
+RING: Mapping[str, Any] = {"marker": "o", "markersize": 6.5, "markerfacecolor": "none", "markeredgewidth": 0.9}
+MARKERS = ("v", "X")  # of the second and third detector of a method
 
 
 @dataclass(frozen=True)
@@ -76,6 +84,7 @@ def detection_curves(
     points = {robot: rows_of(detections, [robot], "curves", CurvePoint, leg=leg) for robot in names}
     promises = rows_of(detections, names, "promises", Promise, leg=leg)
     swings = rows_of(detections, names, "swings", FreeSwing, leg=leg, scenario=detection.random, part=HELD_OUT)
+    between = {robot: rows_of(detections, [robot], "swings", FreeSwing, leg=leg, part=UNPUSHED) for robot in names}
     hits = tries_of(detections, names, detection.collisions, leg, COLLISION)
     sweep = tries_of(detections, names, detection.sweep, leg, settings.kind)
     courses = list[DetectorLine]()
@@ -87,12 +96,14 @@ def detection_curves(
         for robot, found in points.items():
             own[robot] = [row for row in found if row.detector == name]
         courses += _over_rates(name, own, quiet, hours, statistics)
+        courses += _at_promise(name, own, quiet, hours, detection.thresholds.rates_per_h[COLLISION], statistics)
         courses.append(_over_force(name, sweep[name], settings.force_bins, statistics))
+        courses.append(_without_hit(name, between, statistics))
         hit = np.array([one.detected.ratio for one in hits[name]])
         area = area_of(hit, np.array([row.ratio for row in quiet]), statistics)
         rows.append((AREA, settings.level, name, None, *area.with_ends, len(hits[name]), "-"))
     for one in courses:
-        unit = "ms" if one.panel == DELAY else "-"
+        unit = "ms" if one.panel.startswith(DELAY) else "-"
         for x, number, count in zip(one.x, one.numbers, one.counts, strict=True):
             rows.append((one.panel, settings.level, one.detector, x, *number.with_ends, count, unit))
     save_figure(draw_courses(courses), figure_dir / "detection_curves", COLUMNS, rows)
@@ -109,31 +120,75 @@ def _over_rates(
 
     The points are those of each robot.
     """
-    pooled = [(robot, row) for robot, rows in points.items() for row in rows]
-    factors = sorted({row.factor for _, row in pooled})
+    factors = sorted({row.factor for rows in points.values() for row in rows})
     factors = [factor for factor in factors if alarms_in(quiet, factor) <= RATE_MOST * hours]
     quiet_at = next((k for k, factor in enumerate(factors) if not alarms_in(quiet, factor)), len(factors))
     factors = factors[: quiet_at + 1]  # higher thresholds only find less
-    rates = list[float]()
+    rates = [_rate(quiet, factor, hours) for factor in factors]
     shares = list[Number]()
     delays = list[Number]()
     counts = list[int]()
     for factor in factors:
-        own = [(robot, row) for robot, row in pooled if row.factor == factor]
-        found = sum(row.found for _, row in own)
-        count = sum(row.collisions for _, row in own)
-        flags: list[bool] = []
-        places: list[ClusterKey] = []
-        for robot, row in own:
-            flags += [True] * row.found + [False] * (row.collisions - row.found)
-            # A point is of all walks of a robot together: one cluster.
-            places += [ClusterKey(robot, 0)] * row.collisions
-        rates.append(alarms_in(quiet, factor) / hours if hours else 0.0)
-        shares.append(share_in(flags, places, statistics))
-        late = MS * sum(row.delay_sum_s for _, row in own) / found if found else None
-        delays.append(Number(late, unit="ms"))
+        share, delay, count = _at_factor(points, factor, statistics)
+        shares.append(share)
+        delays.append(delay)
         counts.append(count)
     return [DetectorLine(FOUND, name, rates, shares, counts), DetectorLine(DELAY, name, rates, delays, counts)]
+
+
+def _at_promise(
+    name: str,
+    points: Mapping[str, Sequence[CurvePoint]],
+    quiet: Sequence[FreeSwing],
+    hours: float,
+    promised_per_h: float,
+    statistics: Statistics,
+) -> list[DetectorLine]:
+    """Return the found share and the mean delay [ms] by the thresholds for a promised rate, at what was counted [1/h].
+
+    The points are those of each robot; the nearest multiple of the thresholds to 1 counts.
+    """
+    factors = {row.factor for rows in points.values() for row in rows}
+    nearest = min(factors, key=lambda factor: abs(np.log(factor)))
+    share, delay, count = _at_factor(points, nearest, statistics)
+    rate = [_rate(quiet, nearest, hours)]
+    lines: list[DetectorLine] = []
+    for panel, number in ((FOUND, share), (DELAY, delay)):
+        lines.append(DetectorLine(SET[panel].format(promised_per_h), name, rate, [number], [count]))
+    return lines
+
+
+def _rate(quiet: Sequence[FreeSwing], factor: float, hours: float) -> float:
+    """Return the false alarms at a multiple of the thresholds [1/h]."""
+    return alarms_in(quiet, factor) / hours if hours else 0.0
+
+
+def _at_factor(
+    points: Mapping[str, Sequence[CurvePoint]], factor: float, statistics: Statistics
+) -> tuple[Number, Number, int]:
+    """Return found share [-] and mean delay [ms] at a multiple of the thresholds, and of how many collisions."""
+    own = [(robot, row) for robot, rows in points.items() for row in rows if row.factor == factor]
+    found = sum(row.found for _, row in own)
+    count = sum(row.collisions for _, row in own)
+    flags: list[bool] = []
+    places: list[ClusterKey] = []
+    for robot, row in own:
+        flags += [True] * row.found + [False] * (row.collisions - row.found)
+        # A point is of all walks of a robot together: one cluster.
+        places += [ClusterKey(robot, 0)] * row.collisions
+    late = MS * sum(row.delay_sum_s for _, row in own) / found if found else None
+    return share_in(flags, places, statistics), Number(late, unit="ms"), count
+
+
+def _without_hit(name: str, swings: Mapping[str, Sequence[FreeSwing]], statistics: Statistics) -> DetectorLine:
+    """Return the share of each robot's swings without a hit in which a detector has an alarm, by the paper's rule."""
+    flags: list[bool] = []
+    places: list[ClusterKey] = []
+    for robot, rows in swings.items():
+        own = [row for row in rows if row.detector == name]
+        flags += [row.ratio_largest > 1.0 for row in own]
+        places += [ClusterKey(robot, row.seed) for row in own]
+    return DetectorLine(NO_HIT, name, [0.0], [share_in(flags, places, statistics)], [len(flags)])
 
 
 def _over_force(name: str, tries: Sequence[Try], bins: int, statistics: Statistics) -> DetectorLine:
@@ -165,32 +220,56 @@ def area_of(hits: np.ndarray, quiet: np.ndarray, statistics: Statistics) -> Numb
 
 @styled
 def draw_courses(courses: Sequence[DetectorLine]) -> Figure:
-    """Draw the three panels side by side, those over false alarms with a break left of which none was counted."""
+    """Draw the three panels side by side, those over false alarms with a break left of which none was counted.
+
+    The first one names the detectors of all.
+    """
     styles = looks_of(one.detector for one in courses)
-    figure, axes = beside(len(LABELS), HEIGHT_INCH)
+    figure, axes = beside(len(LABELS), HEIGHT_INCH, width_ratios=WIDTHS)
     for k, (panel, axis) in enumerate(zip(LABELS, axes, strict=True)):
-        for one in (one for one in courses if one.panel == panel):
-            _draw(axis, one, styles[one.detector])
+        for one in courses:
+            if one.panel == panel:
+                _draw(axis, one, styles[one.detector])
+            elif one.panel.startswith(f"{panel} at "):
+                _ring(axis, one, styles[one.detector])
+            elif (one.panel, panel) == (NO_HIT, FORCE):
+                _mark(axis, NO_HIT_N, one, styles[one.detector])
         axis.set(xlabel=LABELS[panel][0], ylabel=LABELS[panel][1], xscale="log")
-        axis.xaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
-        if panel != FORCE:
-            axis.minorticks_off()
-            axis.set_xticks(RATES, ["0", *(f"{rate:g}" for rate in RATES[1:])])
-            axis.axvline(BREAK, color="0.6", linewidth=0.6, linestyle=(0, (2, 2)), zorder=0)
+        axis.minorticks_off()
+        first = "none" if panel == FORCE else "0"
+        ticks = FORCES if panel == FORCE else RATES
+        axis.set_xticks(ticks, [first, *(f"{tick:g}" for tick in ticks[1:])])
+        axis.axvline(NO_HIT_BREAK_N if panel == FORCE else BREAK, **BROKEN)
         axis.set_ylim(0.0, None if panel == DELAY else 1.05)
         entitle(axis, k, panel)
-    legend(figure, axes)
+    _name(axes[0], [one for one in courses if one.panel == FOUND], styles)
+    rates = {one.panel.rpartition(" ")[2] for one in courses if one.panel.startswith(f"{DELAY} at ")}
+    keys = [Line2D([], [], linestyle="", label=f"thresholds for {rate}", **RING, color="0.3") for rate in rates]
+    axes[1].legend(handles=keys, loc="lower left", frameon=False, handletextpad=0.2, borderpad=0.0)
     return figure
 
 
+def _name(axis: Axes, courses: Sequence[DetectorLine], styles: Mapping[str, Look]) -> None:
+    """Write the names of lines left of their beginnings, apart from one another, each with its marker."""
+    axis.set_xlim(NAMES_FROM, 2.0 * RATE_MOST)
+    shown = [one for one in courses if one.numbers and one.numbers[-1].value is not None]
+    shares = [one.numbers[-1].value or 0.0 for one in shown]
+    for one, share, place in zip(shown, shares, apart(shares, NAMES_APART, 1.0), strict=True):
+        look = styles[one.detector]
+        start = max(one.x[-1], RATE_FLOOR)
+        axis.plot([NAMES_END, start], [place, share], color=look.colour, linewidth=0.4, zorder=1.0)
+        axis.plot(NAMES_END, place, marker=look.marker, markersize=MARKER_POINTS + 1.0, color=look.colour)
+        axis.annotate(one.detector, (NAMES_END, place), (-4.0, 0.0), ha="right", **NAME)
+
+
 def looks_of(detectors: Iterable[str]) -> dict[str, Look]:
-    """Return the looks of detectors: the first one of a method has the method's, others its colour and another dash."""
+    """Return the looks of detectors: the first one of a method has the method's, others have another marker."""
     found = dict[str, Look]()
     seen = Counter[str]()
     for name in dict.fromkeys(detectors):
         method = max((known for known in LOOKS if name.startswith(known)), key=len)
-        others = dict(zip(("dash", "marker"), OTHERS[seen[method] - 1], strict=True)) if seen[method] else {}
-        found[name] = replace(LOOKS[method], **others)
+        look = LOOKS[method]
+        found[name] = replace(look, marker=MARKERS[seen[method] - 1]) if seen[method] else look
         seen[method] += 1
     return found
 
@@ -199,9 +278,22 @@ def _draw(axis: Axes, one: DetectorLine, look: Look) -> None:
     """Draw a line with its intervals, where it has any: bars at the forces, bands over the rates."""
     mean, low, high = np.array([number.range for number in one.numbers], dtype=np.float64).reshape(-1, 3).T
     x = np.asarray(one.x) if one.panel == FORCE else np.maximum(one.x, RATE_FLOOR)
-    marker = look.marker if one.panel == FORCE else ""
-    axis.plot(x, mean, label=one.detector, marker=marker, markersize=3, **look.line)
+    axis.plot(x, mean, marker=look.marker, markersize=MARKER_POINTS, **look.line)
     if one.panel == FORCE:
         axis.vlines(x, low, high, color=look.colour, linewidth=0.6, alpha=0.7, zorder=look.order)
     else:
         axis.fill_between(x, low, high, color=look.colour, alpha=BAND_ALPHA, linewidth=0.0)
+
+
+def _ring(axis: Axes, one: DetectorLine, look: Look) -> None:
+    """Draw a ring around where the thresholds for a promised rate are, at the rate that was counted."""
+    (number,) = one.numbers
+    if number.value is not None:
+        axis.plot(max(one.x[0], RATE_FLOOR), number.value, color=look.colour, zorder=4, **RING)
+
+
+def _mark(axis: Axes, x: float, one: DetectorLine, look: Look) -> None:
+    """Draw a single number with its interval at a place."""
+    mean, low, high = np.array(one.numbers[0].range, dtype=np.float64)
+    axis.plot(x, mean, marker=look.marker, markersize=MARKER_POINTS, color=look.colour, zorder=look.order)
+    axis.vlines(x, low, high, color=look.colour, linewidth=0.6, alpha=0.7, zorder=look.order)

@@ -38,7 +38,6 @@ def drift(settings: Drift, statistics: Statistics, scores: Sequence[Path], figur
                 guide=1.0,
                 ends=ENDS,
                 note=beyond(held),
-                note_below=True,
                 logarithmic=False,
                 dodge=APART,
             )

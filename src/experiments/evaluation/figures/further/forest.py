@@ -62,11 +62,12 @@ LOOKS: Mapping[str, tuple[str, str, str]] = {
     REPRODUCED: ("#00795A", "o", "\N{CHECK MARK}"),
     NOT_MEASURED: ("0.45", "", "\N{EN DASH}"),
 }
-POINTS, ROW_INCH, HEAD_INCH, KEY_INCH = 6.5, 0.13, 0.2, 0.5  # size of text; heights of a row, a head and the legend
+POINTS, ROW_INCH, HEAD_INCH, KEY_INCH = 7.0, 0.11, 0.17, 0.34  # size of text; heights of a row, a head, the legend
 KEY_COLUMNS = 3
-AXIS_INCH = 0.33  # height below the last row, of an axis
-TEXT_INCH, LEFT_INCH, WIDTH_INCH = 0.12, 3.84, 1.36  # where texts begin; where the axis does, and its width
-COLUMN_INCH = {"ours": 5.28, "other": 6.95}  # where our number begins and the other column ends
+AXIS_INCH = 0.3  # height below the last row, of an axis
+TEXT_INCH, LEFT_INCH, WIDTH_INCH = 0.12, 3.86, 1.2  # where texts begin; where the axis does, and its width
+COLUMN_INCH = {"ours": 5.14, "other": 6.97}  # where our number begins and the other column ends
+STRIPE: Mapping[str, Any] = {"color": "0.96", "linewidth": 0.0, "clip_on": False, "zorder": 0}  # every other row
 
 
 def forest(judged: Sequence[Judged], confidence: float, figure_dir: Path) -> None:
@@ -92,7 +93,9 @@ def draw_forest(statements: Sequence[StatementPosition], axis_name: str, interva
         for own in sections:
             _head(axis, top, own, axis_name)
             top += HEAD_INCH
-            for each in own:
+            for k, each in enumerate(own):
+                if k % 2:
+                    _stripe(axis, top)
                 _row(axis, top + ROW_INCH / 2.0, each)
                 top += ROW_INCH
         _key(figure, statements, f"claimed range, for the {interval}")
@@ -131,13 +134,20 @@ def _head(axis: Axes, top: float, own: Sequence[StatementPosition], name: str) -
     axis.plot(ends, [top + HEAD_INCH - 0.02] * 2, **line)
 
 
+def _stripe(axis: Axes, top: float) -> None:
+    """Draw the ground of a row at its top [inch] from side to side, which leads the eye."""
+    left, right = ((inch - LEFT_INCH) / WIDTH_INCH for inch in (0.0, COLUMN_INCH["other"]))
+    place = (left, top), right - left, ROW_INCH
+    axis.add_patch(mpl.patches.Rectangle(*place, transform=axis.get_yaxis_transform(), **STRIPE))
+
+
 def _row(axis: Axes, row: float, statement: StatementPosition) -> None:
     """Draw a statement in its row [inch]: sign, text, interval and numbers."""
     place = statement.worst
     judged = place.judged
     claim = place.judged.row.claim
     colour, _, sign = LOOKS[judged.verdict]
-    _text(axis, 0.0, row, sign, color=colour, weight="bold")
+    _text(axis, 0.01, row, sign, color=colour, weight="bold")
     _text(axis, TEXT_INCH, row, text_of(statement))
     unit = "" if judged.ours.unit == "-" else f" {judged.ours.unit}"
     value, interval = judged.ours.texts()
@@ -184,6 +194,8 @@ def _key(figure: Figure, statements: Sequence[StatementPosition], band: str) -> 
     counts = Counter(each.worst.judged.verdict for each in statements)
     handles: list[Any] = []
     for verdict, (colour, marker, sign) in LOOKS.items():
+        if not counts[verdict]:
+            continue
         width = 1.2 if marker else 0.0
         text = f"{sign} {verdict} ({counts[verdict]})"
         line = mpl.lines.Line2D([], [], color=colour, marker=marker, markersize=4, linewidth=width, label=text)

@@ -1,6 +1,5 @@
-"""The reliability diagram: observed less nominal coverage, by parts of the body."""
+"""The reliability diagram: observed minus nominal coverage, as learned and as scaled."""
 
-from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -13,17 +12,18 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
-from experiments.evaluation.figures.style import LETTERS, PALETTE, save_figure
+from experiments.evaluation.figures.style import NAME, apart, beside, entitle, looks, save_figure
 from experiments.evaluation.measure.learning.calibration import CoverageGrid
 from experiments.settings.measures import CalibrationTable
 from mobnet.core.columns import RELIABILITY
-from mobnet.core.style import PAGE_INCH, STYLE, styled
+from mobnet.core.style import styled
 
-ACROSS, PANEL_INCH, LABELS_INCH = 3, 1.6, 0.3  # panels in a row, height of a row and of the label below all
+HEIGHT_INCH, WIDTHS = 2.4, (1.0, 1.8)  # of the figure; of its panels, the second one with the names
 MOST = 33.0  # end of the axis [points]
 TICKS = (-30.0, -20.0, -10.0, 0.0, 10.0, 20.0, 30.0)
-WIDTHS = (1.5, 0.7)  # of the lines of the first limb in a panel and of the second [points]
-LEARNED_ALPHA = 0.35  # of the lines before the scaling
+NAMES_FROM, ROOM = 106.0, 85.0  # where names begin, and how far the axis goes on for them [%]
+NAMES_APART = 4.5  # least distance between two names [points]
+WITHIN: Mapping[str, Any] = {"color": "0.65", "linewidth": 0.7, "zorder": 2}
 BAND: Mapping[str, Any] = {"color": "0.92", "linewidth": 0.0, "zorder": 0}
 IN_DISTRIBUTION = "in distribution"
 
@@ -43,25 +43,28 @@ class CoverageCurve:
     before: NDArray[Any]
     after: NDArray[Any]
 
+    @property
+    def text(self) -> str:
+        """What the figure calls it, whose colour says the method."""
+        return f"{self.name}, {self.case}"
 
-@dataclass(frozen=True)
-class ReliabilityPanel:
-    """One panel, with a curve for each limb and case."""
-
-    title: str
-    curves: Sequence[CoverageCurve]
+    def leaves(self, tolerance: float) -> bool:
+        """Return whether the scaled coverage is somewhere further from the nominal one than a tolerance [-]."""
+        return bool(np.abs(self.after - self.nominal).max() > tolerance)
 
 
 def reliability(
     settings: CalibrationTable, grids: Sequence[CoverageGrid], skipped: int, points: Sequence[float], figure_dir: Path
 ) -> None:
-    """Write the reliability diagram as calibration.pdf, .png and .csv; the CSV file has limbs of no panel too.
+    """Write the reliability diagram as calibration.pdf, .png and .csv; the CSV file has limbs that are not drawn too.
 
     In the grids, the coverage of the nominal points (p,) follows that of the table's levels, `skipped` in number.
     """
     curves = curves_of(grids, settings, skipped, points)
-    figure = draw_reliability(panels_of(curves, settings), settings.tolerance)
-    save_figure(figure, figure_dir / "calibration", RELIABILITY, curve_rows(curves))
+    drawn = [curve for curve in curves if curve.limb in settings.drawn]
+    save_figure(
+        draw_reliability(drawn, settings.tolerance), figure_dir / "calibration", RELIABILITY, curve_rows(curves)
+    )
 
 
 def nominal_points(count: int) -> list[float]:
@@ -83,61 +86,47 @@ def curves_of(
     return curves
 
 
-def panels_of(curves: Sequence[CoverageCurve], settings: CalibrationTable) -> list[ReliabilityPanel]:
-    """Return a panel for each part of the body and method."""
-    panels = []
-    for part, limbs in settings.parts.items():
-        own = [curve for curve in curves if curve.limb in limbs]
-        for method in dict.fromkeys(curve.method for curve in own):
-            shown = [curve for curve in own if curve.method == method]
-            names = ", ".join(dict.fromkeys(curve.name for curve in shown))
-            panels.append(ReliabilityPanel(f"{part} ({names}), {method}", shown))
-    return panels
-
-
 @styled
-def draw_reliability(panels: Sequence[ReliabilityPanel], tolerance: float) -> Figure:
-    """Draw observed less nominal coverage [points] over the nominal one [%]; pale lines as learned, full ones scaled.
+def draw_reliability(curves: Sequence[CoverageCurve], tolerance: float) -> Figure:
+    """Draw observed minus nominal coverage [points] over the nominal one [%]: (a) as learned, (b) scaled.
 
-    A case has one colour in every panel. Where sigma is true a line lies at zero, within the tolerance [-] in the band.
-    The legend stands in the place after the last panel.
+    Where sigma is true a line lies at zero. Curves that leave the band of the tolerance [-] once they are scaled have
+    the colour of their method in both panels, and their names in (b); others are grey.
     """
-    cases = dict.fromkeys(curve.case for panel in panels for curve in panel.curves)
-    colours = {case: look.colour for case, look in zip(cases, PALETTE, strict=False)}
-    rows = -(-(len(panels) + 1) // ACROSS)
-    figure = Figure(figsize=(PAGE_INCH, PANEL_INCH * rows + LABELS_INCH), layout="constrained")
-    axes: list[Axes] = figure.subplots(rows, ACROSS, squeeze=False, sharex=True, sharey=True).ravel().tolist()
-    for k, (axis, panel) in enumerate(zip(axes, panels, strict=False)):
-        axis.axhspan(-100.0 * tolerance, 100.0 * tolerance, **BAND)
-        axis.axhline(0.0, color="0.5", linewidth=0.6, zorder=1)
-        _draw(axis, panel, colours)
-        axis.set(xlim=(0.0, 100.0), ylim=(-MOST, MOST), yticks=TICKS)
-        axis.set_title(f"({LETTERS[k]}) {panel.title}", loc="left", pad=3)
-        axis.tick_params(labelbottom=True)
-    for axis in axes[len(panels) :]:
-        axis.set_axis_off()
-    _key(axes[len(panels)], colours, tolerance)
-    figure.supxlabel("nominal coverage [%]", fontsize=STYLE["axes.labelsize"])
-    figure.supylabel("observed less nominal coverage [points]", fontsize=STYLE["axes.labelsize"])
+    colours = {method: look.colour for method, look in looks(curve.method for curve in curves).items()}
+    figure, axes = beside(2, HEIGHT_INCH, width_ratios=WIDTHS, sharey=True)
+    titles = ("as learned", "scaled on validation data")
+    for k, (axis, title) in enumerate(zip(axes, titles, strict=True)):
+        end = 100.0 / (100.0 + ROOM) if k else 1.0
+        axis.axhspan(-100.0 * tolerance, 100.0 * tolerance, xmax=end, **BAND)
+        axis.axhline(0.0, xmax=end, color="0.5", linewidth=0.6, zorder=1)
+        for curve in curves:
+            is_outside = curve.leaves(tolerance)
+            observed = curve.after if k else curve.before
+            look = {"color": colours[curve.method], "linewidth": 1.3, "zorder": 3} if is_outside else WITHIN
+            axis.plot(100.0 * curve.nominal, 100.0 * (observed - curve.nominal), **look)
+        axis.set(xlim=(0.0, 100.0), ylim=(-MOST, MOST), yticks=TICKS, xlabel="nominal coverage [%]")
+        entitle(axis, k, title)
+    axes[0].set_ylabel("observed minus nominal\ncoverage [points]")
+    outside = [curve for curve in curves if curve.leaves(tolerance)]
+    _name(axes[1], outside, colours)
+    methods = dict.fromkeys(curve.method for curve in outside)
+    handles: list[Any] = [Line2D([], [], color=colours[method], label=method) for method in methods]
+    handles.append(Line2D([], [], label=f"others, within {100.0 * tolerance:g} points", **WITHIN))
+    handles.append(Patch(label=f"\N{PLUS-MINUS SIGN}{100.0 * tolerance:g} points", **BAND))
+    figure.legend(handles=handles, loc="outside upper center", ncols=len(handles), frameon=False, borderpad=0.0)
     return figure
 
 
-def _draw(axis: Axes, panel: ReliabilityPanel, colours: Mapping[str, str]) -> None:
-    """Draw the curves of one panel, of one case the first limb with a thick line and the second one with a thin one."""
-    drawn = Counter[str]()
-    for curve in panel.curves:
-        look = {"color": colours[curve.case], "linewidth": WIDTHS[min(drawn[curve.case], 1)]}
-        for observed, alpha in ((curve.before, LEARNED_ALPHA), (curve.after, 1.0)):
-            axis.plot(100.0 * curve.nominal, 100.0 * (observed - curve.nominal), alpha=alpha, **look)
-        drawn[curve.case] += 1
-
-
-def _key(axis: Axes, colours: Mapping[str, str], tolerance: float) -> None:
-    """Put the legend into an empty place: cases, what is pale, and the band."""
-    handles: list[Any] = [Line2D([], [], color=colour, label=case) for case, colour in colours.items()]
-    handles.append(Line2D([], [], color="black", alpha=LEARNED_ALPHA, label="pale: uncalibrated"))
-    handles.append(Patch(label=f"within {100.0 * tolerance:g} points", **BAND))
-    axis.legend(handles=handles, loc="center left", frameon=False, handlelength=1.8, borderpad=0.0)
+def _name(axis: Axes, curves: Sequence[CoverageCurve], colours: Mapping[str, str]) -> None:
+    """Write the names of curves at their right ends, apart from one another."""
+    axis.set(xlim=(0.0, 100.0 + ROOM), xticks=(0.0, 20.0, 40.0, 60.0, 80.0, 100.0))
+    axis.spines["bottom"].set_bounds(0.0, 100.0)
+    ends = [100.0 * float(curve.after[-1] - curve.nominal[-1]) for curve in curves]
+    for curve, end, place in zip(curves, ends, apart(ends, NAMES_APART, MOST), strict=True):
+        x = 100.0 * float(curve.nominal[-1])
+        axis.plot([x, NAMES_FROM], [end, place], color=colours[curve.method], linewidth=0.4)
+        axis.annotate(curve.text, (NAMES_FROM, place), (2.0, 0.0), ha="left", **NAME)
 
 
 def curve_rows(curves: Sequence[CoverageCurve]) -> Iterator[tuple[str, str, str, float, float, float]]:

@@ -1,4 +1,4 @@
-"""Figure 10: pushes on the knee of a leg in the air and on the ground: curves, errors, shares shown and delays."""
+"""Figure 10: pushes on the knee of a leg in the air, and on the ground: curves, errors, shares shown and delays."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
@@ -30,6 +30,8 @@ from experiments.settings.runs import Statistics
 from mobnet.core.columns import PUSH_ERRORS
 from mobnet.core.joints import JointLayout
 
+PICTURES = ("figure_10", "figure_10_support")  # of the tests of the section, in its order
+
 
 def figure_10(
     settings: Figure10,
@@ -40,24 +42,23 @@ def figure_10(
     scores: Sequence[Path],
     figure_dir: Path,
 ) -> None:
-    """Write Figure 10, pushes on the knee of a leg in the air and on the ground [N m]: curves and numbers by method.
+    """Write Figure 10, pushes on the knee of a leg [N m]: curves and numbers by method, a picture for each test.
 
-    The title of a test leads to its runs, one of each method and all of one recording.
+    The first is that of the leg in the air, the second that of the leg on the ground. The title of a test leads to its
+    runs, one of each method and all of one recording. Numbers of both are in one file.
     """
     lookup = read_lookup(scores, statistics)
-    groups = list[PushGroup]()
     rows = list[tuple[Field, ...]]()
-    for title, test in settings.tests.items():
+    for picture, (title, test) in zip(PICTURES, settings.tests.items(), strict=False):
         errors = collision_errors(layout, settings, test, published, lookup)
         responses = responses_of(layout, lookup, test, settings.joint)
         drawn = [run for run in runs[title] if run.method in settings.drawn]
         panels = [ours_banded(panel) for panel in read_pushes(layout, settings, drawn, f"{title} {{}}", band=True)]
-        groups.append(group_of(panels, title, errors, responses))
+        group = group_of(panels, title, errors, responses)
+        figure = draw_hits(group, settings.joint, PAPER_LABEL[True])
+        save_figure(figure, figure_dir / picture, *table_of(panels))
         rows += rows_of(test.scenario, errors, responses)
     write_csv(figure_dir / "figure_10_bars.csv", PUSH_ERRORS, rows)
-    panels = [panel for group in groups for panel in group.panels]
-    figure = draw_hits(groups, settings.joint, PAPER_LABEL[True])
-    save_figure(figure, figure_dir / "figure_10", *table_of(panels))
 
 
 def group_of(panels: Sequence[Panel], title: str, errors: PushErrors, responses: Responses) -> PushGroup:

@@ -5,10 +5,12 @@ All have learned from equally many time steps.
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 
 from experiments.evaluation.figures.style import Look, entitle, looks, save_figure
 from experiments.evaluation.measure.learning.losses import ENDS, Loss, losses_of
@@ -16,12 +18,14 @@ from experiments.evaluation.measure.learning.trainings import kind_of_each, read
 from experiments.settings.figures import Figure17
 from experiments.settings.runs import Statistics
 from mobnet.core.columns import LOSSES
-from mobnet.core.style import COLUMN_INCH, styled
+from mobnet.core.style import PAGE_INCH, styled
 
-ROW_INCH, LABELS_INCH = 0.34, 0.6  # height of a kind, and of titles and labels
-NUMBER_POINTS = 6.0  # size of a number
-ROOM = 0.32  # of an axis for numbers at its right [share]
+ROW_INCH, LABELS_INCH = 0.3, 0.85  # height of a kind, and of legend, titles and labels
+NUMBER_POINTS = 7.0  # size of a number
+ROOM = 0.2  # of an axis for numbers at its right [share]
 APART = 0.2  # of a recipe from the middle of its kind's row [share of a row]
+MARK: Mapping[str, Any] = {"markersize": 4.5, "zorder": 4.0}  # on top of strokes and intervals
+STROKE: Mapping[str, Any] = {"marker": "|", "linestyle": "", "markersize": 7.0, "markeredgewidth": 0.7}
 TITLES = {"training loss": "training", "validation loss": "validation", "validation RMSE": "validation"}
 LABELS = {"training loss": "loss [-]", "validation loss": "loss [-]", "validation RMSE": "RMSE [N m]"}
 
@@ -50,7 +54,7 @@ def draw_losses(losses: Sequence[Loss], kinds: Mapping[str, str]) -> Figure:
     """
     rows = list(dict.fromkeys(kinds[loss.method] for loss in losses))
     styles = looks(rows)
-    figure = Figure(figsize=(COLUMN_INCH, ROW_INCH * max(1, len(rows)) + LABELS_INCH), layout="constrained")
+    figure = Figure(figsize=(PAGE_INCH, ROW_INCH * max(1, len(rows)) + LABELS_INCH), layout="constrained")
     axes = figure.subplots(1, len(TITLES), sharey=True)
     for k, (axis, measure) in enumerate(zip(axes, dict.fromkeys(ENDS.values()), strict=True)):
         for loss in (loss for loss in losses if loss.measure == measure):
@@ -67,20 +71,33 @@ def draw_losses(losses: Sequence[Loss], kinds: Mapping[str, str]) -> Figure:
         axis.set_xlim(first, last + ROOM * (last - first))
     axes[0].set_yticks(range(len(rows)), rows)
     axes[0].set_ylim(len(rows) - 0.5, -0.5)
+    _key(figure)
     return figure
+
+
+def _key(figure: Figure) -> None:
+    """Say on top of the figure what filled and hollow marks, lines and strokes are."""
+    look = {"color": "0.3", "linestyle": "", "marker": "o", "markersize": MARK["markersize"]}
+    handles = [
+        Line2D([], [], label="one recipe for all kinds, mean over robots", **look),
+        Line2D([], [], label="the kind's best recipe, first robot", markerfacecolor="white", **look),
+        Line2D([], [], color="0.3", linewidth=1.6, label="interval"),
+        Line2D([], [], color="0.3", label="a robot", **STROKE),
+    ]
+    figure.legend(handles=handles, loc="outside upper center", ncols=len(handles), frameon=False, borderpad=0.0)
 
 
 def _draw(axis: Axes, row: float, loss: Loss, look: Look, *, hollow: bool) -> None:
     """Draw a loss [-] or an error [N m] at its place with its number."""
     value, low, high = np.array(loss.number.range, dtype=np.float64)
     axis.plot([low, high], [row, row], color=look.colour, linewidth=1.6, solid_capstyle="butt")
-    axis.plot(loss.runs, [row] * len(loss.runs), "|", color=look.colour, markersize=7.0, markeredgewidth=0.7)
+    axis.plot(loss.runs, [row] * len(loss.runs), color=look.colour, **STROKE)
     filling = "white" if hollow else look.colour
-    axis.plot([value], [row], marker=look.marker, color=look.colour, markersize=3.2, markerfacecolor=filling)
+    axis.plot([value], [row], marker=look.marker, color=look.colour, markerfacecolor=filling, **MARK)
     axis.annotate(
         loss.number.text(),
         (max(high, *loss.runs), row),
-        (4.0, 0.0),
+        (6.0, 0.0),
         textcoords="offset points",
         va="center",
         fontsize=NUMBER_POINTS,

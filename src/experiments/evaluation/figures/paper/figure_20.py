@@ -1,4 +1,4 @@
-"""Figure 20: error by size of the network and of the training data, over that of the printed size."""
+"""Figure 20: error by size of the network and of the training data."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -12,12 +12,15 @@ from mobnet.core.columns import SIZES
 
 TITLES = {"parameters": "size of the network, all data", "samples": "size of the data, printed network"}
 X_LABELS = {"parameters": "parameters [thousand]", "samples": "samples learned from [thousand]"}
-Y_LABEL = "relative RMSE [-]"
+Y_LABEL = "RMSE [N m]"
 THOUSAND = 1e3
 
 
 def figure_20(sizes_of_networks: Sequence[SweptSize], statistics: Statistics, figure_dir: Path) -> None:
-    """Write Figure 20, validation RMSE over that of the printed size [-], over parameters (a) and samples (b)."""
+    """Write Figure 20, validation RMSE [N m] over parameters (a) and samples (b); the printed size is marked.
+
+    The CSV file has the errors over that of the printed size too.
+    """
     sizes = sizes_of(sizes_of_networks, statistics)
     panels = []
     for panel, title in TITLES.items():
@@ -32,22 +35,20 @@ def figure_20(sizes_of_networks: Sequence[SweptSize], statistics: Statistics, fi
             X_LABELS[panel],
             Y_LABEL,
             lines,
-            guide=1.0,
+            upright=printed_place(sizes, panel),
             ends=(None, None),
             scale=panel,
-            note="\n".join(printed_size(sizes, base) for base in bases),
         )
         panels.append(drawn)
     save_figure(draw_lines(panels), figure_dir / "figure_20", SIZES, [size.record() for size in sizes])
 
 
 def growth_line(own: Sequence[Size], base: str) -> Line:
-    """Return the relative errors (n,) of an estimator's variations over the size that their panel varies."""
-    shown = [size for size in own if size.ratio.value is not None]
-    return Line(base, [size.place / THOUSAND for size in shown], [size.ratio for size in shown])
+    """Return the errors (n,) [N m] of an estimator's variations over the size that their panel varies."""
+    return Line(base, [size.place / THOUSAND for size in own], [size.rmse for size in own])
 
 
-def printed_size(sizes: Sequence[Size], base: str) -> str:
-    """Return what a relative error of 1 is of an estimator, as text."""
-    errors = [size.rmse.text() for size in sizes if size.base == base and size.ratio.value == 1.0]
-    return f"{base}: 1 is {errors[0]} N m" if errors else ""
+def printed_place(sizes: Sequence[Size], panel: str) -> float | None:
+    """Return where a panel has the printed network that learned from all data [thousand]; None where it is not."""
+    places = [size.place / THOUSAND for size in sizes if size.panel == panel and size.ratio.value == 1.0]
+    return places[0] if places else None

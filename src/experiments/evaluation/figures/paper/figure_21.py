@@ -1,16 +1,18 @@
-"""Figure 21: footsteps of compliant stepping, from above, in a walk into an obstacle at the foot."""
+"""Figure 21: where and when each foot is on the ground in a walk into an obstacle, and after the reaction."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.patches import Polygon
+from matplotlib.patches import Rectangle
 
-from experiments.evaluation.figures.drawing.robot import PAD, draw_arrow, solid_of
+from experiments.evaluation.figures.drawing.robot import solid_of
 from experiments.evaluation.figures.drawing.solids import outline_of
-from experiments.evaluation.figures.style import legend, save_figure
+from experiments.evaluation.figures.style import entitle, legend, save_figure
 from experiments.settings.reaction_tables import Figure21
 from mobnet.control.kinematics import empty_pose, tree_of, update
 from mobnet.core.arrays import Array
@@ -21,14 +23,43 @@ from mobnet.robot.description import SIDES, RobotDescription, describe
 from mobnet.settings.data import Obstacle
 from mobnet.settings.robot import RobotTable
 
-COLUMNS = ("foot", "step", "reacting", "time_s", "x_m", "y_m", "yaw_rad")
+COLUMNS = ("foot", "step", "reacting", "time_s", "x_m", "y_m", "yaw_rad", "until_s")
 HEIGHT_INCH = 2.9
 IN_THE_AIR = 0.5  # of a flag
 COLOURS = {"left": "#0072B2", "right": "#009E73"}
-Step = tuple[str, int, Array]  # side, sample at which the foot stands, its place x, y and yaw (3,) [m, m, rad]
-ARROW_M = 0.25
+OBSTACLE: Mapping[str, Any] = {"color": "#D55E00", "linewidth": 1.4, "label": "front of the obstacle"}
+PELVIS: Mapping[str, Any] = {"color": "0.5", "linewidth": 0.9, "label": "pelvis"}
+MOMENTS: Mapping[str, Mapping[str, Any]] = {  # times of the trial -> how they are drawn
+    "contact_s": {"color": "#D55E00", "linewidth": 0.8, "linestyle": (0, (1, 1)), "label": "first contact"},
+    "reacted_s": {"color": "black", "linewidth": 0.8, "linestyle": (0, (3, 2)), "label": "reaction"},
+}
+SOLES: Mapping[bool, Mapping[str, Any]] = {  # whether they landed after the reaction
+    False: {"facecolor": "white", "alpha": 1.0, "label": "sole on the ground"},
+    True: {"label": "after the reaction"},
+}
 FROM_ABOVE = np.eye(3)  # the axes of the picture
-PLACES = 6  # of numbers along a sole
+MARGIN = 0.04  # of the axis of x, above and below all that is drawn [share of it]
+
+
+@dataclass(frozen=True)
+class Stance:
+    """A foot on the ground.
+
+    Attributes:
+        side: of the foot.
+        start: sample at which it has landed, or the first one.
+        end: sample at which it leaves the ground, or the last one.
+        place: x, y and yaw of the foot at the start (3,) [m, m, rad].
+        outline: corners of its sole, from above (4, 2) [m].
+        number: from 1 on of those that begin after the reaction, 0 of others.
+    """
+
+    side: str
+    start: int
+    end: int
+    place: Array
+    outline: Array
+    number: int
 
 
 @styled
@@ -39,36 +70,43 @@ def figure_21(
     courses: Mapping[str, Path],
     figure_dir: Path,
 ) -> None:
-    """Write Figure 21 as PDF, SVG, PNG and CSV: where the feet stood in the first walk of a case, before and after."""
+    """Write Figure 21 as PDF, SVG, PNG and CSV: where and when each foot is on the ground in a case's first walk."""
     description = describe(robot)
     course = read_course(courses[settings.case], description.layout)
-    reacted = course.at("reacted_s")
     rate_hz = course.note["rate_hz"]
-    steps = list(steps_of(description, course))
+    stances = list(stances_of(description, course))
     rows = [
-        (side, number, int(reacted is not None and k > reacted), k / rate_hz, *place.tolist())
-        for number, (side, k, place) in enumerate(steps)
+        (own.side, k, int(own.number > 0), own.start / rate_hz, *own.place.tolist(), own.end / rate_hz)
+        for k, own in enumerate(stances)
     ]
-    save_figure(_draw(description, obstacles, course, steps), figure_dir / "figure_21", COLUMNS, rows)
+    figure = draw_strips(course, stances, obstacles)
+    save_figure(figure, figure_dir / "figure_21", COLUMNS, rows)
 
 
-def steps_of(robot: RobotDescription, course: StoredCourse) -> Iterator[Step]:
-    """Yield where the feet stand at the beginning, and each foot again after it has landed."""
+def stances_of(robot: RobotDescription, course: StoredCourse) -> Iterator[Stance]:
+    """Yield each time that a foot is on the ground, in the order in which they begin, the left one first."""
     tree = tree_of(robot, 1.0)
     pose = empty_pose(tree)
     names = [body.name for body in robot.bodies]
     still = np.zeros(N_VIRTUAL + len(tree.body_of_joint))
-    in_air = course.swing >= IN_THE_AIR
-    landed = [(0, k) for k in range(len(SIDES))]
+    reacted = course.at("reacted_s")
+    last = len(course.q) - 1
+    found: list[tuple[int, int, int]] = []
     for k in range(len(SIDES)):
-        last_in_air = np.flatnonzero(in_air[:-1, k] & ~in_air[1:, k])
-        landed += [(int(at) + 1, k) for at in last_in_air]
-    for at, k in sorted(landed):
-        update(tree, course.q[at], still, 0.0, pose)
+        in_air = course.swing[:, k] >= IN_THE_AIR
+        landed = [0, *(np.flatnonzero(in_air[:-1] & ~in_air[1:]) + 1).tolist()]
+        for start in landed:
+            lifted = np.flatnonzero(in_air[start:])
+            found.append((start, k, start + int(lifted[0]) if lifted.size else last))
+    count = 0
+    for start, k, end in sorted(found):
+        update(tree, course.q[start], still, 0.0, pose)
         body = names.index(robot.feet[SIDES[k]].body)
         rotation = pose.rotation[body]
-        place = pose.position[body]
-        yield SIDES[k], at, np.array([place[0], place[1], np.arctan2(rotation[1, 0], rotation[0, 0])])
+        yaw = np.arctan2(rotation[1, 0], rotation[0, 0])
+        place = np.array([*pose.position[body][:2], yaw])
+        count += reacted is not None and start > reacted
+        yield Stance(SIDES[k], start, end, place, outline_at(robot, place), count)
 
 
 def sole_corners(robot: RobotDescription) -> Array:
@@ -80,53 +118,65 @@ def sole_corners(robot: RobotDescription) -> Array:
     return np.array([x, y]) + signs * (length, width)
 
 
-@styled
-def _draw(
-    robot: RobotDescription, obstacles: Mapping[str, Obstacle], course: StoredCourse, steps: list[Step]
-) -> Figure:
-    """Draw soles, obstacles, the way of the base, and the force until the reaction."""
-    figure = Figure(figsize=(COLUMN_INCH, HEIGHT_INCH), layout="constrained")
-    axis: Axes = figure.subplots()
-    reacted = course.at("reacted_s")
-    first = course.at("contact_s")
-    corners = sole_corners(robot)
-    count = 0
-    for side, k, place in steps:
-        c = np.cos(place[2])
-        n = np.sin(place[2])
-        outline = corners @ np.array([[c, n], [-n, c]]) + place[:2]
-        is_reacting = reacted is not None and k > reacted
-        count += is_reacting
-        sole = Polygon(
-            outline,
-            closed=True,
-            edgecolor=COLOURS[side],
-            facecolor=COLOURS[side] if is_reacting else "none",
-            alpha=0.45 if is_reacting else 1.0,
-            linewidth=0.8,
-            label=f"{side} sole",
-        )
-        axis.add_patch(sole)
-        if is_reacting:
-            heel = outline[[1, 2]].mean(axis=0)
-            toe = outline[[0, 3]].mean(axis=0)
-            # Soles that lie on one another have their numbers beside each other.
-            along = (count % PLACES + 0.5) / PLACES
-            axis.annotate(str(count), heel + along * (toe - heel), ha="center", va="center", fontsize=7)
+def outline_at(robot: RobotDescription, place: Array) -> Array:
+    """Return the corners of a sole (4, 2) [m] of a foot at x, y and yaw (3,) [m, m, rad]."""
+    c = np.cos(place[2])
+    n = np.sin(place[2])
+    return sole_corners(robot) @ np.array([[c, n], [-n, c]]) + place[:2]
+
+
+def obstacle_outlines(course: StoredCourse, obstacles: Mapping[str, Obstacle]) -> list[Array]:
+    """Return the outline of each part of the obstacles of a walk, from above (n, 2) [m]."""
+    outlines: list[Array] = []
     for name, at in course.note["obstacles"].items():
-        for part in obstacles[name].parts:
-            outline = outline_of(solid_of(part, at), FROM_ABOVE)
-            axis.add_patch(Polygon(outline, closed=True, facecolor=PAD, edgecolor="0.25", linewidth=0.6, zorder=0))
-    end = len(course.q) if reacted is None else reacted
-    axis.plot(*course.q[:end, :2].T, color="0.5", linewidth=0.8, label="pelvis until the reaction")
-    axis.plot(*course.q[end:, :2].T, color="0.5", linewidth=0.8, linestyle="--", label="pelvis after it")
-    if first is not None and reacted is not None and reacted > first:
-        push = course.force[first : reacted + 1, :2].sum(axis=0)
-        start = course.q[reacted, :2]
-        way = ARROW_M * push / np.linalg.norm(push)
-        draw_arrow(axis, tuple(start.tolist()), tuple((start + way).tolist()))
-    axis.set_aspect("equal")
-    axis.autoscale_view()
-    axis.set(xlabel="x [m]", ylabel="y [m]")
-    legend(figure, [axis])
+        outlines += [outline_of(solid_of(part, at), FROM_ABOVE) for part in obstacles[name].parts]
+    return outlines
+
+
+@styled
+def draw_strips(course: StoredCourse, stances: Sequence[Stance], obstacles: Mapping[str, Obstacle]) -> Figure:
+    """Draw a strip for each foot: x [m] of its sole while it is on the ground, over time [s].
+
+    An obstacle is a line where it is in the way of the foot, and the base is a line, too.
+    """
+    figure = Figure(figsize=(COLUMN_INCH, HEIGHT_INCH), layout="constrained")
+    axes: list[Axes] = figure.subplots(len(SIDES), 1, sharex=True, sharey=True).tolist()
+    rate_hz = course.note["rate_hz"]
+    times = np.arange(len(course.q)) / rate_hz
+    outlines = obstacle_outlines(course, obstacles)
+    for k, (axis, side) in enumerate(zip(axes, SIDES, strict=True)):
+        steps = [own for own in stances if own.side == side]
+        for own in steps:
+            _sole(axis, own, rate_hz)
+        for outline in outlines:
+            if any(is_beside(outline, own.outline) for own in steps):
+                axis.axhline(outline[:, 0].min(), **OBSTACLE)
+        axis.plot(times, course.q[:, 0], **PELVIS)
+        for name, look in MOMENTS.items():
+            if (at := course.at(name)) is not None:
+                axis.axvline(at / rate_hz, **look)
+        entitle(axis, k, f"{side} foot")
+        axis.set_ylabel("x [m]")
+    axes[-1].set(xlabel="time [s]", xlim=(0.0, times[-1]))
+    axes[0].margins(y=MARGIN)
+    legend(figure, axes, 3)
     return figure
+
+
+def is_beside(outline: Array, other: Array) -> bool:
+    """Return whether two outlines (n, 2) [m] lie side by side across the way, so that one is in the other's way."""
+    return bool(outline[:, 1].min() < other[:, 1].max() and other[:, 1].min() < outline[:, 1].max())
+
+
+def _sole(axis: Axes, own: Stance, rate_hz: float) -> None:
+    """Draw from heel to toe [m] and over its time [s] a sole on the ground, with its number after the reaction."""
+    heel = own.outline[:, 0].min()
+    toe = own.outline[:, 0].max()
+    start = own.start / rate_hz
+    lasting = (own.end - own.start) / rate_hz
+    colour = COLOURS[own.side]
+    look = {"facecolor": colour, "alpha": 0.5, **SOLES[own.number > 0]}
+    axis.add_patch(Rectangle((start, heel), lasting, toe - heel, edgecolor=colour, linewidth=0.8, **look))
+    if own.number:
+        at = (start + lasting / 2, toe)
+        axis.annotate(str(own.number), at, (0.0, -2.0), textcoords="offset points", ha="center", va="top", fontsize=7)

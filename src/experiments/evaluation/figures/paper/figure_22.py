@@ -1,19 +1,30 @@
-"""Figure 22: walks into a tool cart and into the frame of a door as pictures, from the contact to the stop."""
+"""Figure 22: walks into a tool cart and into the frame of a door as pictures, one that ends well and one that falls."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
 
-from experiments.evaluation.figures.drawing.robot import draw_scene, projection
+from experiments.evaluation.figures.drawing.robot import draw_scene, projection, solids_of
+from experiments.evaluation.figures.drawing.solids import outline_of
 from experiments.evaluation.figures.style import entitle, save_figure
+from experiments.evaluation.measure.reaction.results import read_trials, trials_of
 from experiments.evaluation.number.rows import Field
+from experiments.plan.reactions import Reactions
 from experiments.settings.reaction_tables import Figure22
+from mobnet.core.arrays import Array
 from mobnet.core.course import StoredCourse, read_course
+from mobnet.core.joints import JointLayout
+from mobnet.core.reactions import Trial
 from mobnet.core.style import PAGE_INCH, styled
-from mobnet.robot.description import describe, dressed
+from mobnet.robot.description import RobotDescription, describe, dressed
 from mobnet.settings.data import Obstacle
 from mobnet.settings.parts import Looks
+from mobnet.settings.reaction import Reaction
 from mobnet.settings.robot import RobotTable
 
 COLUMNS = (
@@ -23,9 +34,27 @@ COLUMNS = (
     *(f"base_{a}_m" for a in "xyz"),
     *(f"point_{a}_m" for a in "xyz"),
     *(f"force_{a}_n" for a in "xyz"),
+    "robot",
+    "fell",
 )
-ROW_INCH = 2.1
-ROOM_M = (-0.75, 0.75, -0.1, 1.9)  # of a panel: right of the base's first place, and above the ground
+LARGEST, END = "largest force", "end"  # moments that every walk has
+PICTURE_INCH, TITLE_INCH, TEXT_INCH = 1.72, 0.22, 0.17  # height of a picture, of a row's title, and of the text below
+ROOM_M = (-0.88, 0.88, -0.05, 1.75)  # of a panel: right of the base's first place, and above the ground
+GHOST = {"facecolors": "0.88", "edgecolors": "none", "zorder": 1.0}  # of the robot at the first contact
+
+
+@dataclass(frozen=True)
+class ShownWalk:
+    """A walk of a case: what is said of all of its kind, what came of it and its course."""
+
+    title: str
+    trial: Trial
+    course: StoredCourse
+
+    @property
+    def first(self) -> int:
+        """The sample of the first contact, or the first one where nothing was touched."""
+        return self.course.at("contact_s") or 0
 
 
 @styled
@@ -34,32 +63,111 @@ def figure_22(
     robot: RobotTable,
     looks: Looks | None,
     obstacles: Mapping[str, Obstacle],
-    courses: Mapping[str, Path],
+    reaction: Reaction,
+    reactions: Reactions,
+    courses: Reactions,
     figure_dir: Path,
 ) -> None:
-    """Write Figure 22 as PDF, SVG, PNG and CSV: the first walk of each case before, at and after the contact."""
+    """Write Figure 22 as PDF, SVG, PNG and CSV: of each case a walk that ends without a fall, and one that falls.
+
+    They are the first of their kind among the robots' first walks, whose courses there are; there may be none.
+    """
     description = dressed(describe(robot), looks)
+    trials = read_trials(reactions, settings.cases)
+    shown: list[ShownWalk] = []
+    for case in settings.cases:
+        own = trials_of(trials, case, reaction.ours)
+        shown += walks_of(case, own, [of[case] for of in courses.values()], description.layout)
     rows = list[list[Field]]()
-    walks = {case: read_course(courses[case], description.layout) for case in settings.cases}
-    figure = Figure(figsize=(PAGE_INCH, ROW_INCH * len(walks)), layout="constrained")
-    grid = figure.subplots(len(walks), len(settings.moments_s) + 1, squeeze=False)
-    for row, (case, course) in enumerate(walks.items()):
-        first = course.at("contact_s") or 0
+    figure, grid = rows_of_pictures(len(shown), len(settings.moments_s) + 2)
+    for k, (axes, walk) in enumerate(zip(grid, shown, strict=True)):
+        case = walk.trial.case
         view = projection(*settings.views_deg[case])
-        start = view @ course.q[first][:3]
-        for column, (axis, (moment, k)) in enumerate(zip(grid[row], moments_of(course, settings).items(), strict=True)):
-            draw_scene(axis, description, obstacles, course, k, view)
-            axis.set(xlim=(start[0] + ROOM_M[0], start[0] + ROOM_M[1]), ylim=ROOM_M[2:])
-            entitle(axis, row * grid.shape[1] + column, f"{case}, {moment}")
-            time_s = (k - first) / course.note["rate_hz"]
-            rows.append([case, moment, time_s, *course.q[k][:3], *course.point[k], *course.force[k]])
+        moments = moments_of(walk.course, settings)
+        for axis, (moment, at) in zip(axes, moments.items(), strict=True):
+            draw_moment(axis, description, obstacles, walk, at, view)
+            time_s = (at - walk.first) / walk.course.note["rate_hz"]
+            axis.text(0.0, 0.0, said_of(walk, moment, at, time_s), transform=axis.transAxes, va="top")
+            places = (walk.course.q[at][:3], walk.course.point[at], walk.course.force[at])
+            fell = int(walk.trial.fell_s is not None)
+            rows.append([case, moment, time_s, *np.concatenate(places).tolist(), walk.trial.level, fell])
+        entitle(axes[0], k, walk.title)
     save_figure(figure, figure_dir / "figure_22", COLUMNS, rows)
 
 
+def rows_of_pictures(rows: int, columns: int) -> tuple[Figure, Sequence[Sequence[Axes]]]:
+    """Return a figure as wide as a page with rows of pictures, each with room for a title above and a text below."""
+    row_inch = PICTURE_INCH + TITLE_INCH + TEXT_INCH
+    high = rows * row_inch
+    # Matplotlib's own layout would give a long title room in the first column alone.
+    edges = {
+        "left": 0.0,
+        "right": 1.0,
+        "top": 1.0 - TITLE_INCH / high,
+        "bottom": TEXT_INCH / high,
+        "hspace": (TITLE_INCH + TEXT_INCH) / PICTURE_INCH,
+        "wspace": 0.0,
+    }
+    figure = Figure(figsize=(PAGE_INCH, high))
+    return figure, figure.subplots(rows, columns, squeeze=False, gridspec_kw=edges).tolist()
+
+
+def walks_of(case: str, trials: Sequence[Trial], stems: Sequence[Path], layout: JointLayout) -> Iterator[ShownWalk]:
+    """Yield the first stored walk of a case that ends without a fall and the first that falls, where there are such.
+
+    The trials are all of the case, of which each stored course is one.
+    """
+    fallen = [trial for trial in trials if trial.fell_s is not None]
+    stored = [(course, trial_of(course, trials)) for course in (read_course(stem, layout) for stem in stems)]
+    counts = {
+        False: f"{len(trials) - len(fallen)} of {len(trials)} walks end without a fall",
+        True: f"{len(fallen)} of {len(trials)} walks end in a fall",
+    }
+    for fell, count in counts.items():
+        found = [(course, trial) for course, trial in stored if (trial.fell_s is not None) == fell]
+        for course, trial in found[:1]:
+            robot = trial.level.replace("_", " ")
+            yield ShownWalk(f"{case}: {count}; this one is that of {robot}", trial, course)
+
+
+def trial_of(course: StoredCourse, trials: Sequence[Trial]) -> Trial:
+    """Return what came of a stored walk."""
+    place = course.note["level"], course.note["seed"]
+    return next(trial for trial in trials if (trial.level, trial.seed) == place)
+
+
 def moments_of(course: StoredCourse, settings: Figure22) -> dict[str, int]:
-    """Return what is shown of a walk -> its sample: moments from the first contact on, and the end."""
+    """Return what is shown of a walk -> its sample: the largest force and moments from the contact on, then the end."""
     first = course.at("contact_s") or 0
     last = len(course.q) - 1
     rate_hz = course.note["rate_hz"]
     shown = {f"{time_s:g} s": min(max(0, first + round(time_s * rate_hz)), last) for time_s in settings.moments_s}
-    return {**shown, "end": last}
+    shown[LARGEST] = int(np.linalg.norm(course.force, axis=1).argmax())
+    return {**dict(sorted(shown.items(), key=lambda item: item[1])), END: last}
+
+
+def said_of(walk: ShownWalk, moment: str, at: int, time_s: float) -> str:
+    """Return what is written below a picture: its time [s], the force that acts [N], and whether it is the end."""
+    text = f"{time_s:.2f} s"
+    if walk.course.point[at].any():
+        text += f", {np.linalg.norm(walk.course.force[at]):.0f} N"
+    return f"{text}, end" if moment == END else text
+
+
+def draw_moment(
+    axis: Axes,
+    robot: RobotDescription,
+    obstacles: Mapping[str, Obstacle],
+    walk: ShownWalk,
+    at: int,
+    view: Array,
+) -> None:
+    """Draw a sample of a walk, and behind it the robot as it was at the first contact."""
+    start = view @ walk.course.q[walk.first][:3]
+    ghost = [outline_of(solid, view) for solid in solids_of(robot, walk.course.q[walk.first])]
+    axis.add_collection(PolyCollection(ghost, **GHOST), autolim=False)
+    draw_scene(axis, robot, obstacles, walk.course, at, view)
+    # Hundreds of polygons of each robot make a file of megabytes: they are one picture in it.
+    for drawn in axis.collections:
+        drawn.set_rasterized(True)
+    axis.set(xlim=(start[0] + ROOM_M[0], start[0] + ROOM_M[1]), ylim=ROOM_M[2:])

@@ -27,21 +27,13 @@ class Plane:
         joint: name of the joint.
         edges: of the cells along velocity (n + 1,) and torque (m + 1,), between two quantiles of all training samples.
         shares: training set or `TESTS` -> share of its samples in each cell (n, m) [%].
-        outline: whether a cell is one of the fullest ones that hold a share of the tests' samples together (n, m).
         ranges: training set or `TESTS` -> central range of the torque by phase of the gait.
     """
 
     joint: str
     edges: tuple[Array, Array]
     shares: Mapping[str, Array]
-    outline: NDArray[np.bool_]
     ranges: Mapping[str, TorqueRange]
-
-    @property
-    def difference(self) -> Array:
-        """Share of samples in each cell, that of the first training set less that of the second (n, m) [points]."""
-        first, second = (share for name, share in self.shares.items() if name != TESTS)
-        return first - second
 
     @property
     def common(self) -> float:
@@ -67,31 +59,16 @@ class Plane:
                 )
 
 
-def plane_of(joint: str, sets: Mapping[str, NDArray[Any]], tested: float, coverage: Coverage) -> Plane:
-    """Return the plane of a joint from samples (n, 3) of two training sets and `TESTS`: velocity, torque, phase.
-
-    The outline holds the share `tested` [-] of the tests' samples.
-    """
+def plane_of(joint: str, sets: Mapping[str, NDArray[Any]], coverage: Coverage) -> Plane:
+    """Return the plane of a joint from samples (n, 3) of two training sets and `TESTS`: velocity, torque, phase."""
     training = np.concatenate([samples[:, :2] for name, samples in sets.items() if name != TESTS])
     ends = np.quantile(training, coverage.cell_range, axis=0).T
     x, y = even_cells([(float(low), float(high)) for low, high in ends], [coverage.cells] * 2).edges
-    shares = {
-        name: PERCENT * np.histogram2d(samples[:, 0], samples[:, 1], (x, y))[0] / max(1, len(samples))
-        for name, samples in sets.items()
-    }
-    return Plane(
-        joint, (x, y), shares, fullest(shares[TESTS], tested),
-        {name: range_of(samples, coverage) for name, samples in sets.items()},
-    )  # fmt: skip
-
-
-def fullest(shares: Array, held: float) -> NDArray[np.bool_]:
-    """Return which cells (n, m) are the fullest ones that together hold a share [-] of all that lies in them."""
-    order = np.argsort(-shares, axis=None, kind="stable")
-    before = np.cumsum(shares.ravel()[order]) - shares.ravel()[order]
-    inside = np.zeros(shares.size, dtype=bool)
-    inside[order] = (before < held * shares.sum()) & (shares.ravel()[order] > 0.0)
-    return inside.reshape(shares.shape)
+    shares: dict[str, Array] = {}
+    for name, samples in sets.items():
+        counts = np.histogram2d(samples[:, 0], samples[:, 1], (x, y))[0]
+        shares[name] = PERCENT * counts / max(1, len(samples))
+    return Plane(joint, (x, y), shares, {name: range_of(samples, coverage) for name, samples in sets.items()})
 
 
 def range_of(samples: NDArray[Any], coverage: Coverage) -> TorqueRange:

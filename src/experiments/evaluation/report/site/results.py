@@ -5,6 +5,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
+from experiments.evaluation.report.captions import filled
+from experiments.evaluation.report.numbers import texts_in
 from experiments.evaluation.report.site.contents import menu
 from experiments.settings.claims import Claim
 from mobnet.core.files import read_text
@@ -60,7 +62,8 @@ def result_pages(results: Path, captions: Sequence[Path], claims: Mapping[str, C
     Raises:
         DataError: a file is missing or damaged.
     """
-    found = [item for caption in captions if (item := _item(results, caption)).shown.is_file()]
+    texts = texts_in(results)
+    found = [item for caption in captions if (item := _item(results, caption, texts)) is not None]
     items = sorted(found, key=lambda item: not PAPER.match(item.name))  # those of the paper first
     verdicts = {row["claim"]: row["verdict"] for row in read_texts(results / f"{ALL_CLAIMS}.csv")}
     for item in items:
@@ -68,13 +71,19 @@ def result_pages(results: Path, captions: Sequence[Path], claims: Mapping[str, C
     yield f"{PLACE}/README.md", _gallery(items)
 
 
-def _item(results: Path, caption: Path) -> Item:
-    """Return the item of a caption, whose folder tells its kind; a table keeps a name that a figure has too."""
+def _item(results: Path, caption: Path, texts: Mapping[str, str]) -> Item | None:
+    """Return the item of a caption, None if it is not published.
+
+    The folder of the caption tells its kind; a table keeps a name that a figure has too.
+    """
     name = caption.stem
-    (title, _, text) = read_text(caption).partition("\n")
     table = results / f"{name}.md"
     picture = results / f"{name}.png"
-    if caption.parent.name != FIGURES:
+    is_table = caption.parent.name != FIGURES
+    if not (table if is_table else picture).is_file():
+        return None
+    (title, _, text) = filled(caption, texts).partition("\n")
+    if is_table:
         csvs = (f"{name}.csv",) if table.with_suffix(".csv").is_file() else ()
         return Item(name, name, table, title, text.strip(), csvs)
     named = [f"{FIGURES}/{stem}.csv.gz" for stem in (name, f"{name}_bars")]
