@@ -139,7 +139,7 @@ def verdicts(results: Path) -> str:
     """Return how many statements of the original and of our own have each verdict, and two sentences with counts."""
     rows = read_texts(results / "claims_summary.csv", CLAIMED)
     counts = {(row["score"], row["outcome"]): row for row in rows}
-    head = "| Verdict | statements of the original | of these by their first claim | our own statements |\n"
+    head = "| Verdict | statements of the original | by first claim | ours |\n"
     lines = [head, "| --- | ---: | ---: | ---: |\n"]
     for verdict in (*VERDICTS, "all"):
         paper = counts[PAPER, verdict]
