@@ -36,7 +36,7 @@ class Story(Section):
 
 
 class PushFilm(Section):
-    """The film of the push of `story`: real time, some of it slower, and in the middle a still for `hold_s`.
+    """The film of the push of `story`: the answer for `answer_s`, then real time, some of it slower, held for `hold_s`.
 
     The view is an azimuth from ahead and an elevation of the eye [deg]; times count from the beginning of the push;
     the time axis shows `margin_s` more than what is slowed; `colours` is the size of the palette. `kind` is the rule of
@@ -49,6 +49,7 @@ class PushFilm(Section):
     slowed_hz: base.Real = Field(ge=5, le=60)
     slower: base.Real = Field(ge=1, le=100)
     slow_s: base.Span[base.Real]
+    answer_s: base.Seconds
     hold_s: base.Seconds
     margin_s: base.Pause
     colours: base.Whole = Field(ge=8, le=256)

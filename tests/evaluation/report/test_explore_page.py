@@ -13,7 +13,7 @@ from browser import Browser, with_browser
 from made_scenes import GAIN_HZ, LEAD, RATE_HZ, START, pushed_scene
 
 from experiments.evaluation.figures.drawing.robot import projection
-from experiments.evaluation.report.explore import as_stored, page_of
+from experiments.evaluation.report.explore import as_stored, judged_before_s, page_of
 from experiments.evaluation.report.explore_numbers import push_numbers
 from experiments.plan.products import TEMPLATES
 from mobnet.estimation.low_pass import exact_pole, low_pass
@@ -107,11 +107,13 @@ def test_the_table_is_what_python_computed(browse, scenes, settings, scene):
     browser, own = browse(f"#scene={scene}"), settings.evaluation
     still = page_cells(browser, scene)
     assert table_of(browser) == still
-    rows = push_numbers(scenes[scene].push, "LL3", 20.0, settings.detection, own.peaks)
+    judged_s = judged_before_s(own.story)
+    rows = push_numbers(scenes[scene].push, "LL3", 20.0, settings.detection, own.peaks, judged_s)
     for cells, row in zip(still, rows, strict=True):
         assert cells[0] == row.method
         assert float(cells[1]) == pytest.approx(row.peak, abs=0.05 + 2 * own.explore.step_nm)
-        assert float(cells[4]) == pytest.approx(row.error, abs=0.05 + own.explore.step_nm)
+        for place, error in ((4, row.error), (5, row.around)):
+            assert float(cells[place]) == pytest.approx(error, abs=0.05 + own.explore.step_nm)
 
 
 def page_cells(browser: Browser, scene: str) -> list[list[str]]:
@@ -127,7 +129,8 @@ def test_sliders_compute_as_python_does(browse, scenes, settings, joint, thresho
     browser = browse(f"#joint={joint}&threshold={threshold}")
     numbers, step = asked(browser, "drawn.numbers"), settings.evaluation.explore.step_nm
     stored = as_stored(scenes["story"].push, step)
-    wanted = push_numbers(stored, joint, threshold, settings.detection, settings.evaluation.peaks)
+    own = settings.evaluation
+    wanted = push_numbers(stored, joint, threshold, settings.detection, own.peaks, judged_before_s(own.story))
     for found, row in zip(numbers, wanted, strict=True):
         assert (found["method"], found["falseAlarms"]) == (row.method, row.false_alarms)
         names = {
@@ -135,6 +138,7 @@ def test_sliders_compute_as_python_does(browse, scenes, settings, joint, thresho
             "share": row.share,
             "lateMs": row.late_ms,
             "error": row.error,
+            "around": row.around,
             "quietNm": row.quiet_nm,
         }
         assert {name: found[name] for name in names} == pytest.approx(names)
@@ -261,6 +265,56 @@ def test_a_line_is_picked_before_it_has_a_name(browse):
     assert "MOB-Net" in browser.value(names)
     answer = browser.value("document.querySelector('#guessed').textContent")
     assert "You picked FTS-e2e, with 40 % of the peak" in answer
+
+
+def test_the_second_step_gives_no_answer_before_a_line_is_picked(browse):
+    """No sentence, table, value at the cursor or text of a picture names a method or has a number of one."""
+    browser = browse("#step=2")
+    methods = asked(browser, "letters(sceneOf('story'))")
+    seen = browser.value("document.querySelector('main').innerText")
+    told = browser.value("document.querySelector('#plots').ariaLabel") + seen.split("Keys, colours")[0]
+    assert [method for method in methods if method in told.replace("The observer", "")] == []
+    assert browser.value("document.querySelector('#table').hidden") is True
+    values = "[...document.querySelectorAll('#lines b')].map((node) => node.textContent)"
+    truth, *others = asked(browser, values)
+    assert truth != ""
+    assert set(others) == {""}
+    browser.click("#lines [data-line='MOB']")
+    browser.until("document.querySelector('#table').hidden", False)
+    browser.until("document.querySelector('#result').textContent.includes('MOB-Net recovers')", True)
+    assert "" not in asked(browser, values)
+
+
+def test_the_error_that_the_demo_gives_is_beside_that_in_the_push(browse, settings):
+    """Both columns and the list below say which time they are of."""
+    browser, story = browse(), settings.evaluation.story
+    length_s = story.after_s + judged_before_s(story)
+    heads = asked(browser, "[...document.querySelectorAll('#numbers thead th')].map((cell) => cell.textContent)")
+    heads = [head.replace("\u00a0", " ") for head in heads]
+    assert heads[4:6] == ["RMS error in the push [N m]", f"RMS error over {length_s:g} s [N m]"]
+    terms = asked(browser, "[...document.querySelectorAll('#table dt')].map((term) => term.textContent)")
+    assert [head.split(" [")[0].lower()[:4] for head in heads[1:]] == [term.lower()[:4] for term in terms]
+
+
+def test_an_estimate_that_is_too_soon_is_early_and_not_late_by_less_than_nothing(browse):
+    browser = browse()
+    browser.value("drawn.numbers.find((row) => row.method === 'MOB').lateMs = -115.2; fillTable(sceneOf('story'))")
+    late = {row[0]: row[3] for row in table_of(browser)}
+    assert late["MOB"] == "115 early"
+    assert not any(text.startswith("-") for text in late.values())
+
+
+def test_a_narrow_window_shows_every_number_with_what_it_is(browse):
+    """Each method is a card there; nothing has to be scrolled sideways."""
+    browser = browse("", "narrow")
+    box = "document.querySelector('.scroll')"
+    assert browser.value(f"{box}.scrollWidth <= {box}.clientWidth")
+    cells = "[...document.querySelectorAll('#numbers tbody:not([hidden]) td')]"
+    right = asked(browser, f"Math.max(...{cells}.map((cell) => cell.getBoundingClientRect().right))")
+    assert right <= SIZES["narrow"][0]
+    labels = asked(browser, f"{cells}.map((cell) => getComputedStyle(cell, '::before').content)")
+    assert len(set(labels)) == 8
+    assert "none" not in labels
 
 
 def test_a_push_and_a_plant_are_chosen(browse):

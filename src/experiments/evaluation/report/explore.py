@@ -124,39 +124,65 @@ def page_of(
     template: Path,
 ) -> str:
     """Return the page of some scenes; `alarm` is that of the story's detector; scripts stand beside the template."""
-    numbers: dict[str, list[PushNumbers]] = {}
-    steps: dict[str, dict[str, PushNumbers]] = {}
+    stored: dict[str, PushScene] = {}
     parts: list[PackedArray] = []
     for name, scene in shown.items():
         # The page computes with the rounded torques that it gets: the table has numbers of the same.
-        stored = as_stored(scene.push, settings.step_nm)
-        numbers[name] = push_numbers(stored, scene.scene.joint, scene.scene.threshold_nm, detection, peaks)
-        steps[name] = {row.method: row for row in numbers[name]}
+        stored[name] = as_stored(scene.push, settings.step_nm)
         parts += parts_of(scene, settings)
     told = {
-        "settings": page_numbers(settings, detection, peaks),
+        "settings": page_numbers(settings, detection, peaks, story),
         "robot": robot_parts(robot),
         "scenes": [
             scene_note(name, scene, robot, settings, alarm if name == STORY else None) for name, scene in shown.items()
         ],
     }
+    return page_with(told, packed(parts), stored, story, detection, peaks, robot, template)
+
+
+def page_with(
+    told: Mapping[str, Any],
+    data: str,
+    stored: Mapping[str, PushScene],
+    story: Story,
+    detection: Detection,
+    peaks: Peaks,
+    robot: RobotDescription,
+    template: Path,
+) -> str:
+    """Return the page of what a page must know of scenes, their packed arrays, and the pushes that these hold."""
+    judged_s = judged_before_s(story)
+    scenes = {note["name"]: note for note in told["scenes"]}
+    numbers: dict[str, list[PushNumbers]] = {}
+    steps: dict[str, dict[str, PushNumbers]] = {}
+    for name, push in stored.items():
+        note = scenes[name]
+        numbers[name] = push_numbers(push, note["joint"], note["threshold"], detection, peaks, judged_s)
+        steps[name] = {row.method: row for row in numbers[name]}
     return rendered(
         template,
         told=json.dumps(told, separators=(",", ":")),
         numbers=numbers,
-        shown=shown,
+        scenes=scenes,
         roles=ROLES,
-        data=packed(parts),
+        data=data,
         detection=detection,
         peaks=peaks,
+        judged_s=judged_s,
+        after_s=story.after_s,
         joint_names=joint_names(robot),
         alarm_of=story.detector,
         steps=steps,
-        trained_hz=next(iter(shown.values())).push.gain_hz,
+        trained_hz=next(iter(stored.values())).gain_hz,
     )
 
 
-def page_numbers(settings: Explore, detection: Detection, peaks: Peaks) -> dict[str, Any]:
+def judged_before_s(story: Story) -> float:
+    """Return how long before a push errors around it begin [s]: as long as those of the demo, which must settle."""
+    return story.before_s - story.settle_s
+
+
+def page_numbers(settings: Explore, detection: Detection, peaks: Peaks, story: Story) -> dict[str, Any]:
     """Return the numbers of the configuration with which the page computes."""
     return {
         "gains": settings.gains_hz,
@@ -167,6 +193,7 @@ def page_numbers(settings: Explore, detection: Detection, peaks: Peaks) -> dict[
         "lateS": detection.late_s,
         "afterS": peaks.after_s,
         "longestS": peaks.longest_s,
+        "judgedS": judged_before_s(story),
     }
 
 

@@ -32,6 +32,7 @@ class PushNumbers:
         share: the peak over that of the push behind the observer's low-pass [-].
         late_ms: how much later it rises to half of the push than the push itself [ms]; None if it never does.
         error: root mean square of its error in the same time [N m].
+        around: that from some time before the push to the end of the scene, as the demo prints it [N m].
         alarm: delay of the alarm [ms], or why there is none.
         false_alarms: alarms that begin while nothing has pushed the leg in its swing.
         quiet_nm: smallest threshold without one [N m]; None where nothing is watched.
@@ -42,28 +43,30 @@ class PushNumbers:
     share: float
     late_ms: float | None
     error: float
+    around: float
     alarm: float | str
     false_alarms: int
     quiet_nm: float | None
 
 
 def push_numbers(
-    shown: PushScene, joint: str, threshold_nm: float, detection: Detection, peaks: Peaks
+    shown: PushScene, joint: str, threshold_nm: float, detection: Detection, peaks: Peaks, judged_s: float
 ) -> list[PushNumbers]:
     """Return the numbers of the truth and of every method at a joint, with a threshold on the torque [N m].
 
     They are those of the time that the table of peaks looks at: from the last sample before the push to some time after
-    it, or the rise of one that lasts.
+    it, or the rise of one that lasts. The error around the push begins `judged_s` before it.
     """
     truth = shown.truth[:, shown.joints.index(joint)].astype(np.float64)
     rise = shown.rise(peaks)
+    around = slice(max(shown.settled, shown.start - round(judged_s * shown.rate_hz)), len(truth))
     rows: list[PushNumbers] = []
     for name, torque in {TRUTH: truth, **shown.torques(joint)}.items():
-        error = torque[rise].astype(np.float64) - truth[rise]
+        error = torque.astype(np.float64) - truth
         felt = shown.felt(torque, joint, peaks)
-        rms = float(np.sqrt(np.mean(error**2)))
+        errors = [float(np.sqrt(np.mean(error[part] ** 2))) for part in (rise, around)]
         found = alarms(shown, torque, threshold_nm, detection)
-        rows.append(PushNumbers(name, felt.peak_nm, felt.share, felt.delay_ms, rms, *found))
+        rows.append(PushNumbers(name, felt.peak_nm, felt.share, felt.delay_ms, *errors, *found))
     return rows
 
 

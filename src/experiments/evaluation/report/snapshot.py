@@ -15,6 +15,7 @@ from pathlib import Path
 from experiments.evaluation.measure.story import StoredPush
 from experiments.evaluation.report.demo import lines_of, title_of
 from experiments.evaluation.report.demo_data import copy_demo
+from experiments.evaluation.report.folder_page import write_page
 from experiments.evaluation.report.manifest import differences, file_hash
 from experiments.evaluation.report.model_card import CARD, card
 from experiments.evaluation.report.paper import missing_packages
@@ -291,8 +292,9 @@ def store(manifest: Path) -> None:
     jobs = map(read_account, sorted((RESULTS / LOGS).rglob("*.json")))
     works = works_of(plan, dry_run(["all"], from_nothing=True))
     write_json(RATES, measured(settings.scale, works, jobs).model_dump())
-    # The README quotes the tables that were just stored, so it comes last.
+    # README and page of the folder tell what was just stored, so they come last.
     tell_readme(SNAPSHOT)
+    write_page(SNAPSHOT)
 
 
 def main(words: list[str]) -> int:

@@ -101,9 +101,27 @@ def push_film(
     detections: Detections,
     out: Path,
 ) -> None:
-    """Write the film as WebP and GIF, a still of it as PNG, and the numbers in it as CSV, beside each other."""
-    joint = story.joint
+    """Write the film of the push of a story from the files of a run, as `draw_film` does."""
     hit, push = read_story(story, layout, runs, detections[story.level], settings.kind)
+    draw_film(settings, story, peaks, robot, looks, layout, hit, push, out)
+
+
+def draw_film(
+    settings: PushFilm,
+    story: Story,
+    peaks: Peaks,
+    robot: RobotTable,
+    looks: Looks | None,
+    layout: JointLayout,
+    hit: Collision,
+    push: PushScene,
+    out: Path,
+) -> None:
+    """Write a film as WebP and GIF, a still of it as PNG, and the numbers in it as CSV, beside each other.
+
+    The film begins with the still: what shows its first frame alone, such as a mail, shows the answer.
+    """
+    joint = story.joint
     torques = push.torques(joint)
     felt = {method: push.felt(torque, joint, peaks) for method, torque in torques.items()}
     errors_nm = {method: push.error_nm(torque, joint) for method, torque in torques.items()}
@@ -113,13 +131,14 @@ def push_film(
     stage = _Stage(settings, dressed(describe(robot), looks), layout, hit, push, course, lines_of(felt, errors_nm))
     shots = shots_of(settings, story)
     still = stage.still()
-    seen_s = [shot.seen_s for shot in shots]
+    frames = [still, *(stage.frame(shot) for shot in shots)]
+    seen_s = [settings.answer_s, *(shot.seen_s for shot in shots)]
     save_still(still, out.with_suffix(".png"))
-    save_drawing([stage.frame(shot) for shot in shots], seen_s, palette_of(still, settings.colours), out)
+    save_drawing(frames, seen_s, palette_of(still, settings.colours), out)
 
 
 def shots_of(settings: PushFilm, story: Story) -> list[Shot]:
-    """Return the frames of the film in order: real time, slower, a still, and real time again.
+    """Return the frames of the film after its first one, in order: real time, slower, a still, and real time again.
 
     The time axis shows what was and what is slowed; what is slowed alone; and that with what follows.
     """

@@ -62,13 +62,18 @@ def result_pages(results: Path, captions: Sequence[Path], claims: Mapping[str, C
     Raises:
         DataError: a file is missing or damaged.
     """
-    texts = texts_in(results)
-    found = [item for caption in captions if (item := _item(results, caption, texts)) is not None]
-    items = sorted(found, key=lambda item: not PAPER.match(item.name))  # those of the paper first
+    items = items_of(results, captions)
     verdicts = {row["claim"]: row["verdict"] for row in read_texts(results / f"{ALL_CLAIMS}.csv")}
     for item in items:
         yield f"{PLACE}/{item.page}.md", _page(item, _claims_about(item.name, claims, verdicts))
     yield f"{PLACE}/README.md", _gallery(items)
+
+
+def items_of(results: Path, captions: Sequence[Path]) -> list[Item]:
+    """Return the items of captions that a folder has, those of the paper first."""
+    texts = texts_in(results)
+    found = [item for caption in captions if (item := _item(results, caption, texts)) is not None]
+    return sorted(found, key=lambda item: not PAPER.match(item.name))
 
 
 def _item(results: Path, caption: Path, texts: Mapping[str, str]) -> Item | None:

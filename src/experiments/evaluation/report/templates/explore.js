@@ -125,7 +125,7 @@ function describe(scene) {
   const phase = flag(scene, "swing", k) ? "the leg is in the air" : stands;
   const push = size && `, a push of ${size} on the ${scene.point ? scene.point[2] : `joint ${scene.turned}`}`;
   $("#robot").setAttribute("aria-label", `The robot at ${state.t.toFixed(2)} seconds: ${phase}${push}.`);
-  const known = state.lines.filter((name) => drawn.torques[name]);
+  const known = state.lines.filter((name) => drawn.torques[name] && (name === "truth" || !isAsked()));
   const values = known.map((name) => `${labelOf(scene, name)} ${drawn.torques[name][k].toFixed(1)}`).join(", ");
   const now = `at ${state.t.toFixed(2)} seconds, in newton metres: ${values}.`;
   $("#plots").setAttribute("aria-label", `Torque of the joint ${state.joint} over time; ${now}`);
@@ -133,7 +133,7 @@ function describe(scene) {
 
 // In the second step methods have letters until somebody has picked one.
 function labelOf(scene, method) {
-  if (method === "truth" || method === "detector" || state.step !== 2 || state.guess) return method;
+  if (method === "truth" || method === "detector" || !isAsked()) return method;
   return `line ${LETTERS[letters(scene).indexOf(method)]}`;
 }
 
@@ -153,8 +153,14 @@ function showChoices(scene) {
     if (Number(node.dataset.step) === state.step) node.setAttribute("aria-current", "step");
     else node.removeAttribute("aria-current");
   }
+  $("#table").hidden = isAsked();
   showLines(scene);
   showGuess(scene);
+}
+
+// In the second step a line is to be picked: until then nothing names a method or gives a number of one.
+function isAsked() {
+  return state.step === 2 && !state.guess;
 }
 
 function radios(place, texts, chosen, isThere) {
@@ -173,7 +179,7 @@ function radios(place, texts, chosen, isThere) {
 
 // The lines as buttons that show and hide them, each with its value at the cursor; to be picked in the second step.
 function showLines(scene) {
-  const focused = document.activeElement?.dataset?.line, isGuess = state.step === 2 && !state.guess;
+  const focused = document.activeElement?.dataset?.line, isGuess = isAsked();
   const order = isGuess ? letters(scene) : scene.methods.map(([method]) => method);
   drawn.values = [];
   $("#lines").replaceChildren(...["truth", ...order].map((method) => {
@@ -183,7 +189,7 @@ function showLines(scene) {
     button.dataset.line = method;
     if (!isGuess || method === "truth") button.setAttribute("aria-pressed", state.lines.includes(method));
     button.append(swatch, labelOf(scene, method), value);
-    drawn.values.push({ method, node: value });
+    if (!isGuess || method === "truth") drawn.values.push({ method, node: value });
     return button;
   }));
   if (focused) document.querySelector(`[data-line="${CSS.escape(focused)}"]`)?.focus();
@@ -214,11 +220,12 @@ function fillTable(scene) {
     if (value === null) return "–";
     return typeof value === "string" ? value : value.toFixed(digits);
   };
+  const late = (ms) => (ms !== null && ms <= -0.5 ? `${text(-ms, 0)} early` : text(ms, 0));
   for (const row of drawn.numbers) {
     const cells = body.querySelector(`[data-method="${row.method}"]`).cells;
     const found = [
-      text(row.peak, 1), `${text(100 * row.share, 0)} %`, text(row.lateMs, 0), text(row.error, 1),
-      text(row.alarm, 0), String(row.falseAlarms), text(row.quietNm, 1),
+      text(row.peak, 1), `${text(100 * row.share, 0)} %`, late(row.lateMs), text(row.error, 1),
+      text(row.around, 1), text(row.alarm, 0), String(row.falseAlarms), text(row.quietNm, 1),
     ];
     found.forEach((value, k) => (cells[k + 1].textContent = value));
   }
@@ -233,6 +240,11 @@ let spoken = 0;
 function tell(scene) {
   clearTimeout(spoken);
   spoken = setTimeout(() => {
+    if (isAsked()) {
+      $("#result").className = "";
+      $("#result").textContent = "Pick a line above the plot; then the numbers of all methods follow.";
+      return;
+    }
     const methods = scene.methods.filter(([method]) => state.lines.includes(method));
     const [method, role] = methods.find(([, one]) => one === "network") ?? methods.at(-1) ?? scene.methods[0];
     const row = drawn.numbers.find((one) => one.method === method);
@@ -243,7 +255,7 @@ function tell(scene) {
     const own = scene.alarm ? ` The project's detector felt it after ${ownMs.toFixed(0)} ms.` : "";
     const by = `${Math.abs(row.lateMs).toFixed(0)} ms ${row.lateMs < 0 ? "early" : "late"}`;
     const late = row.lateMs === null ? "never half of it" : by;
-    const shown = `${row.method} shows ${(100 * row.share).toFixed(0)} % of the peak, ${late}`;
+    const shown = `${row.method} recovers ${(100 * row.share).toFixed(0)} % of the peak, ${late}`;
     $("#result").textContent = `${shown}; ${alarm}, ${wrong} at ${state.threshold} N m.${own}`;
   }, drawn.told ? 250 : 0);
   drawn.told = true;
@@ -345,7 +357,7 @@ function seek(t) {
 }
 
 function pickLine(method) {
-  if (state.step === 2 && !state.guess && method !== "truth") return change({ guess: method }, true);
+  if (isAsked() && method !== "truth") return change({ guess: method }, true);
   const lines = state.lines.includes(method) ? state.lines.filter((name) => name !== method) : [...state.lines, method];
   change({ lines });
 }
@@ -371,7 +383,7 @@ function dragPlots(canvas) {
     seek((first + share * (last - 1 - first) - scene.lead) / scene.rate);
   };
   canvas.addEventListener("pointerdown", (event) => {
-    const picked = state.step === 2 && !state.guess ? lineUnder(event) : null;
+    const picked = isAsked() ? lineUnder(event) : null;
     if (picked) return pickLine(picked);
     canvas.setPointerCapture(event.pointerId);
     move(event);

@@ -1,16 +1,21 @@
 // The numbers of a push, as explore_numbers.py computes them.
 function numbersOf(scene, torques, threshold) {
-  const { afterS, longestS } = told.settings, rowsOf = (seconds) => Math.round(seconds * scene.rate);
+  const { afterS, longestS, judgedS } = told.settings, rowsOf = (seconds) => Math.round(seconds * scene.rate);
   const first = scene.start - 1, quiet = calmRows(scene);
   const stop = Math.min(scene.end + rowsOf(afterS), scene.start + rowsOf(longestS), scene.count);
+  const judged = Math.max(scene.lead, scene.start - rowsOf(judgedS));
   const push = torques.push.subarray(first, stop), pushed = torques.behind.subarray(first, stop);
   return ["truth", ...scene.methods.map(([method]) => method)].map((method) => {
-    const error = Float64Array.from(push, (_, k) => torques[method][first + k] - torques.truth[first + k]);
-    const rms = Math.sqrt(error.reduce((sum, value) => sum + value * value, 0) / error.length);
+    const whole = Float64Array.from(torques.truth, (truth, k) => torques[method][k] - truth);
+    const error = whole.subarray(first, stop), around = rms(whole.subarray(judged));
     const felt = feltOf(push, pushed, error.map((value, k) => pushed[k] + value));
     const lateMs = felt.late === null ? null : (felt.late * 1000) / scene.rate;
-    return { method, ...felt, lateMs, error: rms, ...alarmsOf(scene, torques[method], threshold, quiet) };
+    return { method, ...felt, lateMs, error: rms(error), around, ...alarmsOf(scene, torques[method], threshold, quiet) };
   });
+}
+
+function rms(values) {
+  return Math.sqrt(values.reduce((sum, value) => sum + value * value, 0) / values.length);
 }
 
 // Peak and share of a push that is seen, and how late its half is [rows], if ever; the first sample is the zero.
