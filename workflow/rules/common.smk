@@ -13,6 +13,7 @@ from snakemake.cli import get_argument_parser
 from experiments.evaluation.measure.estimates.scores import measure_problems
 from experiments.evaluation.report.paper import missing_packages
 from experiments.jobs.method_problems import method_problems
+from experiments.plan.dry_run import PlannedJob
 from experiments.plan.files import made_by_jobs
 from experiments.plan.plan import (
     auto_precision,
@@ -24,6 +25,8 @@ from experiments.plan.plan import (
 )
 from experiments.plan.products import shown as report_of
 from experiments.plan.room import Sizes, check_room
+from experiments.running.progress import in_time
+from experiments.running.terminal import RunHandler
 from experiments.running.words import in_set, nearest, one_of, scale_of_targets
 from experiments.settings.checks.claims import text_problems
 from experiments.running.cluster import LIMITED, failed_jobs, warm_cache
@@ -117,6 +120,7 @@ onstart:
         record_stacks(SETTINGS, PLAN.folders.results)
         waiting = list(workflow.dag.needrun_jobs())
         check_room(waiting)
+        tell_prices(waiting)
         if commit() == UNKNOWN:
             sys.stderr.write(
                 f"{ROOT}: git knows no commit here, so results will not say which code made them (commit: unknown)\n"
@@ -131,6 +135,10 @@ onstart:
         # The number of cores limits the rate. Snakemake looks at all ready jobs in every timespan, once for each job
         # that has ended: half of a core after 100 jobs (its pull request 3744).
         workflow.scheduler.job_rate_limiter = None
+
+
+onsuccess:
+    sys.stderr.write(f"{made_line(TARGETS, PLAN.folders)}, in {in_time(time.time() - STARTED_S)}\n")
 
 
 onerror:
@@ -175,6 +183,24 @@ def flagged(name):
         return output
     labels = {"file": Path(name).stem, "shows": how.title}
     return report(output, caption=how.caption and ROOT / how.caption, category=how.category, labels=labels)
+
+
+def tell_prices(jobs):
+    """Tell what shows the run how long its jobs will take."""
+    from experiments.evaluation.report.cost import expected_s  # takes a second, which the process of a job does not need
+
+    planned = {job.jobid: PlannedJob.of(job) for job in jobs}
+    for handler in workflow.logger_manager.get_log_handlers():
+        if isinstance(handler, RunHandler):
+            handler.expect(expected_s(PLAN, planned))
+
+
+def made_line(targets, folders):
+    """Return the line that says what a run has made: what was asked for, or the folders of all and where to begin."""
+    if targets and targets != ["all"]:
+        return f"{', '.join(targets)} {'is' if len(targets) == 1 else 'are'} made"
+    page = folders.results / "pages" / "index.html"
+    return f"{folders.tables}, {folders.figures} and {folders.paper} are made; begin with {page}"
 
 
 def check_targets():

@@ -1,4 +1,4 @@
-"""What a job of the workflow tells: progress to its log and the terminal, an error as one line, and what it took."""
+"""What a job of the workflow tells: progress to its log, an error as one line to the terminal too, and what it took."""
 
 import contextlib
 import logging
@@ -51,7 +51,7 @@ class Account:
 
 @contextlib.contextmanager
 def job(log_file: Path | str) -> Iterator[None]:
-    """Log a job to its file and to the terminal, and write its account beside the log, as JSON, when it ends.
+    """Log a job to its file, write its account beside the log, as JSON, when it ends; print warnings and errors.
 
     Raises:
         SystemExit: the job raised a MobnetError, whose message is the last line of the log, or was terminated.
@@ -63,8 +63,13 @@ def job(log_file: Path | str) -> Iterator[None]:
 
 @contextlib.contextmanager
 def logged(path: Path) -> Iterator[None]:
-    """Log to a file and to the terminal; an expected error is one line, and the end with status 1."""
-    handlers = [logging.StreamHandler(sys.stderr), *log_file(path)]
+    """Log to a file, print warnings and errors; an expected error is one line, and the end with status 1.
+
+    What shows a run follows the file (`experiments.running.progress`).
+    """
+    printed = logging.StreamHandler(sys.stderr)
+    printed.setLevel(logging.WARNING)
+    handlers = [printed, *log_file(path)]
     root = logging.getLogger()
     previous = root.handlers[:], root.level
     root.handlers[:] = []

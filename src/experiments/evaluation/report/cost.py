@@ -28,7 +28,7 @@ from experiments.plan.schedule import TimedJob, elapsed_s
 from experiments.plan.work import SECONDS, OnGpu, Work, on_gpu, works_of
 from experiments.running.words import cost_parser, scale_of_targets
 from experiments.settings.load import load_settings
-from mobnet.core.errors import ConfigError
+from mobnet.core.errors import ConfigError, DataError
 from mobnet.core.notes import read_note
 from mobnet.core.printed import printed
 
@@ -94,6 +94,20 @@ def priced(plan: Plan, rates: RatesNote, gpu: GpuRates | None, planned: Iterable
         kind = kind_of(own, rates.kinds)
         cpu_s, peak_mib = price(own, kind) if kind else (0.0, 0.0)
         found.append(Priced(job, own, cpu_s, peak_mib, there, gpu.seconds(there) if gpu and there else 0.0))
+    return found
+
+
+def expected_s(plan: Plan, jobs: Mapping[int, PlannedJob]) -> dict[int, float]:
+    """Return what jobs, by their numbers, will take [s]; nothing where the rates cannot be read."""
+    try:
+        rates = read_note(RATES, RatesNote)
+        gpu = fitted_rates(read_note(GPU_RATES, GpuNote))
+    except DataError:
+        return {}
+    numbers = {id(job): number for number, job in jobs.items()}
+    found: dict[int, float] = {}
+    for job in priced(plan, rates, gpu if plan.settings.stacks.side_by_side else None, jobs.values()):
+        found[numbers[id(job.planned)]] = job.cpu_s + job.gpu_s
     return found
 
 
