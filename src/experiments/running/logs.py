@@ -87,9 +87,15 @@ def logged(path: Path) -> Iterator[None]:
         raise SystemExit(1) from None
     except OSError as error:
         if error.errno not in REFUSALS:
+            printed.setLevel(logging.CRITICAL)
+            log.exception("a fault of the system")
             raise
         log.error("%s", refusal(error, Path(error.filename2 or error.filename or fullest())))
         raise SystemExit(1) from None
+    except Exception:
+        printed.setLevel(logging.CRITICAL)  # Python prints the traceback itself
+        log.exception("a fault of the code")
+        raise
     finally:
         logging.captureWarnings(capture=False)
         for handler in handlers[1:]:

@@ -26,6 +26,7 @@ NOISE = re.compile(
     r"Select jobs to execute|Using shell: |Provided (cores|resources|remote nodes): |Rules claiming more threads|"
     r"Group jobs: inactive|Building DAG of jobs|Complete log\(s\): |Removing temporary output|host: |"
     r"Assuming unrestricted shared filesystem|Updating job|Terminating processes on user request|"
+    r"RuleException:\nCalledProcessError in (.*\n)+.*returned non-zero exit status 1\.|"  # its job has said why
     r"Elapsed time: |SLURM run ID: |Job \d+ has been submitted with SLURM|None$|$"
 )
 AGAIN = re.compile(r"Trying to restart job (\d+)")
@@ -144,7 +145,7 @@ class RunHandler(LogHandlerBase):
         text = record.getMessage()
         if again := AGAIN.match(text):
             text = f"job {again[1]} is started again"
-        if record.levelno >= logging.WARNING or not NOISE.match(text):
+        if not NOISE.match(text):
             write(self.stream, text)
 
     def say(self, text: str) -> None:
