@@ -185,14 +185,18 @@ def flagged(name):
     return report(output, caption=how.caption and ROOT / how.caption, category=how.category, labels=labels)
 
 
+def shown_by():
+    """Return what shows the run, if it is ours."""
+    return [handler for handler in workflow.logger_manager.get_log_handlers() if isinstance(handler, RunHandler)]
+
+
 def tell_prices(jobs):
     """Tell what shows the run how long its jobs will take."""
     from experiments.evaluation.report.cost import expected_s  # takes a second, which the process of a job does not need
 
     planned = {job.jobid: PlannedJob.of(job) for job in jobs}
-    for handler in workflow.logger_manager.get_log_handlers():
-        if isinstance(handler, RunHandler):
-            handler.expect(expected_s(PLAN, planned))
+    for handler in shown_by():
+        handler.expect(expected_s(PLAN, planned))
 
 
 def made_line(targets, folders):
@@ -222,6 +226,8 @@ def answer_interrupts():
 
     def stop(number, frame):
         STOPPED.set()
+        for handler in shown_by():
+            handler.stopped()
         sys.stderr.write("stopped; the same command goes on from here\n")
         if workflow.local_exec:
             end_jobs()

@@ -156,7 +156,9 @@ def terminable() -> Iterator[None]:
 
     def leave(number: int, frame: object) -> None:
         for other in (signal.SIGINT, signal.SIGTERM):
-            signal.signal(other, signal.SIG_IGN)  # one signal is enough, a second one would cut short what follows
+            # One signal is enough, a second one would cut short what follows. One that has come already would be a
+            # fault of Python's if it were ignored.
+            signal.signal(other, lambda number, frame: None)
         raise SystemExit(128 + number)
 
     if threading.current_thread() is not threading.main_thread():

@@ -26,7 +26,8 @@ NOISE = re.compile(
     r"Select jobs to execute|Using shell: |Provided (cores|resources|remote nodes): |Rules claiming more threads|"
     r"Group jobs: inactive|Building DAG of jobs|Complete log\(s\): |Removing temporary output|host: |"
     r"Assuming unrestricted shared filesystem|Updating job|Terminating processes on user request|"
-    r"RuleException:\nCalledProcessError in (.*\n)+.*returned non-zero exit status 1\.|"  # its job has said why
+    # A job has said why itself.
+    r"RuleException:\nCalledProcessError in (.*\n)+.*returned non-zero exit status (1|130|143)\.|"
     r"Elapsed time: |SLURM run ID: |Job \d+ has been submitted with SLURM|None$|$"
 )
 AGAIN = re.compile(r"Trying to restart job (\d+)")
@@ -44,6 +45,7 @@ class RunHandler(LogHandlerBase):
         """Open the screen at once: reading the workflow takes seconds."""
         asked = self.common_settings
         self.course = RunState()
+        self.is_stopped = False
         self.screen: Screen | None = None
         self.own: logging.Handler | None = None  # Snakemake's, where it was asked for what it says
         if asked.dryrun or asked.verbose or asked.printshellcmds or asked.debug_dag or is_quiet(asked.quiet):
@@ -80,6 +82,10 @@ class RunHandler(LogHandlerBase):
     def expect(self, prices: dict[int, float]) -> None:
         """Take what each job that will run is to take [s]."""
         self.course.expect(prices)
+
+    def stopped(self) -> None:
+        """Take that somebody has stopped the run: no job fails any more."""
+        self.is_stopped = True
 
     def emit(self, record: logging.LogRecord) -> None:
         """Show a record of Snakemake."""
@@ -138,14 +144,15 @@ class RunHandler(LogHandlerBase):
     def failed(self, number: int, name: str, logs: list[str]) -> None:
         """Say that a job has failed, and where its log is; the job has printed its own error."""
         self.course.running.pop(number, None)
-        self.say(f"failed: {name} (log: {', '.join(logs) or 'none'})")
+        if not self.is_stopped:
+            self.say(f"failed: {name} (log: {', '.join(logs) or 'none'})")
 
     def other(self, record: logging.LogRecord) -> None:
         """Print what is no event of a run, if it is not among what Snakemake says in every one."""
         text = record.getMessage()
         if again := AGAIN.match(text):
             text = f"job {again[1]} is started again"
-        if not NOISE.match(text):
+        if not NOISE.match(text) and not (self.is_stopped and text.startswith("RuleException")):
             write(self.stream, text)
 
     def say(self, text: str) -> None:
