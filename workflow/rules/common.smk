@@ -24,7 +24,8 @@ from experiments.plan.plan import (
     with_stacks,
 )
 from experiments.plan.products import shown as report_of
-from experiments.plan.room import Sizes, check_room
+from experiments.plan.room import Sizes, check_room, share_at_once
+from experiments.plan.schedule import TimedJob
 from experiments.running.progress import in_time
 from experiments.running.terminal import RunHandler
 from experiments.running.words import in_set, nearest, one_of, scale_of_targets
@@ -119,8 +120,8 @@ onstart:
         record_precision(PLAN.folders.results, PRECISION)
         record_stacks(SETTINGS, PLAN.folders.results)
         waiting = list(workflow.dag.needrun_jobs())
-        check_room(waiting)
-        tell_prices(waiting)
+        seconds = tell_prices(waiting)
+        check_room(waiting, room_share(waiting, seconds))
         if commit() == UNKNOWN:
             sys.stderr.write(
                 f"{ROOT}: git knows no commit here, so results will not say which code made them (commit: unknown)\n"
@@ -191,12 +192,33 @@ def shown_by():
 
 
 def tell_prices(jobs):
-    """Tell what shows the run how long its jobs will take."""
+    """Tell what shows the run how long its jobs will take; return it, by their numbers [s]."""
     from experiments.evaluation.report.cost import expected_s  # takes a second, which the process of a job does not need
 
-    planned = {job.jobid: PlannedJob.of(job) for job in jobs}
+    seconds = expected_s(PLAN, {job.jobid: PlannedJob.of(job) for job in jobs})
     for handler in shown_by():
-        handler.expect(expected_s(PLAN, planned))
+        handler.expect(seconds)
+    return seconds
+
+
+def room_share(jobs, seconds):
+    """Return the share of what some jobs write that is there at once."""
+    if SETTINGS.keep == "all":
+        return 1.0
+    return share_at_once([TimedJob(PlannedJob.of(job), seconds.get(job.jobid, 0.0)) for job in jobs], workflow.cores or 1)
+
+
+def let_go(output):
+    """Mark a set that is removed when nothing needs it any more, if the configuration says so."""
+    return output if SETTINGS.keep == "all" else temp(output)
+
+
+def let_go_early():
+    """Let jobs come first that read sets, and those last that make recordings: so little is there at once."""
+    first = {"collect": 0, "motion": 10, "observe": 30, "estimate": 30}
+    if SETTINGS.keep != "all":
+        for each in workflow.rules:
+            each.priority = first.get(each.name, 20)
 
 
 def made_line(targets, folders):

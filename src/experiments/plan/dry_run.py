@@ -47,7 +47,7 @@ class PlannedJob:
             name=account_name(Path(log)) if log else job.rule.name,
             wildcards=dict(job.wildcards_dict),
             outputs=tuple(map(str, job.output)) or ("",),
-            resources={},
+            resources={name: str(value) for name, value in job.resources.items()},
             inputs=tuple(map(str, job.input)),
             priority=job.priority,
         )

@@ -23,7 +23,7 @@ from experiments.evaluation.report.rates import RATES, Kind, RatesNote, price
 from experiments.evaluation.tables.layout import markdown_table
 from experiments.plan.dry_run import PlannedJob, dry_run
 from experiments.plan.plan import Plan, make_plan
-from experiments.plan.room import RESOURCE
+from experiments.plan.room import RESOURCE, share_at_once
 from experiments.plan.schedule import TimedJob, elapsed_s
 from experiments.plan.work import SECONDS, OnGpu, Work, on_gpu, works_of
 from experiments.running.words import cost_parser, scale_of_targets
@@ -139,6 +139,11 @@ def report(plan: Plan, rates: RatesNote, gpu: GpuRates | None, planned: Sequence
     rows = [[stage, str(n), f"{cpu_s / HOUR_S:.2f}", f"{mib:.0f}"] for stage, (n, cpu_s, mib) in found.items()]
     unknown = sorted({work.kind for work in works if kind_of(work, rates.kinds) is None})
     disk_gb = sum(float(job.resources.get(RESOURCE, 0)) for job in planned) / MB_OF_GB
+    disk = f"{disk_gb:.1f} GB"
+    if plan.settings.keep != "all":
+        # What is let go in time is never there together with all else.
+        share = share_at_once([TimedJob(job.planned, job.cpu_s) for job in jobs], CORES)
+        disk = f"{share * disk_gb:.1f} GB at once, of {disk_gb:.1f} GB that are written"
     lines = [markdown_table(HEADER, rows) if works else "nothing would run: all is up to date"]
     if gpu:
         made = f"{gpu.note.made_by} on an {gpu.note.device} ({gpu.note.date}, torch {gpu.note.torch})"
@@ -147,7 +152,7 @@ def report(plan: Plan, rates: RatesNote, gpu: GpuRates | None, planned: Sequence
     else:
         hours = [f"{time_s(jobs, cores) / HOUR_S:.2f} h on {cores} cores" for cores in (CORES, CORES_WITH_GPU)]
         times = ", ".join(hours)
-    lines.append(f"disk: {disk_gb:.1f} GB; time: {times}")
+    lines.append(f"disk: {disk}; time: {times}")
     lines += [f"without a rate, and not counted: {', '.join(unknown)}"] if unknown else []
     return "\n".join(lines)
 
