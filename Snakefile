@@ -36,4 +36,5 @@ rule all:
 
 
 check_targets()
+let_go_early()
 answer_interrupts()

@@ -88,8 +88,9 @@ def test_only_the_process_that_compiles_says_so_once(tmp_path: Path) -> None:
     first, second = (
         subprocess.check_output([sys.executable, "-c", FIRST], env=environment, text=True).splitlines() for _ in "ab"
     )
-    line = f"compiling code for this processor, which may take a minute, once: it is kept in {tmp_path}"
-    assert (first, second) == ([line], [])
+    assert first[0] == "compiling code for this processor, which may take a minute, once"
+    assert all(line.startswith("compiling code for this processor: ") for line in first[1:])  # on a busy machine
+    assert second == []
 
 
 wide = on_stack(2, 3, 4)

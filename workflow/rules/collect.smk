@@ -22,7 +22,7 @@ rule collect:
     input:
         motions=needed(JOBS.collect, "motions"),
     output:
-        recordings=directory("<results>/{robot}/recordings/{scenario}/{level}"),
+        recordings=let_go(directory("<results>/{robot}/recordings/{scenario}/{level}")),
     log:
         "<logs>/collect/{robot}/{scenario}-{level}.log",
     priority: 20
@@ -44,7 +44,7 @@ rule observe:
     input:
         recordings=rules.collect.output.recordings,
     output:
-        residuals=directory("<results>/{robot}/residuals/{scenario}/{level}"),
+        residuals=let_go(directory("<results>/{robot}/residuals/{scenario}/{level}")),
     log:
         "<logs>/observe/{robot}/{scenario}-{level}.log",
     priority: 20

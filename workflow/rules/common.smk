@@ -13,6 +13,7 @@ from snakemake.cli import get_argument_parser
 from experiments.evaluation.measure.estimates.scores import measure_problems
 from experiments.evaluation.report.paper import missing_packages
 from experiments.jobs.method_problems import method_problems
+from experiments.plan.dry_run import PlannedJob
 from experiments.plan.files import made_by_jobs
 from experiments.plan.plan import (
     auto_precision,
@@ -23,7 +24,10 @@ from experiments.plan.plan import (
     with_stacks,
 )
 from experiments.plan.products import shown as report_of
-from experiments.plan.room import Sizes, check_room
+from experiments.plan.room import Sizes, check_room, share_at_once
+from experiments.plan.schedule import TimedJob
+from experiments.running.progress import in_time
+from experiments.running.terminal import RunHandler
 from experiments.running.words import in_set, nearest, one_of, scale_of_targets
 from experiments.settings.checks.claims import text_problems
 from experiments.running.cluster import LIMITED, failed_jobs, warm_cache
@@ -116,7 +120,8 @@ onstart:
         record_precision(PLAN.folders.results, PRECISION)
         record_stacks(SETTINGS, PLAN.folders.results)
         waiting = list(workflow.dag.needrun_jobs())
-        check_room(waiting)
+        seconds = tell_prices(waiting)
+        check_room(waiting, room_share(waiting, seconds))
         if commit() == UNKNOWN:
             sys.stderr.write(
                 f"{ROOT}: git knows no commit here, so results will not say which code made them (commit: unknown)\n"
@@ -131,6 +136,10 @@ onstart:
         # The number of cores limits the rate. Snakemake looks at all ready jobs in every timespan, once for each job
         # that has ended: half of a core after 100 jobs (its pull request 3744).
         workflow.scheduler.job_rate_limiter = None
+
+
+onsuccess:
+    sys.stderr.write(f"{made_line(TARGETS, PLAN.folders)}, in {in_time(time.time() - STARTED_S)}\n")
 
 
 onerror:
@@ -181,6 +190,49 @@ def flagged(name):
     return report(output, caption=caption, category=how.category, labels=labels)
 
 
+def shown_by():
+    """Return what shows the run, if it is ours."""
+    return [handler for handler in workflow.logger_manager.get_log_handlers() if isinstance(handler, RunHandler)]
+
+
+def tell_prices(jobs):
+    """Tell what shows the run how long its jobs will take; return it, by their numbers [s]."""
+    from experiments.evaluation.report.cost import expected_s  # takes a second, which the process of a job does not need
+
+    seconds = expected_s(PLAN, {job.jobid: PlannedJob.of(job) for job in jobs})
+    for handler in shown_by():
+        handler.expect(seconds)
+    return seconds
+
+
+def room_share(jobs, seconds):
+    """Return the share of what some jobs write that is there at once."""
+    if SETTINGS.keep == "all":
+        return 1.0
+    return share_at_once([TimedJob(PlannedJob.of(job), seconds.get(job.jobid, 0.0)) for job in jobs], workflow.cores or 1)
+
+
+def let_go(output):
+    """Mark a set that is removed when nothing needs it any more, if the configuration says so."""
+    return output if SETTINGS.keep == "all" else temp(output)
+
+
+def let_go_early():
+    """Let jobs come first that read sets, and those last that make recordings: so little is there at once."""
+    first = {"collect": 0, "motion": 10, "observe": 30, "estimate": 30}
+    if SETTINGS.keep != "all":
+        for each in workflow.rules:
+            each.priority = first.get(each.name, 20)
+
+
+def made_line(targets, folders):
+    """Return the line that says what a run has made: what was asked for, or the folders of all and where to begin."""
+    if targets and targets != ["all"]:
+        return f"{', '.join(targets)} {'is' if len(targets) == 1 else 'are'} made"
+    page = folders.results / "pages" / "index.html"
+    return f"{folders.tables}, {folders.figures} and {folders.paper} are made; begin with {page}"
+
+
 def check_targets():
     """End with one line where a target is none; Snakemake would say so after it has worked out the whole graph."""
     names = [rule.name for rule in workflow.rules]
@@ -200,6 +252,8 @@ def answer_interrupts():
 
     def stop(number, frame):
         STOPPED.set()
+        for handler in shown_by():
+            handler.stopped()
         sys.stderr.write("stopped; the same command goes on from here\n")
         if workflow.local_exec:
             end_jobs()

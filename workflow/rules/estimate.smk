@@ -5,7 +5,7 @@ rule estimate:
         residuals=needed(JOBS.estimate, "residuals"),
         networks=needed(JOBS.estimate, "runs"),
     output:
-        estimates=directory("<results>/{robot}/estimates/{scenario}/{level}"),
+        estimates=let_go(directory("<results>/{robot}/estimates/{scenario}/{level}")),
     log:
         "<logs>/estimate/{robot}/{scenario}-{level}.log",
     group:

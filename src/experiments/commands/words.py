@@ -45,6 +45,7 @@ EXAMPLES = """
   ./reproduce all -n                     show what would run
   ./reproduce all --config scale=smoke   the same line in minutes; its numbers mean nothing
   ./reproduce all --config scale=quick   every table and figure in about an hour, with shorter walks and trainings
+  ./reproduce all --config keep=tables   let recordings go when nothing needs them any more: less disk
   ./reproduce tables/table_05.tex        make one file and what it needs; tables/smoke/table_05.tex at that scale"""
 OWN = {"clean", "setup"}  # commands with options of their own
 TRIALS = ("tuning", "recipes", "lengths", "random_torque")  # tables of trials, which `all` does not ask for

@@ -53,11 +53,12 @@ def detect(detection: Detection, robot: RobotTable, rate_hz: float, walks: Mappi
     """
     description = describe(robot)
     rows = {name: list[Any]() for name in FILES}
-    for limb in detection.legs:
+    for number, limb in enumerate(detection.legs, start=1):
+        log.info("leg %d of %d, %s", number, len(detection.legs), limb)
         _try_leg(LegSetup.of(detection, description, limb, rate_hz), walks, rows)
     for name, found in rows.items():
         write_text(out / f"{name}.csv", csv_text(columns_of(name), map(astuple, found)))
-    log.info("%s: %d collisions, %d detectors", out, len(rows["collisions"]), len(detection.detectors))
+    log.info("%d collisions, %d detectors", len(rows["collisions"]), len(detection.detectors))
 
 
 def _try_leg(setup: LegSetup, walks: Mapping[str, Walk], rows: Rows) -> None:
@@ -69,7 +70,8 @@ def _try_leg(setup: LegSetup, walks: Mapping[str, Walk], rows: Rows) -> None:
     hits = {name: hit_legs(setup, walks[name], legs[name]) for name in (settings.collisions, settings.sweep)}
     for name, hit in hits.items():
         rows["collisions"] += collision_rows(setup, name, hit)
-    for method in dict.fromkeys(row.method for row in settings.detectors.values()):
+    methods = dict.fromkeys(row.method for row in settings.detectors.values())
+    for number, method in enumerate(methods, start=1):
         estimates = {name: _estimates(setup, walk, method) for name, walk in walks.items()}
         if not estimates[settings.random]:
             continue  # the method does not estimate this leg
@@ -91,7 +93,7 @@ def _try_leg(setup: LegSetup, walks: Mapping[str, Walk], rows: Rows) -> None:
                 for scenario, hit in hits.items():
                     points = candidates_of(setup, walks[scenario])
                     _try_walk(setup, scenario, calibrated, hit, estimates[scenario], points, rows)
-        log.info("%s, %s: tried", setup.limb, method)
+        log.info("%d of %d methods of %s tried: %s", number, len(methods), setup.limb, method)
 
 
 def _try_walk(

@@ -1,5 +1,6 @@
 """The rule `estimate`: it runs methods on recordings, several side by side, and writes the external torque of each."""
 
+import logging
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
@@ -14,6 +15,8 @@ from mobnet.robot.description import describe
 from mobnet.settings.methods import ObserverSettings
 from mobnet.settings.robot import RobotTable
 from mobnet.settings.surrogate import Level
+
+log = logging.getLogger(__name__)
 
 
 def estimate(
@@ -40,13 +43,17 @@ def estimate(
         DataError: a recording, a residual, a network or the fit is damaged, or the rates differ.
     """
     layout = describe(robot).layout
-    for some in batches(recordings):
+    together = list(batches(recordings))
+    done = 0
+    for some in together:
         pairs = zip(recordings[some], residuals[some], strict=True)
         read = [read_observed(layout, recording, residual, rate_hz) for recording, residual in pairs]
         for run in runs:
             known = robot, level.nominal_mass_ratio, gravity_m_s2, observer
             recipe = Recipe(run.method, run.methods, *known, rate_of(read), run.networks, run.fitted)
             folder = out / run.method / f"n{run.network_seed}"
+            done += 1
+            log.info("run %d of %d, %s, networks %d", done, len(together) * len(runs), run.method, run.network_seed)
             _estimate(recipe, read, [folder / recording.name for recording in recordings[some]], run.joints)
 
 

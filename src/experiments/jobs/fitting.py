@@ -40,4 +40,4 @@ def write_fit(
     if set(method.fitted) != set(training):
         raise ConfigError(not_accepted(f"{out}: limbs to fit", sorted(training), [sorted(method.fitted)]))
     write_json(out, kind.fit(layout, observer, options_of(out.stem, method, kind.Options), networks, training))
-    log.info("%s: %s", out, ", ".join(method.fitted))
+    log.info("%s is fitted to %s", out.stem, ", ".join(method.fitted))

@@ -38,7 +38,7 @@ def make_motion(
     reacher = Reacher(described, motion, working_range(motion), described.posture.angle)
     knots = plan(described, motion, reacher, variant, rng, duration_s)
     figures = {"motion": name, "seed": seed, "part": part, "variant": variant, **measured(reacher, motion, knots)}
-    log.info("%s: %s", out.name, figures)
+    log.info("%s, %s: part %d in variant %d of the base motion", name, out.name, part, variant)
     meta = {"rate_hz": motion.knot_hz, **figures, "provenance": provenance()}
     write_array(out, knots, [(f"q_ref.{joint}", "rad", "joint") for joint in described.posture.joints], meta)
 

@@ -36,7 +36,8 @@ def observe_walks(
     Raises:
         DataError: a recording is damaged.
     """
-    for recording in recordings:
+    for number, recording in enumerate(recordings, start=1):
+        log.info("recording %d of %d, %s", number, len(recordings), recording.name)
         observe(robot, level, gravity_m_s2, observer, recording, out / recording.name, rate_hz)
 
 
@@ -69,7 +70,7 @@ def observe(
     momentum = observer_of(
         description, level.nominal_mass_ratio, gravity_m_s2, observer.gain_hz, recorded_hz, observer.torque
     )
-    log.info("%s: %d samples in %d segments", recording, note["rows"], len(segments))
+    log.info("%s: %d samples in %d segments", recording.name, note["rows"], len(segments))
     labelled = level.labels == "foot_sensors"
     wrenches = wrench_fields(description) if labelled else {}
     label = None

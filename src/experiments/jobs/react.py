@@ -62,12 +62,15 @@ def react(
     robot_walks = CaseWalker(ReactingRobot(walks.settings, reaction, detection, observer, runs), rows)
     trials = list[Trial]()
     ours, *others = watches_of(reaction, walks.case)
-    for watch, seeds in [(ours, walks.seeds), *((other, walks.seeds[: walks.sizes.compared]) for other in others)]:
+    tried = [(ours, walks.seeds), *((other, walks.seeds[: walks.sizes.compared]) for other in others)]
+    count = sum(len(seeds) for _, seeds in tried)
+    for watch, seeds in tried:
         for seed in seeds:
             trial, walked = robot_walks.walk(walks, watch, seed)
             if not trials and walks.is_pushed:
                 write_course(walked, trial, robot_walks, out.with_suffix(""))
             trials.append(trial)
+            log.info("%d of %d walks, %s", len(trials), count, walks.case)
         log.info("%s, %s, %s: %d walks", walks.case, watch.detector, watch.rule, len(seeds))
     write_text(out, csv_text(TRIALS, [astuple(trial) for trial in trials]))
 

@@ -23,5 +23,5 @@ def collect_walks(settings: WalkSettings, duration_s: float, motions: Mapping[in
         SimulationError: the robot keeps falling.
     """
     for number, (seed, motion) in enumerate(motions.items(), start=1):
-        log.info("recording %d of %d: %s", number, len(motions), out / f"s{seed}")
+        log.info("recording %d of %d, s%d", number, len(motions), seed)
         collect(settings, seed, duration_s, out / f"s{seed}", motion)

@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from types import SimpleNamespace
+from typing import Any, Self
 
 from experiments.running.logs import account_name
 from mobnet.core.code import ROOT
@@ -36,6 +37,20 @@ class PlannedJob:
     resources: Mapping[str, str]
     inputs: tuple[str, ...] = ()
     priority: int = 0
+
+    @classmethod
+    def of(cls, job: Any) -> Self:
+        """Return a job of Snakemake, within the process that runs it."""
+        log = next(iter(job.log), None)
+        return cls(
+            rule=job.rule.name,
+            name=account_name(Path(log)) if log else job.rule.name,
+            wildcards=dict(job.wildcards_dict),
+            outputs=tuple(map(str, job.output)) or ("",),
+            resources={name: str(value) for name, value in job.resources.items()},
+            inputs=tuple(map(str, job.input)),
+            priority=job.priority,
+        )
 
     @property
     def w(self) -> SimpleNamespace:

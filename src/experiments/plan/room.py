@@ -1,13 +1,15 @@
 """How much room on disk the sets of a job take [MB], and whether a run has it before it starts."""
 
 import shutil
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from experiments.plan.dry_run import PlannedJob
 from experiments.plan.files import Files
 from experiments.plan.jobs import Jobs
+from experiments.plan.schedule import TimedJob, most_held
 from mobnet.core.columns import recording_width, residual_columns
 from mobnet.core.errors import DataError
 from mobnet.core.files import check_room as check_folder
@@ -17,6 +19,8 @@ STORED = 0.6  # of the bytes of an array remain after compression: of recordings
 MB = 1e6
 RESOURCE = "disk_mb"
 OTHER_MB = 0.5  # of a file that is in no set: the largest are weights and figures
+LET_GO = ("collect", "observe", "estimate")  # rules whose sets go, with `keep: tables`, when nothing needs them
+MARGIN = 1.1  # of what these take at once: jobs take other times than they are priced with, and end in another order
 
 
 @dataclass(frozen=True)
@@ -56,8 +60,24 @@ def _estimated_width(files: Files, method: str, w: Any) -> int:
     return (1 + bool(catalogue.method(method).limbs)) * len(catalogue.estimated(method, w.scenario, w.level))
 
 
-def check_room(jobs: Iterable[Any]) -> None:
+def share_at_once(jobs: Sequence[TimedJob], cores: int) -> float:
+    """Return the share of what all outputs of a run take that is there at once, where sets are let go."""
+    whole_mb = sum(size_mb(own.job) for own in jobs)
+    most_mb = most_held(jobs, cores, size_mb, lambda job: job.rule in LET_GO)
+    return min(1.0, MARGIN * most_mb / whole_mb) if whole_mb else 1.0
+
+
+def size_mb(job: PlannedJob) -> float:
+    """Return what the outputs of a job take [MB]."""
+    return float(job.resources.get(RESOURCE, 0)) or OTHER_MB * len(job.outputs)
+
+
+def check_room(jobs: Iterable[Any], share: float = 1.0) -> None:
     """Check that the outputs of jobs of Snakemake have a place that can be written, and that there is room for them.
+
+    Args:
+        jobs: those of a run.
+        share: of what they write that is there at once.
 
     Raises:
         DataError: a file stands where a folder should, a folder cannot be written to, or a disk has too little space.
@@ -73,7 +93,7 @@ def check_room(jobs: Iterable[Any]) -> None:
         check_folder(folder)
         disks.setdefault(folder.stat().st_dev, []).append(folder)
     for folders in disks.values():
-        whole_mb = sum(needed[folder] for folder in folders)
+        whole_mb = share * sum(needed[folder] for folder in folders)
         free_mb = shutil.disk_usage(folders[0]).free / MB
         if free_mb < whole_mb:
             raise DataError(

@@ -1,7 +1,7 @@
 """How long jobs take that wait for each other, for a core and for a GPU."""
 
 import heapq
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from experiments.plan.dry_run import PlannedJob
@@ -17,12 +17,51 @@ class TimedJob:
 
 
 def elapsed_s(jobs: Sequence[TimedJob], cores: int, gpus: int = 0) -> float:
-    """Return the time from the first start to the last end [s].
+    """Return the time from the first start to the last end [s]."""
+    return max((now for now, _, _ in _course(in_order(jobs), cores, gpus)), default=0.0)
+
+
+def most_held(
+    jobs: Sequence[TimedJob], cores: int, size: Callable[[PlannedJob], float], is_let_go: Callable[[PlannedJob], bool]
+) -> float:
+    """Return the most that outputs take at once, where those of some jobs go when all that read them have ended.
+
+    Args:
+        jobs: those of a run.
+        cores: on which they run.
+        size: what the outputs of a job take.
+        is_let_go: whether they go.
+    """
+    jobs = in_order(jobs)
+    waits = _waits(jobs)
+    readers = [0] * len(jobs)
+    for before in waits.values():
+        for earlier in before:
+            readers[earlier] += 1
+    held, most = 0.0, 0.0
+    for _, place, begins in _course(jobs, cores, 0):
+        if begins:
+            held += size(jobs[place].job)
+            most = max(most, held)
+            continue
+        for earlier in waits[place]:
+            readers[earlier] -= 1
+            if not readers[earlier] and is_let_go(jobs[earlier].job):
+                held -= size(jobs[earlier].job)
+    return most
+
+
+def in_order(jobs: Sequence[TimedJob]) -> list[TimedJob]:
+    """Return jobs by their names: a dry run tells them in any order."""
+    return sorted(jobs, key=lambda own: own.job.name)
+
+
+def _course(jobs: Sequence[TimedJob], cores: int, gpus: int) -> Iterator[tuple[float, int, bool]]:
+    """Yield when a job begins or ends [s], its place among the jobs, and whether it begins.
 
     Each job runs on a core when all that it reads is made; of those that can start, the one with the highest priority
     goes first, as Snakemake has it, and among equals the longest.
     """
-    jobs = sorted(jobs, key=lambda own: own.job.name)  # a dry run tells its jobs in any order
     waits = _waits(jobs)
     followers: list[list[int]] = [[] for _ in jobs]
     for place, before in waits.items():
@@ -47,10 +86,12 @@ def elapsed_s(jobs: Sequence[TimedJob], cores: int, gpus: int = 0) -> float:
             _, _, place = heapq.heappop(ready[chosen])
             free[False] -= 1
             free[True] -= int(chosen)
+            yield now, place, True
             heapq.heappush(running, (now + jobs[place].seconds, place))
         if not running:
-            return now
+            return
         now, place = heapq.heappop(running)
+        yield now, place, False
         free[False] += 1
         free[True] += int(jobs[place].gpu)
         for after in followers[place]:

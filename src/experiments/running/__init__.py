@@ -1,1 +1,1 @@
-"""How jobs run: alone in a folder, in one environment, on a cluster or a GPU, with logs and accounts; no result."""
+"""How jobs run, alone in a folder, in one environment, on a cluster or a GPU: logs, accounts, what a run shows."""

@@ -1,4 +1,4 @@
-"""What a job of the workflow tells: progress to its log and the terminal, an error as one line, and what it took."""
+"""What a job of the workflow tells: progress to its log, an error as one line to the terminal too, and what it took."""
 
 import contextlib
 import logging
@@ -51,7 +51,7 @@ class Account:
 
 @contextlib.contextmanager
 def job(log_file: Path | str) -> Iterator[None]:
-    """Log a job to its file and to the terminal, and write its account beside the log, as JSON, when it ends.
+    """Log a job to its file, write its account beside the log, as JSON, when it ends; print warnings and errors.
 
     Raises:
         SystemExit: the job raised a MobnetError, whose message is the last line of the log, or was terminated.
@@ -63,8 +63,13 @@ def job(log_file: Path | str) -> Iterator[None]:
 
 @contextlib.contextmanager
 def logged(path: Path) -> Iterator[None]:
-    """Log to a file and to the terminal; an expected error is one line, and the end with status 1."""
-    handlers = [logging.StreamHandler(sys.stderr), *log_file(path)]
+    """Log to a file, print warnings and errors; an expected error is one line, and the end with status 1.
+
+    What shows a run follows the file (`experiments.running.progress`).
+    """
+    printed = logging.StreamHandler(sys.stderr)
+    printed.setLevel(logging.WARNING)
+    handlers = [printed, *log_file(path)]
     root = logging.getLogger()
     previous = root.handlers[:], root.level
     root.handlers[:] = []
@@ -82,9 +87,15 @@ def logged(path: Path) -> Iterator[None]:
         raise SystemExit(1) from None
     except OSError as error:
         if error.errno not in REFUSALS:
+            printed.setLevel(logging.CRITICAL)
+            log.exception("a fault of the system")
             raise
         log.error("%s", refusal(error, Path(error.filename2 or error.filename or fullest())))
         raise SystemExit(1) from None
+    except Exception:
+        printed.setLevel(logging.CRITICAL)  # Python prints the traceback itself
+        log.exception("a fault of the code")
+        raise
     finally:
         logging.captureWarnings(capture=False)
         for handler in handlers[1:]:
@@ -145,7 +156,9 @@ def terminable() -> Iterator[None]:
 
     def leave(number: int, frame: object) -> None:
         for other in (signal.SIGINT, signal.SIGTERM):
-            signal.signal(other, signal.SIG_IGN)  # one signal is enough, a second one would cut short what follows
+            # One signal is enough, a second one would cut short what follows. One that has come already would be a
+            # fault of Python's if it were ignored.
+            signal.signal(other, lambda number, frame: None)
         raise SystemExit(128 + number)
 
     if threading.current_thread() is not threading.main_thread():

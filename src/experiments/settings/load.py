@@ -20,7 +20,7 @@ from mobnet.settings.reading import Document, Place, Problem, dotted, read_overr
 
 ROOT = Path(__file__).parents[3]
 PARTS: Mapping[str, tuple[str, ...]] = {  # file -> the sections that stand in it
-    "config": ("scale", "seed", "robot", "published", "claims"),
+    "config": ("scale", "keep", "seed", "robot", "published", "claims"),
     "plant": ("rates", "plant", "levels"),
     "surrogate": ("surrogate", "fleet"),
     "walking": ("walking",),

@@ -48,6 +48,7 @@ class Settings(Lab):
     """Every number of the artifact, once; to `seed` jobs add their names."""
 
     scale: ScaleName
+    keep: Literal["all", "tables"]
     levels: Annotated[dict[LowerName, Level], Field(min_length=1)]
     surrogate: Surrogate
     fleet: Fleet

@@ -12,14 +12,16 @@ file is not.
 At each call from Python numba takes tuples, records and generators of random numbers apart, field by field, which takes
 longer than many a function that gets them. What `hold` returns is one pointer to fields that were taken apart before.
 
-The first process that needs a function compiles it, which takes up to half a minute for the plant's loop, and says so;
-those that find it in the cache say nothing.
+The first process that needs a function compiles it, which takes up to half a minute for the plant's loop, and says so
+every few seconds; those that find it in the cache say nothing.
 """
 
 import contextlib
 import functools
 import logging
 import math
+import threading
+import time
 from collections.abc import Callable, Collection, Iterator
 from pathlib import Path
 from typing import Any
@@ -38,27 +40,48 @@ from mobnet.core.code import code_hash
 from mobnet.core.place import caches
 
 ITEM = np.dtype(np.float64).itemsize  # bytes
+TOLD_S = 5.0  # between two words on how far the compiler is
 log = logging.getLogger(__name__)
 
 
-class FirstCompilation(events.Listener):
-    """Logs that a process compiles, at its first compilation."""
+class Compilations(events.Listener):
+    """Logs that a process compiles: at its first compilation, then how many functions it has compiled, every while.
+
+    Functions that a function calls are compiled within it; how many there will be is not known before.
+    """
 
     def __init__(self) -> None:
-        """Wait for it."""
-        self.told = False
+        """Wait for the first."""
+        self.count = 0
+        self.took_s = 0.0  # of all that have ended, each with those within it
+        self.begun_s: list[float] = []  # of those that are going on, the outermost first
+        self.ended = threading.Event()
 
     def on_start(self, event: events.Event) -> None:
-        """Say it once: functions that a function calls are compiled with it."""
-        if not self.told:
-            self.told = True
-            log.info("compiling code for this processor, which may take a minute, once: it is kept in %s", cache_root())
+        """Say so at the first one; while any goes on, a thread says how far it is."""
+        if not self.count and not self.begun_s:
+            log.info("compiling code for this processor, which may take a minute, once")
+        self.begun_s.append(time.monotonic())
+        if len(self.begun_s) == 1:
+            self.ended = threading.Event()
+            threading.Thread(target=self.tell, args=[self.ended, self.begun_s[0]], daemon=True).start()
 
     def on_end(self, event: events.Event) -> None:
-        """Say nothing."""
+        """Count."""
+        begun_s = self.begun_s.pop()
+        self.count += 1
+        if not self.begun_s:
+            self.took_s += time.monotonic() - begun_s
+            self.ended.set()
+
+    def tell(self, ended: threading.Event, begun_s: float) -> None:
+        """Say every while how far a compilation is, until it has ended."""
+        while not ended.wait(TOLD_S):
+            took_s = self.took_s + time.monotonic() - begun_s
+            log.info("compiling code for this processor: %d functions in %.0f s so far", self.count, took_s)
 
 
-events.register("numba:compile", FirstCompilation())
+events.register("numba:compile", Compilations())
 
 
 def compiled(

@@ -87,7 +87,7 @@ def write_estimate(
     array, columns = table_of(result, joints, layout)
     carried = {key: recording.meta[key] for key in CARRIED if key in recording.meta}
     write_array(out, array, columns, {"rate_hz": recording.rate_hz, **carried, **note}, recording.segments)
-    log.info("%s: %d samples, %d joints", out, len(array), len(joints))
+    log.info("%s: %d samples, %d joints", out.name, len(array), len(joints))
 
 
 def table_of(result: Estimate, joints: Sequence[str], layout: JointLayout) -> tuple[NDArray[Any], list[Column]]:

@@ -124,7 +124,7 @@ class MomentumObserver:
         for start in range(0, len(sensed), LOGGED_ROWS):
             rows = slice(start, start + LOGGED_ROWS)
             state = self.follow(state, sensed[rows], residual[rows])
-            log.info("momentum of %d of %d samples", min(rows.stop, len(sensed)), len(sensed))
+            log.info("%d of %d samples observed", min(rows.stop, len(sensed)), len(sensed))
         return residual
 
     def follow(self, state: ObserverState, sensed: Sensed, out: Array) -> ObserverState:

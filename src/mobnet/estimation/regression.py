@@ -79,7 +79,8 @@ def square_sums(columns: Columns, joints: Sequence[str], gain_hz: float, pairs: 
     # Sums of products are all that (O13) needs, and do not grow with the hours of data.
     sums: dict[str, Any] = dict.fromkeys(joints, 0.0)
     count = 0
-    for recording, residual in pairs:
+    for number, (recording, residual) in enumerate(pairs, start=1):
+        log.info("recording %d of %d, %s", number, len(pairs), recording.name)
         check_pair(recording, residual)
         velocity, torque, spans, rate_hz = _halves(recording, (VELOCITY, MOTOR), joints)
         observed, external, _, _ = _halves(residual, (RESIDUAL, label_of(residual)), joints)
@@ -90,7 +91,6 @@ def square_sums(columns: Columns, joints: Sequence[str], gain_hz: float, pairs: 
                 with_target = np.column_stack([filtered, external[span, i] - observed[span, i]])
                 sums[joint] += with_target.T @ with_target
             count += span.stop - span.start
-        log.info("%s: %d joints", recording, len(joints))
     return {joint: products / max(1, count) for joint, products in sums.items()}
 
 

@@ -174,8 +174,7 @@ class Schedule:
         last = done.epochs[-1]
         epochs = self.job.training.epochs
         log.info(
-            "%s: epoch %d/%d, loss %.3f, validation %.3f (%.3g N m), rate %.2g, %.0f s left",
-            self.job.name,
+            "%d of %d epochs, loss %.3f, validation %.3f (%.3g N m), rate %.2g, %.0f s left",
             last.epoch,
             epochs,
             last.train_loss,

@@ -92,7 +92,7 @@ def collect(settings: WalkSettings, seed: int, duration_s: float, out: Path, mot
         }
         writer.close(meta, course.segments)
     speed = duration_s / (time.perf_counter() - started)
-    log.info("%s: %d samples, %d falls, %.1f x real time", out.name, samples, course.falls, speed)
+    log.info("%s: %d falls, simulated at %.1f times real time", out.name, course.falls, speed)
 
 
 def read_motion(stem: Path) -> UpperBody:
@@ -154,7 +154,7 @@ def _episode(
             yield held.popleft()
     if fallen:
         course.falls += 1
-        log.warning("fall %d: its last %g s are dropped", course.falls, settings.dropped_before_fall_s)
+        log.info("fall %d: the last %g s before it are dropped", course.falls, settings.dropped_before_fall_s)
     rest = np.concatenate(held) if held else np.zeros((0, width), dtype=np.float32)
     rest = rest[: max(0, len(rest) - dropped)] if fallen else rest
     if len(rest):

@@ -23,12 +23,12 @@ from experiments.evaluation.report.rates import RATES, Kind, RatesNote, price
 from experiments.evaluation.tables.layout import markdown_table
 from experiments.plan.dry_run import PlannedJob, dry_run
 from experiments.plan.plan import Plan, make_plan
-from experiments.plan.room import RESOURCE
+from experiments.plan.room import RESOURCE, share_at_once
 from experiments.plan.schedule import TimedJob, elapsed_s
 from experiments.plan.work import SECONDS, OnGpu, Work, on_gpu, works_of
 from experiments.running.words import cost_parser, scale_of_targets
 from experiments.settings.load import load_settings
-from mobnet.core.errors import ConfigError
+from mobnet.core.errors import ConfigError, DataError
 from mobnet.core.notes import read_note
 from mobnet.core.printed import printed
 
@@ -97,6 +97,20 @@ def priced(plan: Plan, rates: RatesNote, gpu: GpuRates | None, planned: Iterable
     return found
 
 
+def expected_s(plan: Plan, jobs: Mapping[int, PlannedJob]) -> dict[int, float]:
+    """Return what jobs, by their numbers, will take [s]; nothing where the rates cannot be read."""
+    try:
+        rates = read_note(RATES, RatesNote)
+        gpu = fitted_rates(read_note(GPU_RATES, GpuNote))
+    except DataError:
+        return {}
+    numbers = {id(job): number for number, job in jobs.items()}
+    found: dict[int, float] = {}
+    for job in priced(plan, rates, gpu if plan.settings.stacks.side_by_side else None, jobs.values()):
+        found[numbers[id(job.planned)]] = job.cpu_s + job.gpu_s
+    return found
+
+
 def time_s(jobs: Iterable[Priced], cores: int, gpus: int = 0) -> float:
     """Return how long a machine takes for jobs that wait for each other [s]."""
     return elapsed_s([TimedJob(job.planned, job.cpu_s + job.gpu_s, job.gpu_s > 0.0) for job in jobs], cores, gpus)
@@ -125,6 +139,11 @@ def report(plan: Plan, rates: RatesNote, gpu: GpuRates | None, planned: Sequence
     rows = [[stage, str(n), f"{cpu_s / HOUR_S:.2f}", f"{mib:.0f}"] for stage, (n, cpu_s, mib) in found.items()]
     unknown = sorted({work.kind for work in works if kind_of(work, rates.kinds) is None})
     disk_gb = sum(float(job.resources.get(RESOURCE, 0)) for job in planned) / MB_OF_GB
+    disk = f"{disk_gb:.1f} GB"
+    if plan.settings.keep != "all":
+        # What is let go in time is never there together with all else.
+        share = share_at_once([TimedJob(job.planned, job.cpu_s) for job in jobs], CORES)
+        disk = f"{share * disk_gb:.1f} GB at once, of {disk_gb:.1f} GB that are written"
     lines = [markdown_table(HEADER, rows) if works else "nothing would run: all is up to date"]
     if gpu:
         made = f"{gpu.note.made_by} on an {gpu.note.device} ({gpu.note.date}, torch {gpu.note.torch})"
@@ -133,7 +152,7 @@ def report(plan: Plan, rates: RatesNote, gpu: GpuRates | None, planned: Sequence
     else:
         hours = [f"{time_s(jobs, cores) / HOUR_S:.2f} h on {cores} cores" for cores in (CORES, CORES_WITH_GPU)]
         times = ", ".join(hours)
-    lines.append(f"disk: {disk_gb:.1f} GB; time: {times}")
+    lines.append(f"disk: {disk}; time: {times}")
     lines += [f"without a rate, and not counted: {', '.join(unknown)}"] if unknown else []
     return "\n".join(lines)
 

@@ -134,7 +134,7 @@ class StackedTrainer:
             for own, schedule, progress in zip(self._members, self._schedules, done.progress, strict=True):
                 write_metrics(own.state / METRICS, progress, schedule.joints)
             left = done.seconds / done.epochs * (epochs - done.epochs)
-            log.info("%d networks: epoch %d/%d, %.0f s left", len(self._members), done.epochs, epochs, left)
+            log.info("%d of %d epochs of %d networks, %.0f s left", done.epochs, epochs, len(self._members), left)
         return done
 
     def _epoch(self, done: Taught) -> None:

@@ -64,13 +64,16 @@ def score(layout: JointLayout, runs: Sequence[Run], asked: Scoring, out: Path) -
     recording. `asked` says what else is measured, and on which runs. Rows come recording by recording.
     """
     rows: list[Score] = []
+    count = len({run.recording for run in runs})
     # Recording by recording, so that the columns of each are read once and not by every method again.
-    for recording, own in groupby(sorted(runs, key=lambda run: str(run.recording)), lambda run: run.recording):
+    by_recording = groupby(sorted(runs, key=lambda run: str(run.recording)), lambda run: run.recording)
+    for number, (recording, own) in enumerate(by_recording, start=1):
         scene = Scene(recording, layout, asked)
         for run in own:
             rows += score_run(run, scene)
+        log.info("%d of %d recordings scored", number, count)
     write_csv(out, SCORES, [astuple(row) for row in rows])
-    log.info("%s: %d runs, %d rows", out, len(runs), len(rows))
+    log.info("%d runs, %d rows", len(runs), len(rows))
 
 
 def score_run(run: Run, scene: Scene) -> list[Score]:
