@@ -125,6 +125,10 @@ def report(plan: Plan, rates: RatesNote, gpu: GpuRates | None, planned: Sequence
     rows = [[stage, str(n), f"{cpu_s / HOUR_S:.2f}", f"{mib:.0f}"] for stage, (n, cpu_s, mib) in found.items()]
     unknown = sorted({work.kind for work in works if kind_of(work, rates.kinds) is None})
     disk_gb = sum(float(job.resources.get(RESOURCE, 0)) for job in planned) / MB_OF_GB
+    if works and not rows:
+        return f"{len(works)} jobs would run, which the published run did not have, so that nothing prices them: " + (
+            ", ".join(unknown)
+        )
     lines = [markdown_table(HEADER, rows) if works else "nothing would run: all is up to date"]
     if gpu:
         made = f"{gpu.note.made_by} on an {gpu.note.device} ({gpu.note.date}, torch {gpu.note.torch})"
