@@ -11,7 +11,9 @@ import sys
 from pathlib import Path
 
 from experiments.running.words import bench_parser
+from mobnet.core.errors import not_accepted
 from mobnet.core.files import atomic_path
+from mobnet.core.heartbeat import heartbeat
 from mobnet.core.machine import one_thread
 
 NAMES = (
@@ -33,15 +35,16 @@ Row = dict[str, float | str]
 
 def main() -> int:
     """Run those asked for; return 1 if one misses its bar."""
-    parser, accepted = bench_parser(), ", ".join((*NAMES, *LONG))
+    parser = bench_parser()
     options = parser.parse_args()
     for name in set(options.names) - {*NAMES, *LONG}:
-        parser.error(f"NAME: {name!r} is not accepted; accepted: {accepted}")
+        parser.error(not_accepted("NAME", name, [*NAMES, *LONG]))
     rows: list[Row] = []
     one_thread()
     for name in options.names or NAMES:
         print(f"running {name}", file=sys.stderr, flush=True)
-        rows += [{"benchmark": name, **row} for row in importlib.import_module(f"benchmarks.{name}").main()]
+        with heartbeat():
+            rows += [{"benchmark": name, **row} for row in importlib.import_module(f"benchmarks.{name}").main()]
     print(table(rows))
     _write(rows, options.out)
     return int(any(misses(row) for row in rows))

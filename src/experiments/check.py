@@ -36,6 +36,7 @@ from mobnet.core.detections import columns_of
 from mobnet.core.epochs import read_epochs
 from mobnet.core.errors import DataError, MobnetError, not_accepted, refuse
 from mobnet.core.files import METRICS, RUN, check_regular, read_json, read_text
+from mobnet.core.heartbeat import heartbeat
 from mobnet.core.joints import JointLayout
 from mobnet.core.notes import ArrayNote, read_array_note, read_note
 from mobnet.core.reactions import TRIALS
@@ -278,13 +279,14 @@ def main(words: list[str]) -> int:
         parser.error(not_accepted("--rate", options.rate, ["a number above 0"]))
     logging.basicConfig(level=logging.INFO, format="%(message)s", stream=sys.stdout)
     against = Against(options.robot, options.rate)
+    found: dict[Path, bool] = {}
     try:
-        found: dict[Path, bool] = {}
         for word in options.files:
             found |= {file: file in options.files for file in files_of(word)}
     except OSError as error:
         parser.error(f"FILE: {error.filename}: {error.strerror}; accepted: files that you may read")
-    wrong = sum(not accepted(file, against, asked) for file, asked in found.items())
+    with heartbeat():
+        wrong = sum(not accepted(file, against, asked) for file, asked in found.items())
     if len(found) != 1:
         log.info("%d files, %d of them not accepted", len(found), wrong)
     return 1 if wrong else 0

@@ -16,6 +16,7 @@ from experiments.settings.load import load_settings
 from mobnet.core.code import ROOT
 from mobnet.core.errors import MobnetError, not_accepted
 from mobnet.core.estimator import TorqueEstimator
+from mobnet.core.heartbeat import heartbeat
 from mobnet.core.recording import Sensed
 
 DATA = ROOT / "docs" / "demo"
@@ -50,7 +51,8 @@ def main(words: Sequence[str]) -> int:
     logging.getLogger("matplotlib").setLevel(logging.ERROR)  # it warns that it makes its cache of fonts, once
     quieten(ROOT)
     try:
-        show(StoredPush(data, load_settings()), out)
+        with heartbeat():
+            show(StoredPush(data, load_settings()), out)
     except MobnetError as error:
         log.error("%s", error)
         return 1

@@ -6,11 +6,13 @@ is not installed is named in one line.
 
 import argparse
 import contextlib
+import shutil
 import sys
-from collections.abc import Callable, Sequence
+import textwrap
+from collections.abc import Callable, Mapping, Sequence
 from typing import NamedTuple
 
-from mobnet.core.errors import CommandError, ConfigError, MobnetError, unknown_command
+from mobnet.core.errors import CommandError, ConfigError, MobnetError, not_accepted
 from mobnet.core.options import (
     calibrate_parser,
     detect_parser,
@@ -106,6 +108,15 @@ COMMANDS = {
 }
 
 
+GROUPS = {  # heading of the help -> commands
+    "look": ("demo",),
+    "your robot and its logs": ("robot", "motion", "observe", "identify"),
+    "collisions": ("learn", "calibrate", "detect"),
+    "your program": ("export",),
+}
+INDENT = 17  # columns of a help before what a command does
+
+
 def demo_parser() -> argparse.ArgumentParser:
     """Return the parser of `mobnet demo`."""
     return argparse.ArgumentParser(
@@ -128,7 +139,7 @@ def main(words: Sequence[str] | None = None) -> int:
     if first.startswith("-"):
         overview(commands).parse_args([first])
     if first not in commands:
-        overview(commands).error(unknown_command(first, commands))
+        overview(commands).exit(2, f"mobnet: {not_accepted('command', first, commands)}\n")
     if {"-h", "--help"} & set(others):
         commands[first].parser().parse_args(["--help"])
     # Here, as what a command imports takes seconds.
@@ -146,14 +157,32 @@ def main(words: Sequence[str] | None = None) -> int:
 
 
 def overview(commands: dict[str, Command]) -> argparse.ArgumentParser:
-    """Return the parser that knows all commands by a line."""
-    lines = "".join(f"\n  {name:<11}{command.says}" for name, command in commands.items())
+    """Return the parser that knows all commands by a line, in groups."""
+    groups = {heading: {name: commands[name].says for name in names} for heading, names in GROUPS.items()}
     parser = argparse.ArgumentParser(
         prog="mobnet",
-        usage="mobnet COMMAND [OPTIONS]; mobnet COMMAND --help says which",
-        description="Estimate the external torque of a robot without force sensors.",
-        epilog=f"commands:{lines}",
+        usage="mobnet COMMAND [OPTIONS]",
+        description=wrapped("Estimate the external torque of a robot without force sensors."),
+        epilog=f"{in_groups(groups)}\n\n{wrapped('mobnet COMMAND --help says which options there are.')}",
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("--version", action="version", version=version())
     return parser
+
+
+def in_groups(groups: Mapping[str, Mapping[str, str]]) -> str:
+    """Return the part of a help that lists commands, a line for each, below the headings of their groups."""
+    parts: list[str] = []
+    for heading, commands in groups.items():
+        parts.append("\n".join([f"{heading}:", *(line_of(name, says) for name, says in commands.items())]))
+    return "\n\n".join(parts)
+
+
+def line_of(name: str, says: str) -> str:
+    """Return the line of a command in a help, or several where the terminal is narrow."""
+    return wrapped(says, f"  {name:<{INDENT - 2}}", " " * INDENT)
+
+
+def wrapped(text: str, first: str = "", others: str = "") -> str:
+    """Return a text in lines as wide as argparse makes them, which begin with some signs."""
+    return textwrap.fill(text, shutil.get_terminal_size().columns - 2, initial_indent=first, subsequent_indent=others)

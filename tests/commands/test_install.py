@@ -12,7 +12,7 @@ from experiments.commands import install
 from experiments.commands import tools as tooling
 from experiments.commands.install import wanted_build
 from experiments.commands.setup import LOCKS
-from experiments.commands.tell import is_unreachable
+from experiments.commands.tell import is_unreachable, step_of
 from mobnet.core.errors import CommandError
 
 ROOT = Path(__file__).parents[2]
@@ -88,10 +88,11 @@ def answer(monkeypatch, **outputs):
     """Let every call fail with the output under the first name that it has a word of; return the calls."""
     calls = []
 
-    def run(words, **_):
+    def run(words, stdout, **_):
         calls.append(" ".join(words))
         found = next((text for name, text in outputs.items() if name in calls[-1]), "")
-        return subprocess.CompletedProcess(words, int(bool(found)), found)
+        stdout.write(found)
+        return subprocess.CompletedProcess(words, int(bool(found)))
 
     monkeypatch.setattr(subprocess, "run", run)
     return calls
@@ -124,3 +125,22 @@ def test_a_failure_is_one_line(tools, monkeypatch, output, line):
         install.install(tools, "cpu", is_asked=False)
     assert "\n" not in str(caught.value)
     assert "then run the same command again" in str(caught.value)
+
+
+def test_a_terminal_shows_what_a_tool_has_printed_last(tmp_path):
+    log = tmp_path / "setup.log"
+    log.write_bytes(b"$ before\n")
+    start = log.stat().st_size
+    assert step_of(log, start) == ""
+    log.write_bytes(b"$ before\nResolved 180 packages in 2 s\n Downloaded black\n\n")
+    assert step_of(log, start) == "Downloaded black"
+    log.write_bytes(b"$ before\nInstalled 180 packages in 4.34s\n")
+    assert step_of(log, start) == "Installed 180 packages in 4.34s, compiling them"
+
+
+def test_every_step_is_a_line_and_its_output_is_kept_in_the_log(tools, capsys):
+    tools.run("greeting", "sh", "-c", "echo hello; echo again >&2")
+    assert capsys.readouterr().err == "reproduce: greeting\n"
+    assert (tools.root / tooling.LOG).read_text().endswith("\nhello\nagain\n")
+    with pytest.raises(CommandError, match=r"^greeting failed: error: no \(all output: "):
+        tools.run("greeting", "sh", "-c", "echo error: no; exit 3")

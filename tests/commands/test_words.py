@@ -6,10 +6,11 @@ from pathlib import Path
 import pytest
 
 from experiments.commands.main import run
-from experiments.commands.words import COMMANDS, TRIALS, in_order, parse
+from experiments.commands.words import COMMANDS, GROUPS, TRIALS, in_order, parse
 from experiments.running.words import nearest, one_of, scale_of, scale_of_targets
+from mobnet.commands import COMMANDS as LAB
 from mobnet.commands import main as lab
-from mobnet.core.errors import CommandError, ConfigError
+from mobnet.core.errors import NEAREST, CommandError, ConfigError
 from mobnet.core.options import calibrate_parser, missing_input
 
 
@@ -74,10 +75,8 @@ def test_targets_name_the_scale():
 
 def test_what_is_no_target_is_told_with_the_nearest():
     known = ["tables/smoke/table_05.tex", "tables/smoke/table_06.tex", "train", "figures"]
-    assert nearest("tabels/smoke/table_5.tex", known).startswith(
-        "tabels/smoke/table_5.tex: is no target; did you mean tables/smoke/table_05.tex"
-    )
-    assert nearest("xyz", known) == "xyz: is no target; --list says which there are"
+    line = "tabels/smoke/table_5.tex: is no target; did you mean tables/smoke/table_05.tex, tables/smoke/table_06.tex, "
+    assert nearest("tabels/smoke/table_5.tex", known) == f"{line}train, figures? (the nearest of 4)"
 
 
 def test_a_wildcard_stands_for_the_names_alone():
@@ -93,12 +92,42 @@ def test_misspelt_words_are_refused(words, capsys):
     assert words[-1] in capsys.readouterr().err
 
 
-def test_a_misspelt_command_is_told_with_the_nearest(capsys):
+@pytest.mark.parametrize(("word", "near"), [
+    ("cleen", "clean, "),
+    ("figure_99", "figures/figure_09.pdf, "),
+    ("table_5", "tables/table_05.tex, "),
+])  # fmt: skip
+def test_a_misspelt_command_is_one_line_with_the_nearest_commands_and_targets(word, near, capsys):
     with pytest.raises(SystemExit, match="2"):
-        parse(["cleen"])
+        parse([word])
     told = capsys.readouterr().err
-    assert all(command in told for command in COMMANDS)
-    assert "did you mean clean?" in told
+    assert told.startswith(f"reproduce: command or target: '{word}' is not accepted; accepted: {near}")
+    assert re.search(r"^[^\n]*(, [^\n]*){4} \(the nearest of \d+\)\n$", told)
+    assert told.count(", ") == NEAREST - 1
+
+
+@pytest.mark.parametrize("columns", [60, 80])
+def test_the_help_lists_every_command_in_one_group_and_fits_the_terminal(columns, capsys, monkeypatch):
+    monkeypatch.setenv("COLUMNS", str(columns))
+    with pytest.raises(SystemExit, match="0"):
+        parse(["--help"])
+    lines = capsys.readouterr().out.splitlines()
+    with pytest.raises(SystemExit, match="0"):
+        lab(["--help"])
+    lines += capsys.readouterr().out.splitlines()
+    assert max(map(len, lines)) <= columns
+    listed = [line.split()[0] for line in lines if re.match(r"  \w+ +\w", line)]
+    for command in COMMANDS:
+        assert listed.count(command) == (2 if command in LAB or command == "demo" else 1), command
+    assert all(f"{heading}:" in lines for heading in GROUPS)
+
+
+def test_the_words_of_cost_are_those_of_a_run():
+    smoke = ["--config", "scale=smoke"]
+    assert parse(["cost", *smoke, "tables/smoke/table_05.tex"]).extra == ["tables/smoke/table_05.tex", *smoke]
+    assert parse(["cost", "docs"]).extra == ["docs"]
+    assert parse(["cost", "report"]).extra == ["all"]
+    assert parse(["cost", "tuning", *smoke]).extra == ["results/smoke/trials/tuning.md", *smoke]
 
 
 @pytest.mark.parametrize("command", COMMANDS)

@@ -88,4 +88,7 @@ def test_an_extra_that_is_missing_is_one_line_with_the_remedy(run):
 
 
 def test_a_command_that_is_not_there_is_one_line_with_the_nearest(run):
-    assert run("mobnet", "obseve", status=2).splitlines()[-1].endswith("; did you mean observe?")
+    assert run("mobnet", "obseve", status=2) == (
+        "mobnet: command: 'obseve' is not accepted; "
+        "accepted: observe, calibrate, demo, detect, export, identify, learn, motion, robot\n"
+    )

@@ -5,8 +5,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mobnet.core.errors import ConfigError, DataError
-from mobnet.robotlog.columns import LogColumn, near_names
+from mobnet.core.errors import ConfigError, DataError, near_names
+from mobnet.robotlog.columns import LogColumn
 from mobnet.robotlog.convert import convert
 from mobnet.robotlog.formats import read_log
 from mobnet.robotlog.meaning import default_map

@@ -282,7 +282,7 @@ def test_what_means_nothing_is_refused_with_its_place(load_with: Load, key: str,
 @pytest.mark.parametrize(
     ("words", "line"),
     [
-        (["scale=smok"], "--config: scale: scale: 'smok' is not accepted; accepted: smoke, "),
+        (["scale=smok"], "--config: scale: 'smok' is not accepted; accepted: smoke, "),
         (["observer={gain_hz: 600}"], "--config: observer.gain_hz: 600.0 is not accepted; accepted: at most 500, half"),
         (["observer={gain: 10}"], "--config: observer.gain: key: 'gain' is not accepted; accepted: gain_hz"),
     ],

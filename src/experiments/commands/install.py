@@ -46,6 +46,7 @@ BUILDS = {  # `===` accepts no other build of the same version
     "cuda": Build("==={version}", ((),), 6.4e9, "2 to 7 minutes"),
 }
 MARGIN = 1.2  # of disk, for files that are only needed while packages are unpacked
+INSTALLING = "installing packages"
 MEMORY = "1 GB"  # uv's peak, rounded up
 
 
@@ -112,6 +113,7 @@ def install(tools: Tools, build: str, *, is_asked: bool) -> str:
     Raises:
         CommandError: it could not be installed.
     """
+    say(INSTALLING)
     outputs = attempt(tools, build)
     if outputs and build == "cpu" and not is_asked and not all(map(is_unreachable, outputs)):
         check_disk(tools.root, "cuda")
@@ -120,7 +122,7 @@ def install(tools: Tools, build: str, *, is_asked: bool) -> str:
         build = "cuda"
         outputs = attempt(tools, build)
     if outputs:
-        raise failed("installing packages", next((o for o in outputs if not is_unreachable(o)), outputs[0]))
+        raise failed(INSTALLING, next((o for o in outputs if not is_unreachable(o)), outputs[0]))
     tools.try_to(str(tools.uv), "pip", "uninstall", "--quiet", "--python", str(tools.python), UNWANTED)
     relocate(tools.root / ".venv")
     return build
@@ -133,12 +135,12 @@ def attempt(tools: Tools, build: str) -> list[str]:
     locked = "-r", locked_packages(tools.root, build), "-c", str(tools.root / CONSTRAINTS), "--require-hashes"
     left_out = written(tools.root, "excludes.txt", f"{UNWANTED}\nuv\n")
     compiled = "--compile-bytecode"  # once, instead of at the start of every process that may not write it
-    uv = str(tools.uv), "pip", "install", "--quiet", compiled, "--python", python, "--excludes", left_out, *locked
+    uv = str(tools.uv), "pip", "install", compiled, "--python", python, "--excludes", left_out, *locked
     if any(tools.try_to(*uv, "--offline", *place) is None for place in places):
         return []
     check_disk(tools.root, build)
     outputs: list[str] = []
-    pip = *tools.pip, "--python", python, "install", "--quiet", "--disable-pip-version-check", "--retries", "1", *locked
+    pip = *tools.pip, "--python", python, "install", "--disable-pip-version-check", "--retries", "1", *locked
     for words in [*((*uv, *place) for place in places), pip]:
         output = tools.try_to(*words)
         if output is None:

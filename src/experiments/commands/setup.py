@@ -16,6 +16,7 @@ from experiments.commands.install import CONSTRAINTS, costs, install, make_venv,
 from experiments.commands.tell import in_gb, say
 from experiments.commands.tools import LOG, Tools
 from mobnet.core.files import taken
+from mobnet.core.heartbeat import heartbeat
 
 LOCKS = ("environment.lock", CONSTRAINTS)
 STAMP = "installed"
@@ -41,7 +42,8 @@ def wait_for(handle: int) -> None:
     """Take the lock of the set-up; wait, and say so, while another set-up in this folder holds it."""
     if not taken(handle):
         say("waiting for another set-up in this folder to end")
-        fcntl.flock(handle, fcntl.LOCK_EX)
+        with heartbeat(lambda: "reproduce: waiting"):
+            fcntl.flock(handle, fcntl.LOCK_EX)
 
 
 def make(root: Path, fault: str, build: str | None) -> None:

@@ -2,6 +2,9 @@
 
 import re
 import sys
+from pathlib import Path
+
+from mobnet.core.heartbeat import last_line
 
 CAUSES = {  # what tools print -> what it means, and what to do
     r"No space left|os error 28|quota exceeded": "the disk is full; make room",
@@ -15,6 +18,13 @@ NO_NETWORK = "no package registry can be reached; connect to a network, or set p
 def say(text: str) -> None:
     """Tell the user one line."""
     sys.stderr.write(f"reproduce: {text}\n")
+
+
+def step_of(path: Path, start: int) -> str:
+    """Return what uv or pip is doing, from the last line behind the first `start` bytes of a log, if any."""
+    last = last_line(path, start)
+    # After this line uv compiles the packages to bytecode, most of its time, without a word.
+    return f"{last}, compiling them" if last.startswith("Installed ") else last
 
 
 def cause_of(output: str) -> str | None:

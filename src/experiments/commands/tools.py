@@ -11,8 +11,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Self
 
-from experiments.commands.tell import NO_NETWORK, cause_of, in_gb, is_unreachable
+from experiments.commands.tell import NO_NETWORK, cause_of, in_gb, is_unreachable, say, step_of
 from mobnet.core.errors import CommandError
+from mobnet.core.heartbeat import heartbeat
 
 EXACT = ("--quiet", "--disable-pip-version-check", "--no-deps", "--require-hashes")
 NO_PIP = "this Python has neither venv nor pip; run `apt-get install python3-venv` as root"
@@ -56,34 +57,45 @@ class Tools:
     def try_to(self, *words: str) -> str | None:
         """Run a command, its output into the log of the set-up; return the output where it failed.
 
+        A line on the terminal shows the last line of the output meanwhile.
+
         Raises:
             CommandError: it failed for a reason that no other way of installing avoids.
         """
         variables = {**os.environ, **self.settings}
-        done = subprocess.run(  # the lock of the set-up is inherited, so that nothing writes beside the next one
-            words,
-            env=variables,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            text=True,
-            check=False,
-            close_fds=False,
-        )
-        with (self.root / LOG).open("a") as log:
-            log.write(f"$ {shlex.join(words)}\n{done.stdout}")
+        place = self.root / LOG
+        place.parent.mkdir(parents=True, exist_ok=True)
+        with place.open("a", encoding="utf-8") as log:
+            log.write(f"$ {shlex.join(words)}\n")
+            log.flush()
+            start = log.tell()
+            with heartbeat(lambda: f"reproduce: {step_of(place, start) or Path(words[0]).name}"):
+                done = (
+                    subprocess.run(  # the lock of the set-up is inherited, so that nothing writes beside the next one
+                        words,
+                        env=variables,
+                        stdout=log,
+                        stderr=subprocess.STDOUT,
+                        text=True,
+                        check=False,
+                        close_fds=False,
+                    )
+                )
         if done.returncode == 0:
             return None
-        if cause := cause_of(done.stdout):
+        output = place.read_bytes()[start:].decode(errors="replace")
+        if cause := cause_of(output):
             free = in_gb(shutil.disk_usage(self.root).free)
             raise CommandError(f"{self.root}: {cause}{SAME} ({free} of disk free; all output: {LOG})")
-        return done.stdout
+        return output
 
     def run(self, what: str, *words: str) -> None:
-        """Run a command that has to succeed.
+        """Say what a command does, and run it; it has to succeed.
 
         Raises:
             CommandError: it failed.
         """
+        say(what)
         output = self.try_to(*words)
         if output is not None:
             raise failed(what, output)

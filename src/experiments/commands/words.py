@@ -17,36 +17,62 @@ from experiments.running.words import (
     results_parser,
 )
 from mobnet.commands import COMMANDS as LAB
-from mobnet.core.errors import CommandError, unknown_command
+from mobnet.commands import in_groups, line_of, wrapped
+from mobnet.core.code import ROOT
+from mobnet.core.errors import CommandError, not_accepted
 
-COMMANDS = {
-    "all": "make every table, figure and the paper (snakemake --cores 2 all); further options go to snakemake",
-    "paper_core": "make Tables 5 and 6 and Figure 5 alone, section 5.1; --config scale=paper: at the paper's size",
-    "demo": "show one push as three methods estimate it, without training; --help says how",
-    "test": "run every test and check, the workflow at a small scale included; further options go to pytest",
-    "verify": "list the missing, changed and unexpected files of a run, by results/MANIFEST.sha256",
-    "check": "check recordings, weights and configurations from outside; --help says how",
-    **{name: f"{command.says}; --help says how" for name, command in LAB.items()},
-    "tuning": "train what configs/trials.yaml lists, write results/default/trials/tuning.md; not part of all",
-    "recipes": "train each method with each recipe, write results/default/trials/recipes.md; not part of all",
-    "lengths": "train for longer and longer, write results/default/trials/lengths.md; not part of all",
-    "random_torque": "count falls by random torque, write results/default/trials/random_torque.md; not part of all",
-    "films": "make films of walks into obstacles, results/default/films; not part of all",
-    "docs": "make the documentation as pages, results/default/docs/index.html; not part of all",
-    "report": "make everything, then report.html: every table and figure with its caption in one file",
-    "compare": "list the differences between the published tables and figures, docs/results, and yours",
-    "snapshot": "store your tables and figures as the published ones, docs/results",
-    "cost": "print what a run will take: jobs, core-hours, memory, disk; with targets: what would run again",
-    "bench": "run benchmarks and compare each number with its bound; --help says how",
-    "clean": "remove results, tables, figures and paper outputs after a question; --help says how",
-    "setup": "make .venv from environment.lock and stop; --cpu or --cuda: which build of torch",
+OWN_ROBOT = "your own robot"
+DESCRIPTION = "Set up the project and run it: from an empty machine to every table and figure."
+GROUPS = {  # heading of the help -> command -> what it does, in a line
+    "run": {
+        "all": "make every table, figure and the paper; further options go to snakemake",
+        "paper_core": "make Tables 5 and 6 and Figure 5 alone, section 5.1",
+        "report": "make everything, then report.html: tables and figures in one file",
+        "cost": "print what a run will take: jobs, core-hours, memory, disk",
+        "setup": "make .venv from environment.lock and stop",
+        "clean": "remove what runs have made, after a question",
+    },
+    "look": {
+        "demo": "show one push as three methods estimate it, without training",
+        "docs": "make the documentation as pages",
+        "films": "make films of walks into obstacles",
+    },
+    OWN_ROBOT: {name: command.says for name, command in LAB.items()},
+    "publish": {
+        "check": "check recordings, weights and configurations from outside",
+        "verify": "list missing, changed and unexpected files of a run",
+        "compare": "list differences between the published results and yours",
+        "snapshot": "store your tables and figures as the published ones, docs/results",
+    },
+    "develop": {
+        "test": "run every test and check; further options go to pytest",
+        "bench": "run benchmarks and compare each number with its bound",
+        "tuning": "train what configs/trials.yaml lists, and compare",
+        "recipes": "train each method with each recipe",
+        "lengths": "train for longer and longer",
+        "random_torque": "count falls by the size of random torques",
+    },
 }
-EXAMPLES = """
-  ./reproduce all -n                     show what would run
-  ./reproduce all --config scale=smoke   the same line in minutes; its numbers mean nothing
-  ./reproduce all --config scale=quick   every table and figure in about an hour, with shorter walks and trainings
-  ./reproduce all --config keep=tables   let recordings go when nothing needs them any more: less disk
-  ./reproduce tables/table_05.tex        make one file and what it needs; tables/smoke/table_05.tex at that scale"""
+COMMANDS = {name: says for group in GROUPS.values() for name, says in group.items()}
+MORE = {  # command -> what its own --help adds to that line
+    "all": "The rule `all` of snakemake, on 2 cores unless --cores says another number.",
+    "paper_core": "With --config scale=paper it is made at the size of the original.",
+    "docs": "They begin at results/default/docs/index.html.",
+    "films": "They are written to results/default/films.",
+    "test": "The workflow at a small scale is among them.",
+    **dict.fromkeys(
+        ("tuning", "recipes", "lengths", "random_torque"), "The table is written to results/default/trials."
+    ),
+}
+APART = "`all` makes neither docs and films nor the tables of tuning, recipes, lengths and random_torque."
+EXAMPLES = {
+    "all -n": "show what would run",
+    "all --config scale=smoke": "the same in minutes; its numbers mean nothing",
+    "all --config scale=quick": "everything in about an hour, with shorter walks and trainings",
+    "all --config keep=tables": "let recordings go when nothing needs them any more: less disk",
+    "tables/table_05.tex": "make one file and what it needs; tables/smoke/table_05.tex at that scale",
+}
+PROGRAM = "./reproduce"
 OWN = {"clean", "setup"}  # commands with options of their own
 TRIALS = ("tuning", "recipes", "lengths", "random_torque")  # tables of trials, which `all` does not ask for
 TARGETS = {
@@ -87,7 +113,8 @@ def parse(words: Sequence[str]) -> Words:
     if re.search(r"^-|[/.]", first):
         return Words("all", argparse.Namespace(), in_order(words))
     if first not in COMMANDS:
-        overview().error(unknown_command(first, COMMANDS))
+        text = not_accepted("command or target", first, [*COMMANDS, *captioned()])
+        overview().exit(2, f"reproduce: {text}\n")
     options = parser_of(first)
     if first in OWN:
         return Words(first, options.parse_args(words[1:]), [])
@@ -95,8 +122,16 @@ def parse(words: Sequence[str]) -> Words:
         options.parse_args(["--help"])
     if first in TRIALS:
         return Words(first, argparse.Namespace(), [table_of(first, words), *in_order(words[1:])])
+    if first == "cost":
+        others = in_order(words[1:])
+        return Words(first, argparse.Namespace(), [target_of(word, words) for word in others])
     extra = [TARGETS[first], *in_order(words[1:])] if first in TARGETS else list(words[1:])
     return Words(first, argparse.Namespace(), extra)
+
+
+def target_of(word: str, words: Sequence[str]) -> str:
+    """Return the target that a command makes, at the scale that the words name; a word of another kind as it is."""
+    return table_of(word, words) if word in TRIALS else TARGETS.get(word, word)
 
 
 def table_of(trial: str, words: Sequence[str]) -> str:
@@ -106,23 +141,36 @@ def table_of(trial: str, words: Sequence[str]) -> str:
 
 
 def overview() -> argparse.ArgumentParser:
-    """Return the parser that knows all commands by a line."""
-    listing = "".join(f"\n  {name:<15}{text}" for name, text in COMMANDS.items())
+    """Return the parser that knows all commands by a line, in groups."""
+    examples = [f"examples, after {PROGRAM}:"]
+    for words, says in EXAMPLES.items():
+        examples += [f"  {words}", line_of("", says)]
+    parts = [in_groups(GROUPS), "\n".join(examples), wrapped(f"{APART} COMMAND --help says more.")]
     return argparse.ArgumentParser(
-        prog="./reproduce",
-        usage="./reproduce COMMAND [OPTIONS], or ./reproduce TARGET...",
-        description="Set up the project and run it: one command from an empty machine to every table and figure.",
-        epilog=f"commands:{listing}\n{EXAMPLES}",
+        prog=PROGRAM,
+        usage=f"{PROGRAM} COMMAND [OPTIONS]\n       {PROGRAM} TARGET...",
+        description=wrapped(DESCRIPTION),
+        epilog="\n\n".join(parts),
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
+
+
+def captioned() -> list[str]:
+    """Return tables and figures as targets, by their captions: their plan needs packages."""
+    found: list[str] = []
+    for folder, ending in (("tables", ".tex"), ("figures", ".pdf")):
+        captions = sorted((ROOT / "workflow" / "report" / folder).glob("*.rst"))
+        found += [f"{folder}/{caption.stem}{ending}" for caption in captions]
+    return found
 
 
 def parser_of(command: str) -> argparse.ArgumentParser:
     """Return the parser of a command's own options."""
     if command in PARSERS:
         return PARSERS[command]()
-    usage = None if command in OWN else f"./reproduce {command} [OPTIONS]"
-    parser = argparse.ArgumentParser(f"./reproduce {command}", usage, description=COMMANDS[command], allow_abbrev=False)
+    usage = None if command in OWN else f"{PROGRAM} {command} [OPTIONS]"
+    says = f"{COMMANDS[command][:1].upper()}{COMMANDS[command][1:]}. {MORE.get(command, '')}"
+    parser = argparse.ArgumentParser(f"{PROGRAM} {command}", usage, description=says, allow_abbrev=False)
     if command == "clean":
         parser.add_argument("--all", action="store_true", help="remove .venv and the caches too")
         parser.add_argument("-n", "--dry-run", action="store_true", help="list what would go, and remove nothing")

@@ -1,12 +1,11 @@
 """The words of commands about a run, and of its targets. Standard library only: help comes before the environment."""
 
 import argparse
-import difflib
 import re
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
-from mobnet.core.errors import ConfigError
+from mobnet.core.errors import ConfigError, near_names
 
 MAIN = "default"  # the scale whose tables stand where a reader looks for them; others have folders of their own
 MANIFEST = Path("results/MANIFEST.sha256")
@@ -123,8 +122,7 @@ def one_of(names: Iterable[str]) -> str:
 
 def nearest(target: str, known: Sequence[str]) -> str:
     """Return the one line that says that a target is none, with the names nearest to it."""
-    near = difflib.get_close_matches(target, known, 3)
-    return f"{target}: is no target; " + (f"did you mean {', '.join(near)}?" if near else "--list says which there are")
+    return f"{target}: is no target; did you mean {', '.join(near_names(known, target))}? (the nearest of {len(known)})"
 
 
 def in_set(target: str, folder: str) -> str:

@@ -13,6 +13,7 @@ from experiments.settings.checks.sections import inconsistencies, refused_change
 from experiments.settings.claims import place_of, spelt_out
 from experiments.settings.settings import Settings
 from mobnet.core.errors import ConfigError
+from mobnet.core.files import files_like
 from mobnet.settings.checks.robot import robot_problems
 from mobnet.settings.faults import problems, refuse_faults, validated
 from mobnet.settings.lab import CONFIGS
@@ -110,7 +111,9 @@ def load_settings(
     for section in NAMED_FILES:
         path = folder.parent / values[section] if isinstance(values.get(section), str) else None
         if path is None or not path.is_file():
-            odd.append(((section,), f"{values.get(section)!r} is not accepted; accepted: the path of a YAML file"))
+            near = files_like(path) if path else ""
+            text = f"{values.get(section)!r} is not accepted; accepted: the path of a YAML file{near}"
+            odd.append(((section,), text))
         else:
             files[section] = Document(path, nulls=section in WITH_NULLS)
             documents.append(files[section])

@@ -1,11 +1,15 @@
 """Errors a user can act on: one line that names the bad value and what is accepted."""
 
-from collections.abc import Collection, Iterable, Iterator
-from difflib import get_close_matches
+from collections.abc import Iterable, Iterator, Sequence
+from difflib import SequenceMatcher, get_close_matches
+from itertools import islice
 from reprlib import Repr
 
 MOST = 20  # faults of a file that are told
-LONGEST = 240  # characters of a value that are shown
+LONGEST = 240  # characters of a value that are shown, and by which names are compared
+NEAREST = 5  # names that are shown of many
+FEW = 10  # names that are shown whole
+LOOKED = 1000  # names among which those like a wanted one are looked for
 SHOWN = Repr()  # a value takes a part of a line, whatever it is
 SHOWN.maxstring = SHOWN.maxother = 120
 SHOWN.maxlist = SHOWN.maxtuple = SHOWN.maxdict = 12
@@ -40,19 +44,40 @@ class DrawingError(MobnetError):
 
 
 def not_accepted(what: str, value: object, accepted: Iterable[object]) -> str:
-    """Return the house's one-line message for a value outside a closed set; what it was meant to be comes first."""
+    """Return the house's one-line message for a value outside a closed set.
+
+    Of many names it shows those that are most like the value, and says how many there are.
+    """
     names = sorted(set(map(str, accepted)))
-    ordered = dict.fromkeys([*get_close_matches(str(value), names, n=1), *names])
     shown = SHOWN.repr(value)
     shown = shown if len(shown) <= LONGEST else f"{shown[:LONGEST]}..."
-    return f"{what}: {shown} is not accepted; accepted: {', '.join(ordered) or 'none'}"
+    return f"{what}: {shown} is not accepted; accepted: {nearest_of(names, str(value))}"
 
 
-def unknown_command(name: str, commands: Collection[str]) -> str:
-    """Return the message about a command that there is not, with the one that was probably meant."""
-    near = get_close_matches(name, commands, 1)
-    hint = f"; did you mean {near[0]}?" if near else ""
-    return not_accepted("command", name, commands) + hint
+def nearest_of(names: Sequence[str], wanted: str) -> str:
+    """Return names as one text, the most like a wanted one first; of many the nearest, and how many there are."""
+    if len(names) <= FEW:
+        first = get_close_matches(wanted[:LONGEST], names, 1)
+        return ", ".join(dict.fromkeys([*first, *names])) or "none"
+    return f"{', '.join(near_names(names, wanted))} (the nearest of {len(names)})"
+
+
+def near_names(names: Iterable[str], wanted: str, most: int = NEAREST) -> Sequence[str]:
+    """Return the few names that are most like a wanted one, the most alike first.
+
+    A path counts by itself and by the name of its file, without folder and ending.
+    """
+    matcher = SequenceMatcher(b=wanted[:LONGEST].lower(), autojunk=False)
+
+    def alike(name: str) -> float:
+        own = name.rpartition("/")[2].partition(".")[0] if "/" in name else name
+        ratios: list[float] = []
+        for form in {name, own}:
+            matcher.set_seq1(form[:LONGEST].lower())
+            ratios.append(matcher.ratio())
+        return max(ratios)
+
+    return sorted(islice(names, LOOKED), key=alike, reverse=True)[:most]
 
 
 def beyond(what: str, value: float, bounds: tuple[float, float]) -> Iterator[str]:

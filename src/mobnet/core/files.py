@@ -14,10 +14,11 @@ import os
 import shutil
 import tempfile
 from collections.abc import Iterator, Mapping
+from difflib import get_close_matches
 from pathlib import Path
 from typing import Any
 
-from mobnet.core.errors import DataError, not_accepted, refuse
+from mobnet.core.errors import LOOKED, NEAREST, DataError, not_accepted, refuse
 
 log = logging.getLogger(__name__)
 WEIGHTS, METRICS, RUN = "weights.safetensors", "metrics.csv", "run.json"  # files of a trained network
@@ -38,6 +39,16 @@ REFUSALS = FULL | {
 }
 MIB = 2**20
 ROOM_BYTES = 2**17  # below this a disk counts as full
+
+
+def files_like(path: Path) -> str:
+    """Return what to add to a line about a file or folder that is not there: names like it in its place, if any."""
+    try:
+        beside = sorted(os.listdir(path.parent))
+    except OSError:
+        beside = []
+    alike = get_close_matches(path.name, beside[:LOOKED], NEAREST)
+    return f"; did you mean {', '.join(alike)}?" if alike else ""
 
 
 @contextlib.contextmanager

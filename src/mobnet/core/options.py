@@ -3,6 +3,7 @@
 import argparse
 from pathlib import Path
 
+from mobnet.core.files import files_like
 from mobnet.core.place import command
 
 LABELS = {
@@ -11,6 +12,7 @@ LABELS = {
     "tool": "a sensor at the end effector, `tool` in the map of the log",
 }
 SIGNALS = ("mean", "std", "ratio")
+MCAP = ".mcap"  # ending of what Foxglove opens
 # Of files that people pass on, too: what the C library accepts (src/runtime/cursor.h) lies further out.
 RATE_HZ = (1.0, 100_000.0)
 GAIN_HZ = (0.1, 5000.0)
@@ -87,7 +89,11 @@ def detect_parser() -> argparse.ArgumentParser:
     parser.add_argument("--network", type=Path, metavar="NET", help="what `learn` wrote (default: the observer alone)")
     parser.add_argument("--thresholds", type=Path, required=True, metavar="FILE", help="what `calibrate --out` wrote")
     add_wrench(parser)
-    parser.add_argument("--out", type=Path, help="folder of what is made (default: LOG's name with _detected, here)")
+    parser.add_argument(
+        "--out",
+        type=Path,
+        help="folder of what is made (default: LOG's name with _detected, here), or NAME.mcap: one file for Foxglove",
+    )
     return parser
 
 
@@ -252,7 +258,7 @@ def missing_input(options: argparse.Namespace) -> str | None:
             continue
         for path in value if isinstance(value, list) else [value]:
             if isinstance(path, Path) and not _is_there(path):
-                return f"{path}: no such file or folder"
+                return f"{path}: no such file or folder{files_like(path)}"
     return None
 
 

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from mobnet.core.errors import MobnetError
 from mobnet.core.files import REFUSALS, refusal
+from mobnet.core.heartbeat import heartbeat
 
 STOPPED = "stopped; files that were there are whole, and the same command begins anew"
 INTERRUPTED = 130  # exit status of a command that was stopped by Ctrl-C
@@ -16,14 +17,17 @@ INTERRUPTED = 130  # exit status of a command that was stopped by Ctrl-C
 def printed(log: logging.Logger, lines: Callable[[], Iterable[str]], stopped: str = STOPPED) -> int:
     """Print what a command has to say once it is done; return its exit status, 1 where it was refused.
 
-    Where Ctrl-C stops it, the line `stopped` says what is left of it.
+    Until then a line on the terminal says that it is at work. Where Ctrl-C stops it, the line `stopped` says what is
+    left of it.
     """
     logging.basicConfig(level=logging.INFO, format="%(message)s", stream=sys.stdout)
     # A reader that has seen enough, such as `head`, ends the command without a traceback of Python's.
     before = signal.signal(signal.SIGPIPE, signal.SIG_DFL)
     try:
         signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})  # `./reproduce` holds it back until it is answered
-        for line in list(lines()):
+        with heartbeat():
+            told = list(lines())
+        for line in told:
             log.info("%s", shown(line))
     except MobnetError as error:
         log.error("%s", shown(str(error)))

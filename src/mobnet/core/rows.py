@@ -9,7 +9,7 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any, TypeVar, get_type_hints
 
-from mobnet.core.errors import DataError, not_accepted, refuse, refuse_lines
+from mobnet.core.errors import DataError, nearest_of, not_accepted, refuse, refuse_lines
 from mobnet.core.files import read_text
 
 Row = TypeVar("Row")
@@ -79,7 +79,9 @@ def read_texts(path: Path, needed: Sequence[str] = ()) -> list[dict[str, str]]:
     except csv.Error as error:
         raise DataError(f"{path}: not CSV, {error}") from None
     faults = [
-        f"column {name!r} is missing; accepted: it, beside {', '.join(held)}" for name in needed if name not in held
+        f"column {name!r} is missing; accepted: it, beside {nearest_of(held, name)}"
+        for name in needed
+        if name not in held
     ]
     faults += [f"column {name!r} occurs {n} times; accepted: once" for name, n in Counter(held).items() if n > 1]
     refuse(path, faults)

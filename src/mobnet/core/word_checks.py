@@ -10,7 +10,7 @@ from pathlib import Path
 
 from mobnet.core.errors import ConfigError, DataError, beyond, not_accepted, refuse_lines
 from mobnet.core.files import RUN, check_place
-from mobnet.core.options import GAIN_HZ, LABELS, RATE_HZ, SIGNALS
+from mobnet.core.options import GAIN_HZ, LABELS, MCAP, RATE_HZ, SIGNALS
 from mobnet.core.place import command
 
 RECORDING, ESTIMATE = "recording", "estimate"  # arrays in the folder of a log
@@ -182,8 +182,13 @@ def check_detect(options: Namespace) -> None:
     """Check the words of `detect`.
 
     Raises:
-        DataError: a folder is not accepted.
+        DataError: a folder or a file to be written is not accepted.
     """
-    check_out(options)
+    if options.out and options.out.suffix == MCAP:
+        check_place(options.out.parent)
+        if options.wrench:
+            raise DataError(f"--wrench: is not written to {options.out}; accepted: a folder as --out")
+    else:
+        check_out(options)
     if options.network:
         check_network_folder(options.network)

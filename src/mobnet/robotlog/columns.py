@@ -3,10 +3,8 @@
 import importlib
 import os
 import resource
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
-from difflib import SequenceMatcher
-from itertools import islice
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -19,7 +17,6 @@ from mobnet.core.place import PYTHON
 
 PACKAGES = {"h5py": "h5py", "mcap": "mcap", "mcap_ros2": "mcap-ros2-support", "rosbags": "rosbags"}  # by module
 MOST = 1000  # entries of an array above which it is a picture or a map, and no signal
-LOOKED = 1000  # names among which those like a wanted one are looked for
 GIB = 2**30
 
 
@@ -62,15 +59,6 @@ def module_of(name: str, path: Path) -> ModuleType:
         package = PACKAGES[name.partition(".")[0]]
         text = f"needs the package {package}; install it: {PYTHON} -m pip install {package}"
         raise DataError(f"{path}: {text}") from None
-
-
-def near_names(names: Iterable[str], wanted: str, most: int = 5) -> Sequence[str]:
-    """Return the few names that are most like a wanted one, the most alike first."""
-
-    def alike(name: str) -> float:
-        return SequenceMatcher(None, wanted.lower(), name.lower()).ratio()
-
-    return sorted(islice(names, LOOKED), key=alike, reverse=True)[:most]
 
 
 def check_memory(path: Path, rows: int, columns: int) -> None:

@@ -19,7 +19,7 @@ from mobnet.robot.frames import rotation
 from mobnet.robot.nominal import NominalModel
 from mobnet.robot.wrench import point_torque
 from mobnet.robotlog.clocks import Rising, Segments, Timed, at, common_ticks, covered, rate_of, rising, stamp_hints
-from mobnet.robotlog.columns import Columns, LogColumn, near_names
+from mobnet.robotlog.columns import Columns, LogColumn
 from mobnet.robotlog.hints.columns import listed
 from mobnet.robotlog.meaning import given_signals, is_truth, resolved
 from mobnet.robotlog.pieces import pieces
@@ -205,7 +205,7 @@ def _table_clock(path: Path, columns: Columns, meaning: LogMap, bounds: RobotLog
 def _no_clock(columns: Columns, meaning: LogMap) -> str:
     """Return the message about a clock that a log does not have."""
     name = meaning.clock.column
-    return f"{not_accepted('clock.column', name, near_names(columns, name))}; or give rate_hz"
+    return f"{not_accepted('clock.column', name, columns)}; or give rate_hz"
 
 
 def _turn_base(path: Path, signals: dict[str, Timed], given: Mapping[str, Signal]) -> None:

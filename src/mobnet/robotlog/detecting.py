@@ -6,6 +6,7 @@ from pathlib import Path
 
 from mobnet.core.errors import DataError
 from mobnet.core.files import check_place, sweep, write_text
+from mobnet.core.options import MCAP
 from mobnet.core.rows import csv_text
 from mobnet.detection.threshold_file import check_thresholds, read_thresholds, sampling_of
 from mobnet.estimation.estimate import write_estimate
@@ -14,6 +15,7 @@ from mobnet.robot.description import RobotDescription, given_robot
 from mobnet.robot.nominal import NominalModel
 from mobnet.robotlog.detected import LogDetection, detect_log
 from mobnet.robotlog.flags import COLUMNS
+from mobnet.robotlog.flags_mcap import write_mcap
 from mobnet.robotlog.plot import plot_flags
 from mobnet.robotlog.wrenches import place_of, wrench_lines, wrenches_of, write_wrenches
 from mobnet.settings.lab import Lab, load_section
@@ -35,7 +37,7 @@ def write_detected(
     plot_flags(made.observed.converted.time_s, read.segments, made.watched, made.flags, found, out / PLOT)
 
 
-def report_lines(made: LogDetection, out: Path) -> Iterator[str]:
+def report_lines(made: LogDetection) -> Iterator[str]:
     """Yield what the command prints."""
     read = made.observed.converted.recording
     yield f"{len(read.sensed)} samples at {read.rate_hz:g} Hz, hints on the log: {len(made.observed.hints)}"
@@ -48,7 +50,6 @@ def report_lines(made: LogDetection, out: Path) -> Iterator[str]:
         yield f"  {span}: {flag.joint} at {flag.ratio:.2f} times its threshold{where}"
     if known := made.found:
         yield f"{known.found} of {known.pushes} pushes found, {known.others} other flag{'s' * (known.others != 1)}"
-    yield f"written: {out / FLAGS}, {out / ESTIMATE}.parquet, {out / PLOT}.png"
 
 
 def detect(options: Namespace, settings: Lab) -> Iterator[str]:
@@ -71,13 +72,20 @@ def detect(options: Namespace, settings: Lab) -> Iterator[str]:
     nominal = NominalModel(robot)
     places = [place_of(nominal, name, found.joints) for name in dict.fromkeys(options.wrench)]
     out = options.out or Path(f"{options.log.stem}_detected")
-    check_place(out)
-    sweep(out)
+    is_mcap = out.suffix == MCAP
+    check_place(out.parent if is_mcap else out)
+    sweep(out.parent if is_mcap else out)
     made = detect_log(options.log, robot, meaning, network, found, settings)
     read = made.observed.converted.recording
     numbers = settings.robotlog.wrench
     wrenches = [wrenches_of(nominal, place, read.sensed.q, made.estimate, numbers) for place in places]
+    if is_mcap:
+        write_mcap(made, found, robot.layout.columns(found.joints), out)
+        yield from report_lines(made)
+        yield f"written: {out}"
+        return
     write_detected(made, robot, network, found, out)
     write_wrenches(wrenches, read, found.method, out)
-    yield from report_lines(made, out)
+    yield from report_lines(made)
+    yield f"written: {out / FLAGS}, {out / ESTIMATE}.parquet, {out / PLOT}.png"
     yield from wrench_lines(wrenches, numbers, out)

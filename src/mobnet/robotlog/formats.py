@@ -10,7 +10,7 @@ from typing import NamedTuple, TypeVar
 
 from mobnet.core.errors import DataError, not_accepted
 from mobnet.core.files import check_regular
-from mobnet.robotlog.columns import Columns, LogColumn, near_names
+from mobnet.robotlog.columns import Columns, LogColumn
 from mobnet.robotlog.delimited import csv_columns, csv_names
 from mobnet.robotlog.messages import message_columns, message_names
 from mobnet.robotlog.sources import FILES, METADATA
@@ -56,7 +56,7 @@ def read_log(path: Path, wanted: Collection[str] | None = None) -> Columns:
     names = column_names(path) if wanted is None else list(wanted)
     columns = _asked(path, lambda kind: kind.read(path, names))
     if wanted is not None and (missing := [name for name in wanted if name not in columns]):
-        raise DataError(f"{path}: {not_accepted('column', missing[0], near_names(columns, missing[0]))}")
+        raise DataError(f"{path}: {not_accepted('column', missing[0], columns)}")
     texts = {name: column.found for name, column in columns.items() if column.found}
     if texts and wanted is not None:
         name, found = next(iter(texts.items()))

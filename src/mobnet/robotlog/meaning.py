@@ -7,7 +7,6 @@ from pathlib import Path
 from mobnet.core.columns import EXTERNAL, FEET, PUSHED, recording_columns
 from mobnet.core.errors import ConfigError, DataError, not_accepted, refuse
 from mobnet.core.joints import JointLayout
-from mobnet.robotlog.columns import near_names
 from mobnet.robotlog.hints.columns import listed
 from mobnet.settings.robotlog import Clock, LogMap, Signal
 
@@ -177,10 +176,8 @@ def _faults(key: str, signal: Signal, names: Collection[str], width: int) -> Ite
     held = set(names)
     missing = [name for name in signal.columns if name not in held]
     if missing:
-        near = near_names(names, missing[0])
-        text = f", and {len(names) - len(near)} others" if len(names) > len(near) else ""
         more = f"; {len(missing) - 1} more columns of {key} are missing" if len(missing) > 1 else ""
-        yield not_accepted("column", missing[0], near) + text + more
+        yield not_accepted("column", missing[0], names) + more
     if count != width and not missing:
         yield f"{key}.columns: {not_accepted('number', count, [width])}"
     for part in ("sign", "scale", "offset"):

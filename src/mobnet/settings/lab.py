@@ -10,6 +10,7 @@ from typing import Annotated, Any, TypeVar
 
 from pydantic import Field
 
+from mobnet.core.files import files_like
 from mobnet.core.place import CONFIGS
 from mobnet.settings.base import Index, RobotNetworkName, Section
 from mobnet.settings.checks.robot import robot_problems
@@ -66,7 +67,7 @@ def load_lab(folder: Path = CONFIGS) -> Lab:
     robot = folder.parent / str(values.get("robot"))
     config = homes["robot"]
     if not robot.is_file():
-        text = f"{values.get('robot')!r} is not accepted; accepted: the path of a YAML file"
+        text = f"{values.get('robot')!r} is not accepted; accepted: the path of a YAML file{files_like(robot)}"
         refuse_faults([config.told(("robot",), text)])
     homes["robot"] = Document(robot)
     refuse_faults(homes["robot"].faults)

@@ -19,7 +19,8 @@ def unknown(found: Iterable[Use], accepted: Mapping[str, Collection[str]]) -> It
     """Yield the place of every name that does not exist among those of its kind, and what is accepted there."""
     for place, kind, name in found:
         if name not in accepted[kind]:
-            yield place, not_accepted(kind, name, accepted[kind])
+            text = not_accepted(kind, name, accepted[kind])
+            yield place, text.removeprefix(f"{kind}: ") if place[-1:] == (kind,) else text  # no "scale: scale:"
 
 
 def uses(value: Any, kind: Any, place: Place = ()) -> Iterator[Use]:

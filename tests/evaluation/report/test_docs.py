@@ -99,7 +99,7 @@ def test_every_document_is_a_page_and_every_published_figure_is_shown(site):
 @pytest.mark.parametrize("page", [
     "index", "docs/map", "docs/robots", "docs/logs", "docs/interface", "docs/results/README", "docs/results/claims",
     "docs/results/all_claims", "docs/results/table_05", "reference/configuration/plant", "reference/commands",
-    "reference/internals", "reference/export", "docs/notes/0034-observer", "search",
+    "reference/internals", "reference/export", "docs/notes/observer", "search",
 ])  # fmt: skip
 def test_axe_finds_no_fault_of_access_on_a_page_of_each_kind(site, running, page):
     with running.sized(1280):

@@ -144,6 +144,10 @@ def report(plan: Plan, rates: RatesNote, gpu: GpuRates | None, planned: Sequence
         # What is let go in time is never there together with all else.
         share = share_at_once([TimedJob(job.planned, job.cpu_s) for job in jobs], CORES)
         disk = f"{share * disk_gb:.1f} GB at once, of {disk_gb:.1f} GB that are written"
+    if works and not rows:
+        return f"{len(works)} jobs would run, which the published run did not have, so that nothing prices them: " + (
+            ", ".join(unknown)
+        )
     lines = [markdown_table(HEADER, rows) if works else "nothing would run: all is up to date"]
     if gpu:
         made = f"{gpu.note.made_by} on an {gpu.note.device} ({gpu.note.date}, torch {gpu.note.torch})"

@@ -24,6 +24,7 @@ from experiments.settings.claims import Claim
 from experiments.settings.runs import Statistics
 from mobnet.core.errors import DataError
 from mobnet.core.files import read_text, write_text
+from mobnet.core.heartbeat import last_line, telling
 from mobnet.settings.reading import read_yaml
 
 log = logging.getLogger(__name__)
@@ -73,9 +74,11 @@ def docs(
     Raises:
         DataError: one line for each warning of Sphinx, such as a reference that leads nowhere.
     """
+    log.info("making the pages from %d files", len(documents) + len(captions) + len(modules))
     with TemporaryDirectory() as made:
         folder = Path(made) / "sources"
-        write_sources(folder, documents, captions, modules, claims)
+        with telling(log, lambda: "writing the pages that Sphinx reads"):
+            write_sources(folder, documents, captions, modules, claims)
         built = build(folder, Path(made) / "pages")
         (caption,) = (path for path in captions if path.stem == ALL_CLAIMS and path.parent.name == "tables")
         published = RESULTS / f"{ALL_CLAIMS}.csv"
@@ -195,17 +198,25 @@ def relinked(text: str, page: Path, folder: Path) -> str:
     return LINK.sub(target, text)
 
 
+def step_of(said: Path) -> str:
+    """Return what Sphinx is doing, from what it has said: step, share of the pages, page."""
+    last = last_line(said)
+    return f"Sphinx: {last}" if "%]" in last else "Sphinx"
+
+
 def build(folder: Path, out: Path) -> Path:
     """Let Sphinx build a folder, whose every warning is an error; return `out`.
 
     Raises:
         DataError: what Sphinx says, with paths from the folder.
     """
-    words = [sys.executable, "-m", "sphinx", "-q", "-W", "--keep-going", "-E", "-b", "html"]
+    words = [sys.executable, "-m", "sphinx", "--no-color", "-W", "--keep-going", "-E", "-b", "html"]
     words += ["-d", str(out.with_name("doctrees")), str(folder), str(out)]
     # Packages imported for their docstrings leave caches in the temporary folder: it is one that goes with the build.
     fixed = {**os.environ, **FIXED, "TMPDIR": str(folder.parent)}
-    done = subprocess.run(words, capture_output=True, text=True, check=False, env=fixed)
+    said = folder.with_name("sphinx.log")  # as it works for minutes, its progress is told
+    with said.open("w") as file, telling(log, lambda: step_of(said)):
+        done = subprocess.run(words, stdout=file, stderr=subprocess.PIPE, text=True, check=False, env=fixed)
     if done.returncode:
         raise DataError(done.stderr.replace(f"{folder}/", "").strip() or f"sphinx ended with {done.returncode}")
     for left in (".buildinfo", ".buildinfo.bak", "objects.inv"):  # nobody reads them here

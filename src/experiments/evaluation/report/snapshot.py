@@ -36,6 +36,7 @@ from experiments.settings.settings import Settings
 from mobnet.core.code import CHANGED, UNKNOWN, commit, provenance
 from mobnet.core.errors import DataError, MobnetError
 from mobnet.core.files import atomic_path, read_json, read_text, write_json, write_text
+from mobnet.core.heartbeat import heartbeat
 from mobnet.core.rows import read_texts
 
 log = logging.getLogger(__name__)
@@ -302,12 +303,13 @@ def main(words: list[str]) -> int:
     command, *others = words
     options = results_parser(command).parse_args(others)
     logging.basicConfig(level=logging.INFO, format="%(message)s", stream=sys.stdout)
+    compares = command == "compare"
     try:
-        if command == "snapshot":
-            store(options.manifest)
-            return 0
-        compares = command == "compare"
-        found = compare_snapshot(SNAPSHOT, TABLES, FIGURES) if compares else differences(options.manifest)
+        with heartbeat():
+            if command == "snapshot":
+                store(options.manifest)
+                return 0
+            found = compare_snapshot(SNAPSHOT, TABLES, FIGURES) if compares else differences(options.manifest)
     except MobnetError as error:
         log.error("%s", error)
         return 1

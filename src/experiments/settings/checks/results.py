@@ -105,7 +105,7 @@ class Results:
                 fitting.append(name)
         for name in names:
             if name not in fitting:
-                yield place, misfit(name, ", ".join(fitting))
+                yield place, not_accepted("case of reactions", name, fitting)
 
     def not_gated(self, place: Place, methods: Sequence[str]) -> Iterator[Problem]:
         """Yield methods without that of the gate of detectors."""
