@@ -133,5 +133,5 @@ def test_a_figure_fits_beside_the_menu_and_says_which_rule_made_it(report, open_
     assert box["top"] >= 0
     assert box["right"] <= browser.value("innerWidth")
     told = explain(browser, "figure_05")
-    assert "After Figure 5 of the paper (section 5.1" in told
+    assert "After Figure 5 of the original (section 5.1" in told
     assert "SNAKEMAKE RULE figure" in told
