@@ -42,7 +42,7 @@ MARGIN = 0.04  # of the axis of x, above and below all that is drawn [share of i
 
 
 @dataclass(frozen=True)
-class Stance:
+class DrawnStance:
     """A foot on the ground.
 
     Attributes:
@@ -83,7 +83,7 @@ def figure_21(
     save_figure(figure, figure_dir / "figure_21", COLUMNS, rows)
 
 
-def stances_of(robot: RobotDescription, course: StoredCourse) -> Iterator[Stance]:
+def stances_of(robot: RobotDescription, course: StoredCourse) -> Iterator[DrawnStance]:
     """Yield each time that a foot is on the ground, in the order in which they begin, the left one first."""
     tree = tree_of(robot, 1.0)
     pose = empty_pose(tree)
@@ -106,7 +106,7 @@ def stances_of(robot: RobotDescription, course: StoredCourse) -> Iterator[Stance
         yaw = np.arctan2(rotation[1, 0], rotation[0, 0])
         place = np.array([*pose.position[body][:2], yaw])
         count += reacted is not None and start > reacted
-        yield Stance(SIDES[k], start, end, place, outline_at(robot, place), count)
+        yield DrawnStance(SIDES[k], start, end, place, outline_at(robot, place), count)
 
 
 def sole_corners(robot: RobotDescription) -> Array:
@@ -134,7 +134,7 @@ def obstacle_outlines(course: StoredCourse, obstacles: Mapping[str, Obstacle]) -
 
 
 @styled
-def draw_strips(course: StoredCourse, stances: Sequence[Stance], obstacles: Mapping[str, Obstacle]) -> Figure:
+def draw_strips(course: StoredCourse, stances: Sequence[DrawnStance], obstacles: Mapping[str, Obstacle]) -> Figure:
     """Draw a strip for each foot: x [m] of its sole while it is on the ground, over time [s].
 
     An obstacle is a line where it is in the way of the foot, and the base is a line, too.
@@ -168,7 +168,7 @@ def is_beside(outline: Array, other: Array) -> bool:
     return bool(outline[:, 1].min() < other[:, 1].max() and other[:, 1].min() < outline[:, 1].max())
 
 
-def _sole(axis: Axes, own: Stance, rate_hz: float) -> None:
+def _sole(axis: Axes, own: DrawnStance, rate_hz: float) -> None:
     """Draw from heel to toe [m] and over its time [s] a sole on the ground, with its number after the reaction."""
     heel = own.outline[:, 0].min()
     toe = own.outline[:, 0].max()
