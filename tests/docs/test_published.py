@@ -24,7 +24,7 @@ SAID = {
 }  # fmt: skip
 PARTS = {
     "abstract": (r"\begin{abstract}", r"\end{abstract}"),
-    "conclusion": (r"\section{Conclusion}", r"\label{end:main}"),
+    "conclusion": (r"\subsection{Conclusion}", r"\label{end:main}"),
 }
 REFUTED = (  # sentences of 0.5.0 that were not true, and places that they stood in (CHANGELOG, 0.6.0)
     ("can be left out", MAIN), ("bring no measurable", MAIN), ("at equal\nfalse alarms", MAIN),
