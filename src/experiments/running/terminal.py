@@ -30,7 +30,6 @@ NOISE = re.compile(
     r"RuleException:\nCalledProcessError in (.*\n)+.*returned non-zero exit status (1|130|143)\.|"
     r"Elapsed time: |SLURM run ID: |Job \d+ has been submitted with SLURM|None$|$"
 )
-AGAIN = re.compile(r"Trying to restart job (\d+)")
 SHOWN_S = 0.5  # between two pictures of the terminal
 ROWS_BESIDE = 4  # lines of the terminal that are no jobs
 NARROW, WIDE = 10, 24  # columns of a bar
@@ -150,8 +149,6 @@ class RunHandler(LogHandlerBase):
     def other(self, record: logging.LogRecord) -> None:
         """Print what is no event of a run, if it is not among what Snakemake says in every one."""
         text = record.getMessage()
-        if again := AGAIN.match(text):
-            text = f"job {again[1]} is started again"
         if not NOISE.match(text) and not (self.is_stopped and text.startswith("RuleException")):
             write(self.stream, text)
 
