@@ -6,7 +6,7 @@ from mobnet.core.errors import ConfigError
 
 
 @pytest.mark.parametrize(("method", "limbs", "fitted", "message"), [
-    ("MOB2", [], False, "method: 'MOB2' is not accepted; accepted: MOB, FTS-e2e, "),
+    ("MOB2", [], False, "method: 'MOB2' is not accepted; accepted: MOB, MOB-Net, "),
     ("MOB", ["LL"], False, r"networks of method MOB: \['LL'\] is not accepted; accepted: none"),
     ("FTS-e2e", ["LA", "LL"], False, r"\['LA', 'LL'\] is not accepted; accepted: some of \['LL'\]"),
     ("FTS-e2e", [], False, r"networks of method FTS-e2e: \[\] is not accepted; accepted: some of \['LL'\]"),

@@ -84,9 +84,7 @@ def test_joints_of_other_names_stand_in_the_map_in_the_order_of_the_table(clean,
     path = bag2(samples, tmp_path / "bag")
     names = {"tau_motor": {"columns": [f"{TOPIC}.effort"]}, **JOINT_MAP, "joints": ["elbow", "shoulder"]}
     np.testing.assert_allclose(read(path, names).recording.sensed.q[:, 0], clean["q.J2"][:100], atol=1e-12)
-    with pytest.raises(
-        DataError, match=r"column: '/joint_states\.position' .*: /joint_states\.position\.elbow, .* others"
-    ):
+    with pytest.raises(DataError, match=r"column: '/joint_states\.position' .*: /joint_states\.position\.elbow, "):
         read(path, names | {"joints": None})
 
 

@@ -8,7 +8,7 @@ from reprlib import Repr
 MOST = 20  # faults of a file that are told
 LONGEST = 240  # characters of a value that are shown, and by which names are compared
 NEAREST = 5  # names that are shown of many
-FEW = 10  # names that are shown whole
+FEW = 15  # names that are all shown
 LOOKED = 1000  # names among which those like a wanted one are looked for
 SHOWN = Repr()  # a value takes a part of a line, whatever it is
 SHOWN.maxstring = SHOWN.maxother = 120
