@@ -64,9 +64,10 @@ def push_numbers(
     for name, torque in {TRUTH: truth, **shown.torques(joint)}.items():
         error = torque.astype(np.float64) - truth
         felt = shown.felt(torque, joint, peaks)
-        errors = [float(np.sqrt(np.mean(error[part] ** 2))) for part in (rise, around)]
+        in_push = float(np.sqrt(np.mean(error[rise] ** 2)))
+        in_all = float(np.sqrt(np.mean(error[around] ** 2)))
         found = alarms(shown, torque, threshold_nm, detection)
-        rows.append(PushNumbers(name, felt.peak_nm, felt.share, felt.delay_ms, *errors, *found))
+        rows.append(PushNumbers(name, felt.peak_nm, felt.share, felt.delay_ms, in_push, in_all, *found))
     return rows
 
 
