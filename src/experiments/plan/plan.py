@@ -43,13 +43,13 @@ CLAIMS_PAGE = (
 )  # and its parts
 
 
-def film_products(files: Files) -> Iterator[Product]:
-    """Yield the films of the first robot's walks, where robots have detectors."""
+def film_products(files: Files, *, with_mp4: bool) -> Iterator[Product]:
+    """Yield the films of the first robot's walks, where robots have detectors; without ffmpeg they are WebP."""
     if not any(level_of_detectors(own) for own in files.owners):
         return
     settings = files.settings
     section = settings.evaluation.films
-    ending = "mp4" if shutil.which("ffmpeg") else "webp"
+    ending = "mp4" if with_mp4 else "webp"
     outs = {case: files.shared / "films" / f"{case}.{ending}" for case in section.joints}
     courses = courses_of(files, section.joints)
     arguments = {
@@ -183,8 +183,13 @@ class Plan:
         return found
 
 
-def make_plan(settings: Settings, *, with_pdf: bool) -> Plan:
-    """Return the plan of the chosen scale; without TeX there is no PDF of the paper."""
+def make_plan(settings: Settings, *, with_pdf: bool, with_mp4: bool | None = None) -> Plan:
+    """Return the plan of the chosen scale.
+
+    Without TeX there is no PDF of the paper, and without ffmpeg no film as MP4: None looks for it on this machine.
+    """
+    if with_mp4 is None:
+        with_mp4 = shutil.which("ffmpeg") is not None
     scale = settings.scale
     results = Path("results") / scale
     part = "" if scale == MAIN else scale
@@ -198,7 +203,7 @@ def make_plan(settings: Settings, *, with_pdf: bool) -> Plan:
         files=files,
         products=tuple(products.all()),
         trials=tuple(trial_products(files)),
-        films=tuple(film_products(files)),
+        films=tuple(film_products(files, with_mp4=with_mp4)),
         docs=tuple(documentation(files)),
         tables=tuple(products.table_names),
         figures=tuple(products.figure_names),

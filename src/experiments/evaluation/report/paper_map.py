@@ -74,7 +74,7 @@ class MapNotes(Section):
 
 def main() -> None:
     """Write the map of the repository."""
-    plan = make_plan(load_settings(overrides={"scale": "default"}), with_pdf=True)
+    plan = make_plan(load_settings(overrides={"scale": "default"}), with_pdf=True, with_mp4=True)
     write_text(MAP, paper_map(plan, read_known(SOURCE)))
 
 
