@@ -13,9 +13,10 @@ from experiments.settings.load import load_settings
 
 ROOT = Path(__file__).parents[2]
 LIST = yaml.safe_load((Path(__file__).parent / "words.yaml").read_text())
-DOCUMENTS = ("README.md", "CONTRIBUTING.md", "paper/README.md", "docs/*.md", "docs/notes/*.md")
+DOCUMENTS = ("README.md", "CONTRIBUTING.md", "SECURITY.md", "paper/README.md", "paper/main.tex", "docs/*.md", "docs/notes/*.md")
 CAPTIONS = ("workflow/report/*.rst", "workflow/report/*/*.rst")
 CODE = re.compile(r"^```.*?^```|^ {4,}\S.*?$|`[^`\n]*`|\]\([^)]*\)", re.MULTILINE | re.DOTALL)
+MACROS = re.compile(r"\\[a-z]+(?:\{[\w@, -]*\})+")  # of TeX, with names of numbers
 SHOWN = ("FINDINGS", "METHODS", "COLUMNS")  # texts of the README's blocks
 
 
@@ -32,6 +33,8 @@ def texts() -> Iterator[tuple[str, str]]:
             text = path.read_text(encoding="utf-8")
             if path.name == "README.md" and path.parent == ROOT:  # its blocks are made of published results
                 text = re.sub(r"<!-- (\w+) -->.*?<!-- /\1 -->", "", text, flags=re.DOTALL)
+            if path.suffix == ".tex":
+                text = MACROS.sub("", text)
             yield str(path.relative_to(ROOT)), CODE.sub("", text) if path.suffix == ".md" else text
     for name, claim in load_settings().claims.items():
         yield f"configs/claims.yaml: {name}", f"{claim.says}\n{claim.cause}"
