@@ -197,7 +197,9 @@ def shown_by():
 
 def tell_prices(jobs):
     """Tell what shows the run how long its jobs will take; return it, by their numbers [s]."""
-    from experiments.evaluation.report.cost import expected_s  # takes a second, which the process of a job does not need
+    from experiments.evaluation.report.cost import (
+        expected_s,
+    )  # takes a second, which the process of a job does not need
 
     seconds = expected_s(PLAN, {job.jobid: PlannedJob.of(job) for job in jobs})
     for handler in shown_by():
@@ -209,7 +211,9 @@ def room_share(jobs, seconds):
     """Return the share of what some jobs write that is there at once."""
     if SETTINGS.keep == "all":
         return 1.0
-    return share_at_once([TimedJob(PlannedJob.of(job), seconds.get(job.jobid, 0.0)) for job in jobs], workflow.cores or 1)
+    return share_at_once(
+        [TimedJob(PlannedJob.of(job), seconds.get(job.jobid, 0.0)) for job in jobs], workflow.cores or 1
+    )
 
 
 def let_go(output):
