@@ -40,6 +40,11 @@ def test_a_name_says_what_is_shown(caption: Path) -> None:
     assert rf"\csname capt@figures/figure_05\endcsname{{{caption_tex(caption, {})}}}" in captions_tex([caption], {})
 
 
+def test_a_line_does_not_begin_with_a_space_where_its_first_number_is_none(caption: Path) -> None:
+    values = {**VALUES, "span@rte-walk": ""}
+    assert filled(written(caption, "By\n{foundspan:rte-walk} more."), values) == "A title\n\nBy\nmore.\n"
+
+
 @pytest.mark.parametrize(
     ("text", "tex"),
     [

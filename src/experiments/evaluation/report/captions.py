@@ -108,6 +108,7 @@ def filled(path: Path, values: Mapping[str, str], *, keep_fields: bool = False) 
     plain = FIELD.sub(lambda field: field_text(path, field["macro"], field["names"], values), text)
     if keep_fields:
         return text
+    plain = re.sub(r"^ +", "", plain, flags=re.MULTILINE)  # after an empty field, as an indented line is a quotation
     return plain.rstrip() + TURNED if DAGGER in plain else plain
 
 
