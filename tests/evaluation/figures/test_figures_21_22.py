@@ -71,8 +71,8 @@ def test_figure_21_has_a_strip_for_each_foot_and_the_obstacle_where_it_is_in_its
     lines = [{line.get_label(): line for line in axis.lines} for axis in (left, right)]
     assert set(lines[1]) == {"pelvis", "first contact", "reaction"}
     assert set(lines[0]) - set(lines[1]) == {"front of the obstacle"}  # the block is ahead of the left foot alone
-    assert lines[0]["front of the obstacle"].get_ydata()[0] == pytest.approx(0.6)
-    assert lines[0]["reaction"].get_xdata()[0] == pytest.approx(0.52)
+    assert np.asarray(lines[0]["front of the obstacle"].get_ydata())[0] == pytest.approx(0.6)
+    assert np.asarray(lines[0]["reaction"].get_xdata())[0] == pytest.approx(0.52)
 
 
 def test_figure_21_of_a_walk_without_a_reaction_marks_none(tmp_path, layout, robot):
