@@ -197,9 +197,8 @@ def shown_by():
 
 def tell_prices(jobs):
     """Tell what shows the run how long its jobs will take; return it, by their numbers [s]."""
-    from experiments.evaluation.report.cost import (
-        expected_s,
-    )  # takes a second, which the process of a job does not need
+    # This import takes a second, which the process of a job does not need.
+    from experiments.evaluation.report.cost import expected_s
 
     seconds = expected_s(PLAN, {job.jobid: PlannedJob.of(job) for job in jobs})
     for handler in shown_by():
