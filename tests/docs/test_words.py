@@ -13,7 +13,15 @@ from experiments.settings.load import load_settings
 
 ROOT = Path(__file__).parents[2]
 LIST = yaml.safe_load((Path(__file__).parent / "words.yaml").read_text())
-DOCUMENTS = ("README.md", "CONTRIBUTING.md", "SECURITY.md", "paper/README.md", "paper/main.tex", "docs/*.md", "docs/notes/*.md")
+DOCUMENTS = (
+    "README.md",
+    "CONTRIBUTING.md",
+    "SECURITY.md",
+    "paper/README.md",
+    "paper/main.tex",
+    "docs/*.md",
+    "docs/notes/*.md",
+)
 CAPTIONS = ("workflow/report/*.rst", "workflow/report/*/*.rst")
 CODE = re.compile(r"^```.*?^```|^ {4,}\S.*?$|`[^`\n]*`|\]\([^)]*\)", re.MULTILINE | re.DOTALL)
 MACROS = re.compile(r"\\[a-z]+(?:\{[\w@, -]*\})+")  # of TeX, with names of numbers
