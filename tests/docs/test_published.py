@@ -98,7 +98,9 @@ def test_the_walk_that_figure_22_shows_falling_is_counted() -> None:
               == ("MOB-Net-ratio", "reaction", "0", "falls")}  # fmt: skip
     assert shares["door"] > 0.0
     assert r"\cellshare{safety@door@MOB-Net-ratio@reaction@0@falls}" in MAIN
-    assert "end in a fall, the one shown among them" in " ".join(MAIN.split())
+    caption = (ROOT / "workflow/report/figures/figure_22.rst").read_text()
+    assert "{cellshare:safety@door@MOB-Net-ratio@reaction@0@falls}" in caption
+    assert "the title counts all walks of the case" in " ".join(caption.split())
 
 
 def test_pushes_of_the_foot_come_in_nearly_every_swing_of_both_training_sets() -> None:

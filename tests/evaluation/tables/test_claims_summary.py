@@ -50,7 +50,7 @@ def test_our_own_statements_are_none_of_the_papers(made: Made) -> None:
 def test_what_counts_against_us_stands_first(made: Made, tmp_path: Path) -> None:
     made(("a", "observer", "reproduced"))
     header, _, *lines = (tmp_path / "claims_summary.md").read_text().splitlines()
-    assert header.strip("| ").split(" | ")[-2:] == ["the paper's, all", "our own"]
+    assert header.strip("| ").split(" | ")[-2:] == ["the original's, all", "our own"]
     titles = [line.split(" | ")[0].strip("| ") for line in lines]
     assert titles[:3] == ["not reproduced", "sign only", "open"]
     assert lines[4] == "| reproduced | 1 (1) | 0 (0) | 0 (0) | 1 (1) | 0 (0) |"

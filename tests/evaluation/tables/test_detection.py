@@ -53,7 +53,7 @@ def test_the_text_has_counts_beside_the_paper(made: Make) -> None:
     assert ours[3:10] == ["2", "2", "2", "2", "2", "2", "12/24"]
     assert paper[3:10] == ["10", "10", "9", "10", "9", "10", "58/60"]
     assert paper[-3] == "13.5"  # the mean over detections of the paper's delays
-    assert "Kendall's tau of the order of the found totals against the paper's: 1.00 (all uncertainty)" in text
+    assert "Kendall's tau of the order of the found totals against the original's: 1.00 (all uncertainty)" in text
 
 
 def test_a_plant_stands_for_itself_and_robots_together(make_table: Make, tmp_path: Path) -> None:
@@ -78,7 +78,9 @@ def test_thresholds_stand_beside_the_papers(made: Make) -> None:
     assert (knee.value, knee.unit, knee.published) == (pytest.approx(6.0), "N m", 111.98)
     assert rows["robots", "MOB", "collision", "mean.LL4 1"].published is None
     assert "|  | MOB | ours | 1.50 | 3.00 | 4.50 | 6.00 | 7.50 | 9.00 |" in table.with_suffix(".md").read_text()
-    assert "|  |  | paper | 19.25 | 60.28 | 114.62 | 111.98 | 38.94 | 15.62 |" in table.with_suffix(".md").read_text()
+    assert (
+        "|  |  | original | 19.25 | 60.28 | 114.62 | 111.98 | 38.94 | 15.62 |" in table.with_suffix(".md").read_text()
+    )
     ratios = [line for line in markdown_cells(table) if line[2] == "ratio"]
     assert ratios == [["", "", "ratio", "0.08*", "0.05*", "0.04*", "0.05*", "0.19*", "0.58"]] * 2
 

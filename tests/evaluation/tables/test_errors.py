@@ -170,7 +170,7 @@ def test_ours_stands_above_the_interval_and_the_papers_number() -> None:
     ours, interval, paper = table_lines([row(("a", "x"))], LOOK)
     assert ours == ["a", "x", "MOB", "ours", "2.00", "3.00", "4.00"]
     assert interval == ["", "", "", "95%", *["[1.00, 9.00]"] * 3]
-    assert paper == ["", "", "", "paper", *["0.50"] * 3]
+    assert paper == ["", "", "", "original", *["0.50"] * 3]
 
 
 def test_errors_against_the_raw_truth_stand_above_the_papers_and_further_methods_have_no_interval() -> None:
@@ -178,7 +178,7 @@ def test_errors_against_the_raw_truth_stand_above_the_papers_and_further_methods
     raw = {column: replace(number, value=7.0) for column, number in full.numbers.items()}
     lines = table_lines([replace(full, raw=raw), replace(full, raw=raw, short=True)], LOOK)
     assert [line[3] for line in lines if not isinstance(line, str)] == [
-        "ours", "95%", "raw truth", "paper", "ours", "raw truth", "paper",
+        "ours", "95%", "raw truth", "original", "ours", "raw truth", "original",
     ]  # fmt: skip
     assert lines[2] == ["", "", "", "raw truth", "7.00", "7.00", "7.00"]
 
@@ -186,13 +186,13 @@ def test_errors_against_the_raw_truth_stand_above_the_papers_and_further_methods
 def test_numbers_of_a_robot_are_told_from_simulated_ones(tmp_path: Path) -> None:
     made = text(tmp_path, "md", [row(("a", "x"))], replace(LOOK, robot=True))
     assert "| ours, simulated | 2.00" in made
-    assert "| paper, robot | 0.50" in made
+    assert "| original, robot | 0.50" in made
 
 
 def test_only_averages_after_the_floor_carry_an_increase() -> None:
     floor = Floor(level="noise", method="MOB")
     rows = [row(("a", "x")), row(("a", "y"), level="noise"), row(("a", "z"), value=7.0)]
-    texts = [line[-1] for line in table_lines(rows, replace(LOOK, floor=floor)) if line[3] in ("ours", "paper")]
+    texts = [line[-1] for line in table_lines(rows, replace(LOOK, floor=floor)) if line[3] in ("ours", "original")]
     assert texts == ["4.00", "0.50", "4.00", "0.50", "9.00 (+5.00)", "0.50 (+0.00)"]
 
 

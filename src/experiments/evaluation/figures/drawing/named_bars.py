@@ -22,7 +22,7 @@ LINE = {"color": "0.4", "linewidth": 0.7, "linestyle": (0, (2, 2)), "zorder": 1.
 NUMBER_ROOM = 0.42  # right of the longest bar, for numbers [of its length]
 CUT_ABOVE = 2.5  # bars of `zero` are cut where they are so many times longer than all others
 DRAWN_LABEL = "RMSE of the curves above"
-PAPER_LABEL = {False: "RMSE in the paper", True: "RMSE in the paper (robot)"}  # whether it measured its robot
+PAPER_LABEL = {False: "RMSE in the original", True: "RMSE in the original (robot)"}  # whether it measured its robot
 
 
 @dataclass(frozen=True)

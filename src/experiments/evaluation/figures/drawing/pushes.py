@@ -58,7 +58,7 @@ def draw_step(panels: Sequence[Panel], bars: Sequence[NamedBar], joint: str, tit
         _curves(curves, replace(panel, flags=flags))
         entitle(curves, 0, panel.title)
     curves.set(xlabel=FROM_PUSH, ylabel=f"{joint} [N m]")
-    draw_named_bars(below, bars, "N m", source="RMSE of paper", marked="RMSE of (a)")
+    draw_named_bars(below, bars, "N m", source="RMSE of original", marked="RMSE of (a)")
     entitle(below, 1, f"{title} [N m]")
     # The numbers at the bars say what an axis would, in less room.
     below.set_xlabel("")

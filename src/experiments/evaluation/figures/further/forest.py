@@ -1,6 +1,6 @@
 """All statements at a glance: the worst claim of each, our interval, the range where it is reproduced, and the verdict.
 
-One figure has the statements with a number of the paper, ours over the paper's on a log axis; another one those
+One figure has the statements with a number of the paper, ours over the original's on a log axis; another one those
 without, how far ours lies on the claimed side of the bound.
 """
 
@@ -48,9 +48,9 @@ TICKS: Mapping[str, Mapping[float, str]] = {
     BEYOND_BOUND: {-1.0: "against", 0.0: "bound", 1.0: "for"},
 }
 HEADS: Mapping[str, str] = {
-    OBSERVER: "Statements of the paper about the observer",
-    NETWORKS: "Statements of the paper about networks",
-    NO_NUMBER: "Statements of the paper without a number",
+    OBSERVER: "Statements of the original about the observer",
+    NETWORKS: "Statements of the original about networks",
+    NO_NUMBER: "Statements of the original without a number",
     OURS: "Our own statements",
 }
 # verdict -> colour, dark enough for text, marker, and sign before a text
@@ -128,7 +128,7 @@ def _head(axis: Axes, top: float, own: Sequence[StatementPosition], name: str) -
     says = f"{HEADS[own[0].worst.judged.score]} ({len(own)})"
     _text(axis, TEXT_INCH, middle, says, weight="bold")
     _text(axis, COLUMN_INCH["ours"], middle, "ours, with interval", weight="bold")
-    _text(axis, COLUMN_INCH["other"], middle, "paper" if name == OVER_PAPER else "holds if", weight="bold", ha="right")
+    _text(axis, COLUMN_INCH["other"], middle, "original" if name == OVER_PAPER else "holds if", weight="bold", ha="right")
     line = {"color": "0.5", "linewidth": 0.5, "clip_on": False, "transform": axis.get_yaxis_transform()}
     ends = [(inch - LEFT_INCH) / WIDTH_INCH for inch in (0.0, COLUMN_INCH["other"])]
     axis.plot(ends, [top + HEAD_INCH - 0.02] * 2, **line)

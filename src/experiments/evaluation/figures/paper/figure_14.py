@@ -62,7 +62,7 @@ def draw_histograms(found: Mapping[str, Mapping[str, np.ndarray]], edges: Mappin
             axis.hist(own[name], edges[name].tolist(), histtype="stepfilled", alpha=0.35, color=styles[level].colour)
             axis.hist(own[name], edges[name].tolist(), histtype="step", label=level, **styles[level].line)
         if (mean := PUBLISHED[name]) is not None:
-            axis.axvline(mean, label="mean of the paper", color="black", linestyle="--", linewidth=0.8)
+            axis.axvline(mean, label="mean of the original", color="black", linestyle="--", linewidth=0.8)
         axis.set(xlabel=f"{name} [{unit}]", ylabel="collisions")
         entitle(axis, k, name)
     legend(figure, axes)

@@ -159,5 +159,5 @@ def draw_means(axis: Axes, numbers: Mapping[str, Number], published: PublishedCo
         error_kw={"linewidth": 0.8, "capsize": 2.0},
     )
     printed = [printed_of(published, case, name) for case in numbers]
-    axis.plot(places, [np.nan if one is None else one for one in printed], "kD", markersize=3, label="paper")
+    axis.plot(places, [np.nan if one is None else one for one in printed], "kD", markersize=3, label="original")
     axis.set_xticks(places, list(numbers))

@@ -12,7 +12,7 @@ from experiments.evaluation.measure.claims.verdicts import WORST_FIRST, Judged
 from mobnet.core.claim_ranges import Bounds
 from mobnet.core.columns import VERDICTS
 
-OVER_PAPER, BEYOND_BOUND = "ours over the paper's", "beyond the bound"  # what an axis has
+OVER_PAPER, BEYOND_BOUND = "ours over the original's", "beyond the bound"  # what an axis has
 
 
 @dataclass(frozen=True)

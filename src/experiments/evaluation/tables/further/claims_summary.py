@@ -34,7 +34,7 @@ SHOWN = {
     "observer": "observer",
     "networks": "networks",
     "no number": "no number",
-    PAPER: "the paper's, all",
+    PAPER: "the original's, all",
     OURS: "our own",
 }
 Row = Mapping[str, str]

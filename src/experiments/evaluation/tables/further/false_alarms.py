@@ -57,7 +57,7 @@ def false_alarms(
         ViewColumn("counted", _of(COLLISION, COUNTED), 1, ends=share),
         ViewColumn("within", _of(COLLISION, COUNTED, WITHIN), text=_yes_or_no),
         ViewColumn(BETWEEN, _of(COLLISION, BETWEEN), 1),
-        ViewColumn("paper's rule: in place", _of(LARGEST, PLACE), 0),
+        ViewColumn("original's rule: in place", _of(LARGEST, PLACE), 0),
         ViewColumn("random walking", _of(LARGEST, RANDOM), 0),
         ViewColumn(BETWEEN, _of(LARGEST, BETWEEN), 0),
     ]

@@ -60,7 +60,7 @@ def table_09(
     delays = [*(f"{cell} [ms]" for cell in cells), "cells", "found", "perfect", "from onset"]
     note = (
         "F, A, K: foot, ankle, knee; F, S: front, side. "
-        f"Kendall's tau of the order of the found totals against the paper's: {', '.join(taus)}."
+        f"Kendall's tau of the order of the found totals against the original's: {', '.join(taus)}."
     )
     # in TeX all columns side by side are wider than a page: what is found stands above how late
     end = len(leading) + len(found)
@@ -176,7 +176,7 @@ def _lines(
         numbers = [number_text(printed[cell], 0) for cell in CELLS]
         total_text = f"{number_text(printed[ALL], 0)}/{TRIED * len(CELLS)}"
         paper = [number_text(late[cell], 1) for cell in (*CELLS, ALL)]
-        yield ["", "", "paper", *numbers, total_text, "", *paper, number_text(mean, 1), "", ""]
+        yield ["", "", "original", *numbers, total_text, "", *paper, number_text(mean, 1), "", ""]
 
 
 def _mean(values: Sequence[float]) -> float | None:

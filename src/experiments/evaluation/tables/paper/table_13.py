@@ -54,7 +54,7 @@ def table_13(
                     own.append(means[key])
             lines.append([name, "ours", *(number_text(value) for value in own)])
             if printed := published_row(published, THRESHOLD, name):
-                lines.append(["", "paper", *(number_text(printed[joint]) for joint in joints)])
+                lines.append(["", "original", *(number_text(printed[joint]) for joint in joints)])
             if printed and name == settings.sized:
                 sizes = [ours / theirs for ours, joint in zip(own, joints, strict=True) if (theirs := printed[joint])]
                 lines.append(["", "ratio", *(ratio_text(size, settings.ratio) for size in sizes)])
