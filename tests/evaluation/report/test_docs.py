@@ -149,7 +149,8 @@ def test_search_finds_a_page_without_a_server(site, running):
 @with_browser
 @pytest.mark.parametrize(("word", "page"), [
     ("resume", "docs/guide.html"),
-    ("docker", "docs/cluster.html"),
+    ("docker", "docs/guide.html"),
+    ("apptainer", "docs/cluster.html"),
     ("tolerance", "docs/guide.html"),
     ("ROS", "docs/log_formats.html"),
     ("threshold", "docs/detection.html"),
