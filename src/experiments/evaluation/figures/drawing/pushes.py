@@ -15,7 +15,7 @@ from experiments.evaluation.figures.drawing.named_bars import BAR_INCH, NamedBar
 from experiments.evaluation.figures.style import entitle, legend
 from mobnet.core.style import COLUMN_INCH, PAGE_INCH, styled
 
-STEP_INCH, HIT_INCH = 1.0, 1.15  # height of curves in one column of the paper and in two
+STEP_INCH, HIT_INCH = 1.0, 0.9  # height of curves in one column of the paper and in two
 STEP_REST_INCH, LABELS_INCH = 0.8, 1.35  # of legend, titles and labels in one column and in two
 FROM_PUSH = "time from push [s]"
 EACH = "RMSE of each push"

@@ -30,7 +30,7 @@ from mobnet.settings.plant import Rates
 REFERENCE = "low-pass of (11)"  # the observer's response to what it sees without any error
 REFERENCE_LOOK: Mapping[str, Any] = {"color": "0.6", "linewidth": 2.0, "zorder": 1.0}
 TICKS_HZ = (0.5, 2.0, 10.0, 50.0)
-SHOWN_INCH, ALL_INCH, LEGEND_INCH = 1.75, 1.45, 0.6  # height of a row, of some joints or all; of legend and labels
+SHOWN_INCH, ALL_INCH, LEGEND_INCH = 1.45, 1.45, 0.6  # height of a row, of some joints or all; of legend and labels
 ACROSS = 2  # joints in a row
 QUANTITIES = {"gain": (GAIN, "relative gain [-]"), "phase": (PHASE, "relative phase [deg]")}
 ENDS = {"gain": (0.0, 1.25), "phase": (-45.0, 20.0)}  # of the axes; what lies beyond is cut
