@@ -67,7 +67,7 @@ def test_a_training_that_diverges_says_what_to_try(trainer, data, how, settings,
 
 
 def test_a_few_updates_with_a_huge_loss_are_no_divergence(trainer, data, tmp_path):
-    data.targets[20] = 2e6
+    data.targets[20] = 2e7  # how large the loss is depends on the rounding of the processor, up to a factor of two
     epoch = trainer(epochs=1).run(tmp_path).epochs[0]
     assert epoch.train_loss > 50.0  # configs/networks.yaml: divergence_loss
 

@@ -195,7 +195,7 @@ FITS = {
         },
         "smoothing_rad_s joints joints.LL4.static_nm",
     ),
-    "joint unknown": (set_at("joints.XX1", KNEE), "joint: 'XX1' is not accepted; accepted: LA1"),
+    "joint unknown": (set_at("joints.XX1", KNEE), "joint: 'XX1' is not accepted; accepted: .*LA1"),
 }
 DAHL = {"breakaway_rad": 0.004, "forward_nm": 1.0, "backward_nm": 2.0, "driving": 0.2, "driven": 0.3,
         "viscous_nms": 0.0, "constant_nm": -1.0, "gain": -0.1, "target_rms_nm": 3.0, "left_rms_nm": 1.0}  # fmt: skip
@@ -210,7 +210,7 @@ DAHL_FITS = {
         },
         "joints joints.LL4.gain",
     ),
-    "joint unknown": (set_at("joints.XX1", DAHL), "joint: 'XX1' is not accepted; accepted: LA1"),
+    "joint unknown": (set_at("joints.XX1", DAHL), "joint: 'XX1' is not accepted; accepted: .*LA1"),
 }
 LAWS = {  # file -> what reads it, a sound fit, and what is refused of it
     "MOB-fric.json": (read_friction, {"smoothing_rad_s": 0.02, "joints": {"LL4": KNEE}}, FITS),

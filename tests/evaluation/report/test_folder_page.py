@@ -20,12 +20,12 @@ def results(tmp_path: Path) -> Path:
     """A folder with a figure of the original, one of ours, two tables, and a film."""
     folder = tmp_path / "results"
     (folder / "figures").mkdir(parents=True)
-    for name in ("figure_06.png", "figure_06.svg", "figures/figure_06.csv.gz", "drift.png", "table_05.md",
+    for name in ("figure_15.png", "figure_15.svg", "figures/figure_15.csv.gz", "commands.png", "table_05.md",
                  "table_05.csv", "compute.md", "push.webp"):  # fmt: skip
         (folder / name).touch()
     for name in ("claims.csv", "claims_summary.csv"):  # the numbers of captions are looked up in them
         shutil.copyfile(PUBLISHED / name, folder / name)
-    for kind, names in (("figures", ("figure_06", "drift", "figure_07")), ("tables", ("table_05", "compute"))):
+    for kind, names in (("figures", ("figure_15", "commands", "figure_07")), ("tables", ("table_05", "compute"))):
         (tmp_path / kind).mkdir()
         for name in names:
             (tmp_path / kind / f"{name}.rst").write_text(f"Title of {name} (ours)\n\nText.\n")
@@ -37,10 +37,10 @@ def test_items_are_grouped_by_kind_and_by_whose_they_are(results: Path) -> None:
     page = (results / PAGE).read_text()
     parts = dict(re.findall(r"^## (.*?)\n(.*?)(?=^## |\Z)", page, re.MULTILINE | re.DOTALL))
     assert (
-        "[PNG](figure_06.png), [SVG](figure_06.svg), [numbers](figures/figure_06.csv.gz)"
+        "[PNG](figure_15.png), [SVG](figure_15.svg), [numbers](figures/figure_15.csv.gz)"
         in (parts["Figures of the original"])
     )
-    assert '<img src="drift.png" width="240" alt="Title of drift">' in parts["Our figures"]
+    assert '<img src="commands.png" width="240" alt="Title of commands">' in parts["Our figures"]
     assert "* [Title of table_05](table_05.md) ([CSV](table_05.csv))\n" in parts["Tables of the original"]
     assert parts["Our tables"] == "\n* [Title of compute](compute.md)\n\n"
     assert "push.webp" in parts["Start here"]

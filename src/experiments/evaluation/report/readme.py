@@ -88,7 +88,6 @@ FINDINGS = (
 )
 # Claims whose verdict a sentence names.
 SAID = {"rte-walk": NOT_REPRODUCED, "rte-swing": NOT_REPRODUCED}
-AT_ONE = {"level": "robots", "leg": "LL", "kind": "collision"}
 HIT = {"scenario": "knee_swing", "level": "robots", "limb": "LL", "joint": "avg"}
 RATED = ("MOB-Net-ratio", "MOB-fric-load")
 FELT = ("MOB-fric-dahl", "MOB-Net")
@@ -234,20 +233,15 @@ def findings(results: Path) -> str:
 
 def _of_tables(results: Path) -> dict[str, float]:
     """Return what findings tell of detectors and of a hit: shares [-], delays [ms] and false alarms [1/h]."""
-    read = {
-        name: read_texts(results / f"{name}.csv") for name in ("found_by_rate", "false_alarms", "detectors", "peaks")
-    }
-    told: dict[str, float] = {}
+    detectors = read_texts(results / "detectors.csv")
+    peaks = read_texts(results / "peaks.csv")
+    told = {"largest MOB": _value(detectors, {"row": "MOB", "quantity": "alarms"})}
     for name in RATED:
-        told[f"found {name}"] = _value(
-            read["found_by_rate"], {**AT_ONE, "detector": name, "quantity": "found", "cell": "all"}
-        )
-        counted = {**AT_ONE, "detector": name, "quantity": "measured", "cell": "held out"}
-        told[f"false {name}"] = _value(read["false_alarms"], counted)
-    told["largest MOB"] = _value(read["detectors"], {"row": "MOB", "quantity": "alarms"})
+        told[f"found {name}"] = _value(detectors, {"row": name, "quantity": "found at rate"})
+        told[f"false {name}"] = _value(detectors, {"row": name, "quantity": "alarms at rate"})
     for name in FELT:
-        told[f"share {name}"] = _value(read["peaks"], {**HIT, "method": name, "metric": "push_share"})
-        told[f"late {name}"] = _value(read["peaks"], {**HIT, "method": name, "metric": "rise_delay"})
+        told[f"share {name}"] = _value(peaks, {**HIT, "method": name, "metric": "push_share"})
+        told[f"late {name}"] = _value(peaks, {**HIT, "method": name, "metric": "rise_delay"})
     return told
 
 

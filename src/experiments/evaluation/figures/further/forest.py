@@ -128,7 +128,9 @@ def _head(axis: Axes, top: float, own: Sequence[StatementPosition], name: str) -
     says = f"{HEADS[own[0].worst.judged.score]} ({len(own)})"
     _text(axis, TEXT_INCH, middle, says, weight="bold")
     _text(axis, COLUMN_INCH["ours"], middle, "ours, with interval", weight="bold")
-    _text(axis, COLUMN_INCH["other"], middle, "original" if name == OVER_PAPER else "holds if", weight="bold", ha="right")
+    _text(
+        axis, COLUMN_INCH["other"], middle, "original" if name == OVER_PAPER else "holds if", weight="bold", ha="right"
+    )
     line = {"color": "0.5", "linewidth": 0.5, "clip_on": False, "transform": axis.get_yaxis_transform()}
     ends = [(inch - LEFT_INCH) / WIDTH_INCH for inch in (0.0, COLUMN_INCH["other"])]
     axis.plot(ends, [top + HEAD_INCH - 0.02] * 2, **line)

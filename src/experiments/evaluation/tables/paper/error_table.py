@@ -17,7 +17,8 @@ from experiments.settings.tables import ErrorTable
 from mobnet.core.columns import ERRORS, Score
 from mobnet.core.joints import JointLayout
 
-OURS, PAPER = ("ours", "ours, simulated"), ("original", "original, robot")  # where they simulated, and where they measured
+# Where they simulated, and where they measured.
+OURS, PAPER = ("ours", "ours, simulated"), ("original", "original, robot")
 RAW_LABEL = "raw truth"  # of the line of errors against it
 ERROR = "rmse"  # how metrics begin that are such errors
 
