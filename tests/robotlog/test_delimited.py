@@ -101,7 +101,7 @@ def test_names_that_are_numbers_are_a_header(tmp_path):
         ("mode,name\na,b\nc,d\n", "holds no column of numbers"),
         (
             "\n".join(PLAIN).replace("tau_motor", "torque"),
-            "column: 'tau_motor.J1' is not accepted; accepted: q.J1, time, torque.J1, torque.J2",
+            "column: 'tau_motor.J1' is not accepted; accepted: q.J1, q.J2, time, torque.J1, torque.J2, v.J1, v.J2",
         ),
     ],
     ids=["empty", "header alone", "one row", "zeros", "a zero", "dates of the US", "texts", "other names"],

@@ -228,10 +228,16 @@ def let_go_early():
             each.priority = first.get(each.name, 20)
 
 
+def file_of(target):
+    """Return the first file that a target's rule makes where the target is a rule, otherwise the target."""
+    made = list(workflow.get_rule(target).output) if workflow.is_rule(target) else []
+    return str(made[0]) if made and not made[0].contains_wildcard() else target
+
+
 def made_line(targets, folders):
     """Return the line that says what a run has made: what was asked for, or the folders of all and where to begin."""
     if targets and targets != ["all"]:
-        return f"{', '.join(targets)} {'is' if len(targets) == 1 else 'are'} made"
+        return f"{', '.join(map(file_of, targets))} {'is' if len(targets) == 1 else 'are'} made"
     page = folders.results / "pages" / "index.html"
     return f"{folders.tables}, {folders.figures} and {folders.paper} are made; begin with {page}"
 
