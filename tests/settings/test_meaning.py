@@ -225,7 +225,7 @@ MEANINGLESS: list[tuple[str, Any, str]] = [
     ("evaluation.statistics.confidence", 0.05, "from 0.5"),
     ("evaluation.windows.walk_test", {"before_s": 0.0, "after_s": 0.0}, "scenario with pushes"),
     ("claims.mob-exact.cells.0.2", "LL9", "limb or joint: 'LL9'"),
-    ("claims.mob-exact.at.scenario", "forward_wolk", "at.scenario: scenario"),
+    ("claims.mob-exact.at.scenario", "forward_wolk", "at.scenario: 'forward_wolk'"),
     ("claims.step-mob.at.metric", "rmse_pusht", "metric"),
     ("claims.gru-validation.at.metric", "validation los", "metric"),
     ("claims.mob-exact.quantity", "values", "'value', 'ratio'"),
