@@ -37,7 +37,8 @@ def places_of_packages():
     for path in PIP_FILES:
         texts += [file.read_text() for file in (path, *path.glob("*")) if file.is_file()]
     named = {Path(name) for name in re.findall(r"(?:file://)?(/[\w./+-]+)", "\n".join(texts))}
-    folders = [path for path in sorted(named) if path.is_dir()]
+    # An index is a folder `simple` of links, which lead to files beside it.
+    folders = [path.parent if path.name == "simple" else path for path in sorted(named) if path.is_dir()]
     return [*files, *folders]
 
 

@@ -50,7 +50,7 @@ def test_an_unknown_benchmark_is_named_with_those_accepted(runner, monkeypatch, 
         runner.main()
     message = capsys.readouterr().err
     assert "'collet_speed'" in message
-    assert "collect_speed, observer_speed" in message
+    assert "loop_speed, observer_speed" in message
 
 
 def test_the_benchmark_of_a_gpu_runs_on_a_cpu_where_it_is_asked_to(runner):

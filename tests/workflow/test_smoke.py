@@ -137,7 +137,7 @@ def test_verify_names_every_file_in_which_a_byte_is_flipped_and_no_other(unbroke
     assert subprocess.run(words, cwd=unbroken, check=False, capture_output=True).returncode == 0
     names = [line.split("  ", 1)[1] for line in (unbroken / manifest).read_text().splitlines()]
     flipped = sorted(kinds_of_files(names).values())
-    endings = {".parquet", ".json", ".safetensors", ".csv", ".tex", ".md", ".pdf", ".svg", ".png", ".webp",
+    endings = {".parquet", ".json", ".safetensors", ".csv", ".tex", ".md", ".rst", ".pdf", ".svg", ".png", ".webp",
                ".gif", ".html"}  # fmt: skip
     assert {Path(name).suffix for name in flipped} == endings
     before = {name: ((unbroken / name).read_bytes(), (unbroken / name).stat()) for name in flipped}

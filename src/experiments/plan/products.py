@@ -30,6 +30,7 @@ EXPLORE = tuple(
     )
 )  # fmt: skip
 TABLE, FIGURE = ("csv", "tex", "md"), ("pdf", "svg", "png", "csv")  # endings of a table's and of a figure's files
+STILL = "push"  # the picture beside the film
 FILM, DRAWN = ("webp", "gif", "png", "csv"), ("method", "robot")  # endings of the film's files; drawings
 TESTS = (  # scenario and level of those whose errors the page of trainings shows, the first that has a network
     "forward_walk/all_uncertainty", "motion_test/all_uncertainty", "walk_test/robots", "hand_wrench/robots",
@@ -219,7 +220,7 @@ class Products:
             "detections": {story.level: detections[story.level]} if is_told else {},
         }
         outputs = _files(figures, DRAWN, FIGURE)
-        outputs += [figures / f"push.{ending}" for ending in FILM] if is_told else []
+        outputs += [figures / f"{STILL}.{ending}" for ending in FILM] if is_told else []
         return self._product("pictures", f"{EVALUATION}.figures.further.pictures:pictures", needs, outputs)
 
     def _tables_of(self, name: str) -> Mapping[str, object]:
@@ -308,9 +309,9 @@ class Products:
         }
 
     def _captions(self) -> list[Path]:
-        """Return the captions of all tables and figures that have one, for the paper."""
+        """Return the captions of all tables and figures that have one, for the paper and the report."""
         files = _files(CAPTIONS / "tables", [*self.table_names, "compute"], ["rst"])
-        files += _files(CAPTIONS / "figures", self._drawn, ["rst"])
+        files += _files(CAPTIONS / "figures", [*self._drawn, STILL], ["rst"])
         return [path for path in files if path.is_file()]
 
     def _report_product(self, name: str, needs: Mapping[str, object], outputs: list[Path]) -> Product:
