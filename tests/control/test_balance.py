@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from mobnet.control.balance import adapt_duration, adapt_foothold, ground_force, measure_dcm
-from mobnet.control.footsteps import plan_steps, reference
+from mobnet.control.footsteps import decay, plan_steps, reference
 from mobnet.control.geometry import to_yaw_frame
 
 ANKLE = np.array([0.2, 0.1, 0.158])
@@ -167,3 +167,32 @@ def test_far_foothold_is_not_reached_faster_than_the_swing_limit(par, swinging):
     swinging.dcm = swinging.dcm_reference - swinging.side * 0.1 * leftwards(swinging)
     adapt_duration(par, swinging, double_support(par, swinging), TICK_S, np.zeros(3))
     assert swinging.total == swinging.commanded
+
+
+@pytest.mark.parametrize("reacting", [0, 1])
+@pytest.mark.parametrize("away", [(-1.0, 0.0), (0.6, -0.8)])
+@pytest.mark.parametrize("share", [(-1.0, 0.0), (-1.0, 0.5), (1.0, 0.5), (1.0, 0.0)])
+def test_while_reacting_a_foothold_moves_away_from_the_force_alone(par, swinging, away, share, reacting):
+    """An error into the obstacle moves no foothold there; one away from it, or across, does as ever."""
+    free = par.copy()
+    free.foothold_band_m = 0.0  # so that foothold and error have one direction
+    away = np.array(away)
+    across = np.array([-away[1], away[0]])
+    swinging.reacting, swinging.away = reacting, away
+    swinging.error = 0.006 * (share[0] * away + share[1] * across)  # small enough for the speed of a foothold
+    adapt_foothold(free, swinging, ANKLE, TICK_S, np.zeros(3))
+    moved = swinging.target - swinging.next_ankle
+    length = par.foothold_gain * 0.006 / decay(swinging.omega, swinging.total - swinging.t)
+    goes = max(share[0], 0.0) if reacting else share[0]
+    assert moved @ away == pytest.approx(length * goes, abs=1e-12)
+    assert moved @ across == pytest.approx(length * share[1], abs=1e-12)
+
+
+def test_a_force_without_a_direction_keeps_no_foothold_from_moving(par, swinging):
+    swinging.error = (0.1, 0.05)
+    reacting = swinging.copy()
+    reacting.reacting = 1
+    for s in (swinging, reacting):
+        adapt_foothold(par, s, ANKLE, TICK_S, np.zeros(3))
+    np.testing.assert_allclose(reacting.target, swinging.target, atol=1e-15)
+    assert (reacting.target != reacting.next_ankle).all()

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from mobnet.control.parameters import FOOT_HEIGHT
-from mobnet.control.swing import swing_foot, swing_height
+from mobnet.control.swing import swing_foot, swing_height, turn_back
 
 DOUBLE_SUPPORT, SPAN, GROUND = 0.13, 0.67, 0.158
 STEP = 1e-6
@@ -15,6 +15,7 @@ def swinging(stepping):
     stepping.lift = [0.0, -0.1, 0.163]
     stepping.lift_yaw, stepping.lift_roll, stepping.lift_pitch, stepping.next_yaw = 0.1, 0.05, -0.04, 0.4
     stepping.target = [0.3, -0.12]
+    stepping.swinging = 1
     stepping.total = DOUBLE_SUPPORT + SPAN
     return stepping
 
@@ -92,3 +93,30 @@ def test_late_foot_goes_down_to_the_depth_and_no_further(par, swinging):
     assert (np.diff(heights) <= 0).all()
     assert heights[-1] == pytest.approx(GROUND - par.descent_depth_m, abs=1e-15)
     assert min(heights) == heights[-1]
+
+
+@pytest.mark.parametrize("t", [0.2, 0.35, 0.5])
+def test_a_foot_that_turns_back_begins_at_its_own_place_and_goes_straight_to_the_foothold(par, swinging, t):
+    held = np.array([0.05, -0.11])  # by an obstacle, behind where the foot should be
+    swinging.t, swinging.turns_back = t, 1
+    swinging.next_ankle = [-0.02, -0.1]
+    turn_back(par, swinging, DOUBLE_SUPPORT, np.array([*held, 0.2]))
+    s = at(par, swinging, t)
+    np.testing.assert_allclose(s.foot[:2], held, atol=1e-12)
+    assert s.foot_velocity[0] < 0.0
+    assert swinging.turns_back == 0
+    way = np.array([at(par, swinging, late).foot[:2] for late in np.linspace(t, swinging.total, 20)])
+    assert (np.diff(way[:, 0]) <= 1e-12).all()
+    np.testing.assert_allclose(way[-1], swinging.next_ankle, atol=1e-12)
+
+
+def test_a_foot_turns_back_once_and_only_while_there_is_a_way_left(par, swinging):
+    def turned(t, turns_back):
+        s = swinging.copy()
+        s.t, s.turns_back, s.next_ankle = t, turns_back, [-0.02, -0.1]
+        turn_back(par, s, DOUBLE_SUPPORT, np.array([0.05, -0.11, 0.2]))
+        return (s.lift != swinging.lift).any() and (s.target != swinging.target).any()
+
+    assert turned(0.35, 1)
+    assert not turned(0.35, 0)
+    assert not turned(swinging.total - 0.01, 1)

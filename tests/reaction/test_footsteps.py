@@ -11,9 +11,9 @@ SPACING_M = 0.2
 COMMAND = np.array([0.15, 0.0, 0.0, 0.7, 0.05])
 LEFT, RIGHT = 1.0, -1.0
 FAR = FirstStep(
-    height_ratio=2.0, foot_speed_m_s=1.0, behind_m=1.0
+    height_ratio=2.0, foot_speed_m_s=1.0, behind_m=1.0, clear_m=0.0
 )  # twice as far as the foot is high, wherever it lands
-NOWHERE = FirstStep(height_ratio=0.0, foot_speed_m_s=1.0, behind_m=1.0)
+NOWHERE = FirstStep(height_ratio=0.0, foot_speed_m_s=1.0, behind_m=1.0, clear_m=0.0)
 
 
 def stance(side=LEFT, foot=(0.0, 0.0, 0.0), swing=(-0.05, -0.2), height_m=0.04, landing_s=0.3):
@@ -61,6 +61,21 @@ def test_a_foot_lands_no_further_behind_the_stance_foot_than_it_may_or_is_alread
     first, now = FAR.model_copy(update={"behind_m": 0.05}), stance(swing=(ahead_m, -0.2))
     rows = compliant_steps(settings.reaction.compliant, first, now, np.array([-1.0, 0.0]), COMMAND, SPACING_M)
     assert rows[0, STEP_X] == pytest.approx(lands_m)
+
+
+@pytest.mark.parametrize(("ahead_m", "height_m", "landing_s", "lands_m"), [
+    (-0.1, 0.05, 0.3, -0.15),  # behind the stance foot: clear of where it is
+    (-0.1, 0.0, 0.3, -0.15),  # also a low one
+    (-0.1, 0.05, 0.02, -0.12),  # as far as the time allows
+    (0.02, 0.05, 0.3, -0.03),
+    (0.08, 0.05, 0.3, 0.0),  # clear of it, and no further behind the stance foot
+])  # fmt: skip
+def test_a_foot_lands_clear_of_where_it_is(settings, ahead_m, height_m, landing_s, lands_m):
+    first = FAR.model_copy(update={"behind_m": 0.0, "clear_m": 0.05})
+    now = stance(swing=(ahead_m, -0.2), height_m=height_m, landing_s=landing_s)
+    rows = compliant_steps(settings.reaction.compliant, first, now, np.array([-1.0, 0.0]), COMMAND, SPACING_M)
+    assert rows[0, STEP_X] == pytest.approx(lands_m)
+    assert rows[0, STEP_Y] == pytest.approx(0.0)
 
 
 def test_a_foot_that_stands_makes_a_whole_step_from_the_stance_foot(settings):

@@ -14,7 +14,7 @@ from mobnet.learning.deployed.limbs import LimbNetworks
 from mobnet.learning.deployed.networks import Prediction, deployed
 from mobnet.learning.features import limb_inputs, signal_names, signals
 from mobnet.reaction.handler import Handler
-from mobnet.reaction.loop import columns_of, force_on, plan_steps, stop, walk_with
+from mobnet.reaction.loop import columns_of, force_on, give_way, plan_steps, stop, walk_with
 from mobnet.settings.networks import Limb, NetworkCell
 from mobnet.simulation.simulator import Simulator
 
@@ -134,6 +134,18 @@ def test_reacting_steps_begin_with_the_present_one():
     simulator.state.steps = 7
     stop(simulator.state, len(commands))
     assert simulator.state.standing == 1
+
+
+def test_a_reaction_tells_the_controller_the_direction_of_the_force():
+    simulator = Simulator(walk_settings(load_settings(), "foot_block", "ideal"), 1)
+    simulator.start()
+    s = simulator.state
+    assert (s.reacting, s.turns_back) == (0, 0)
+    give_way(s, np.array([-0.6, 0.8]))
+    assert (s.reacting, s.turns_back) == (1, 1)
+    simulator.run(np.zeros((1, simulator.width), np.float32))
+    assert (s.reacting, s.turns_back) == (1, 0)  # the foot turns back once
+    assert s.away == pytest.approx([-0.6, 0.8])
 
 
 class OneByOne:

@@ -79,6 +79,15 @@ def adapt_foothold(par: WalkingParameters, s: State, ankle: Array, dt: float, wo
     most = par.foothold_change_max_m
     change_x = clip(dead(work[0], band[0]) * growth, -most[0], most[0])
     change_y = clip(dead(work[1], band[1]) * growth, -most[1], most[1])
+    if s.reacting:
+        # The error of a robot that is held back points into what holds it; a foothold follows it the other way only.
+        work[0], work[1] = change_x, change_y
+        to_world(work, s.stance_yaw, work)
+        towards = min(work[0] * s.away[0] + work[1] * s.away[1], 0.0)
+        for i in range(2):
+            work[i] -= towards * s.away[i]
+        to_yaw_frame(work, s.stance_yaw, work)
+        change_x, change_y = work[0], work[1]
     for i in range(2):
         work[i] = s.next_ankle[i] - ankle[i]
     to_yaw_frame(work, s.stance_yaw, work)

@@ -74,6 +74,11 @@ STATE = np.dtype(
         ("foot_velocity", "f8", 3),
         ("foot_rotation", "f8", (3, 3)),
         ("foot_yaw_rate", "f8"),
+        # A reaction: whether the robot reacts, the direction of the force on it (unit vector, world), and whether the
+        # swing foot turns back in the next tick.
+        ("reacting", "i8"),
+        ("away", "f8", 2),
+        ("turns_back", "i8"),
         # References of the legs' joints, left and right [rad, rad/s]; jacobian is scratch.
         ("q_reference", "f8", (2, 6)),
         ("v_reference", "f8", (2, 6)),

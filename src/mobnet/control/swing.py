@@ -7,6 +7,7 @@ import numpy as np
 
 from mobnet.control.geometry import rise, rise_slope, wrap, yaw_roll_pitch_matrix
 from mobnet.control.parameters import FOOT_HEIGHT, State, WalkingParameters
+from mobnet.core.arrays import Array
 from mobnet.core.compilation import compiled
 
 
@@ -32,6 +33,25 @@ def swing_height(par: WalkingParameters, s: State, ground: float, span: float, u
     if fall >= par.descent_depth_m:
         return ground - par.descent_depth_m, 0.0
     return ground - fall, -par.descent_speed_m_s - par.descent_acceleration_m_s2 * late
+
+
+@compiled
+def turn_back(par: WalkingParameters, s: State, double_support: float, foot: Array) -> None:
+    """Lead the swing foot from its place (3,) [m] straight to the foothold of a reaction, by (W32).
+
+    The start of its way is moved so that the rest of the way begins where the foot is; the way from lift-off would pull
+    it on. A foot that is almost at the end of its way is left alone.
+    """
+    if s.turns_back == 0:
+        return
+    s.turns_back = 0
+    share = rise((s.t - double_support) / (s.total - double_support) / par.swing_xy_share)
+    if s.swinging == 0 or share > par.swing_turn_share:
+        return
+    for i in range(2):
+        s.lift[i] = (foot[i] - share * s.next_ankle[i]) / (1.0 - share)
+        s.target[i] = s.next_ankle[i]
+        s.target_velocity[i] = 0.0
 
 
 @compiled

@@ -20,7 +20,7 @@ from mobnet.control.phases import (
     stand_reference,
     touch_down,
 )
-from mobnet.control.swing import swing_foot
+from mobnet.control.swing import swing_foot, turn_back
 from mobnet.control.walker import Walker, foot_yaw, move_wrenches
 from mobnet.control.whole_body import leg_reference, posture_torque, stance_torque, swing_torque
 from mobnet.core.arrays import Array
@@ -53,6 +53,7 @@ def walk(walker: Walker, s: State, q: Array, v: Array, wrenches: Array, commands
         s.zmp_old[0] = s.old_ankle[0] + np.cos(s.old_yaw) * par.zmp_offset_x_m
         s.zmp_old[1] = s.old_ankle[1] + np.sin(s.old_yaw) * par.zmp_offset_x_m
         lift_off(walker, s, stance, double_support)
+        turn_back(par, s, double_support, other)
         reference(s, double_support)
     move_pelvis(walker, s, stance, dt)
     ground_force(par, s, pose, ankle, walker.gravity, walker.work)

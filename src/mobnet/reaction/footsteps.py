@@ -48,21 +48,28 @@ class Stance:
             return np.inf
         return max(0.0, min(numbers.height_ratio * self.height_m, numbers.foot_speed_m_s * self.landing_s))
 
+    def clear_m(self, numbers: FirstStep) -> float:
+        """Return how far from where it is the swing foot lands at least [m], as far as the time that is left allows."""
+        return max(0.0, min(numbers.clear_m, numbers.foot_speed_m_s * self.landing_s))
+
 
 def compliant_steps(
     numbers: Compliant, first: FirstStep, stance: Stance, direction: Array, command: Array, spacing_m: float
 ) -> Array:
     """Return steps along a direction (2,), Figure 21; duration and foot height are those of a command (5,).
 
-    A foot in the air goes on from where it is, no further than it can be sent, and not too far behind the stance foot.
+    A foot in the air goes on from where it is, no further than it can be sent, and not too far behind the stance foot;
+    but it always lands clear of where it is, which may be where it touched an obstacle.
     """
     rows = np.tile(command, (numbers.steps, 1))
     rows[:, STEP_X], rows[:, STEP_Y] = numbers.step_m * turned(direction, -stance.foot[2])
     rows[:, TURN] = 0.0
     if np.isfinite(stance.landing_s):
-        goal = np.append(stance.swing + min(numbers.step_m, stance.reach_m(first)) * direction, stance.foot[2])
+        clear = stance.clear_m(first)
+        way = max(clear, min(numbers.step_m, stance.reach_m(first)))
+        goal = np.append(stance.swing + way * direction, stance.foot[2])
         rows[0] = step_to(goal, stance.foot, stance.side, command, spacing_m)
-        rows[0, STEP_X] = max(rows[0, STEP_X], stance.landing_m(first))
+        rows[0, STEP_X] = max(rows[0, STEP_X], min(stance.ahead_m - clear, stance.landing_m(first)))
     return rows
 
 

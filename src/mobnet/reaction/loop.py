@@ -124,6 +124,7 @@ def walk_with(
         if reacted is not None:
             course.reacted = k, reacted
             simulator.commands = plan_steps(simulator.state, reacted.steps)
+            give_way(simulator.state, reacted.direction)
         if course.reacted is not None:
             stop(simulator.state, len(simulator.commands))
         is_touched = is_pushed and np.linalg.norm(course.force[k]) > touch_n
@@ -154,6 +155,16 @@ def plan_steps(s: State, steps: Array) -> Array:
     s.command[:] = steps[0]
     # The controller looks up the command of a step by its number; those of steps that are past are not read again.
     return np.vstack([np.zeros((int(s.steps), steps.shape[1])), steps])
+
+
+def give_way(s: State, direction: Array) -> None:
+    """Tell the controller the direction (2,) of a force: the swing foot turns back, footholds do not move against it.
+
+    A force without a direction, zeros, keeps no foothold from moving.
+    """
+    s.reacting = 1
+    s.away[:] = direction
+    s.turns_back = 1
 
 
 def stop(s: State, steps: int) -> None:

@@ -29,6 +29,7 @@ class FirstStep(Section):
     height_ratio: base.Real = Field(ge=0, le=20)
     foot_speed_m_s: base.Real = Field(ge=0.01, le=10)
     behind_m: base.Real = Field(ge=0, le=1)
+    clear_m: base.Real = Field(ge=0, le=1)
 
 
 class Compliant(Section):

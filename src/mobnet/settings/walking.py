@@ -60,6 +60,7 @@ class Walking(Section):
     early_max_s: Real = Field(ge=0.005, le=1)
     swing_apex: Real = Field(ge=0.05, le=0.95)
     swing_xy_share: Real = Field(ge=0.05, le=1)
+    swing_turn_share: Real = Field(ge=0, le=0.99)
     swing_level_share: Real = Field(ge=0.05, le=1)
     descent_speed_m_s: Real = Field(ge=0.01, le=3)
     descent_acceleration_m_s2: Real = Field(ge=0.2, le=100)
