@@ -18,7 +18,8 @@ from mobnet.core.compilation import cache_root
 ROOT = Path(__file__).parents[2]
 PARTS = (
     "Snakefile", "workflow", "profiles", "configs", "src", "docs", "paper", "reproduce", "environment.lock",
-    "README.md", "CONTRIBUTING.md", "CHANGELOG.md", "CITATION.cff", "SECURITY.md",
+    "README.md", "CONTRIBUTING.md", "CHANGELOG.md", "CITATION.cff", "SECURITY.md", "Dockerfile", "apptainer.def",
+    "tests/data",
 )  # fmt: skip
 COMPILED = Path(".cache") / "numba"
 
