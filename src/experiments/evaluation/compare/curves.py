@@ -42,7 +42,7 @@ class Panel:
 
 @dataclass(frozen=True)
 class Curves:
-    """What methods made of some joints (n,) of one recording, whose spans (start, end) are contiguous rows.
+    """Estimates of several methods for some joints (n,) of one recording, whose spans (start, end) are contiguous rows.
 
     Truth is the low-passed external torque, residual that of the momentum observer, both (T, n) [N m], V1..V3 [N], as
     are each method's estimate and standard deviation, None where it predicts none. Flags hold or not (T,).

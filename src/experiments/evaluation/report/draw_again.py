@@ -12,10 +12,9 @@ from pathlib import Path
 
 from experiments.evaluation.figures.drawing.push_film import draw_film
 from experiments.evaluation.measure.story import StoredPush
-from experiments.evaluation.report.snapshot import DEMO, DRAWN, SNAPSHOT
+from experiments.evaluation.report.snapshot import DEMO, DRAWN, SNAPSHOT, note_renewal, run_renewal
 from experiments.settings.load import load_settings
-from mobnet.core.errors import DataError, MobnetError
-from mobnet.core.files import read_json, write_json
+from mobnet.core.errors import DataError
 
 log = logging.getLogger(__name__)
 FILM = "push"
@@ -42,21 +41,13 @@ def draw_again(stored: StoredPush, published: Path) -> None:
             raise DataError(f"{told}: its numbers are not those of {stored.folder}; ./reproduce snapshot stores both")
         for ending in SHOWN:
             film.with_suffix(ending).replace(published / f"{FILM}{ending}")
-    note = published / "provenance.json"
-    write_json(note, {**read_json(note), "film": AGAIN})
+    note_renewal(published, "film", AGAIN)
     log.info("%s: the film of the push is drawn again", published)
 
 
 def main() -> int:
     """Draw the published film again; return the exit status."""
-    logging.basicConfig(level=logging.WARNING, format="%(message)s", stream=sys.stdout)
-    log.setLevel(logging.INFO)
-    try:
-        draw_again(StoredPush(DEMO, load_settings()), SNAPSHOT)
-    except MobnetError as error:
-        log.error("%s", error)
-        return 1
-    return 0
+    return run_renewal(lambda: draw_again(StoredPush(DEMO, load_settings()), SNAPSHOT), log)
 
 
 if __name__ == "__main__":

@@ -19,12 +19,12 @@ from numpy.typing import NDArray
 
 from experiments.evaluation.measure.push_scene import PushScene
 from experiments.evaluation.report.explore import FLAGS, OBSERVER, ROLES, page_numbers, page_with
-from experiments.evaluation.report.snapshot import SNAPSHOT
+from experiments.evaluation.report.snapshot import SNAPSHOT, note_renewal, run_renewal
 from experiments.plan.products import TEMPLATES
 from experiments.settings.load import load_settings
 from experiments.settings.settings import Settings
-from mobnet.core.errors import DataError, MobnetError
-from mobnet.core.files import read_json, read_text, write_json, write_text
+from mobnet.core.errors import DataError
+from mobnet.core.files import read_text, write_text
 from mobnet.robot.description import describe
 
 log = logging.getLogger(__name__)
@@ -58,8 +58,7 @@ def explore_again(settings: Settings, published: Path, template: Path) -> None:
     if kept_cells(again) != kept_cells(page):
         raise DataError(f"{path}: numbers of its tables would change; ./reproduce snapshot stores the page of a run")
     write_text(path, again)
-    note = published / "provenance.json"
-    write_json(note, {**read_json(note), "explore": AGAIN})
+    note_renewal(published, "explore", AGAIN)
     log.info("%s: written again", path)
 
 
@@ -128,14 +127,7 @@ def _scene(note: Mapping[str, Any], arrays: Mapping[str, NDArray[np.float64]]) -
 
 def main() -> int:
     """Write the published page again; return the exit status."""
-    logging.basicConfig(level=logging.WARNING, format="%(message)s", stream=sys.stdout)
-    log.setLevel(logging.INFO)
-    try:
-        explore_again(load_settings(), SNAPSHOT, TEMPLATES / PAGE)
-    except MobnetError as error:
-        log.error("%s", error)
-        return 1
-    return 0
+    return run_renewal(lambda: explore_again(load_settings(), SNAPSHOT, TEMPLATES / PAGE), log)
 
 
 if __name__ == "__main__":

@@ -24,15 +24,20 @@ from experiments.evaluation.measure.claims.verdicts import (
     score_of,
 )
 from experiments.evaluation.number.number import Number
-from experiments.evaluation.report.snapshot import PICTURES, SNAPSHOT, store_drawn, tell_readme
+from experiments.evaluation.report.snapshot import (
+    PICTURES,
+    SNAPSHOT,
+    note_renewal,
+    run_renewal,
+    store_drawn,
+    tell_readme,
+)
 from experiments.evaluation.tables.further.claims_summary import claims_summary
 from experiments.evaluation.tables.further.claims_table import claim_table
 from experiments.settings.claims import Cell, Claim, numbers_of
 from experiments.settings.load import load_settings
 from experiments.settings.settings import Settings
 from mobnet.core.columns import SPREAD
-from mobnet.core.errors import MobnetError
-from mobnet.core.files import read_json, write_json
 from mobnet.core.rows import read_texts
 
 log = logging.getLogger(__name__)
@@ -127,22 +132,19 @@ def write_again(settings: Settings, published: Path) -> None:
                 picture = folder / f"{stem}{ending}"
                 if picture.is_file():
                     picture.replace(published / picture.name)
-    note = published / "provenance.json"
-    write_json(note, {**read_json(note), "claims": AGAIN})
+    note_renewal(published, "claims", AGAIN)
     log.info("%s: %d claims are judged again", published, len(again))
+
+
+def judge_published() -> None:
+    """Judge the published claims, and renew what the README tells of them."""
+    write_again(load_settings(), SNAPSHOT)
+    tell_readme(SNAPSHOT)
 
 
 def main() -> int:
     """Judge the published claims again; return the exit status."""
-    logging.basicConfig(level=logging.WARNING, format="%(message)s", stream=sys.stdout)
-    log.setLevel(logging.INFO)
-    try:
-        write_again(load_settings(), SNAPSHOT)
-        tell_readme(SNAPSHOT)
-    except MobnetError as error:
-        log.error("%s", error)
-        return 1
-    return 0
+    return run_renewal(judge_published, log)
 
 
 if __name__ == "__main__":

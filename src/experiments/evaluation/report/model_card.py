@@ -4,7 +4,7 @@ Made from the network's run.json, the sources of the stored push and the publish
 `python -m experiments.evaluation.report.model_card` write it, and a test fails when it is out of date.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -60,6 +60,7 @@ OBSERVER = "MOB"
 CHANGED = "changed"
 PEAKS = "peaks"
 DIGITS = 1
+Row = Mapping[str, str]
 
 
 def main() -> None:
@@ -84,9 +85,10 @@ def card(demo: Path, results: Path) -> str:
     run = read_json(folder / RUN)
     source = read_json(demo / SOURCES)["sources"][f"{NETWORKS}/{folder.name}/{WEIGHTS}"]
     mean = {"method": run["method"], "limb": run["limb"], "joint": "avg"}
-    known = _values(results, CHANGED, {**mean, "scenario": "changed_walk", "level": "robots"})
-    other = _values(results, CHANGED, {**mean, "scenario": "changed_walk", "level": "robots_other"})
-    peak = _values(results, PEAKS, {**mean, "scenario": "knee_swing", "level": "robots"})
+    changed = read_texts(results / f"{CHANGED}.csv")
+    known = _values(changed, {**mean, "scenario": "changed_walk", "level": "robots"})
+    other = _values(changed, {**mean, "scenario": "changed_walk", "level": "robots_other"})
+    peak = _values(read_texts(results / f"{PEAKS}.csv"), {**mean, "scenario": "knee_swing", "level": "robots"})
     use = USE.format(
         known=f"{known['rmse']:.1f}",
         other=f"{other['rmse']:.1f}",
@@ -99,7 +101,7 @@ def card(demo: Path, results: Path) -> str:
         commit=run["provenance"]["commit"], seed=run["seed"], file=source["file"], sha256=source["sha256"]
     )
     head = HEAD.format(name=run["name"], folder=folder.name)
-    return head + _what(run, source) + _errors(results, run) + use + made
+    return head + _what(run, source) + _errors(changed, run) + use + made
 
 
 def _what(run: Mapping[str, Any], source: Mapping[str, str]) -> str:
@@ -126,7 +128,7 @@ def _what(run: Mapping[str, Any], source: Mapping[str, str]) -> str:
     return markdown_table(["", ""], rows, left=2)
 
 
-def _errors(results: Path, run: Mapping[str, Any]) -> str:
+def _errors(changed: Sequence[Row], run: Mapping[str, Any]) -> str:
     """Return the table of errors beside those of estimating nothing and of the observer, with their intervals."""
     methods = (NOTHING, OBSERVER, run["method"])
     rows: list[list[str]] = []
@@ -134,29 +136,24 @@ def _errors(results: Path, run: Mapping[str, Any]) -> str:
         cells: list[str] = []
         for method in methods:
             row = {**place, "method": method, "limb": run["limb"], "joint": "avg", "metric": "rmse"}
-            cells.append(_cell(results, row))
+            cells.append(_cell(changed, row))
         rows.append([title, *cells])
     table = markdown_table(["", "estimate nothing", f"observer ({OBSERVER})", run["method"]], rows)
     return f"\n## How well it works\n{MEANS}\n{table}"
 
 
-def _cell(results: Path, place: Mapping[str, str]) -> str:
+def _cell(changed: Sequence[Row], place: Row) -> str:
     """Return a number of the table of changed conditions with its interval."""
-    path = results / f"{CHANGED}.csv"
-    for row in read_texts(path):
-        if all(row[key] == value for key, value in place.items()):
+    for row in changed:
+        if place.items() <= row.items():
             interval = interval_text(float(row["low"]), float(row["high"]), DIGITS)
             return f"{number_text(float(row['value']), DIGITS)} {interval}"
-    raise DataError(f"{path}: no row of {', '.join(place.values())}; ./reproduce snapshot renews it")
+    raise DataError(f"{CHANGED}.csv: no row of {', '.join(place.values())}; ./reproduce snapshot renews it")
 
 
-def _values(results: Path, table: str, place: Mapping[str, str]) -> dict[str, float]:
-    """Return metric -> number of the rows at a place of a published table."""
-    values: dict[str, float] = {}
-    for row in read_texts(results / f"{table}.csv"):
-        if all(row[key] == value for key, value in place.items()):
-            values[row["metric"]] = float(row["value"])
-    return values
+def _values(rows: Sequence[Row], place: Row) -> dict[str, float]:
+    """Return metric -> number of the rows at a place of a table."""
+    return {row["metric"]: float(row["value"]) for row in rows if place.items() <= row.items()}
 
 
 if __name__ == "__main__":

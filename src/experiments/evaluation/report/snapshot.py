@@ -8,7 +8,7 @@ import logging
 import shutil
 import subprocess
 import sys
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from itertools import zip_longest
 from pathlib import Path
 
@@ -296,6 +296,24 @@ def store(manifest: Path) -> None:
     # README and page of the folder tell what was just stored, so they come last.
     tell_readme(SNAPSHOT)
     write_page(SNAPSHOT)
+
+
+def note_renewal(published: Path, part: str, how: str) -> None:
+    """Say in the note of published results that a part of them was made again after their run, and how."""
+    note = published / "provenance.json"
+    write_json(note, {**read_json(note), part: how})
+
+
+def run_renewal(renew: Callable[[], None], told: logging.Logger) -> int:
+    """Make a part of the published results again; return the exit status. Only what `told` logs is shown."""
+    logging.basicConfig(level=logging.WARNING, format="%(message)s", stream=sys.stdout)
+    told.setLevel(logging.INFO)
+    try:
+        renew()
+    except MobnetError as error:
+        told.error("%s", error)
+        return 1
+    return 0
 
 
 def main(words: list[str]) -> int:
