@@ -256,18 +256,40 @@ def is_made(target):
     return any(rule.is_producer(target.rstrip("/")) for rule in workflow.rules)
 
 
+def waits_for_jobs(frame):
+    """Return whether a frame of the main thread is where Snakemake waits for the end of a job."""
+    while frame is not None and frame.f_code.co_name != "acquire":
+        frame = frame.f_back
+    return frame is not None and frame.f_back.f_code.co_name == "schedule"
+
+
 def answer_interrupts():
     """Let Ctrl-C, which `./reproduce` blocks until here, say how to go on before Snakemake ends its jobs, if any."""
 
     def stop(number, frame):
-        STOPPED.set()
-        for handler in shown_by():
-            handler.stopped()
-        sys.stderr.write("stopped; the same command goes on from here\n")
+        is_again = STOPPED.is_set() and number == signal.SIGINT
+        if not STOPPED.is_set():
+            STOPPED.set()
+            for handler in shown_by():
+                handler.stopped()
+            sys.stderr.write("stopped; the same command goes on from here\n")
         if workflow.local_exec:
             end_jobs()
-        raise KeyboardInterrupt if BEGUN.is_set() else SystemExit(128 + number)
+        if not BEGUN.is_set():
+            # Nothing is lost; an exception in the middle of Snakemake's tasks would end in a traceback.
+            # `unlock` removes locks of other runs, too.
+            if workflow.persistence and workflow.persistence._lockfile:
+                workflow.persistence.unlock()
+            for handler in shown_by():
+                handler.close()
+            sys.stdout.flush()
+            os._exit(128 + number)
+        if is_again or waits_for_jobs(frame):
+            raise KeyboardInterrupt
+        # Elsewhere Snakemake would print a traceback: it soon waits again.
+        signal.setitimer(signal.ITIMER_REAL, 0.1)
 
     if workflow.is_main_process:
+        signal.signal(signal.SIGALRM, stop)
         signal.signal(signal.SIGINT, stop)
         signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
