@@ -30,7 +30,7 @@ NAMES = (
 LONG = (
     "collect_growth",
     "collect_hour",
-    "limb_trials",
+    "leg_trials",
     "log_speed",
     "torque_amplitude",
     "walk_quality",

@@ -1,6 +1,6 @@
 """Would two additions help MOB-Net: the base's residual as inputs of a leg, and more factors on sigma than one?
 
-`python -m benchmarks.limb_trials [--tasks plant_leg ...] [--seconds 960] [--epochs 8] [--networks 3]` collects
+`python -m benchmarks.leg_trials [--tasks plant_leg ...] [--seconds 960] [--epochs 8] [--networks 3]` collects
 a training set and development walks of each task of `development`, trains both kinds of networks equally long, and
 compares. The docs have what it printed: notes on training and on sigma. Seeds are no test's and no training set's.
 """
@@ -21,7 +21,6 @@ from experiments.evaluation.compare.rmse import Spans
 from experiments.evaluation.compare.scene import STANCE, gait_phases
 from experiments.evaluation.compare.windows import FLAG
 from experiments.evaluation.number.intervals import RATIO, RunGrid, summarise
-from experiments.jobs.motions import make_motion
 from experiments.jobs.observing import observe
 from experiments.plan.jobs import walk_settings
 from experiments.settings.catalogue import Catalogue
@@ -43,30 +42,30 @@ from mobnet.learning.train import train_on
 from mobnet.settings.networks import Training
 from mobnet.simulation.record import collect
 
-TASKS, SECONDS, EPOCHS, NETWORKS = ("plant_leg", "robot_leg", "robot_arm"), 960.0, 8, 3
+TASKS, SECONDS, EPOCHS, NETWORKS = ("plant_leg", "robot_leg"), 960.0, 8, 3
 EPOCH_SAMPLES, PARTS = 400_000, 4  # the training set is recorded in so many parts
 WALKS, WALK_S = 6, 30.0  # development walks of each test, and the duration of one [s]
 FIRST_TRAINING, FIRST_WALK = 7001, 801  # seeds; a further test's walks count from 20 above those of the one before
-PUSHED_TESTS = {"robot_leg": ("knee_swing", "knee_support"), "robot_arm": ("hand_wrench",)}
+PUSHED_TESTS = {"robot_leg": ("knee_swing", "knee_support")}
 AFTER_S = 0.1  # time that counts as pushed after a push [s]
 LANDED_S = 0.06  # how long after a planned landing a leg counts as just landed [s]
 INNOVATION_S, USUAL = 0.1, 0.95  # time constant of the residual's slow mean, and the quantile above which it is unusual
-ALL, PUSHES = "all", "pushed"
-LEAST_FALL, LEAST_GAIN = 0.1, 3.0  # what would have to be gained: share of the error in stance, points of coverage
+ALL, PUSHES, ROBOT = "all", "pushed", "robot"  # the last one begins the names of tasks of robots
+LEAST_FALL, LEAST_GAIN = 0.1, 3.0  # to be gained: share of the error in stance, mean points of coverage
 KINDS = {"MOB-Net": False, "MOB-Net-base": True}  # whether the base's residual is among the inputs
 Masks = dict[str, NDArray[np.bool_]]
 
 
 @dataclass(frozen=True)
-class LimbWalks:
-    """A limb in recordings of one test: what networks see and should say, (T, ...), rows end to end.
+class LegWalks:
+    """A leg in recordings of one test: what networks see and should say, (T, ...), rows end to end.
 
     Attributes:
         data: inputs and targets, by labels as they are learned from.
         base: residual of the virtual joints (T, 6) [N, N m].
         uncertainty: residual less the true external torque behind the observer's low-pass (T, n) [N m].
         innovation: size of the residual less its slow mean (T, n) [N m].
-        known: phase that the walking plan tells -> whether a leg is in it (T,); of any other limb, all of them.
+        known: phase that the walking plan tells -> whether a leg is in it (T,).
         true: the same by the true contacts, and where pushes act.
         walk: number of the recording (T,).
     """
@@ -107,7 +106,7 @@ def _task_rows(task: str, seconds: float, epochs: int, networks: int, folder: Pa
     seeds = range(FIRST_TRAINING, FIRST_TRAINING + PARTS)
     stems = _collected(settings, level, scenario, seeds, seconds / PARTS, folder)
     learned = _read(settings, training, stems)
-    tests: dict[str, LimbWalks] = {}
+    tests: dict[str, LegWalks] = {}
     scenarios = [settings.development[task].scenario, *PUSHED_TESTS.get(task, ())]
     for k, name in enumerate(scenarios):
         first = FIRST_WALK + 20 * k
@@ -115,9 +114,7 @@ def _task_rows(task: str, seconds: float, epochs: int, networks: int, folder: Pa
         tests[name] = _read(settings, training, stems)
     errors: dict[str, list[dict[str, Array]]] = {}
     covered: list[dict[str, Array]] = []
-    # Nothing stands on an arm: the base's residual tells it little.
-    kinds = KINDS if limb in settings.layout.legs.values() else {"MOB-Net": False}
-    for kind, sees_base in kinds.items():
+    for kind, sees_base in KINDS.items():
         errors[kind] = []
         for seed in range(networks):
             out = folder / f"{kind}-{seed}"
@@ -128,8 +125,7 @@ def _task_rows(task: str, seconds: float, epochs: int, networks: int, folder: Pa
             print(f"{task}, {kind}, network {seed}", file=sys.stderr, flush=True)
     for name, walk in tests.items():
         by_kind = [np.stack([one[name] for one in own]) for own in errors.values()]
-        if len(by_kind) > 1:
-            yield from _error_rows(settings, f"{task}, {name}", walk.true, *by_kind)
+        yield from _error_rows(settings, f"{task}, {name}", walk.true, *by_kind)
     yield from _coverage_rows(task, covered, settings.learning.calibration_share)
 
 
@@ -141,11 +137,7 @@ def _collected(
     walk = walk_settings(settings, scenario, level)
     for seed in seeds:
         stem = folder / f"{scenario}-{seed}"
-        name = walk.scenario.motion
-        motion = stem.with_name(f"{stem.name}-motion") if name else None
-        if name and motion:
-            make_motion(settings.seed, walk.robot, settings.motions[name], name, seed, seconds, motion)
-        collect(walk, seed, seconds, stem, motion)
+        collect(walk, seed, seconds, stem)
         observe(walk.robot, walk.level, walk.plant.gravity_m_s2, settings.observer, stem, _residual_of(stem))
         found.append(stem)
     return found
@@ -156,8 +148,8 @@ def _residual_of(stem: Path) -> Path:
     return stem.with_name(f"{stem.name}-residual")
 
 
-def _read(settings: Settings, training: Training, stems: Sequence[Path]) -> LimbWalks:
-    """Read recordings of a limb with their residuals."""
+def _read(settings: Settings, training: Training, stems: Sequence[Path]) -> LegWalks:
+    """Read recordings of a leg with their residuals."""
     layout = settings.layout
     residuals = [_residual_of(stem) for stem in stems]
     data = load_limb_data(layout, training.network, training.target, stems, residuals)
@@ -167,20 +159,18 @@ def _read(settings: Settings, training: Training, stems: Sequence[Path]) -> Limb
     truth = np.concatenate([read_array(stem, named(EXTERNAL_LP, joints))[0] for stem in residuals])
     base = np.concatenate([read_array(stem, named(RESIDUAL, layout.virtual))[0] for stem in residuals])
     rows = [spans_and_rate(read_array(stem, [PUSHED])[1])[0][-1][1] for stem in stems]
-    known = {ALL: np.ones(len(pushed), dtype=bool)}
-    true = dict(known)
-    if training.limb in layout.legs.values():
-        foot = foot_of(layout, joints[0])
-        air = _flags(stems, f"{SWING}.{foot}")
-        landed = _after(air, data.segments, round(LANDED_S * data.rate_hz)) & ~air
-        known = {"swing": air, "landed": landed, STANCE: ~air & ~landed}
-        touch_down = round(settings.evaluation.phases.touch_down_s * data.rate_hz)
-        true |= gait_phases(air, _flags(stems, f"{CONTACT}.{foot}"), data.segments, touch_down)
+    foot = foot_of(layout, joints[0])
+    air = _flags(stems, f"{SWING}.{foot}")
+    landed = _after(air, data.segments, round(LANDED_S * data.rate_hz)) & ~air
+    known = {"swing": air, "landed": landed, STANCE: ~air & ~landed}
+    touch_down = round(settings.evaluation.phases.touch_down_s * data.rate_hz)
+    phases = gait_phases(air, _flags(stems, f"{CONTACT}.{foot}"), data.segments, touch_down)
+    true = {ALL: np.ones(len(air), dtype=bool), **phases}
     if pushed.any():
         true[PUSHES] = _after(pushed, data.segments, round(AFTER_S * data.rate_hz))
     innovation = np.abs(torque - _slow_mean(torque, data.segments, data.rate_hz))
     walk = np.repeat(np.arange(len(stems)), rows)
-    return LimbWalks(data, base, torque - truth, innovation, known, true, walk)
+    return LegWalks(data, base, torque - truth, innovation, known, true, walk)
 
 
 def _flags(stems: Sequence[Path], name: str) -> NDArray[np.bool_]:
@@ -205,12 +195,12 @@ def _slow_mean(signal: Array, spans: Spans, rate_hz: float) -> Array:
     return found
 
 
-def _seen(walk: LimbWalks, *, sees_base: bool) -> NDArray[np.float32]:
+def _seen(walk: LegWalks, *, sees_base: bool) -> NDArray[np.float32]:
     """Return what a network sees (T, n_in)."""
     return np.hstack([walk.data.inputs, walk.base]) if sees_base else walk.data.inputs.copy()
 
 
-def _train(settings: Settings, training: Training, walk: LimbWalks, seed: int, out: Path, *, sees_base: bool) -> None:
+def _train(settings: Settings, training: Training, walk: LegWalks, seed: int, out: Path, *, sees_base: bool) -> None:
     """Train a network into a folder."""
     names = walk.data.input_names
     if sees_base:
@@ -222,7 +212,7 @@ def _train(settings: Settings, training: Training, walk: LimbWalks, seed: int, o
     train_on(data, TrainingJob(training, seed, settings.seed), out, state)
 
 
-def _predicted(folder: Path, walk: LimbWalks, *, sees_base: bool) -> tuple[Array, Array]:
+def _predicted(folder: Path, walk: LegWalks, *, sees_base: bool) -> tuple[Array, Array]:
     """Return a network's error (T, n) [N m] and its standard deviation (T, n) [N m] without the factor."""
     network = load_network(folder)
     inputs = _seen(walk, sees_base=sees_base)
@@ -235,7 +225,7 @@ def _predicted(folder: Path, walk: LimbWalks, *, sees_base: bool) -> tuple[Array
     return error, std / std_scale_of(read_weights(folder / WEIGHTS)[0])
 
 
-def _rmse(folder: Path, walk: LimbWalks, sees_base: bool) -> Array:
+def _rmse(folder: Path, walk: LegWalks, sees_base: bool) -> Array:
     """Return the RMSE of a network by phase and recording, (phases, walks) [N m], means over the joints."""
     error, _ = _predicted(folder, walk, sees_base=sees_base)
     found = np.empty((len(walk.true), walk.walk[-1] + 1))
@@ -257,13 +247,13 @@ def _error_rows(
         row: Row = {"name": f"{name}, {phase}: RMSE with the base's residual", "ours": ours, "reference": reference}
         low, high = ratio.low or np.nan, ratio.high or np.nan
         yield {**row, "unit": "N m", "ratio": ours / reference, "ratio_min": low, "ratio_max": high}
-        if phase == STANCE:
-            # The method is worth having once even the upper end is below: then this row misses its bound.
+        if phase == STANCE and name.startswith(ROBOT):
+            # Once even the upper end is below on a robot, the method should be built: then this row misses its bound.
             what = f"{name}, {phase}: upper end of the ratio"
             yield {"name": what, "ours": high, "unit": "-", "at_least": 1.0 - LEAST_FALL}
 
 
-def _coverage(folder: Path, training: Training, learned: LimbWalks, tests: Mapping[str, LimbWalks]) -> dict[str, Array]:
+def _coverage(folder: Path, training: Training, learned: LegWalks, tests: Mapping[str, LegWalks]) -> dict[str, Array]:
     """Return the coverage of sigma [%] by test and true phase: one factor, by phase, and by innovation too, (3,).
 
     All factors are those of the validation blocks, for whose phases there is what the walking plan tells.
@@ -311,15 +301,17 @@ def _coverage_rows(task: str, covered: Sequence[Mapping[str, Array]], share: flo
         yield {"name": f"{what}factors by phase", "ours": phased, "reference": one, "unit": "%"}
         yield {"name": f"{what}and by innovation", "ours": sized, "reference": one, "unit": "%"}
         gains.append(abs(one - wanted) - np.abs([phased - wanted, sized - wanted]))
-    # Once one of them brings so much, factors by phase are worth their lines: then this row misses its bound.
-    most = float(np.max(gains))
-    yield {"name": f"{task}: most points that come nearer", "ours": most, "unit": "%", "at_most": LEAST_GAIN}
+    # Once one of them brings so much on average, it should be built: then this row misses its bound.
+    most = float(np.max(np.mean(gains, axis=0)))
+    yield {"name": f"{task}: points nearer by the better set", "ours": most, "unit": "%", "at_most": LEAST_GAIN}
+    yield {"name": f"{task}: most points nearer in a part", "ours": float(np.max(gains)), "unit": "%"}
+    yield {"name": f"{task}: most points lost in a part", "ours": float(-np.min(gains)), "unit": "%"}
 
 
 def _options() -> dict[str, Any]:
     """Return the options of the command line."""
     parser = argparse.ArgumentParser(
-        prog="python -m benchmarks.limb_trials", description=(__doc__ or "").split("\n\n")[0]
+        prog="python -m benchmarks.leg_trials", description=(__doc__ or "").split("\n\n")[0]
     )
     parser.add_argument("--tasks", nargs="+", default=TASKS, choices=TASKS, help="of section `development`")
     parser.add_argument("--seconds", type=float, default=SECONDS, help="simulated time that networks learn from")
