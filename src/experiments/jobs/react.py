@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from experiments.jobs.calm import FORCE
-from experiments.jobs.reacting_robot import ReactingRobot
+from experiments.jobs.reacting_robot import BASE_LIMB, ReactingRobot
 from experiments.jobs.reaction_trial import trial_of
 from experiments.plan.parts import CaseWalks, MethodRun
 from mobnet.core.arrays import Array
@@ -26,7 +26,7 @@ from mobnet.detection.signals import Watched
 from mobnet.detection.watch import LegSetup
 from mobnet.reaction.handler import Handler, Watcher
 from mobnet.reaction.loop import Course, columns_of, walk_with
-from mobnet.reaction.watchers import FootWatcher, LegWatcher, LimbWatcher, OwnLegWatcher
+from mobnet.reaction.watchers import BaseWatcher, FootWatcher, LegWatcher, LimbWatcher, OwnLegWatcher
 from mobnet.settings.detection import Detection
 from mobnet.settings.methods import ObserverSettings
 from mobnet.settings.reaction import Reaction, Watch, watches_of
@@ -144,14 +144,17 @@ class CaseWalker:
             return legs
         return legs | {limb: self._limb(limb) for limb in self.robot.reaction.watched}
 
-    def _limb(self, limb: str) -> LimbWatcher:
-        """Return what watches a limb all the time."""
+    def _limb(self, limb: str) -> Watcher:
+        """Return what watches a limb all the time; the base is watched by the unexpected force on it."""
         ours = self.robot.reaction.ours
         robot = self.robot
         watched = robot.watched
         own = self._values(ours.detector, limb, ours.rule)
-        values = np.array([[own[1, name] for name in watched.names(robot.description.layout.limb(limb))]])
-        return LimbWatcher(watched, robot.setups[0].chain(values), robot.columns(limb))
+        values = np.array([[own[1, name] for name in watched.names(robot.joints_of(limb))]])
+        chain = robot.setups[0].chain(values)
+        if limb == BASE_LIMB:
+            return BaseWatcher(watched, chain, robot.base)
+        return LimbWatcher(watched, chain, robot.columns(limb))
 
     def _leg(self, setup: LegSetup, watch: Watch, wrenches: Array) -> Watcher | None:
         """Return what watches a leg; nothing where rule `detect` found no thresholds for the detector."""
