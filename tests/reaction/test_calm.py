@@ -5,8 +5,10 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from experiments.jobs.calm import calm_parts, limb_thresholds, window_heights
+from experiments.jobs.calm import calm_parts, limb_thresholds, watched_of, window_heights
 from mobnet.core.errors import DataError
+from mobnet.core.estimator import Estimate
+from mobnet.reaction.watchers import BaseForce
 
 RATE_HZ, HOUR_S = 10.0, 3600.0
 
@@ -51,3 +53,19 @@ def test_recordings_are_read_until_there_is_enough_of_them(settings, robot, made
     parts = list(calm_parts(walker, stems))
     assert [len(part.sensed) for part in parts] == [2000, 2000, 1500]
     assert [part.segments for part in parts] == [((0, 1000), (1000, 2000))] * 2 + [((0, 1000), (1000, 1500))]
+
+
+def test_the_base_is_watched_by_the_force_on_it_and_a_limb_by_its_own_joints(settings, robot, made_up, layout):
+    joints = tuple(joint for limb in ("LL", "RL", "V", "W") for joint in layout.limb(limb))
+    sensed, rng = made_up(6, 0.05).sensed, np.random.default_rng(6)
+    known = rng.normal(size=(len(sensed), len(joints)))
+    base = BaseForce.of(robot, settings.reaction.identification, settings.detection.gate.contact_height_m)
+    walker = SimpleNamespace(description=robot, base=base)
+    tau, std = np.zeros((2, len(sensed), layout.nv))
+    tau[:, layout.columns(joints)], std[:, layout.columns(joints)] = known, 2.0
+    estimate = Estimate(known, np.full(known.shape, 2.0))
+    found = watched_of(walker, "V", joints, sensed, estimate)
+    expected = base.run(sensed, Estimate(tau, std))
+    assert (found.tau_ext.tolist(), found.std.tolist()) == (expected.tau_ext.tolist(), expected.std.tolist())
+    waist = watched_of(walker, "W", joints, sensed, estimate)
+    assert waist.tau_ext.tolist() == known[:, -len(layout.limb("W")) :].tolist()

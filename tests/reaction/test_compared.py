@@ -1,6 +1,7 @@
 """Detectors that are compared in a walk, on estimators of their own."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -15,6 +16,7 @@ from mobnet.core.estimator import Estimate
 from mobnet.estimation.kinds.residual import ResidualEstimator
 from mobnet.estimation.observer import MomentumObserver
 from mobnet.estimation.recipe import build_estimator
+from mobnet.reaction.loop import columns_of
 from mobnet.settings.reaction import Watch
 
 LEVEL = "sensor_noise"
@@ -78,3 +80,18 @@ def test_in_a_tick_the_observer_runs_once_and_each_estimator_once(walker, steps,
         assert watcher.detector.step(detecting, sensed[k], Estimate(tau), tau).ratio == ratios[k][0]
     assert max(ratio for ratio, _ in ratios) > 0.0
     assert not any(ratio for _, ratio in ratios)
+
+
+def test_mid_swing_is_where_the_gate_is_open_by_the_plan(walker, settings, layout):
+    places = columns_of(layout)
+    rows = np.zeros((1000, max(span.stop for span in places.values())), np.float32)
+    rows[:, places["q"].start + 3] = 1.0
+    rows[100:600, places["swing"].start] = 1.0  # the left foot
+    rows[100:600, places["landing"].start] = 0.001 * np.arange(500, 0, -1)
+    gate = settings.detection.gate
+    opens = 100 + round(1000 * gate.lift_off_s) - 1  # samples in the air are counted from 1
+    closes = 600 - round(1000 * gate.landing_s)
+    found = walker.mid_swing("LL", SimpleNamespace(rows=rows))
+    assert np.flatnonzero(found).tolist() == list(range(opens, closes))
+    assert not walker.mid_swing("RL", SimpleNamespace(rows=rows)).any()
+    assert walker.mid_swing(None, SimpleNamespace(rows=rows)) is None

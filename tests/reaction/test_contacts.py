@@ -5,7 +5,14 @@ import numpy as np
 import pytest
 
 from mobnet.core.joints import N_VIRTUAL
-from mobnet.reaction.contacts import end_effectors, identify, make_ends, tell_feet, unexpected_wrench
+from mobnet.reaction.contacts import (
+    end_effectors,
+    identify,
+    make_ends,
+    tell_feet,
+    unexpected_force,
+    unexpected_wrench,
+)
 from mobnet.robot.plant import robot_spec
 
 
@@ -87,6 +94,45 @@ def test_what_expected_contacts_do_not_explain_is_left(ends, model, robot):
     found = unexpected_wrench(ends, tau, [1])
     assert found[:3] == pytest.approx(push, abs=8.0)  # less than a hundredth of what the ground pushes
     assert found[3:] == pytest.approx(np.cross(knee - q[:3], push), abs=8.0)
+
+
+def force_on_base(ends, q, tau, std, swing, height_m=0.03):
+    force, deviation = np.zeros(3), np.zeros(3)
+    unexpected_force(ends, q, tau, std, np.array(swing, float), height_m, force, deviation)
+    return force, deviation
+
+
+@pytest.mark.parametrize(("swing", "standing"), [((0, 0), [0, 1]), ((1, 0), [1]), ((0, 1), [0])])
+def test_the_force_on_the_base_is_that_of_the_wrench_in_its_axes(ends, robot, swing, standing):
+    """With 1 m below the other foot as the height, a foot that swings is always in the air."""
+    rng = np.random.default_rng(7)
+    q, tau = bent(robot, rng), rng.normal(size=robot.layout.nv) * 20.0
+    identify(ends, q, tau)
+    wrench = unexpected_wrench(ends, tau, standing)
+    rotation = ends.pose.rotation[0].copy()
+    force, _ = force_on_base(ends, q, tau, np.ones(len(tau)), swing, height_m=-1.0)
+    assert force == pytest.approx(rotation.T @ wrench[:3])
+
+
+def test_its_standard_deviation_is_that_of_a_sum_of_independent_errors(ends, robot):
+    rng = np.random.default_rng(8)
+    q, std = bent(robot, rng), rng.uniform(0.5, 5.0, size=robot.layout.nv)
+    parts = [force_on_base(ends, q, own, std, (0, 0))[0] for own in np.diag(std)]
+    _, deviation = force_on_base(ends, q, np.zeros(len(std)), std, (0, 0))
+    assert deviation == pytest.approx(np.linalg.norm(parts, axis=0))
+
+
+def test_a_low_foot_may_touch_the_ground_though_it_swings(ends, robot):
+    rng = np.random.default_rng(9)
+    q, tau = bent(robot, rng), rng.normal(size=robot.layout.nv) * 20.0
+    identify(ends, q, tau)
+    height = ends.pose.position[ends.body[0], 2] - ends.pose.position[ends.body[1], 2]
+    std = np.ones(len(tau))
+    stands = force_on_base(ends, q, tau, std, (0, 0))
+    low = force_on_base(ends, q, tau, std, (1, 0), height + 0.01)
+    high = force_on_base(ends, q, tau, std, (1, 0), height - 0.01)
+    assert low[0].tolist() == stands[0].tolist()
+    assert (high[1] < stands[1]).all()  # the errors of one leg less
 
 
 def test_feet_are_told_what_their_sensors_would_read(ends, model, robot):

@@ -86,3 +86,16 @@ def test_a_reaction_before_the_contact_has_no_direction(settings):
     assert (
         trial_of(settings.reaction, ("foot", "r", 1), Watch(detector="MOB"), course, 0, RATE_HZ, True).angle_deg is None
     )
+
+
+@pytest.mark.parametrize(("begins", "said"), [(300, 1), (700, 0)])
+def test_a_contact_says_whether_it_began_in_mid_swing(settings, begins, said):
+    mid_swing = np.arange(1000) < 500
+    course = course_of(forces((begins, begins + 10)))
+    row = trial_of(settings.reaction, ("foot", "r", 1), Watch(detector="MOB"), course, 0, RATE_HZ, False, mid_swing)
+    assert row.in_swing == said
+
+
+def test_where_no_leg_is_in_front_of_an_obstacle_nothing_is_said_of_its_swing(settings):
+    course = course_of(forces((300, 310)))
+    assert trial_of(settings.reaction, ("r", "r", 1), Watch(detector="MOB"), course, 0, RATE_HZ, False).in_swing is None

@@ -11,14 +11,14 @@ from pathlib import Path
 
 import numpy as np
 
-from experiments.jobs.reacting_robot import ReactingRobot
+from experiments.jobs.reacting_robot import BASE_LIMB, ReactingRobot
 from experiments.plan.parts import MethodRun
 from mobnet.core.arrays import Array
 from mobnet.core.detections import LARGEST, Threshold
-from mobnet.core.estimator import Stretch, TorqueEstimator, estimate_all
+from mobnet.core.estimator import Estimate, Stretch, TorqueEstimator, estimate_all
 from mobnet.core.files import write_text
 from mobnet.core.reactions import FORCE_SENSORS
-from mobnet.core.recording import Recording, read_recording
+from mobnet.core.recording import Recording, Sensed, read_recording
 from mobnet.core.rows import csv_text
 from mobnet.detection.calibration import unit_of
 from mobnet.detection.thresholds import calibrate
@@ -57,7 +57,9 @@ def watch(
         DataError: a recording is missing or damaged, or they are too short.
     """
     robot = ReactingRobot(settings, reaction, detection, observer, runs)
-    estimator = robot.estimator(reaction.estimator, reaction.watched)
+    # The unexpected force on the base needs the legs, too.
+    legs = detection.legs if BASE_LIMB in reaction.watched else ()
+    estimator = robot.estimator(reaction.estimator, (*reaction.watched, *legs))
     limbs = {limb: list[Array]() for limb in reaction.watched}
     forces = list[list[float]]()
     for calm in calm_parts(robot, quiet):
@@ -86,9 +88,24 @@ def _signals(robot: ReactingRobot, estimator: TorqueEstimator, calm: Recording) 
     estimates = estimate_all(estimator, [Stretch(calm.sensed[span]) for span in spans])
     for span, estimate in zip(spans, estimates, strict=True):
         for limb in robot.reaction.watched:
-            held = np.array([estimator.joints.index(joint) for joint in robot.description.layout.limb(limb)])
-            signals = robot.watched.of(some(estimate, held), calm.sensed[span].command)
+            own = watched_of(robot, limb, estimator.joints, calm.sensed[span], estimate)
+            signals = robot.watched.of(own, calm.sensed[span].command)
             yield limb, robot.setups[0].low_passed(signals, ((0, len(signals)),))
+
+
+def watched_of(robot: ReactingRobot, limb: str, joints: Sequence[str], sensed: Sensed, estimate: Estimate) -> Estimate:
+    """Return what a limb is watched by, from an estimate of some joints (T, n): its own, or the force on the base."""
+    layout = robot.description.layout
+    if limb != BASE_LIMB:
+        held = np.array([joints.index(joint) for joint in layout.limb(limb)])
+        return some(estimate, held)
+    columns = layout.columns(joints)
+    tau = np.zeros((len(sensed), layout.nv))
+    tau[:, columns] = estimate.tau_ext
+    std = np.zeros_like(tau)
+    if estimate.std is not None:
+        std[:, columns] = estimate.std
+    return robot.base.run(sensed, Estimate(tau, None if estimate.std is None else std))
 
 
 def window_heights(robot: ReactingRobot, signals: Array) -> Array:
@@ -102,7 +119,7 @@ def _limbs(robot: ReactingRobot, limbs: Mapping[str, Sequence[Array]]) -> Iterat
     """Yield the thresholds of limbs for the rate of our detector, from the heights (k, n) of windows in segments."""
     ours = robot.reaction.ours
     for limb, heights in limbs.items():
-        names = robot.watched.names(robot.description.layout.limb(limb))
+        names = robot.watched.names(robot.joints_of(limb))
         for name, value in zip(names, limb_thresholds(robot, heights), strict=True):
             yield Threshold(ours.detector, limb, ours.rule, name, 1, float(value), unit_of(name))
 

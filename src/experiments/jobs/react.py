@@ -6,9 +6,10 @@ from dataclasses import astuple, dataclass, field
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
 from experiments.jobs.calm import FORCE
-from experiments.jobs.reacting_robot import ReactingRobot
+from experiments.jobs.reacting_robot import BASE_LIMB, ReactingRobot
 from experiments.jobs.reaction_trial import trial_of
 from experiments.plan.parts import CaseWalks, MethodRun
 from mobnet.core.arrays import Array
@@ -17,14 +18,15 @@ from mobnet.core.detections import Threshold
 from mobnet.core.estimator import TorqueEstimator, once
 from mobnet.core.files import write_text
 from mobnet.core.reactions import FORCE_SENSORS, NONE, TRIALS, Trial
+from mobnet.core.recording import Sensed
 from mobnet.core.rows import csv_text, read_rows
 from mobnet.core.store import write_array
 from mobnet.detection.detector import LegDetector
 from mobnet.detection.signals import Watched
 from mobnet.detection.watch import LegSetup
 from mobnet.reaction.handler import Handler, Watcher
-from mobnet.reaction.loop import Course, walk_with
-from mobnet.reaction.watchers import FootWatcher, LegWatcher, LimbWatcher, OwnLegWatcher
+from mobnet.reaction.loop import Course, columns_of, walk_with
+from mobnet.reaction.watchers import BaseWatcher, FootWatcher, LegWatcher, LimbWatcher, OwnLegWatcher
 from mobnet.settings.detection import Detection
 from mobnet.settings.methods import ObserverSettings
 from mobnet.settings.reaction import Reaction, Watch, watches_of
@@ -103,7 +105,19 @@ class CaseWalker:
         sizes = (longest, after, numbers.touch_n, height_m)
         course = walk_with(simulator, estimator, handler, *sizes, watch.feed_forward)
         place = one.case, settings.level_name, seed
-        return trial_of(numbers, place, watch, course, settle, robot.rate_hz, bool(simulator.state.standing)), course
+        stopped = bool(simulator.state.standing)
+        mid_swing = self.mid_swing(row.leg, course)
+        return trial_of(numbers, place, watch, course, settle, robot.rate_hz, stopped, mid_swing), course
+
+    def mid_swing(self, leg: str | None, course: Course) -> NDArray[np.bool_] | None:
+        """Return in which samples of a course (T,) the gate of a leg is open by the plan alone; None without a leg."""
+        if leg is None:
+            return None
+        setup = next(setup for setup in self.robot.setups if setup.limb == leg)
+        places = columns_of(self.robot.description.layout)
+        sensed = Sensed(*(course.rows[:, places[name]] for name in Sensed.__dataclass_fields__))
+        # Without a torque the gate takes no contact for an early landing: whatever the leg meets, the swing goes on.
+        return setup.gate.run(sensed, np.zeros((len(sensed), len(setup.joints)))).watched
 
     def estimator(self, method: str) -> TorqueEstimator:
         """Return the estimator of a method; its networks are read once, its state is that of a walk.
@@ -130,14 +144,17 @@ class CaseWalker:
             return legs
         return legs | {limb: self._limb(limb) for limb in self.robot.reaction.watched}
 
-    def _limb(self, limb: str) -> LimbWatcher:
-        """Return what watches a limb all the time."""
+    def _limb(self, limb: str) -> Watcher:
+        """Return what watches a limb all the time; the base is watched by the unexpected force on it."""
         ours = self.robot.reaction.ours
         robot = self.robot
         watched = robot.watched
         own = self._values(ours.detector, limb, ours.rule)
-        values = np.array([[own[1, name] for name in watched.names(robot.description.layout.limb(limb))]])
-        return LimbWatcher(watched, robot.setups[0].chain(values), robot.columns(limb))
+        values = np.array([[own[1, name] for name in watched.names(robot.joints_of(limb))]])
+        chain = robot.setups[0].chain(values)
+        if limb == BASE_LIMB:
+            return BaseWatcher(watched, chain, robot.base)
+        return LimbWatcher(watched, chain, robot.columns(limb))
 
     def _leg(self, setup: LegSetup, watch: Watch, wrenches: Array) -> Watcher | None:
         """Return what watches a leg; nothing where rule `detect` found no thresholds for the detector."""

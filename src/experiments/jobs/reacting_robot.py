@@ -13,11 +13,14 @@ from mobnet.detection.signals import Watched
 from mobnet.detection.watch import LegSetup
 from mobnet.estimation.observe import observer_of
 from mobnet.estimation.recipe import Recipe, ResidualObserver, build_estimator
+from mobnet.reaction.watchers import BaseForce
 from mobnet.robot.description import RobotDescription, describe
 from mobnet.settings.detection import Detection
 from mobnet.settings.methods import ObserverSettings
 from mobnet.settings.reaction import Reaction
 from mobnet.settings.walking import WalkSettings
+
+BASE_LIMB = "V"  # the six virtual joints, three forces and three moments on the base
 
 
 @dataclass(frozen=True)
@@ -57,6 +60,17 @@ class ReactingRobot:
     def watched(self) -> Watched:
         """What our detector watches."""
         return Watched(self.detection.detectors[self.reaction.ours.detector])
+
+    @cached_property
+    def base(self) -> BaseForce:
+        """The unexpected force on the base."""
+        numbers = self.reaction.identification
+        return BaseForce.of(self.description, numbers, self.detection.gate.contact_height_m)
+
+    def joints_of(self, limb: str) -> tuple[str, ...]:
+        """Return the joints of which a limb's signals are named when it is watched all the time: forces of the base."""
+        joints = self.description.layout.limb(limb)
+        return joints[:3] if limb == BASE_LIMB else joints
 
     @cached_property
     def _shared(self) -> ResidualObserver:

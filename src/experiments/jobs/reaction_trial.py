@@ -28,8 +28,12 @@ def trial_of(
     begin: int,
     rate_hz: float,
     stopped: bool,
+    mid_swing: NDArray[np.bool_] | None = None,
 ) -> Trial:
-    """Return what came of a walk of a case with a robot and a seed; nothing is an alarm before sample `begin`."""
+    """Return what came of a walk of a case with a robot and a seed; nothing is an alarm before sample `begin`.
+
+    `mid_swing` (T,) says where the leg in front of the obstacle is in the middle of a swing; None where there is none.
+    """
     contacts = contacts_of(course.force, numbers.touch_n, round(numbers.gap_s * rate_hz))
     first = contacts[0] if contacts else None
     size = np.linalg.norm(course.force, axis=1)
@@ -55,6 +59,7 @@ def trial_of(
         tracking_rmse_rad=rms(course.tracking[own]),
         power_w=float(course.power[own].mean()) if len(walked) else 0.0,
         contact_s=None if first is None else first.start / rate_hz,
+        in_swing=None if first is None or mid_swing is None else int(mid_swing[first.start]),
         alarm_s=None if alarm is None else alarm / rate_hz,
         limb="" if reacted is None else reacted.limb,
         reacted_s=None if reacted_at is None else reacted_at / rate_hz,

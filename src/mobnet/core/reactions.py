@@ -23,6 +23,8 @@ class Trial:
         tracking_rmse_rad: error of the joints of the leg that swings from their references in this time [rad].
         power_w: mean of the sum of `|motor torque x joint velocity|` in this time [W].
         contact_s: first contact with the obstacle.
+        in_swing: 1 if it began in mid-swing, where section 5.3 watches the leg in front of the obstacle, else 0; None
+            without a contact, or where the obstacle is in front of no leg.
         alarm_s: the alarm.
         limb: the limb that was watched.
         reacted_s: the reaction.
@@ -50,6 +52,7 @@ class Trial:
     tracking_rmse_rad: float
     power_w: float
     contact_s: float | None
+    in_swing: int | None
     alarm_s: float | None
     limb: str
     reacted_s: float | None

@@ -13,12 +13,13 @@ from numpy.typing import NDArray
 from mobnet.control.geometry import cross, solve
 from mobnet.control.kinematics import KinematicTree, Pose, empty_pose, tree_of, update
 from mobnet.core.arrays import Array
-from mobnet.core.compilation import compiled, vector3
+from mobnet.core.compilation import compiled, on_stack, vector3
 from mobnet.core.joints import N_VIRTUAL
 from mobnet.robot.description import SIDES, RobotDescription
 from mobnet.settings.reaction import WrenchIdentification
 
 IN_THE_AIR = 0.5  # of a flag
+vector6 = on_stack(6)
 
 
 class Ends(NamedTuple):
@@ -77,30 +78,43 @@ def identify(ends: Ends, q: Array, tau: Array) -> None:
     decides where the joints say nothing, as of a force along a straight leg (section 8.4).
     """
     update(ends.tree, q, ends.still, 0.0, ends.pose)
-    arm = vector3()
-    column = vector3()
     for e in range(len(ends.body)):
-        end = ends.body[e]
+        _fill_jacobian(ends, e)
         wrench = ends.wrench[e]
         wrench[:] = 0.0
         for j in range(ends.joints[e]):
-            joint = ends.first[e] + j
-            body = ends.tree.body_of_joint[joint]
-            for i in range(3):
-                arm[i] = ends.pose.position[end, i] - ends.pose.position[body, i]
-            cross(ends.pose.axis[joint], arm, column)
-            for i in range(3):
-                ends.jacobian[i, j] = column[i]
-                ends.jacobian[3 + i, j] = ends.pose.axis[joint, i]
             for i in range(6):
-                wrench[i] += ends.jacobian[i, j] * tau[N_VIRTUAL + joint]
-        for i in range(6):
-            for k in range(6):
-                total = ends.damping[i] if i == k else 0.0
-                for j in range(ends.joints[e]):
-                    total += ends.jacobian[i, j] * ends.jacobian[k, j]
-                ends.normal[i, k] = total
+                wrench[i] += ends.jacobian[i, j] * tau[N_VIRTUAL + ends.first[e] + j]
+        _fill_normal(ends, e)
         solve(ends.normal, wrench)
+
+
+@compiled
+def _fill_jacobian(ends: Ends, e: int) -> None:
+    """Fill the first columns of ends.jacobian (6, n) with the contact Jacobian of an end-effector, (C1)."""
+    arm = vector3()
+    column = vector3()
+    end = ends.body[e]
+    for j in range(ends.joints[e]):
+        joint = ends.first[e] + j
+        body = ends.tree.body_of_joint[joint]
+        for i in range(3):
+            arm[i] = ends.pose.position[end, i] - ends.pose.position[body, i]
+        cross(ends.pose.axis[joint], arm, column)
+        for i in range(3):
+            ends.jacobian[i, j] = column[i]
+            ends.jacobian[3 + i, j] = ends.pose.axis[joint, i]
+
+
+@compiled
+def _fill_normal(ends: Ends, e: int) -> None:
+    """Fill ends.normal (6, 6) with J J^T + D of (C2), after `_fill_jacobian`."""
+    for i in range(6):
+        for k in range(6):
+            total = ends.damping[i] if i == k else 0.0
+            for j in range(ends.joints[e]):
+                total += ends.jacobian[i, j] * ends.jacobian[k, j]
+            ends.normal[i, k] = total
 
 
 def unexpected_wrench(ends: Ends, tau: Array, expected: Collection[int]) -> Array:
@@ -117,6 +131,56 @@ def unexpected_wrench(ends: Ends, tau: Array, expected: Collection[int]) -> Arra
         found[:3] -= force
         found[3:] -= ends.wrench[e, 3:] + np.cross(arm, force)
     return found
+
+
+@compiled
+def unexpected_force(
+    ends: Ends, q: Array, tau: Array, std: Array, swing: NDArray[Any], height_m: float, force: Array, deviation: Array
+) -> None:
+    """Fill force (3,) with the force of (24) on the base, in base axes, and deviation (3,) with its standard deviation.
+
+    q (nq,) is the generalized position, tau (nv,) the estimate and std (nv,) its standard deviation [N, N m], errors of
+    joints being independent of each other. A foot that the plan has in the air, `swing` (2,), is expected on the ground
+    all the same unless it is more than height_m [m] above the other one: it may meet the ground, or be leaving it.
+    """
+    update(ends.tree, q, ends.still, 0.0, ends.pose)
+    rotation = ends.pose.rotation[0]
+    weights = vector6()
+    for i in range(3):
+        force[i] = deviation[i] = 0.0
+        for k in range(3):
+            force[i] += rotation[k, i] * tau[k]
+            deviation[i] += (rotation[k, i] * std[k]) ** 2
+    for e in range(2):
+        height = ends.pose.position[ends.body[e], 2] - ends.pose.position[ends.body[1 - e], 2]
+        if swing[e] > IN_THE_AIR and height > height_m:
+            continue
+        _fill_jacobian(ends, e)
+        for i in range(3):
+            # One component of the foot's force is a sum over the leg's torques: a^T F = (J^T (J J^T + D)^-1 a)^T tau.
+            for k in range(3):
+                weights[k] = rotation[k, i]
+                weights[3 + k] = 0.0
+            _fill_normal(ends, e)
+            solve(ends.normal, weights)
+            for j in range(ends.joints[e]):
+                share = 0.0
+                for k in range(6):
+                    share += ends.jacobian[k, j] * weights[k]
+                joint = N_VIRTUAL + ends.first[e] + j
+                force[i] -= share * tau[joint]
+                deviation[i] += (share * std[joint]) ** 2
+    for i in range(3):
+        deviation[i] = np.sqrt(deviation[i])
+
+
+@compiled
+def unexpected_forces(
+    ends: Ends, q: Array, tau: Array, std: Array, swing: NDArray[Any], height_m: float, force: Array, deviation: Array
+) -> None:
+    """Fill force and deviation (T, 3) of samples (T, ...) as `unexpected_force` does."""
+    for row in range(len(q)):
+        unexpected_force(ends, q[row], tau[row], std[row], swing[row], height_m, force[row], deviation[row])
 
 
 @compiled

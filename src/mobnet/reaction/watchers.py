@@ -1,4 +1,4 @@
-"""Detectors in the pipeline: of swinging legs (section 5.3), of limbs that nothing should touch, by feet's sensors."""
+"""Detectors in the pipeline: of swinging legs (section 5.3), of what nothing should touch, and by feet's sensors."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -13,6 +13,9 @@ from mobnet.detection.chain import Chain, ChainState, advance_chain, chain_state
 from mobnet.detection.detector import DetectorState, LegDetector, LegGate
 from mobnet.detection.gate import gate_state
 from mobnet.detection.signals import Watched
+from mobnet.reaction.contacts import Ends, end_effectors, make_ends, unexpected_force, unexpected_forces
+from mobnet.robot.description import RobotDescription
+from mobnet.settings.reaction import WrenchIdentification
 
 Columns = NDArray[Any]
 
@@ -95,6 +98,62 @@ class LimbWatcher:
     def highest(self, state: ChainState) -> int:
         """Return the signal that lay highest above its threshold at the last sample, counted from 0."""
         return int(state.place[1])
+
+
+@dataclass(frozen=True)
+class BaseForce:
+    """The unexpected force on the base, (24), in base axes, from the estimate of all joints.
+
+    `ends` are room of its own for places and Jacobians. A foot that swings at most height_m [m] above the other one may
+    touch the ground.
+    """
+
+    ends: Ends
+    height_m: float
+
+    @classmethod
+    def of(cls, robot: RobotDescription, numbers: WrenchIdentification, height_m: float) -> "BaseForce":
+        """Return the force on a robot's base."""
+        return cls(make_ends(robot, end_effectors(robot), numbers), height_m)
+
+    def step(self, sample: Sensed, estimate: Estimate) -> Estimate:
+        """Return force and standard deviation (3,) [N] at one sample, from the estimate of all joints (nv,)."""
+        force = np.zeros(3)
+        deviation = np.zeros(3)
+        self._fill(unexpected_force, sample, estimate, force, deviation)
+        return Estimate(force, None if estimate.std is None else deviation)
+
+    def run(self, sensed: Sensed, estimate: Estimate) -> Estimate:
+        """Return the same of a stretch (T, 3) [N], from the estimate of all joints (T, nv)."""
+        force = np.zeros((len(sensed), 3))
+        deviation = np.zeros((len(sensed), 3))
+        self._fill(unexpected_forces, sensed, estimate, force, deviation)
+        return Estimate(force, None if estimate.std is None else deviation)
+
+    def _fill(self, compute: Any, sensed: Sensed, estimate: Estimate, force: Array, deviation: Array) -> None:
+        q = np.ascontiguousarray(sensed.q, dtype=np.float64)
+        tau = np.ascontiguousarray(estimate.tau_ext, dtype=np.float64)
+        std = np.zeros_like(tau) if estimate.std is None else np.ascontiguousarray(estimate.std, dtype=np.float64)
+        swing = np.ascontiguousarray(sensed.swing, dtype=np.float64)
+        compute(self.ends, q, tau, std, swing, self.height_m, force, deviation)
+
+
+@dataclass(frozen=True)
+class BaseWatcher:
+    """The base, watched all the time by the signals of a detector on the unexpected force."""
+
+    watched: Watched
+    chain: Chain
+    base: BaseForce
+
+    def init(self) -> ChainState:
+        """Return the state before the first sample."""
+        return chain_state(self.chain, self.chain.thresholds.shape[1])
+
+    def ratio(self, state: ChainState, sample: Sensed, estimate: Estimate) -> float:
+        """Return how far the highest signal lies above its threshold."""
+        signals = self.watched.of(self.base.step(sample, estimate), sample.command)
+        return float(advance_chain(self.chain, state, signals, True, 0.0))
 
 
 @dataclass(frozen=True)

@@ -63,11 +63,13 @@ class Watch(Section):
 class Case(Section):
     """What is walked into, or walked freely, how the robot reacts, and what is compared beside our detector.
 
-    With `waits_s` [s] our reaction is also made that much later.
+    With `waits_s` [s] our reaction is also made that much later. `leg` is the one that the obstacle is in front of: its
+    contacts that begin in mid-swing are also counted by themselves.
     """
 
     scenario: base.ScenarioName
     strategy: Strategy
+    leg: base.LimbName | None = None
     compared: tuple[Watch, ...] = ()
     waits_s: tuple[base.Pause, ...] = ()
 

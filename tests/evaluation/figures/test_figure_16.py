@@ -52,4 +52,11 @@ def test_falls_stand_over_the_time_that_a_reaction_waits(tmp_path, layout):
 
 def test_walks_that_touched_nothing_are_drawn_too(tmp_path, layout):
     rows = made(tmp_path, layout, [EARLY, knees(EARLY)], reacted_s=None)
-    assert [row["value"] for row in rows if row["quantity"] == "impulse"] == ["", ""]
+    assert [row["value"] for row in rows if row["quantity"] == "impulse"] == [""] * 4
+
+
+def test_contacts_that_begin_in_mid_swing_have_means_of_their_own(tmp_path, layout):
+    stance = replace(HIT, seed=241, in_swing=0, impulse_ns=99.0)
+    rows = made(tmp_path, layout, [HIT, stance, knees(stance)], reacted_s=0.52)
+    impulses = {row["case"]: row["value"] for row in rows if row["quantity"] == "impulse"}
+    assert impulses == {"foot": "54", "foot, in swing": "9", "knee": "99", "knee, in swing": ""}

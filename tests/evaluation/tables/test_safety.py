@@ -33,7 +33,7 @@ def table(tmp_path):
         section = SETTINGS.evaluation.safety.model_copy(
             update={"cases": tuple(dict.fromkeys(row.case for row in rows))}
         )
-        safety(section, statistics, published, reactions, tmp_path)
+        safety(section, SETTINGS.reaction, statistics, published, reactions, tmp_path)
         cells = {(row["case"], row["detector"], row["measure"]): row for row in read_texts(tmp_path / "safety.csv")}
         return cells, (tmp_path / "safety.md").read_text()
 
@@ -70,8 +70,26 @@ def test_the_paper_s_numbers_stand_beside_force_and_impulse(table):
 def test_a_case_is_named_once_and_has_a_line_for_each_detector(table):
     _, text = table(ROWS)
     lines = [line for line in text.splitlines() if line.startswith("| ")][2:]
-    assert [line.split("|")[1].strip() for line in lines] == ["foot", "", "knee"]
+    named = [line.split("|")[1].strip() for line in lines]
+    assert named == ["foot", "", "foot, in swing", "knee", "knee, in swing"]
     assert "2 of 3" in lines[0]
+
+
+def test_contacts_that_begin_in_mid_swing_have_a_row_of_their_own(table):
+    stance = replace(HIT, seed=241, in_swing=0, impulse_ns=99.0)
+    late = replace(HIT, seed=242, wait_s=0.2, impulse_ns=50.0)
+    cells, _ = table([HIT, stance, late, replace(LEANS, seed=243)])
+    every, swing = cells["foot", "MOB-Net-ratio", "median_impulse"], cells["foot, in swing", "MOB-Net-ratio", "impulse"]
+    assert (swing["walks"], float(swing["value"]), swing["published"]) == ("1", HIT.impulse_ns, "7.7")
+    assert (
+        every["wait_s"] == "0.2"
+    )  # the last row of this name; no late reaction, nor a robot without one, is in `swing`
+    assert swing["wait_s"] == "0"
+
+
+def test_a_case_in_front_of_no_leg_has_one_row(table):
+    cells, _ = table([replace(HIT, case="door", in_swing=None)])
+    assert {case for case, *_ in cells} == {"door"}
 
 
 def test_nothing_that_happened_is_a_table_too(table):

@@ -59,6 +59,9 @@ def reaction_problems(results: Results) -> Iterator[Problem]:
         for name in sizes.reactions.cases:
             if name not in reaction.cases:
                 yield ("scales", scale, "reactions", "cases", name), not_accepted("case", name, reaction.cases)
+    for name, case in reaction.cases.items():
+        if case.leg is not None and case.leg not in settings.detection.legs:
+            yield (*REACTION, "cases", name, "leg"), not_accepted("leg", case.leg, settings.detection.legs)
     limbs = settings.methods[reaction.estimator].limbs
     legs = settings.detection.legs
     if not {"V", *legs} <= {*limbs}:

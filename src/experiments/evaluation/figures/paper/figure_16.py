@@ -13,6 +13,8 @@ from experiments.evaluation.measure.reaction.results import (
     FALLS,
     IMPULSE,
     PEAK,
+    SWING,
+    in_swing,
     outcome_of,
     printed_of,
     read_trials,
@@ -34,7 +36,9 @@ COLUMNS = ("case", "quantity", "time_s", "value", "low", "high", "unit", "publis
 LABELS = {PEAK: "largest force [N]", IMPULSE: "impulse [N s]"}
 HEIGHT_INCH = 2.1
 MARKERS, COLOURS = "os^v", ("black", "0.55")  # of cases
-OURS, REACTION = "0.6", LOOKS["MOB-Net"].colour  # the reaction is that of a method with MOB-Net
+REACTION = LOOKS["MOB-Net"].colour  # the reaction is that of a method with MOB-Net
+BARS = {"all contacts": "0.6", "begun in mid-swing": "0.85"}  # label -> shade, as they stand beside each other
+WIDTH = 0.4  # of a bar, where cases are 1 apart
 APART_MS = 4.0  # so that intervals of two cases do not cover each other
 
 
@@ -49,21 +53,25 @@ def figure_16(
 ) -> None:
     """Write Figure 16 as PDF, SVG, PNG and CSV.
 
-    It has the force over time in one walk of each case, means over all walks, and the share of walks with a fall by how
-    long the reaction waits.
+    It has the force over time in one walk of each case, means over all walks and over those whose contact began in
+    mid-swing, and the share of walks with a fall by how long the reaction waits.
     """
     trials = read_trials(reactions, settings.cases)
     rows = list[Sequence[Field]]()
-    forces, numbers = dict[str, tuple[Array, Array, Mapping[str, float | None]]](), dict[str, dict[str, Number]]()
+    forces = dict[str, tuple[Array, Array, Mapping[str, float | None]]]()
+    numbers = dict[str, list[Mapping[str, Number]]]()
     for case in settings.cases:
-        outcome = outcome_of(trials_of(trials, case, reaction.ours), settings, statistics)
-        numbers[case] = {name: outcome.numbers[name] for name in LABELS}
+        ours = trials_of(trials, case, reaction.ours)
+        titles = case, SWING.format(case)
+        numbers[case] = [outcome_of(own, settings, statistics).numbers for own in (ours, in_swing(ours))]
         forces[case] = force_of(courses[case], settings)
         rows += [
             (case, "force", float(t), float(f), None, None, "N", None) for t, f in zip(*forces[case][:2], strict=True)
         ]
-        for name, number in numbers[case].items():
-            rows.append((case, name, None, *number.with_ends, number.unit, printed_of(published, case, name)))
+        for title, own in zip(titles, numbers[case], strict=True):
+            for name in LABELS:
+                number = own[name]
+                rows.append((title, name, None, *number.with_ends, number.unit, printed_of(published, case, name)))
     late = {case: late_falls(trials, case, reaction, settings, statistics) for case in settings.cases}
     for case, own in late.items():
         rows += [(case, "falls", wait_s, *number.with_ends, number.unit, None) for wait_s, number in own.items()]
@@ -104,7 +112,7 @@ def force_of(stem: Path, settings: Figure16) -> tuple[Array, Array, Mapping[str,
 @styled
 def draw(
     forces: Mapping[str, tuple[Array, Array, Mapping[str, float | None]]],
-    numbers: Mapping[str, Mapping[str, Number]],
+    numbers: Mapping[str, Sequence[Mapping[str, Number]]],
     late: Mapping[str, Mapping[float, Number]],
     published: PublishedContacts,
 ) -> Figure:
@@ -119,7 +127,8 @@ def draw(
     for k, (axis, (name, label)) in enumerate(
         zip(axes[len(forces) : -1], LABELS.items(), strict=True), start=len(forces)
     ):
-        draw_means(axis, {case: own[name] for case, own in numbers.items()}, published, name)
+        means = {case: [outcome[name] for outcome in own] for case, own in numbers.items()}
+        draw_means(axis, means, published, name)
         axis.set(ylabel=label)
         entitle(axis, k, label.partition(" [")[0])
     draw_late(axes[-1], late)
@@ -143,21 +152,22 @@ def draw_late(axis: Axes, late: Mapping[str, Mapping[float, Number]]) -> None:
     axis.set(xlabel="delay [ms]", ylabel="share of walks", ylim=(-0.05, 1.05))
 
 
-def draw_means(axis: Axes, numbers: Mapping[str, Number], published: PublishedContacts, name: str) -> None:
-    """Draw the mean of each case with its interval, and the paper's as a dot."""
+def draw_means(axis: Axes, numbers: Mapping[str, Sequence[Number]], published: PublishedContacts, name: str) -> None:
+    """Draw the means of each case with their intervals, one bar for each of BARS, and the paper's as a dot."""
     places = np.arange(len(numbers))
-    value, low, high = np.array([number.range for number in numbers.values()], dtype=np.float64).T
-    axis.bar(
-        places,
-        value,
-        0.6,
-        color=OURS,
-        edgecolor="black",
-        linewidth=0.4,
-        label="ours",
-        yerr=[value - low, high - value],
-        error_kw={"linewidth": 0.8, "capsize": 2.0},
-    )
+    for k, (label, shade) in enumerate(BARS.items()):
+        value, low, high = np.array([own[k].range for own in numbers.values()], dtype=np.float64).T
+        axis.bar(
+            places + (k - (len(BARS) - 1) / 2) * WIDTH,
+            value,
+            WIDTH,
+            color=shade,
+            edgecolor="black",
+            linewidth=0.4,
+            label=label,
+            yerr=[value - low, high - value],
+            error_kw={"linewidth": 0.8, "capsize": 2.0},
+        )
     printed = [printed_of(published, case, name) for case in numbers]
     axis.plot(places, [np.nan if one is None else one for one in printed], "kD", markersize=3, label="original")
     axis.set_xticks(places, list(numbers))

@@ -27,6 +27,7 @@ ALARM = "alarm"
 WITHIN = "within"
 BASE_WITHIN = "base_within"
 EARLY = "early"
+SWING = "{}, in swing"  # a case, of which those walks are meant whose contact began in mid-swing
 # case, detector, rule, time that a reaction waits [s], wrench of the feet, share of feed-forward
 Group = tuple[str, str, str, float, str, float]
 MILLI = 1e3  # mm in a metre, mrad in a radian
@@ -113,6 +114,11 @@ def trials_of(trials: Sequence[Trial], case: str, watch: Watch) -> list[Trial]:
     """Return the trials of a case with what watches it, the wrench of the feet being that of its scenario."""
     asked = case, watch.detector, watch.rule, watch.wait_s
     return [row for row in trials if (row.case, row.detector, row.rule, row.wait_s) == asked]
+
+
+def in_swing(trials: Sequence[Trial]) -> list[Trial]:
+    """Return the walks whose first contact began in mid-swing, where section 5.3 watches a leg."""
+    return [row for row in trials if row.in_swing == 1]
 
 
 def is_early(row: Trial) -> bool:

@@ -1,5 +1,6 @@
 """What a reaction is worth: falls, forces and impulses of robots that walk into obstacles."""
 
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from experiments.evaluation.measure.detection.results import MS
@@ -13,11 +14,14 @@ from experiments.evaluation.measure.reaction.results import (
     IMPULSE,
     MEDIAN,
     PEAK,
+    SWING,
     WITHIN,
     groups_of,
+    in_swing,
     outcome_of,
     printed_of,
     read_trials,
+    trials_of,
 )
 from experiments.evaluation.tables.rows import Rows, View, ViewColumn, field_text
 from experiments.plan.reactions import Reactions
@@ -25,27 +29,36 @@ from experiments.settings.published import PublishedContacts
 from experiments.settings.reaction_tables import Safety
 from experiments.settings.runs import Statistics
 from mobnet.core.columns import SAFETY
+from mobnet.core.reactions import Trial
+from mobnet.settings.reaction import Reaction
 
 
 def safety(
-    settings: Safety, statistics: Statistics, published: PublishedContacts, reactions: Reactions, table_dir: Path
+    settings: Safety,
+    reaction: Reaction,
+    statistics: Statistics,
+    published: PublishedContacts,
+    reactions: Reactions,
+    table_dir: Path,
 ) -> None:
     """Write safety.csv, .tex and .md: what comes of walks into obstacles, by case and detector.
 
     Falls and reactions to nothing are shares of all walks; forces [N], impulses [N s], times from the first contact to
-    the alarm [ms] and directions are of walks that met the obstacle before any reaction. Intervals are over robots and
-    walks.
+    the alarm [ms] and directions are of walks that met the obstacle before any reaction. Where the obstacle is in front
+    of a leg, our detector has a second row, of contacts that begin in mid-swing. Intervals are over robots and walks.
     """
     rows = Rows(SAFETY)
-    for (case, detector, rule, wait_s, *_), trials in groups_of(read_trials(reactions, settings.cases)).items():
-        outcome = outcome_of(trials, settings, statistics)
-        line = f"{detector}, {MS * wait_s:.0f} ms later" if wait_s else detector
+    trials = read_trials(reactions, settings.cases)
+    for case, title, group in rows_of(trials, settings, reaction):
+        outcome = outcome_of(group, settings, statistics)
+        first = group[0]
+        late = f"{first.detector}, {MS * first.wait_s:.0f} ms later"
         place = {
-            "case": case,
-            "detector": detector,
-            "thresholds": rule,
-            "wait_s": wait_s,
-            "line": line,
+            "case": title,
+            "detector": first.detector,
+            "thresholds": first.rule,
+            "wait_s": first.wait_s,
+            "line": late if first.wait_s else first.detector,
             "walks": outcome.walks,
             "touched": outcome.touched,
         }
@@ -69,3 +82,17 @@ def safety(
     ]
     labels = {"case": "Case", "line": "Detector", "thresholds": "thresholds"}
     rows.write(table_dir / "safety", View(labels, columns, blocks=("case",)))
+
+
+def rows_of(
+    trials: Sequence[Trial], settings: Safety, reaction: Reaction
+) -> Iterator[tuple[str, str, Sequence[Trial]]]:
+    """Yield case, its name in the table, and the walks of each row."""
+    groups = groups_of(trials)
+    for case in settings.cases:
+        own = [group for group in groups.values() if group[0].case == case]
+        for group in own:
+            yield case, case, group
+        watched = in_swing(trials_of(trials, case, reaction.ours))
+        if watched:
+            yield case, SWING.format(case), watched
