@@ -19,18 +19,21 @@ from experiments.evaluation.number.intervals import quantile_of
 from experiments.evaluation.number.number import Number
 from experiments.settings.checks.outcomes import wilson
 from experiments.settings.claims import Claim, MadeNumber
+from experiments.settings.evaluation import PRODUCTS
 from experiments.settings.runs import Statistics
 from experiments.settings.settings import Settings
 from mobnet.core.columns import NOT_MEASURED, NOT_REPRODUCED, OPEN, OURS, SIGN_AT_LEAST, SIGN_ONLY
 
 CONFIDENCE = Statistics(confidence=0.95)
+SHARES = next(name for name, row in PRODUCTS.items() if row.trials)  # a table of shares
+RATES = next(name for name, row in PRODUCTS.items() if row.hours)  # a table of events in an hour
 CELL: dict[str, Any] = {"scenario": "walk_test", "level": "robots", "method": "MOB-Net", "joint": "LL"}
 DIFFERENCE: dict[str, Any] = {"quantity": "difference", "cells": [CELL, {**CELL, "method": "MOB"}]}
 FALLS: dict[str, Any] = {
-    "quantity": "value", "cells": [{"table": "safety", "where": {"measure": "falls"}, "column": "value"}],
+    "quantity": "value", "cells": [{"table": SHARES, "where": {"measure": "falls"}, "column": "value"}],
 }  # fmt: skip
 RATE: dict[str, Any] = {
-    "quantity": "value", "cells": [{"table": "sensorless", "where": {"event": "falls"}, "column": "value"}],
+    "quantity": "value", "cells": [{"table": RATES, "where": {"event": "falls"}, "column": "value"}],
 }  # fmt: skip
 
 
