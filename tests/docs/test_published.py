@@ -5,11 +5,12 @@ from pathlib import Path
 
 import pytest
 
+from experiments.evaluation.measure.claims.verdicts import NO_CAUSE
 from experiments.evaluation.report.judge_again import judged_again
 from experiments.evaluation.tables.further.claims_table import record_of
 from experiments.settings.load import load_settings
 from mobnet.core.claim_ranges import apart, within
-from mobnet.core.columns import NOT_PRINTED, OURS
+from mobnet.core.columns import NOT_MEASURED, NOT_PRINTED, NOT_REPRODUCED, OPEN, OURS, SIGN_ONLY
 from mobnet.core.rows import read_texts
 
 ROOT = Path(__file__).parents[2]
@@ -44,8 +45,23 @@ def test_published_verdicts_are_those_of_the_claims_of_today() -> None:
         row = published[each.row.name]
         assert (row["size"], row["sign"], row["verdict"]) == (each.size, each.sign, each.verdict), each.row.name
         assert row["score"] == each.score
-        assert row["cause"] == each.cause
+        assert (row["cause"], row["remark"]) == (each.cause, each.remark)
+        assert bool(row["beyond_reach"]) == each.is_beyond_reach
         assert row["quantity"] == record_of(each)[5]
+
+
+@pytest.mark.parametrize("row", read_texts(RESULTS / "claims.csv"), ids=lambda row: row["claim"])
+def test_no_published_claim_is_open_or_refuted_without_a_remark(row: dict[str, str]) -> None:
+    """What is open says what would decide it; what is refuted has a number as its cause, or that none is found."""
+    if row["verdict"] in (NOT_REPRODUCED, SIGN_ONLY):
+        assert row["remark"] in (NO_CAUSE, f"Cause: {row['cause']}")
+    elif OPEN in (row["size"], row["sign"]):
+        assert row["remark"].startswith("Open: ")
+        assert "decide" in row["remark"]
+    else:
+        assert bool(row["remark"]) == (row["verdict"] == NOT_MEASURED)
+    text = (RESULTS / "claims.md").read_text()
+    assert row["remark"] in text
 
 
 def bounds(row: dict[str, str], low: str, high: str) -> tuple[float | None, float | None]:

@@ -27,7 +27,7 @@ from experiments.plan.call import call_of
 from experiments.plan.products import function_of
 from experiments.plan.runs import Run
 from experiments.settings.claims import Claim
-from experiments.settings.evaluation import Evaluation
+from experiments.settings.evaluation import PRODUCTS, Evaluation
 from experiments.settings.measures import CalibrationTest
 from experiments.settings.settings import Settings
 from mobnet.core.columns import Epoch, Score
@@ -97,6 +97,8 @@ def make_table(tmp_path: Path, settings: Settings, evaluation: Evaluation) -> Ca
         own = {"name": name, "settings": section, "published": printed, "layout": settings.layout, "table_dir": folder}
         own |= {"figure_dir": folder / "figures", "tables": {}}
         shared = {"statistics": evaluation.statistics, "figure_17": evaluation.figure_17}
+        if name in PRODUCTS:
+            shared |= {section: getattr(evaluation, section) for section in PRODUCTS[name].sections}
         known = {**dict(settings), **shared, **own, **changes}
         call_of(function, known).run()
         return folder / f"{name}.csv"

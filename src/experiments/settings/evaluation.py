@@ -235,6 +235,7 @@ class Evaluation(Section):
         MadeBy(
             "tables.paper.table_09:table_09",
             needs=DETECTIONS,
+            sections=("smallest_force",),
             table=True,
             quoted=10,
             source=True,

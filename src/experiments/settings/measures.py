@@ -42,6 +42,7 @@ class Coverage(Checked):
     samples: base.Whole = Field(ge=100, le=10_000_000)
     every: base.Whole = Field(ge=1, le=1000)
     block_s: base.Real = Field(ge=0.1, le=600)
+    parts: base.Whole = Field(ge=2, le=100)
     range: base.Span[base.Share]
     cells: base.Whole = Field(ge=2, le=1000)
     cell_range: base.Span[base.Share]

@@ -223,12 +223,15 @@ CLAIMS = (
     "without_low",
     "without_high",
     "cause",
+    "remark",
+    "beyond_reach",
 )
 HOURLY = ("event", "walks", "method", "hours", "count", "value", "low", "high", "unit")
 CLAIMED = ("score", "outcome", "statements", "firsts", "claims")  # `firsts`: statements by their first claim alone
 # `outcome` of a count: a verdict, on both or on one of size and sign, all of them, or one of the next line, of what
 # fails and of what the paper prints a number of
 UNEXPLAINED = "without a cause"
+BEYOND = "beyond reach"
 PRINTED = "printed"
 HELD = "in our interval"
 NEAR = "within a factor of 1.5"

@@ -30,7 +30,9 @@ LONGEST_LABEL = 64  # characters of what a claim says
 def judged(settings: Settings, name: str, ours: Number) -> Judged:
     """Return a claim of the configuration, judged on a number."""
     row = next(row for row in rows_of(settings.claims) if row.name == name)
-    return judged_on(row, ClaimNumbers(ours, ours), score_of(row.claim, settings.methods))
+    return judged_on(
+        row, ClaimNumbers(ours, ours), score_of(row.claim, settings.methods), settings.evaluation.statistics
+    )
 
 
 def test_a_number_is_over_that_of_the_paper(settings: Settings) -> None:

@@ -170,7 +170,7 @@ def test_a_cause_brings_the_number_into_the_bounds_when_it_is_taken_away(
     results = Evidence(settings.layout, {}, {}, {}, {"coverage": rows})
     claim = Claim.model_validate(CAUSED)
     found = found_of(claim, results, CONFIDENCE)
-    assert judged(Row("a", "a", claim), found, OURS).cause == text
+    assert judged(Row("a", "a", claim), found, OURS, CONFIDENCE).cause == text
 
 
 def test_a_difference_of_shares_holds_what_it_says() -> None:

@@ -17,8 +17,11 @@ from experiments.evaluation.measure.data.coverage import (
     covered,
     nearest,
     outside,
+    training_rows,
     visited,
     widths,
+    with_interval,
+    without_part,
 )
 from experiments.evaluation.measure.data.samples import equal_sets, read_blocks, refer, scale_of
 from experiments.settings.evaluation import Evaluation
@@ -29,6 +32,7 @@ from mobnet.learning.features import limb_inputs
 
 Sets = dict[str, list[Path]]
 NAMES = ("v.LL1", "tau_des.LL1")
+DRAWS = 40
 TEST = CoverageTest(scenario="walk_test", level="all_uncertainty")
 
 
@@ -74,6 +78,45 @@ def test_the_wider_set_visits_more_of_the_plane_and_equal_sets_equally_much(
         assert row.measure == AREA
         assert row.with_rte == pytest.approx(1.0, abs=0.02)
         assert row.ratio.value == pytest.approx(4.0, rel=0.5)
+
+
+def test_intervals_over_stretches_of_the_walks_hold_the_ratio_of_two_walks_without_end(
+    rng: np.random.Generator, evaluation: Evaluation
+) -> None:
+    """Simulated: the torque of a stretch is scaled as one draws, and in one set by a fifth more."""
+    coverage = evaluation.coverage.model_copy(update={"phases": 2, "state_cells": 2})
+    names = ("q.LL1", "v.LL1", "tau_des.LL1", "phase")
+    held = 0
+    for _ in range(DRAWS):
+        sets = [walk_of(rng, factor) for factor in (1.2, 1.0)]
+        left_out = []
+        for part in range(coverage.parts):
+            kept = without_part(sets, part, coverage.parts)
+            assert sum(map(len, kept)) == pytest.approx(0.9 * sum(map(len, sets)))
+            left_out.append(training_rows(kept, kept, names, ["LL1"], coverage))
+        rows = [with_interval(row, left_out, evaluation.statistics) for row in
+                training_rows(sets, sets, names, ["LL1"], coverage)]  # fmt: skip
+        (row,) = (row for row in rows if (row.measure, row.joint) == (WIDTH["phase"], ALL))
+        assert row.ratio.low is not None
+        assert row.ratio.high is not None
+        held += row.ratio.low <= 1.2 <= row.ratio.high
+    assert held >= 0.88 * DRAWS
+
+
+def walk_of(rng: np.random.Generator, factor: float) -> np.ndarray:
+    """Return samples (1000, 4) of twenty stretches: position, velocity, torque and phase."""
+    size = np.repeat(np.exp(0.2 * rng.normal(size=20)), 50)
+    torque = factor * size * rng.normal(size=1000)
+    return np.column_stack([rng.uniform(-1, 1, (1000, 2)), torque, rng.uniform(0, 1, 1000)])
+
+
+def test_a_set_that_a_stretch_leaves_without_a_range_has_no_interval(
+    rng: np.random.Generator, evaluation: Evaluation
+) -> None:
+    names = ("q.LL1", "v.LL1", "tau_des.LL1", "phase")
+    sets = [walk_of(rng, 1.0) for _ in range(2)]
+    (row, *_) = training_rows(sets, sets, names, ["LL1"], evaluation.coverage)
+    assert with_interval(row, [[], [row]], evaluation.statistics) == row
 
 
 def test_sets_are_made_equally_long_and_a_constant_input_keeps_its_scale() -> None:

@@ -133,6 +133,17 @@ def test_shares_and_trends_of_single_runs_are_covered(true: float, rng: np.rando
     assert np.mean([low <= true <= high for low, _, high in (ends(trend(own, STATISTICS)) for own in lines)]) >= LEAST
 
 
+def test_a_loss_that_falls_ever_more_slowly_has_a_trend_that_a_line_through_it_would_leave_open() -> None:
+    """Figure 20 (b): five sizes of the data; a closed form, as all pairs fall."""
+    losses = [7.08, 3.76, 2.95, 2.81, 2.73]
+    grids = [RunGrid(np.array([[loss]])) for loss in losses]
+    low, value, high = ends(trend(grids, STATISTICS))
+    slopes = [(losses[k] - losses[i]) / (k - i) for i, k in itertools.combinations(range(5), 2)]
+    assert (value, low, high) == pytest.approx((np.median(slopes), min(slopes), max(slopes)))
+    assert high < 0.0
+    assert trend(grids[:4], STATISTICS).low is None  # one order in twelve has all pairs rise or all fall
+
+
 @pytest.mark.parametrize("shape", [(1, 2), (3, 1), (2, 3), (5, 5)])
 def test_interval_contains_the_mean_and_is_the_same_every_time(
     shape: tuple[int, int], rng: np.random.Generator

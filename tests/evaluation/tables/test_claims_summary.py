@@ -11,7 +11,10 @@ from experiments.evaluation.tables.further.claims_summary import USED
 
 Counted = dict[tuple[str, str], tuple[float, float, float]]
 Made = Callable[..., Counted]
-COLUMNS = ("statement", "score", "verdict", "published", "value", "low", "high", "cause", "quantity", "size", "sign")
+COLUMNS = (
+    *("statement", "score", "verdict", "published", "value", "low", "high", "cause", "quantity", "size", "sign"),
+    "beyond_reach",
+)
 
 
 @pytest.fixture
@@ -54,6 +57,15 @@ def test_what_counts_against_us_stands_first(made: Made, tmp_path: Path) -> None
     titles = [line.split(" | ")[0].strip("| ") for line in lines]
     assert titles[:3] == ["not reproduced", "sign only", "open"]
     assert lines[4] == "| reproduced | 1 (1) | 0 (0) | 0 (0) | 1 (1) | 0 (0) |"
+
+
+def test_a_statement_is_beyond_reach_if_one_of_its_open_claims_is_and_nothing_worse_decides_it(made: Made) -> None:
+    beyond = (*[""] * 8, "yes")
+    counts = made(
+        ("a", "networks", "open", *beyond), ("a", "networks", "reproduced"), ("b", "networks", "open"),
+        ("c", "networks", "open", *beyond), ("c", "networks", "not reproduced"),
+    )  # fmt: skip
+    assert counts["networks", "beyond reach"] == (1, 1, 1)
 
 
 def test_a_statement_fails_with_a_cause_if_each_of_its_claims_that_fail_has_one(made: Made) -> None:

@@ -42,6 +42,11 @@ def test_shares_delays_and_the_paper_stand_in_the_csv(made: Make) -> None:
     cells = rows["robots", "MOB-Net-OR", "cells", "delay"]
     assert (cells.value, cells.published) == (pytest.approx(21.5), pytest.approx(11.9))
     assert rows["robots", "MOB", "all", "delay"].value is None
+    # A sweep has 10 to 80 N: of it MOB-Net-OR finds all, MOB-Net-sigma 40 N and more, MOB nothing.
+    halves = {name: rows["robots", name, "all", "half_force"] for name in ("MOB-Net-OR", "MOB-Net-sigma", "MOB")}
+    assert (halves["MOB-Net-OR"].value, halves["MOB-Net-OR"].low, halves["MOB-Net-OR"].high) == (None, 10.0, None)
+    assert 20.0 < (halves["MOB-Net-sigma"].value or 0.0) < 40.0
+    assert (halves["MOB"].value, halves["MOB"].high, halves["MOB"].count) == (None, 80.0, 24)
 
 
 def test_the_text_has_counts_beside_the_paper(made: Make) -> None:
@@ -54,6 +59,8 @@ def test_the_text_has_counts_beside_the_paper(made: Make) -> None:
     assert paper[3:10] == ["10", "10", "9", "10", "9", "10", "58/60"]
     assert paper[-3] == "13.5"  # the mean over detections of the paper's delays
     assert "Kendall's tau of the order of the found totals against the original's: 1.00 (all uncertainty)" in text
+    assert "of the forces of which half are found: 1.00 (all uncertainty)" in text
+    assert ours[11] == "29"
 
 
 def test_a_plant_stands_for_itself_and_robots_together(make_table: Make, tmp_path: Path) -> None:

@@ -63,7 +63,7 @@ def share_in(flags: Sequence[bool], places: Sequence[ClusterKey], statistics: St
     if not effects:
         return Number(value)
     count = _independent(effects, value * (1.0 - value), n, statistics)
-    low, high = _wilson(value, count, statistics)
+    low, high = wilson(value, count, statistics)
     return Number(value, low, high)
 
 
@@ -136,7 +136,7 @@ def _normal(statistics: Statistics) -> float:
     return float(scipy.special.ndtri((1.0 + statistics.confidence) / 2.0)) ** 2
 
 
-def _wilson(value: float, count: float, statistics: Statistics) -> tuple[float, float]:
+def wilson(value: float, count: float, statistics: Statistics) -> tuple[float, float]:
     """Return Wilson's interval of a share of so many independent values, which need not be a whole number."""
     square = _normal(statistics)
     middle = (value + square / (2.0 * count)) / (1.0 + square / count)

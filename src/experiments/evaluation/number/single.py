@@ -1,26 +1,30 @@
 """Intervals where each of several numbers has a single run, where runs only succeed or fail, of counts, without law."""
 
 from collections.abc import Sequence
+from dataclasses import replace
+from math import factorial
 
 import numpy as np
 import scipy  # pyright: ignore[reportMissingTypeStubs]  # its parts are imported where they are used first
 
 from experiments.evaluation.number.clusters import garwood
-from experiments.evaluation.number.intervals import Array, RunGrid, quantile_of
+from experiments.evaluation.number.intervals import Array, RunGrid
 from experiments.evaluation.number.number import Number
 from experiments.settings.runs import Statistics
 
 
 def trend(grids: Sequence[RunGrid], statistics: Statistics, unit: str = "-") -> Number:
-    """Return the slope of the means of K grids over their order [unit], with the interval of a least-squares line.
+    """Return the median slope of the means of K grids over their order [unit], with Sen's interval (1968).
 
-    It needs a single run of each: how the means scatter around the line stands for all that varies.
+    It needs a single run of each, and no line: a loss that falls ever more slowly would scatter around one. The
+    interval follows from how many pairs of K numbers without a trend rise; so few that all may do have none.
     """
-    line = scipy.stats.linregress(np.arange(len(grids)), [grid.mean for grid in grids])
-    value = float(line.slope)
-    reach = quantile_of(len(grids) - 2, statistics.confidence) * float(line.stderr)
+    means = [grid.mean for grid in grids]
     networks = tuple(len(grid.values) for grid in grids)
-    return Number(value, value - reach, value + reach, unit=unit, networks=networks, walks=(1,))
+    slope, _, low, high = map(float, scipy.stats.theilslopes(means, alpha=statistics.confidence))
+    found = Number(slope, unit=unit, networks=networks, walks=(1,))
+    all_rise_or_fall = 2.0 / factorial(len(means))  # chance of it without a trend
+    return found if all_rise_or_fall > 1.0 - statistics.confidence else replace(found, low=low, high=high)
 
 
 def share(grids: Sequence[RunGrid], statistics: Statistics, unit: str = "-") -> Number:

@@ -49,7 +49,7 @@ class ClaimRow:
     says: str
     printed: str
     verdict: str
-    cause: str
+    remark: str
     published: float | None
     value: float | None
     low: float | None
@@ -212,7 +212,7 @@ def _claim(row: Mapping[str, str]) -> ClaimRow:
         says=row["says"],
         printed=row["printed"],
         verdict=row["verdict"],
-        cause=row["cause"],
+        remark=row["remark"],
         published=published,
         value=value,
         low=low,

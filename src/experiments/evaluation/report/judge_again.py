@@ -67,7 +67,8 @@ def judged_again(settings: Settings, published: Path) -> list[Judged]:
     evidence = Evidence(settings.layout, {}, {}, {}, tables)
     found = [_found(row, before.get(row.name, {}), evidence, settings) for row in rows]
     scores = [score_of(row.claim, settings.methods) for row in rows]
-    return [judged(*each) for each in zip(rows, found, scores, strict=True)]
+    statistics = settings.evaluation.statistics
+    return [judged(*each, statistics) for each in zip(rows, found, scores, strict=True)]
 
 
 def _found(row: Row, before: Text, evidence: Evidence, settings: Settings) -> ClaimNumbers:

@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 from typing import get_args
 
 from experiments.evaluation.measure.claims.cells import Evidence, listed
+from experiments.evaluation.measure.claims.deciding import Effort, effort_of, text_of
 from experiments.evaluation.number.number import Number
 from experiments.evaluation.number.quantities import QUANTITIES, difference_of
 from experiments.settings.claims import Claim, MadeNumber, TrainingMetric
@@ -36,6 +37,8 @@ from mobnet.core.columns import (
 from mobnet.settings.methods import Method
 
 DETECTOR = re.compile("-(OR|mean|sigma)$")  # what the name of a detector has behind that of its method
+NO_CAUSE = "No cause found."
+TO_MEASURE = "Not measured: the run lacks a test or training for it, or defined the number otherwise."
 WORST_FIRST = (NOT_REPRODUCED, SIGN_ONLY, NOT_MEASURED, OPEN, SIGN_AT_LEAST, REPRODUCED)
 
 
@@ -74,6 +77,7 @@ class Judged:
         sign: one of `SIGN_VERDICTS`, or empty where no sign is claimed.
         verdict: both together, one of `VERDICTS`.
         is_explained: whether the claim fails and would not without its cause.
+        efforts: what decides the size and the sign, of those that are open.
     """
 
     row: Row
@@ -84,6 +88,7 @@ class Judged:
     sign: str
     verdict: str
     is_explained: bool
+    efforts: tuple[Effort, ...] = ()
 
     @property
     def ours(self) -> Number:
@@ -100,6 +105,23 @@ class Judged:
         without = " ".join(self.found.without.texts()) + unit
         seen = "after" if cause.seen else "before"
         return f"{cause.says}: {without} without it (named {cause.since}, {seen} results had been seen)."
+
+    @property
+    def remark(self) -> str:
+        """What stands below the claim: the cause of one that fails, or that none is found, or what decides an open one.
+
+        It is empty where nothing is open and nothing fails.
+        """
+        if self.verdict == NOT_MEASURED:
+            return TO_MEASURE
+        if self.verdict in (NOT_REPRODUCED, SIGN_ONLY):
+            return f"Cause: {self.cause}" if self.cause else NO_CAUSE
+        return text_of(self.efforts, self.row.claim.decided_at)
+
+    @property
+    def is_beyond_reach(self) -> bool:
+        """Whether the claim is open and no affordable number of runs decides its size or its sign."""
+        return self.verdict == OPEN and all(effort.is_beyond for effort in self.efforts)
 
 
 def rows_of(claims: Mapping[str, Claim]) -> Iterator[Row]:
@@ -123,7 +145,7 @@ def of_joint(made: MadeNumber, joint: str) -> tuple[object, ...]:
 
 def judge(row: Row, results: Evidence, statistics: Statistics, methods: Mapping[str, Method]) -> Judged:
     """Return our numbers for a claim with their intervals, and the verdicts."""
-    return judged(row, found_of(row.claim, results, statistics), score_of(row.claim, methods))
+    return judged(row, found_of(row.claim, results, statistics), score_of(row.claim, methods), statistics)
 
 
 def found_of(claim: Claim, results: Evidence, statistics: Statistics) -> ClaimNumbers:
@@ -134,14 +156,19 @@ def found_of(claim: Claim, results: Evidence, statistics: Statistics) -> ClaimNu
     return ClaimNumbers(replace(ours, published=claim.published), signed, without)
 
 
-def judged(row: Row, found: ClaimNumbers, score: str) -> Judged:
-    """Return a claim with the verdicts that follow from its numbers."""
+def judged(row: Row, found: ClaimNumbers, score: str, statistics: Statistics) -> Judged:
+    """Return a claim with the verdicts that follow from its numbers, and what would decide those that are open."""
     ranges = ranges_of(row.claim)
     size, sign, verdict = verdicts_of(found, ranges)
     explained = False
     if verdict in (NOT_REPRODUCED, SIGN_ONLY) and found.without is not None:
         explained = is_within(found.without, ranges.shown)
-    return Judged(row, score, found, ranges, size, sign, verdict, explained)
+    efforts: list[Effort] = []
+    if size == OPEN and ranges.size:
+        efforts.append(effort_of(row.claim, found.ours, ranges.size, "size", statistics))
+    if sign == OPEN and ranges.sign:
+        efforts.append(effort_of(row.claim.sign_of or row.claim, found.signed, ranges.sign, "sign", statistics))
+    return Judged(row, score, found, ranges, size, sign, verdict, explained, tuple(efforts))
 
 
 def verdicts_of(found: ClaimNumbers, ranges: Ranges) -> tuple[str, str, str]:

@@ -8,7 +8,7 @@ in training, in the inputs of a limb's network (Table 1). Both sets have equally
 
 import logging
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import product
 from pathlib import Path
 from typing import Any
@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from experiments.evaluation.compare.windows import pushed_of
 from experiments.evaluation.measure.data.conditional import TorqueRange, even_cells, torque_range
 from experiments.evaluation.measure.data.samples import Blocks, Reference, equal_sets, read_blocks, refer, scale_of
-from experiments.evaluation.number.intervals import RATIO, RunGrid, summarise
+from experiments.evaluation.number.intervals import RATIO, RunGrid, quantile_of, summarise
 from experiments.evaluation.number.number import Number
 from experiments.settings.measures import Coverage, CoverageTest
 from experiments.settings.runs import Statistics
@@ -42,6 +42,7 @@ WIDTH = {condition: f"torque range given {condition} [N m]" for condition in GIV
 BEYOND = {condition: f"outside torque given {condition}" for condition in GIVEN}
 
 Ranges = Mapping[tuple[str, str], Sequence[TorqueRange]]  # condition, joint -> of each training set
+Samples = Sequence[NDArray[Any]]  # of each training set, (n, n_in)
 
 
 @dataclass(frozen=True)
@@ -51,8 +52,8 @@ class Covered:
     The measure is AREA, AIR_AREA or a value of OUTSIDE or BEYOND, all shares, a value of WIDTH [N m], or a name of
     NEAREST, a distance in z-scored inputs; the joint may be ALL, the mean over joints or inputs together. The scenario
     is `training` and has no level and no block where no test is needed; else its samples come in blocks, each
-    contiguous in time. The ratio, with over without, has its interval over blocks; shares of test samples have none, as
-    they may be zero.
+    contiguous in time. The ratio, with over without, has its interval over blocks, and where no test is needed over
+    stretches of the training walks; shares of test samples have none, as they may be zero.
     """
 
     scenario: str
@@ -86,11 +87,12 @@ def covered(
     mean, std = scale_of(np.concatenate(bare))
     references = [refer(array, settings.range, mean, std) for array in bare]
     ranges = conditional(samples, names, joints, settings)
-    rows = [
-        *visited(AREA, samples, names, joints, settings),
-        *visited(AIR_AREA, airborne, names, joints, settings),
-        *widths(ranges),
-    ]
+    in_training = training_rows(samples, airborne, names, joints, settings)
+    left_out: list[list[Covered]] = []
+    for part in range(settings.parts):
+        kept = [without_part(both, part, settings.parts) for both in (samples, airborne)]
+        left_out.append(training_rows(kept[0], kept[1], names, joints, settings))
+    rows = [with_interval(row, left_out, statistics) for row in in_training]
     for test, stems in zip(settings.tests, tests, strict=True):
         blocks = read_blocks(stems, layout, inputs, settings, pushed=pushed_of(test, settings))
         if not blocks:
@@ -101,6 +103,48 @@ def covered(
         rows += beyond(test, blocks, ranges, names)
         rows += nearest(test, [(block - mean) / std for block in seen], references, statistics)
     return rows
+
+
+def training_rows(
+    samples: Samples, airborne: Samples, names: Sequence[str], joints: Sequence[str], settings: Coverage
+) -> list[Covered]:
+    """Return what two training sets hold without regard to tests, of all samples (n, n_in) and of those in the air."""
+    return [
+        *visited(AREA, samples, names, joints, settings),
+        *visited(AIR_AREA, airborne, names, joints, settings),
+        *widths(conditional(samples, names, joints, settings)),
+    ]
+
+
+def without_part(sets: Samples, part: int, parts: int) -> list[NDArray[Any]]:
+    """Return the samples (n, n_in) of each set without one of so many equal stretches of time."""
+    found: list[NDArray[Any]] = []
+    for array in sets:
+        edges = np.linspace(0, len(array), parts + 1).astype(int)
+        found.append(np.delete(array, slice(edges[part], edges[part + 1]), axis=0))
+    return found
+
+
+def with_interval(row: Covered, left_out: Sequence[Sequence[Covered]], statistics: Statistics) -> Covered:
+    """Return a row with the interval of its ratio over stretches of the training walks, on a log scale.
+
+    `left_out` are the rows without each of them. The jackknife stands for other walks: what changes little when a
+    stretch is left out would change little in another walk. There is no interval where a row lacks one of its ratios.
+    """
+    ratios = [other.ratio.value for rows in left_out for other in rows if _is_of(row, other)]
+    known = [ratio for ratio in ratios if ratio is not None and np.isfinite(ratio) and ratio > 0.0]
+    value = row.ratio.value
+    if not value or not np.isfinite(value) or len(known) < len(left_out):
+        return row
+    logs = np.log(known)
+    count = len(logs)
+    std = float(np.sqrt((count - 1) / count * ((logs - logs.mean()) ** 2).sum()))
+    factor = float(np.exp(quantile_of(count - 1, statistics.confidence) * std))
+    return replace(row, ratio=Number(value, value / factor, value * factor))
+
+
+def _is_of(row: Covered, other: Covered) -> bool:
+    return (row.measure, row.joint) == (other.measure, other.joint)
 
 
 def visited(

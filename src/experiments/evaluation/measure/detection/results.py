@@ -22,6 +22,7 @@ MS = 1000.0
 LINKS, DIRECTIONS = ("foot", "ankle", "knee"), ("front", "side")  # in the paper's order
 CELLS = tuple(f"{link} {direction}" for link, direction in product(LINKS, DIRECTIONS))
 ALL = "all"  # cells together
+HALF = 0.5  # share of the collisions whose force ranks detectors
 HALVES, STEPS = 120, 24  # laws along the force for one half, and along the steepness
 
 
@@ -167,6 +168,38 @@ def smallest_force(force: Array, found: Array, settings: SmallestForce, statisti
     if not least <= value <= most:
         return Number(None, *((least, None) if value < least else (None, most)), unit="N")
     return Number(value, max(low, least), min(high, most), unit="N")
+
+
+def half_force(tries: Sequence[Try], settings: SmallestForce, statistics: Statistics) -> Number:
+    """Return the largest force of collisions of which a detector finds one half [N]: the mean over robots.
+
+    Its interval is over robots; of one robot it has none. Where one robot's lies below or above all forces that were
+    tried there is no number, but that end as `low` or as `high`.
+    """
+    of_half = settings.model_copy(update={"share": HALF})
+    robots = sorted({one.robot for one in tries})
+    found: list[Number] = []
+    for robot in robots:
+        own = [one for one in tries if one.robot == robot]
+        force = np.array([one.collision.force_n for one in own])
+        is_found = np.array([one.is_found for one in own], dtype=np.float64)
+        found.append(smallest_force(force, is_found, of_half, statistics))
+    values = [number.value for number in found if number.value is not None]
+    if values and len(values) == len(found):
+        return mean_in(values, [ClusterKey(robot, 0) for robot in robots], statistics, "N")
+    without = [number for number in found if number.value is None]
+    most = [number.high for number in without if number.high is not None]
+    least = [number.low for number in without if number.low is not None]
+    if most:
+        return Number(None, None, max(most), unit="N")
+    return Number(None, min(least, default=None), None, unit="N")
+
+
+def force_text(number: Number) -> str:
+    """Return a force with its interval as text; where it lies beyond all that were tried, beyond which of them."""
+    if number.value is None:
+        return f"< {number.low:.0f}" if number.low is not None else f"> {number.high:.0f}" if number.high else "-"
+    return f"{number.text(0)} {number.interval(0)}".strip()
 
 
 def quantiles(values: Array, weights: Array, shares: tuple[float, ...]) -> list[float]:

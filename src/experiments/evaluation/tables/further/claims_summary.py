@@ -11,10 +11,12 @@ from experiments.evaluation.measure.claims.verdicts import worst
 from experiments.evaluation.tables.layout import RULE, Line, Table, write_table
 from mobnet.core.claim_ranges import within
 from mobnet.core.columns import (
+    BEYOND,
     CLAIMED,
     HELD,
     NEAR,
     NOT_REPRODUCED,
+    OPEN,
     OURS,
     PAPER,
     PRINTED,
@@ -29,7 +31,10 @@ from mobnet.core.rows import read_texts
 
 ALL = "all"  # verdicts together
 NEAR_FACTOR = 1.5
-USED = ("statement", "score", "quantity", "size", "sign", "verdict", "published", "value", "low", "high", "cause")
+USED = (
+    *("statement", "score", "quantity", "size", "sign", "verdict"),
+    *("published", "value", "low", "high", "cause", "beyond_reach"),
+)
 SHOWN = {
     "observer": "observer",
     "networks": "networks",
@@ -45,7 +50,8 @@ def claims_summary(claims_csv: Path, table_dir: Path) -> None:
     """Write claims_summary.csv, .tex and .md: statements, and in the CSV file also claims, by score and verdict.
 
     A statement is one or several claims; its verdict is the worst of theirs. Beside the verdicts stands how many
-    statements fail without a cause, and in how many claims the paper's number lies in our interval or near ours.
+    statements fail without a cause, how many open ones no affordable number of runs decides, and in how many claims the
+    paper's number lies in our interval or near ours.
     """
     rows = read_texts(claims_csv, USED)
     counts: dict[tuple[str, str], tuple[int, int, int]] = {}
@@ -60,6 +66,7 @@ def claims_summary(claims_csv: Path, table_dir: Path) -> None:
         RULE,
         [ALL, *(str(counts[score, ALL][0]) for score in SHOWN)],
         [f"fail {UNEXPLAINED}", *(str(counts[score, UNEXPLAINED][0]) for score in SHOWN)],
+        [f"{OPEN}, {BEYOND}", *(str(counts[score, BEYOND][0]) for score in SHOWN)],
         [f"claims {HELD}", *(_share(counts, score, HELD) for score in SHOWN)],
         [f"claims {NEAR}", *(_share(counts, score, NEAR) for score in SHOWN)],
     ]
@@ -83,9 +90,9 @@ def outcomes_of(rows: Sequence[Row], score: str) -> dict[str, tuple[int, int, in
     """Return outcome -> how many statements of a score have it, how many by their first claim, and how many claims.
 
     `rows` have columns `CLAIMS`. The outcomes are the verdicts, those on the size and on the sign ("size inside"), all
-    of them, the claims that fail without a cause, those that the paper prints a number of beside an interval of ours,
-    and those whose interval holds this number or whose own number is near it. A statement fails with a cause if each of
-    its claims that fail has one.
+    of them, the claims that fail without a cause, those of open statements that no affordable number of runs decides,
+    those that the paper prints a number of beside an interval of ours, and those whose interval holds this number or
+    whose own number is near it. A statement fails with a cause if each of its claims that fail has one.
     """
     own = [row for row in rows if is_of(row, score)]
     by_statement: dict[str, list[Row]] = {}
@@ -93,8 +100,12 @@ def outcomes_of(rows: Sequence[Row], score: str) -> dict[str, tuple[int, int, in
         by_statement.setdefault(row["statement"], []).append(row)
     held = list(by_statement.values())
     statements = Counter[str]()
-    for of_statement in held:
-        statements[worst([row["verdict"] for row in of_statement])] += 1
+    still_open: set[str] = set()
+    for name, of_statement in by_statement.items():
+        verdict = worst([row["verdict"] for row in of_statement])
+        statements[verdict] += 1
+        if verdict == OPEN:
+            still_open.add(name)
     firsts = Counter(claims[0]["verdict"] for claims in held)
     claims = Counter(row["verdict"] for row in own)
     found = {verdict: (statements[verdict], firsts[verdict], claims[verdict]) for verdict in VERDICTS}
@@ -102,6 +113,7 @@ def outcomes_of(rows: Sequence[Row], score: str) -> dict[str, tuple[int, int, in
     printed = [row for row in own if row["published"] and row["low"] and row["high"]]
     selected = {
         UNEXPLAINED: [row for row in own if row["verdict"] in (NOT_REPRODUCED, SIGN_ONLY) and not row["cause"]],
+        BEYOND: [row for row in own if row["statement"] in still_open and row["beyond_reach"]],
         PRINTED: printed,
         HELD: [row for row in printed if is_held(row)],
         NEAR: [row for row in printed if is_near(row)],

@@ -11,6 +11,7 @@ from mobnet.core.claim_ranges import ANY, range_text
 from mobnet.core.columns import CLAIMS
 
 HEADER = ("Claim", "Printed in", "Paper", "Ours", "{:.0%}", "Claimed", "Size", "Sign", "Verdict")
+REMARK = "Cause, or what would decide"  # column of the Markdown table; in TeX it is a line below the claim
 CAPTION = r"\claimscaption"  # the paper's
 COLUMNS = r">{\raggedright\arraybackslash}p{.36\linewidth}>{\raggedright\arraybackslash}p{.13\linewidth}rrrllll"
 
@@ -21,10 +22,11 @@ def claim_table(judged: Sequence[Judged], confidence: float, table_dir: Path) ->
     `confidence` is that of the intervals, a share [-].
     """
     header = [text.format(confidence) for text in HEADER]
-    lines = [[*line_of(each), each.cause] for each in judged]
-    table = Table(CLAIMS, [record_of(each) for each in judged], [*header, "Cause"], lines, left=len(header) + 1)
+    lines = [[*line_of(each), each.remark] for each in judged]
+    records = [record_of(each) for each in judged]
+    table = Table(CLAIMS, records, [*header, REMARK], lines, left=len(header) + 1)
     shown = [each for each in judged if not each.row.joint]
-    write_table(table_dir / "claims", table, long_table(COLUMNS, CAPTION, header, list(with_causes(shown))))
+    write_table(table_dir / "claims", table, long_table(COLUMNS, CAPTION, header, list(with_remarks(shown))))
 
 
 def record_of(each: Judged) -> tuple[Field, ...]:
@@ -53,6 +55,8 @@ def record_of(each: Judged) -> tuple[Field, ...]:
         each.verdict,
         *without,
         each.cause,
+        each.remark,
+        "yes" if each.is_beyond_reach else "",
     )
 
 
@@ -70,8 +74,8 @@ def line_of(each: Judged) -> list[str]:
     return [says(each), claim.printed, *ours, range_text(each.ranges.shown) + unit, each.size, each.sign, each.verdict]
 
 
-def with_causes(judged: Sequence[Judged]) -> Iterator[Line]:
-    """Yield the lines of claims, a gap between statements, each followed by a line with its cause, where it has one."""
+def with_remarks(judged: Sequence[Judged]) -> Iterator[Line]:
+    """Yield the lines of claims, a gap between statements, each followed by a line with its remark, if it has one."""
     across = rf"\multicolumn{{{len(HEADER)}}}{{@{{\quad}}p{{.96\linewidth}}}}"
     before = ""
     for each in judged:
@@ -79,5 +83,5 @@ def with_causes(judged: Sequence[Judged]) -> Iterator[Line]:
             yield GAP
         before = each.row.statement
         yield line_of(each)
-        if each.cause:
-            yield rf"{across}{{\emph{{{tex_escape(each.cause)}}}}} \\"
+        if each.remark:
+            yield rf"{across}{{\emph{{{tex_escape(each.remark)}}}}} \\"

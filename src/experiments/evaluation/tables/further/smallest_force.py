@@ -5,10 +5,10 @@ from pathlib import Path
 
 import numpy as np
 
-from experiments.evaluation.measure.detection.results import CELLS, Detections, Try, shown_tries
+from experiments.evaluation.measure.detection.results import CELLS, Detections, Try, force_text, shown_tries
 from experiments.evaluation.measure.detection.results import smallest_force as force_of
 from experiments.evaluation.number.number import Number
-from experiments.evaluation.tables.rows import NumberRow, Rows, View, ViewColumn
+from experiments.evaluation.tables.rows import Rows, View, ViewColumn
 from experiments.settings.detection_tables import SmallestForce
 from experiments.settings.runs import Statistics
 from mobnet.core.columns import DETECTION
@@ -39,14 +39,6 @@ def smallest_force(
                 number = force_of(force, found, settings, statistics) if own else Number(None, unit="N")
                 place = {"level": level, "detector": name, "leg": settings.leg, "kind": kind, "cell": cell}
                 rows.add(number, **place, quantity=QUANTITY, count=len(own))
-    columns = [ViewColumn(f"{cell} [N]", {"cell": cell}, text=_text) for cell in CELLS]
+    columns = [ViewColumn(f"{cell} [N]", {"cell": cell}, text=lambda row: force_text(row.number)) for cell in CELLS]
     labels = {"level": "Level", "kind": "Rule", "detector": "Detector"}
     rows.write(table_dir / "smallest_force", View(labels, columns, blocks=("level", "kind"), nested=True))
-
-
-def _text(row: NumberRow) -> str:
-    """Return a force with its interval as text; where it lies beyond all that were tried, beyond which of them."""
-    number = row.number
-    if number.value is None:
-        return f"< {number.low:.0f}" if number.low is not None else f"> {number.high:.0f}" if number.high else "-"
-    return f"{number.text(0)} {number.interval(0)}"

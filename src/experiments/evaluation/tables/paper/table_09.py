@@ -10,14 +10,16 @@ from experiments.evaluation.measure.detection.results import (
     Detections,
     Try,
     delay_of,
+    force_text,
     found_share,
+    half_force,
     mean_of,
     shown_tries,
 )
-from experiments.evaluation.number.number import number_text, published_row
+from experiments.evaluation.number.number import Number, number_text, published_row
 from experiments.evaluation.number.rows import Field
 from experiments.evaluation.tables.layout import PART, RULE, Line, Table, text_table, write_table
-from experiments.settings.detection_tables import DetectorTable
+from experiments.settings.detection_tables import DetectorTable, SmallestForce
 from experiments.settings.published import PublishedTable
 from experiments.settings.runs import Statistics
 from mobnet.core.columns import DETECTION
@@ -27,12 +29,14 @@ FOUND = "found"
 DELAY = "delay"
 ONSET = "delay_onset"
 PERFECT = "perfect_delay"
+HALF_FORCE = "half_force"  # quantity of the pushes of all sizes
 DETECTED, DELAY_MS = "detected", "delay_ms"  # places of the paper's numbers
 TRIED = 10  # collisions of each cell in the paper
 
 
 def table_09(
     settings: DetectorTable,
+    smallest_force: SmallestForce,
     detection: Detection,
     statistics: Statistics,
     published: PublishedTable,
@@ -43,24 +47,37 @@ def table_09(
 
     A delay is the mean of a cell over the collisions that are found; of all together it is that of the cells, as the
     paper's, and beside it that over all found collisions. `perfect` is the delay of an estimate without error at the
-    same thresholds, on the same collisions.
+    same thresholds, on the same collisions. Totals near all collisions rank no detectors: beside them is the force of
+    which one half is found, from pushes of all sizes.
     """
     rows: list[Sequence[Field]] = []
     lines: list[Line] = []
     taus: list[str] = []
+    force_taus: list[str] = []
+    swept = dict(shown_tries(settings, detections, detection.sweep, settings.kind))
     for level, shown in shown_tries(settings, detections, detection.collisions, settings.kind):
         lines += [RULE] if lines else []
+        halves: dict[str, Number] = {}
         for name, own in shown.items():
+            tried = swept[level].get(name, [])
+            halves[name] = half_force(tried, smallest_force, statistics)
             rows += _rows(level, name, settings, own, statistics, published)
-            lines += _lines(level, name, own, statistics, published)
-        taus.append(f"{order_text(shown, published)} ({level.replace('_', ' ')})")
+            place = level, name, settings.leg, settings.kind, ALL
+            rows.append((*place, HALF_FORCE, *halves[name].with_ends, len(tried), "N", None))
+            lines += _lines(level, name, own, halves[name], statistics, published)
+        shares = {name: len([one for one in own if one.is_found]) / len(own) for name, own in shown.items()}
+        weakness = {name: -_rank(number) for name, number in halves.items() if swept[level].get(name)}
+        at_level = f"({level.replace('_', ' ')})"
+        taus.append(f"{order_text(shares, published)} {at_level}")
+        force_taus.append(f"{order_text(weakness, published)} {at_level}")
     cells = list(map(_initials, CELLS))
     leading = ["Level", "Detector", ""]
-    found = [*cells, "all", f"{statistics.confidence:.0%}"]
+    found = [*cells, "all", f"{statistics.confidence:.0%}", "half [N]"]
     delays = [*(f"{cell} [ms]" for cell in cells), "cells", "found", "perfect", "from onset"]
     note = (
         "F, A, K: foot, ankle, knee; F, S: front, side. "
-        f"Kendall's tau of the order of the found totals against the original's: {', '.join(taus)}."
+        f"Kendall's tau of the order of the found totals against the original's: {', '.join(taus)}; "
+        f"of the forces of which half are found: {', '.join(force_taus)}."
     )
     # in TeX all columns side by side are wider than a page: what is found stands above how late
     end = len(leading) + len(found)
@@ -76,16 +93,20 @@ def _initials(cell: str) -> str:
     return " ".join(word[0].upper() for word in cell.split())
 
 
-def order_text(shown: Mapping[str, Sequence[Try]], published: PublishedTable) -> str:
-    """Return Kendall's tau of the detectors' totals against the paper's, as text."""
+def order_text(strengths: Mapping[str, float], published: PublishedTable) -> str:
+    """Return Kendall's tau of the order of detectors, weakest first, against that of the paper's totals, as text."""
     from scipy.stats import kendalltau  # here, as it takes a second to import
 
-    totals = {name: row[ALL] for name in shown if (row := published_row(published, DETECTED, name))}
-    ours = []
-    for name in totals:
-        found = [one for one in shown[name] if one.is_found]
-        ours.append(len(found) / len(shown[name]))
+    totals = {name: row[ALL] for name in strengths if (row := published_row(published, DETECTED, name))}
+    ours = [strengths[name] for name in totals]
     return number_text(float(kendalltau(ours, list(totals.values())).statistic) if len(ours) > 1 else None)
+
+
+def _rank(force: Number) -> float:
+    """Return a force [N], or that it lies below or above all that were tried."""
+    if force.value is not None:
+        return force.value
+    return 0.0 if force.low is not None else float("inf")
 
 
 def _in_cells(tries: Sequence[Try]) -> dict[str, list[Try]]:
@@ -156,9 +177,9 @@ def _rows(
 
 
 def _lines(
-    level: str, name: str, tries: Sequence[Try], statistics: Statistics, published: PublishedTable
+    level: str, name: str, tries: Sequence[Try], half: Number, statistics: Statistics, published: PublishedTable
 ) -> Iterator[Line]:
-    """Yield what a detector finds in each cell and how late, and below it what the paper prints."""
+    """Yield what a detector finds in each cell, half of which forces, and how late; below it what the paper prints."""
     in_cells = _in_cells(tries)
     counts = [str(len(_delays(own))) for own in in_cells.values()]
     total = found_share(tries, statistics)
@@ -167,7 +188,7 @@ def _lines(
     known = [mean for mean in means if mean is not None]
     further = [_mean(known), *(_mean(_delays(tries, quantity)) for quantity in (DELAY, PERFECT, ONSET))]
     delays = [number_text(mean, 1) for mean in (*means, *further)]
-    yield [level.replace("_", " "), name, "ours", *counts, all_found, total.interval(), *delays]
+    yield [level.replace("_", " "), name, "ours", *counts, all_found, total.interval(), force_text(half), *delays]
     printed, late = (published_row(published, place, name) for place in (DETECTED, DELAY_MS))
     if printed and late:
         weighted = [(printed[cell] or 0.0, late[cell]) for cell in CELLS]
@@ -176,7 +197,7 @@ def _lines(
         numbers = [number_text(printed[cell], 0) for cell in CELLS]
         total_text = f"{number_text(printed[ALL], 0)}/{TRIED * len(CELLS)}"
         paper = [number_text(late[cell], 1) for cell in (*CELLS, ALL)]
-        yield ["", "", "original", *numbers, total_text, "", *paper, number_text(mean, 1), "", ""]
+        yield ["", "", "original", *numbers, total_text, "", "", *paper, number_text(mean, 1), "", ""]
 
 
 def _mean(values: Sequence[float]) -> float | None:
