@@ -35,7 +35,7 @@ def pushed_scene(robot: RobotDescription, seed: int = 0, push: str = "Knee, in t
     watched = flagged([(start + 90, end - 30) for start, end in SWINGS])
     run = Run("collisions", "robot_1", "MOB", 101, 240, Path("recording"), Path("residual"), Path("estimate"))
     row = Push(point="left_knee_front", duration_s=(0.08, 0.08), force_n=(100.0, 100.0), shape="half_sine")
-    scene = PageScene(push, plant, (run,), ("LL",), "LL3", 20.0, {"collision_left_knee_front": row})
+    scene = PageScene(push, plant, (run,), ("LL",), "LL3", 20.0, "MOB-Net", {"collision_left_knee_front": row})
     force = np.outer(shape[:: round(RATE_HZ / POSE_HZ)], [-150.0, 0.0, 80.0])
     shown = PushScene(
         joints=joints,

@@ -25,7 +25,7 @@ ENDINGS = (".png", ".pdf", ".svg")
 log = logging.getLogger(__name__)
 
 
-def load(method: str = "MOB-Net", folder: Path = DATA) -> tuple[TorqueEstimator, Sensed]:
+def load(method: str = "MOB-Net-pushed", folder: Path = DATA) -> tuple[TorqueEstimator, Sensed]:
     """Return the estimator of a method, and samples of a walking robot that is pushed, to step through one by one.
 
     The estimator has `joints` (n,), `init()` and `step(state, sample)`, which returns the next state and an `Estimate`

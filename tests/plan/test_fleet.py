@@ -18,7 +18,9 @@ RESULTS = Path("results/smoke")
 @pytest.fixture(scope="module")
 def plan() -> Plan:
     """The plan of the smoke scale with all robots."""
-    settings = load_settings(overrides={"scale": "smoke", "scales": {"smoke": {"fleet": len(ROBOTS)}}})
+    settings = load_settings(
+        overrides={"scale": "smoke", "scales": {"smoke": {"fleet": len(ROBOTS), "fleet_whole": len(ROBOTS)}}}
+    )
     return make_plan(with_precision(settings, "float32"), with_pdf=False)
 
 
@@ -124,12 +126,51 @@ def test_every_run_of_a_test_is_scored(plan: Plan) -> None:
 
 
 def test_a_scale_may_have_fewer_robots() -> None:
-    """The smoke scale has the first one alone; the next one still takes its place."""
+    """Of variants the smoke scale walks the first one alone; the next one still takes its place."""
     files = make_plan(load_settings(overrides={"scale": "smoke"}), with_pdf=False).files
-    assert list(files.robots) == ["robot_1"]
+    assert list(files.whole_robots) == ["robot_1"]
     assert [run.recording.parts[-2] for run in files.runs("changed_walk", "robots_other", ["MOB"])] == [
         "robot_1_robots_other"
     ]
+
+
+def test_a_robot_of_a_leg_walks_the_tests_of_a_leg_alone() -> None:
+    """With the named methods; networks and fits are those of this leg, from its own walks."""
+    files = make_plan(load_settings(overrides={"scale": "smoke"}), with_pdf=False).files
+    fleet = files.settings.fleet
+    own = files.robots["robot_2"]
+    assert not own.is_whole
+    assert {(scenario, level) for scenario, level, _ in own.recorded()} == {
+        ("robot_walk", "robot_2"),
+        ("robot_walk_plain", "robot_2"),
+        *((scenario, "robot_2") for scenario in fleet.leg_tests),
+    }
+    trained = {(name.method, name.limb) for name in own.own_networks}
+    assert trained == {(method, fleet.leg) for method in ("MOB-Net", "MOB-Net-plain", "FTS-e2e")}
+    assert set(own.catalogue.tests["walk_test"]["robot_2"]) <= {*fleet.leg_methods}
+    assert own.catalogue.method("MOB-fric").fitted == (fleet.leg,)
+    seeds = {run.network_seed for run in files.runs("walk_test", "robots", ["MOB-Net"])}
+    assert seeds == {101, 102}
+    assert {run.network_seed for run in files.runs("walk_test", "robots", ["MOB-Net-gray"])} == {101}
+    assert {run.network_seed for run in files.runs("motion_test", "robots", ["MOB-Net"])} == {101}
+
+
+def test_each_robot_walks_seeds_of_its_own() -> None:
+    files = make_plan(load_settings(), with_pdf=False).files
+    walked = [seed for own in files.owners for seed in own.test_seeds]
+    assert len(walked) == len(set(walked))
+    assert files.robots["robot_2"].duration_s(["walk_test"], files.robots["robot_2"].test_seeds[0]) == 30.0
+
+
+def test_a_method_may_run_networks_of_another_one() -> None:
+    """The legs of the pushed MOB-Net are its own; all other networks are those of MOB-Net, which are trained once."""
+    own = make_plan(load_settings(), with_pdf=False).files.robots["robot_1"]
+    seed = own.network_seeds("MOB-Net-pushed")[0]
+    assert own.network("MOB-Net-pushed", "LL", seed).name == f"MOB-Net-pushed-LL-s{seed}"
+    assert own.network("MOB-Net-pushed", "RA", seed).name == f"MOB-Net-RA-s{seed}"
+    trained = {(name.method, name.limb) for name in own.own_networks}
+    assert ("MOB-Net", "RA") in trained
+    assert ("MOB-Net-pushed", "RA") not in trained
 
 
 def test_products_can_show_the_fleet(plan: Plan) -> None:

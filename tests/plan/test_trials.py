@@ -12,7 +12,7 @@ from experiments.plan.plan import Plan, make_plan
 from experiments.plan.products import Product
 from experiments.plan.seeds import FIRST_TRAINING_SEED
 from experiments.settings.load import load_settings
-from experiments.settings.trials import compared, trial_name, tuned
+from experiments.settings.trials import Factors, compared, factors_of, sets_of, taught, trial_name, tuned
 from mobnet.core.rows import read_texts
 
 FALLS = Path(__file__).parents[2] / "docs/trials/random_torque.csv"
@@ -62,14 +62,16 @@ def test_a_trial_changes_what_it_says_and_its_length(plan: Plan) -> None:
 
 
 def test_trials_read_development_walks_and_no_test(plan: Plan, products: dict[str, Product]) -> None:
-    tasks = plan.settings.development
+    trial = plan.settings.trials.factorial
+    walks = {walk.scenario for walk in plan.settings.development.values()} | {trial.walk, trial.hits}
     for product in (product for name, product in products.items() if name != "random_torque"):
         recorded = [Path(name) for name in product.inputs if "/recordings/" in name or "/residuals/" in name]
-        assert {path.parts[-2] for path in recorded} <= {walk.scenario for walk in tasks.values()}
+        assert recorded
         for path in recorded:
-            assert (
-                501 <= min(plan.files.seeds_of(*path.parts[-2:])) <= max(plan.files.seeds_of(*path.parts[-2:])) < 1000
-            )
+            robot, _, scenario, level = path.parts[-4:]
+            seeds = plan.jobs.files_of(robot).seeds_of(scenario, level)
+            assert scenario in walks
+            assert 501 <= min(seeds) <= max(seeds) < 601
 
 
 def test_no_product_of_a_run_needs_a_trial_and_none_is_stored(plan: Plan) -> None:
@@ -90,13 +92,59 @@ def test_tables_of_trials_are_results_of_their_scale(products: dict[str, Product
 
 def test_falls_are_counted_of_every_robot_in_walks_of_no_training_and_no_test(plan: Plan) -> None:
     """The first robot has the first seed; nothing but the largest torque differs between its walks."""
-    robots = list(plan.files.robots)
+    robots = list(plan.files.whole_robots)
     counted = tuple(f"results/default/{robot}/falls.csv" for robot in robots)
     assert plan.product("random_torque").inputs == counted
     seeds: list[Any] = [arguments(plan, "falls", robot)["seed"] for robot in robots]
     assert seeds == [701, 702, 703]
     assert max(plan.files.development_seeds) < min(seeds)
     assert max(seeds) < FIRST_TRAINING_SEED
+
+
+def test_cells_of_the_factorial_differ_in_their_factors_alone(plan: Plan) -> None:
+    """All have one size and one length of training, and draw alike where their commands are alike."""
+    settings, catalogue = plan.settings, plan.files.catalogue
+    trial = settings.trials.factorial
+    cells = {name: factors_of(settings.training_sets, settings.scenarios, name) for name in trial.cells}
+    assert len(set(cells.values())) == len(cells) == 2**3
+    assert cells[trial.same_day] == factors_of(settings.training_sets, settings.scenarios, trial.another_day)
+    assert cells[trial.same_day] == Factors(random_torque=False, pushes=False, commands="random")
+    sizes = [settings.training_sets[name].sizes for name in sets_of(trial)]
+    assert all(size == sizes[0] for size in sizes)
+    draws: dict[str, set[str]] = {}
+    for name, factors in cells.items():
+        own = settings.training_sets[name].scenario
+        draws.setdefault(factors.commands, set()).add(settings.scenarios[own].draws or own)
+    assert {len(drawn) for drawn in draws.values()} == {1}
+    variants = [one for one in taught(settings.trials, settings.methods) if one.base == trial.method]
+    trainings = [catalogue.training(one.name, trial.limb) for one in variants]
+    assert [one.network.data for one in trainings] == list(sets_of(trial))
+    assert len(trainings) == 9
+    assert all(one.learning == trainings[0].learning for one in trainings)
+    assert {(one.epochs, one.epoch_samples) for one in trainings} == {(5, 1_300_000)}
+
+
+def test_each_robot_of_the_factorial_walks_and_learns_by_itself(plan: Plan) -> None:
+    product: Any = plan.product("factorial").arguments
+    robots = product["robots"]
+    assert list(robots) == list(plan.settings.trials.factorial.robots)
+    seen: set[Any] = set()
+    for name, robot in robots.items():
+        files = plan.files.robots[name]
+        walked = {path.name for task in (robot.walk, robot.hits) for path in task.recordings}
+        assert walked == {f"s{seed}" for seed in files.development_seeds}
+        assert not walked & seen
+        seen |= walked
+        folders = [folder for one in robot.walk.tried for folder in one.networks.values()]
+        assert {folder.parts[2] for folder in folders} == {name}
+        assert len({folder.name.rpartition("-")[2] for folder in folders}) == 1
+    first = next(iter(robots.values()))
+    assert [one.base for one in first.walk.tried if not one.networks] == ["MOB-fric", "zero", "MOB"]
+    day = plan.files.robots["robot_4"].settings.levels["robot_4_robots_another_day"].surrogate
+    same = plan.files.robots["robot_4"].settings.levels["robot_4"].surrogate
+    assert day is not None
+    assert same is not None
+    assert (day.seed, day.parts, day.day, same.day) == (same.seed, same.parts, 1, 0)
 
 
 @pytest.mark.skipif(not FALLS.is_file(), reason="docs/trials has no copy of this trial")

@@ -43,7 +43,7 @@ def test_robots_that_never_fall_can_show_a_small_share_of_falls(paper: Settings)
 def test_free_walks_can_show_a_small_rate_of_falls(paper: Settings) -> None:
     files = Files(Catalogue(paper), Path("results"))
     sizes = sizes_of(files, "free")
-    places = places_of(len(files.robots), sizes.runs)
+    places = places_of(len(files.whole_robots), sizes.runs)
     hours = [sizes.longest_s / HOUR_S] * len(places)
     high = rate_in([0] * len(places), hours, places, paper.evaluation.statistics).high
     assert high is not None
@@ -56,7 +56,7 @@ def test_what_no_outcome_can_reach_is_told_by_the_interval_that_the_tables_have(
     settings = load_settings()
     statistics = settings.evaluation.statistics
     fleet = settings.fleet.model_copy(update={"robots": tuple(f"robot_{k}" for k in range(robots))})
-    sizes = settings.sizes.model_copy(update={"fleet": None})
+    sizes = settings.sizes.model_copy(update={"fleet": None, "fleet_whole": None})
     scaled = settings.model_copy(update={"fleet": fleet, "scales": {settings.scale: sizes}})
     part = independent_part(scaled, Cell(table="safety"), statistics.confidence)
     places = places_of(robots, walks)

@@ -18,8 +18,8 @@ WHOLE = ("drives", "body", "sensors")
 def draw(settings, robot):
     """A function of a seed and the hidden parts -> a surrogate robot."""
 
-    def make(seed, *parts):
-        chosen = SurrogateRobot.model_validate({"seed": seed, "parts": parts, "running_s": (0.0, 0.0)})
+    def make(seed, *parts, day=0):
+        chosen = SurrogateRobot.model_validate({"seed": seed, "parts": parts, "running_s": (0.0, 0.0), "day": day})
         return draw_hidden(robot, settings.plant, RATE_HZ, settings.surrogate, chosen, settings.seed)
 
     return make
@@ -34,6 +34,17 @@ def test_a_seed_is_a_robot(draw):
     assert all(one.mass != two.mass for one, two in zip(first.robot.bodies, other.robot.bodies, strict=True))
     assert not (first.drives.law == other.drives.law).any()
     assert (first.faults.gain != other.faults.gain).all()
+
+
+def test_on_another_day_a_robot_has_other_errors_of_its_sensors_alone(draw):
+    first, day, again, third = draw(1, *WHOLE), draw(1, *WHOLE, day=1), draw(1, *WHOLE, day=1), draw(1, *WHOLE, day=2)
+    assert first.robot.bodies == day.robot.bodies
+    assert first.plant == day.plant
+    assert (first.drives.law == day.drives.law).all()
+    assert (day.faults.zero == again.faults.zero).all()
+    for other in (first, third):
+        assert (day.faults.zero != other.faults.zero).all()
+        assert (day.faults.gain != other.faults.gain).all()
 
 
 @pytest.mark.parametrize("part", WHOLE)

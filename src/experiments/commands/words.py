@@ -51,8 +51,11 @@ GROUPS = {  # heading of the help -> command -> what it does, in a line
         "recipes": "train each method with each recipe",
         "lengths": "train for longer and longer",
         "random_torque": "count falls by the size of random torques",
+        "factorial": "train from walks with and without torques, pushes, variety",
     },
 }
+# Tables of trials, which `all` does not ask for.
+TRIALS = ("tuning", "recipes", "lengths", "random_torque", "factorial")
 COMMANDS = {name: says for group in GROUPS.values() for name, says in group.items()}
 MORE = {  # command -> what its own --help adds to that line
     "all": "The rule `all` of snakemake, on 2 cores unless --cores says another number.",
@@ -60,11 +63,9 @@ MORE = {  # command -> what its own --help adds to that line
     "docs": "They begin at results/default/docs/index.html.",
     "films": "They are written to results/default/films.",
     "test": "The workflow at a small scale is among them.",
-    **dict.fromkeys(
-        ("tuning", "recipes", "lengths", "random_torque"), "The table is written to results/default/trials."
-    ),
+    **dict.fromkeys(TRIALS, "The table is written to results/default/trials."),
 }
-APART = "`all` makes neither docs and films nor the tables of tuning, recipes, lengths and random_torque."
+APART = "`all` makes neither docs and films nor the tables of tuning, recipes, lengths, random_torque and factorial."
 EXAMPLES = {
     "all -n": "show what would run",
     "all --config scale=smoke": "the same in minutes; its numbers mean nothing",
@@ -74,7 +75,6 @@ EXAMPLES = {
 }
 PROGRAM = "./reproduce"
 OWN = {"clean", "setup"}  # commands with options of their own
-TRIALS = ("tuning", "recipes", "lengths", "random_torque")  # tables of trials, which `all` does not ask for
 TARGETS = {
     "all": "all",
     "paper_core": "paper_core",

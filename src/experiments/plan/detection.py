@@ -25,7 +25,8 @@ class Walk:
 def level_of_detectors(files: Files) -> str:
     """Return the level at which the detectors of a robot, or of the plant of section 5.1, are tried; else nothing."""
     settings = files.settings
-    own = next((level for level in settings.detection.levels if files.has(level)), "")
+    levels = settings.detection.levels if files.is_whole else ()
+    own = next((level for level in levels if files.has(level)), "")
     return settings.fleet.level_of(files.robot, own) if own and files.robot else own
 
 

@@ -102,6 +102,7 @@ class Files(Seeds):
 
     def network(self, method: str, limb: str, seed: int) -> Path:
         """Return the folder of a trained network; a limb with fewer seeds than others serves them in turn."""
+        method = self.catalogue.owner_of(method, limb)
         seeds = self.network_seeds(method, limb)
         return self.results / NETWORKS / f"{method}-{limb}-s{seeds[seed % len(seeds)]}"
 
@@ -134,7 +135,7 @@ class Files(Seeds):
         for name in methods:
             for files in self.owners:
                 # A level of the fleet is every robot's, any other one belongs to a single owner.
-                if files.has(level):
+                if files.is_whole and files.has(level):
                     found += [files.network(name, limb, seed) for seed in files.network_seeds(name, limb)]
         return tuple(found)
 
@@ -151,11 +152,11 @@ class Files(Seeds):
                     source = catalogue.network_source_of(method)
                     # Seeds repeat a training and have the same limbs, so that the first one tells them.
                     limbs = self.networks(method, self.network_seeds(method)[0], scenario, level)
-                    pairs += [(source, limb) for limb in limbs]
+                    pairs += [(catalogue.owner_of(source, limb), limb) for limb in limbs]
         kinds = evaluation.figure_17
         sizes = evaluation.figure_20
         timed = evaluation.latency.method
-        if self.has(kinds.level):
+        if self.is_whole and self.has(kinds.level):
             pairs += [(method, kinds.limb) for method in kinds.methods]
         if self.has(kinds.best_level):
             pairs += [(method, kinds.limb) for method in kinds.best]
@@ -166,7 +167,7 @@ class Files(Seeds):
                 pairs += [(name, sizes.limb) for name in swept_names(key, settings.sweeps[key])]
         # What a network takes of a tick is measured once, with networks of the plant.
         if not self.robot:
-            pairs += [(timed, limb) for limb in catalogue.method(timed).limbs]
+            pairs += [(catalogue.owner_of(timed, limb), limb) for limb in catalogue.method(timed).limbs]
         # A fine-tuned network begins with the weights of another one, which is trained even if nothing shows it.
         pairs += [(first, limb) for method, limb in pairs if (first := catalogue.method(method).start)]
         return frozenset(pairs)
@@ -227,7 +228,12 @@ class Files(Seeds):
             return tuple(found)
         for seed, (robot, files) in enumerate(self.robots.items(), start=FIRST_SEED):
             if level in (*fleet.levels, robot):
-                own = files.runs(scenario, fleet.level_of(robot, level), methods)
+                walked = fleet.level_of(robot, level)
+                named = tuple(methods)
+                if not files.is_whole:
+                    known = files.catalogue.tests.get(scenario, {}).get(walked, ())
+                    named = tuple(method for method in named if method in known)
+                own = files.runs(scenario, walked, named)
                 # Every method has the robot's seed, also one without networks: methods are paired over robots.
                 found += [replace(run, level=level, network_seed=seed) for run in own]
         return tuple(found)

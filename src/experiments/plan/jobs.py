@@ -70,7 +70,7 @@ class Jobs:
         seeds = files.seeds_of(w.scenario, w.level)
         return {
             "settings": walk_settings(files.settings, w.scenario, w.level),
-            "duration_s": files.duration_s([w.scenario], seeds[0]),
+            "duration_s": files.duration_s([w.scenario], seeds[0], w.level),
             "motions": {seed: next(iter(files.motion(w.scenario, seed)), None) for seed in seeds},
         }
 
@@ -261,7 +261,7 @@ class Jobs:
             source = files.catalogue.network_source_of(method)
             networks: dict[str, Path] = {}
             for limb in files.catalogue.method(source).limbs:
-                if (source, limb) in files.learned:
+                if (files.catalogue.owner_of(source, limb), limb) in files.learned:
                     networks[limb] = files.network(source, limb, files.network_seeds(source, limb)[0])
             fitted = next(iter(files.fit(method)), None)
             runs[method] = MethodRun(method, _with_source(files, method), networks, fitted, 0)

@@ -163,7 +163,7 @@ def walks_by_kind(files: Files, _: Any) -> Mapping[str, list[Path]]:
 def first_walks(files: Files, _: Any) -> Mapping[str, tuple[Path, Path]]:
     """Return the first recording of each robot from which its legs learn, with its residual."""
     walks: dict[str, tuple[Path, Path]] = {}
-    for robot, own in files.robots.items():
+    for robot, own in files.whole_robots.items():
         walks[robot] = own.training("recordings", "walk")[0], own.training("residuals", "walk")[0]
     return walks
 
@@ -184,7 +184,7 @@ def residuals_by_robot(files: Files, _: Any) -> Mapping[str, ByName]:
     """Return the residuals of the training sets that networks of each robot learn from."""
     names = _learned_from(files)
     robots: dict[str, dict[str, tuple[Path, ...]]] = {}
-    for robot, own in files.robots.items():
+    for robot, own in files.whole_robots.items():
         robots[robot] = {name: own.training("residuals", name) for name in own.learned_sets if name in names}
     return robots
 
@@ -342,12 +342,13 @@ def explore_needs(files: Files) -> dict[str, object]:
     limb = files.settings.layout.limb_of[story.joint]
     told = page.story
     pushes = _pushes(files, story.scenario)
-    first = PageScene(told.push, told.plant, runs, (limb,), story.joint, told.threshold_nm, pushes, story.push)
+    gate = files.settings.detection.gate.method
+    first = PageScene(told.push, told.plant, runs, (limb,), story.joint, told.threshold_nm, gate, pushes, story.push)
     scenes = {"story": first}
     for name, row in page.scenes.items():
         scenes[name] = PageScene(
             row.push, row.plant, files.first_runs(row), row.limbs, row.joint, row.threshold_nm,
-            _pushes(files, row.scenario), from_s=row.from_s,
+            row.gate or gate, _pushes(files, row.scenario), from_s=row.from_s,
         )  # fmt: skip
     found = detection_files(files.robots.get(story.level, files))
     return {

@@ -64,6 +64,7 @@ class PageScene:
         limbs: those whose joints are shown.
         joint: the one that is shown first.
         threshold_nm: where the slider of the threshold begins [N m].
+        gate: method whose estimate tells of an early contact.
         pushes: those of the scenario, in their order.
         name: name of the push that is shown, the first of it; None where any push counts.
         from_s: time from which on the push may begin [s].
@@ -75,6 +76,7 @@ class PageScene:
     limbs: tuple[str, ...]
     joint: str
     threshold_nm: float
+    gate: str
     pushes: Mapping[str, Push]
     name: str | None = None
     from_s: float = 0.0

@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
+from experiments.settings.measures import Scoring
 from mobnet.settings.methods import Method
 from mobnet.settings.surrogate import Level
 
@@ -57,6 +58,18 @@ class TriedTask:
     tried: tuple[Tried, ...]
     recordings: tuple[Path, ...]
     residuals: tuple[Path, ...]
+
+
+@dataclass(frozen=True)
+class TaughtRobot:
+    """A robot on which it is tried what the walks of a training set teach: its walks, and those with hits.
+
+    `asked` says which time around the hits counts.
+    """
+
+    walk: TriedTask
+    hits: TriedTask
+    asked: Scoring
 
 
 @dataclass(frozen=True)

@@ -7,13 +7,13 @@ from pathlib import Path
 from typing import Self
 
 from experiments.settings.catalogue import Catalogue
-from experiments.settings.fleet import as_robot
+from experiments.settings.fleet import OWN_TESTS, as_robot, is_whole
 from experiments.settings.settings import Settings
 from mobnet.core.errors import ConfigError
 from mobnet.settings.data import Recordings
 
 # Recordings and motions of development and of training count from these seeds; those of tests, from their scale's
-# `first_seed`, lie below.
+# `first_seed`, lie below, and those of tests of robots of the fleet from `OWN_TESTS` on.
 FIRST_DEVELOPMENT_SEED = 501
 FIRST_TRAINING_SEED = 1000
 
@@ -26,11 +26,15 @@ class Seeds:
         catalogue: the configuration, of a robot as it has it.
         results: folder of its files, beside those of the others.
         robot: its name; nothing for the plant of section 5.1.
+        is_whole: whether it walks all tests, and not those of a leg alone.
+        number: its place in the fleet, from 0; 0 also of the plant.
     """
 
     catalogue: Catalogue
     results: Path
     robot: str = ""
+    is_whole: bool = True
+    number: int = 0
 
     @property
     def settings(self) -> Settings:
@@ -40,8 +44,17 @@ class Seeds:
     @cached_property
     def robots(self) -> Mapping[str, Self]:
         """Robot of the fleet -> its files; of a robot itself there are none."""
-        named = self.settings.fleet.robots[: self.settings.sizes.fleet]
-        return {name: type(self)(as_robot(self.catalogue, name), self.shared / name, name) for name in named}
+        settings = self.settings
+        found: dict[str, Self] = {}
+        for number, name in enumerate(settings.fleet.robots[: settings.sizes.fleet]):
+            own = as_robot(self.catalogue, name)
+            found[name] = type(self)(own, self.shared / name, name, is_whole(settings, name), number)
+        return found
+
+    @property
+    def whole_robots(self) -> Mapping[str, Self]:
+        """Robot of the fleet that walks all tests -> its files."""
+        return {name: own for name, own in self.robots.items() if own.is_whole}
 
     @property
     def shared(self) -> Path:
@@ -57,13 +70,13 @@ class Seeds:
         """Return whether a level is one of these files' own: of a robot, or of the plant of section 5.1."""
         fleet = self.settings.fleet
         if self.robot:
-            known = fleet.levels
+            known = fleet.levels if self.is_whole else (fleet.name,)
             return level in (*known, *(fleet.level_of(self.robot, name) for name in known))
         return level in self.settings.levels and level not in fleet.robots
 
     @property
     def test_seeds(self) -> list[int]:
-        """Seeds of the test recordings, the same in every test."""
+        """Seeds of the test recordings, the same in every test; each robot has its own."""
         test = self.settings.sizes.test
         return [test.first_seed + i for i in range(test.shards)]
 
@@ -100,7 +113,10 @@ class Seeds:
         if level in self.catalogue.tests.get(scenario, ()):
             return self.test_seeds
         walks = self.settings.development.values()
-        if (scenario, level) in [(walk.scenario, walk.level) for walk in walks]:
+        trial = self.settings.trials.factorial
+        developed = [(walk.scenario, walk.level) for walk in walks]
+        developed += [(walk, self.robot) for walk in (trial.walk, trial.hits)]
+        if (scenario, level) in developed:
             return list(self.development_seeds)
         found: list[int] = []
         for name, row in self.settings.training_sets.items():
@@ -113,23 +129,26 @@ class Seeds:
 
     @property
     def development_seeds(self) -> range:
-        """Seeds of the walks on which methods are chosen."""
-        return range(FIRST_DEVELOPMENT_SEED, FIRST_DEVELOPMENT_SEED + self.settings.sizes.development.shards)
+        """Seeds of the walks on which methods are chosen; each robot has its own."""
+        shards = self.settings.sizes.development.shards
+        first = FIRST_DEVELOPMENT_SEED + self.number * shards
+        return range(first, first + shards)
 
-    def duration_s(self, scenarios: Iterable[str], seed: int) -> float:
-        """Return the duration of the recordings with a seed [s]; of several scenarios, the longest."""
+    def duration_s(self, scenarios: Iterable[str], seed: int, level: str = "") -> float:
+        """Return the duration of the recordings with a seed [s]; of several scenarios, or at any level, the longest."""
         wanted = list(scenarios)
         sets = self.settings.training_sets
-        if seed < FIRST_DEVELOPMENT_SEED:
+        if seed < FIRST_DEVELOPMENT_SEED or seed >= OWN_TESTS:
             return max(self.settings.test_s(name) for name in wanted)
         if seed < FIRST_TRAINING_SEED:
             return self.settings.sizes.development.shard_s
-        return max(self.training_size(name).shard_s for name, row in sets.items() if row.scenario in wanted)
+        learned = [name for name, row in sets.items() if row.scenario in wanted and level in ("", row.level)]
+        return max(self.training_size(name).shard_s for name in learned)
 
     def set_s(self, scenario: str, level: str) -> float:
         """Return the duration of all recordings of a set [s]."""
         seeds = self.seeds_of(scenario, level)
-        return len(seeds) * self.duration_s([scenario], seeds[0])
+        return len(seeds) * self.duration_s([scenario], seeds[0], level)
 
     def motion_s(self, motion: str, seed: int) -> float:
         """Return the duration of a motion [s]: that of the longest recording that takes it."""

@@ -6,14 +6,14 @@ from pathlib import Path
 
 from experiments.plan.call import Call
 from experiments.plan.files import Files, made_by_jobs
-from experiments.plan.jobs import KINDS
+from experiments.plan.jobs import KINDS, scoring
 from experiments.plan.products import TABLE, Product
-from experiments.plan.runs import Tried, TriedTask
-from experiments.settings.trials import MethodVariant, compared, references, tuned
+from experiments.plan.runs import TaughtRobot, Tried, TriedTask
+from experiments.settings.trials import MethodVariant, compared, factors_of, references, sets_of, taught, tuned
 
 
 def trial_products(files: Files) -> Iterator[Product]:
-    """Yield the tables of what was tried: `tuning`, what is compared, and `random_torque`."""
+    """Yield the tables of what was tried: `tuning`, what is compared, `random_torque` and `factorial`."""
     settings = files.settings
     given = settings.trials, settings.methods
     first = settings.trials.tuning.task
@@ -28,11 +28,61 @@ def trial_products(files: Files) -> Iterator[Product]:
         tables[name] += trials
     for name, trials in tables.items():
         yield _product(files, files.shared / "trials" / name, trials)
-    counted = tuple(own.falls for own in files.robots.values())
+    counted = tuple(own.falls for own in files.whole_robots.values())
     out = files.shared / "trials" / "random_torque"
     arguments = {"counted": counted, "statistics": settings.evaluation.statistics, "out": out}
     call = Call("experiments.evaluation.tables.further.falls:falls", arguments)
     yield _table(out, call, made_by_jobs(counted))
+    yield _factorial(files, files.shared / "trials" / "factorial")
+
+
+def _factorial(files: Files, out: Path) -> Product:
+    """Return the table of what the walks of training sets teach, on some robots of the fleet, or else on all."""
+    settings = files.settings
+    trial = settings.trials.factorial
+    wanted = {name: own for name, own in files.robots.items() if name in trial.robots}
+    robots = {name: _taught(own) for name, own in (wanted or files.robots).items()}
+    cells = {name: factors_of(settings.training_sets, settings.scenarios, name) for name in sets_of(trial)}
+    arguments = {
+        "robot": settings.robot,
+        "gravity_m_s2": settings.plant.gravity_m_s2,
+        "observer": settings.observer,
+        "rate_hz": settings.rates.data_hz,
+        "settings": trial,
+        "robots": robots,
+        "cells": cells,
+        "torque_nm": settings.random_torque.legs_waist_nm,
+        "peaks": settings.evaluation.peaks,
+        "statistics": settings.evaluation.statistics,
+        "out": out,
+    }
+    kinds: dict[str, None] = {}
+    for robot in robots.values():
+        for one in robot.walk.tried:
+            kinds |= dict.fromkeys(f"{KINDS}.{row.kind}" for row in one.methods.values())
+    call = Call("experiments.evaluation.tables.further.factorial:factorial", arguments)
+    return _table(out, call, made_by_jobs(robots), kinds)
+
+
+def _taught(own: Files) -> TaughtRobot:
+    """Return what is tried on a robot, and the walks on which it is judged."""
+    settings = own.settings
+    trial = settings.trials.factorial
+    beside = [MethodVariant(name, name, {}, settings.methods[name], "") for name in trial.references]
+    tried: list[Tried] = []
+    for variant in (*taught(settings.trials, settings.methods), *beside):
+        tried += _tried(own, variant)
+    joints = tuple(settings.layout.limbs(settings.robot.networks[trial.limb].joints))
+    level = settings.levels[own.robot]
+    tasks: list[TriedTask] = []
+    for scenario in (trial.walk, trial.hits):
+        recordings = tuple(own.array("recordings", scenario, own.robot, seed) for seed in own.development_seeds)
+        residuals = tuple(own.array("residuals", scenario, own.robot, seed) for seed in own.development_seeds)
+        tasks.append(TriedTask(level, joints, tuple(tried), recordings, residuals))
+    walk, hits = tasks
+    asked = scoring(settings, trial.hits, own.robot)
+    window = settings.evaluation.windows[trial.as_in]
+    return TaughtRobot(walk, hits, asked.model_copy(update={"window": window}))
 
 
 def _product(files: Files, out: Path, trials: Sequence[MethodVariant]) -> Product:

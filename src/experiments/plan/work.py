@@ -80,7 +80,7 @@ def walked(plan: Plan, w: Any) -> tuple[Amounts, float]:
     """Return the work of recordings that are made one after another, and the longest of them [s]."""
     files = plan.jobs.files(w)
     seeds = files.seeds_of(w.scenario, w.level)
-    seconds = files.duration_s([w.scenario], seeds[0])
+    seconds = files.duration_s([w.scenario], seeds[0], w.level)
     return {"surrogate s" if files.robot else SECONDS: seconds * len(seeds), "walk": len(seeds)}, seconds
 
 
@@ -88,7 +88,7 @@ def observed(plan: Plan, w: Any) -> tuple[Amounts, float]:
     """Return the work of the observer, and the longest recording [s]."""
     files = plan.jobs.files(w)
     seeds = files.seeds_of(w.scenario, w.level)
-    return {SECONDS: files.set_s(w.scenario, w.level)}, files.duration_s([w.scenario], seeds[0])
+    return {SECONDS: files.set_s(w.scenario, w.level)}, files.duration_s([w.scenario], seeds[0], w.level)
 
 
 def trained(plan: Plan, w: Any) -> tuple[Amounts, float]:

@@ -9,7 +9,7 @@ from itertools import product
 from experiments.settings.asked import RunRequest, asked_by
 from experiments.settings.scales import Experiment
 from experiments.settings.settings import Settings
-from experiments.settings.trials import MethodVariant, compared, tuned
+from experiments.settings.trials import MethodVariant, compared, taught, tuned
 from mobnet.core.errors import ConfigError, not_accepted
 from mobnet.core.joints import JointLayout
 from mobnet.settings.methods import Method, Sweep, swept_name
@@ -17,6 +17,7 @@ from mobnet.settings.networks import Learning, Network, Training
 
 Names = tuple[str, ...]
 ByTest = Mapping[str, Mapping[str, Names]]  # scenario -> level -> names
+Held = Mapping[tuple[str, str, str], Names]  # scenario, level and method -> limbs
 
 
 @dataclass(frozen=True)
@@ -24,7 +25,7 @@ class Catalogue:
     """Answers about a configuration; tests and limbs are `given` where they are not those that it asks for itself."""
 
     settings: Settings
-    given: tuple[ByTest, ByTest] | None = None
+    given: tuple[ByTest, Held] | None = None
 
     @cached_property
     def layout(self) -> JointLayout:
@@ -42,31 +43,37 @@ class Catalogue:
         return self._tests_and_limbs[0]
 
     @property
-    def limbs(self) -> ByTest:
-        """The limbs whose joints the estimates of a test at a level hold; only the networks of these limbs run.
+    def limbs(self) -> Held:
+        """The limbs whose joints a method's estimates of a test at a level hold; only the networks of these limbs run.
 
-        All limbs where no network runs, as it costs nothing there.
+        A method without networks holds what is shown of any method; all limbs where no network runs, as it costs
+        nothing there.
         """
         return self._tests_and_limbs[1]
 
     @cached_property
-    def _tests_and_limbs(self) -> tuple[ByTest, ByTest]:
-        """The tests in the order of scenarios and levels, and the limbs of each."""
+    def _tests_and_limbs(self) -> tuple[ByTest, Held]:
+        """The tests in the order of scenarios and levels, and the limbs of each of their methods."""
         if self.given:
             return self.given
         methods = defaultdict[tuple[str, str], set[str]](set)
-        shown = defaultdict[tuple[str, str], set[str]](set)
+        shown = defaultdict[tuple[str, str, str], set[str]](set)
         for one in self.asked:
             methods[one.scenario, one.level].add(one.method)
-            shown[one.scenario, one.level].update(one.shown)
+            shown[one.scenario, one.level, one.method].update(one.shown)
         tests: dict[str, dict[str, Names]] = {}
-        limbs: dict[str, dict[str, Names]] = {}
+        limbs: dict[tuple[str, str, str], Names] = {}
         # In the configuration's order, so that no file depends on where a table or a claim stands in its own.
         for scenario, level in product(self.settings.scenarios, [*self.settings.levels, *self.settings.fleet.levels]):
             if (scenario, level) in methods:
                 ran = self._in_order(methods[scenario, level])
                 tests.setdefault(scenario, {})[level] = ran
-                limbs.setdefault(scenario, {})[level] = self._limbs_of(shown[scenario, level], ran)
+                learned = [method for method in ran if self.method(self.network_source_of(method)).limbs]
+                every = {name for method in ran for name in shown[scenario, level, method]}
+                for method in ran:
+                    own = shown[scenario, level, method] if method in learned else every
+                    held = self._limbs_of(own) if learned else tuple(self.layout.groups)
+                    limbs[scenario, level, method] = held
         return tests, limbs
 
     def at_scale(self, scale: str) -> "Catalogue":
@@ -79,10 +86,8 @@ class Catalogue:
         order = {name: (bool(row.limbs) and row.of is None, k) for k, (name, row) in enumerate(rows.items())}
         return tuple(sorted((name for name in names if name in order), key=order.__getitem__))
 
-    def _limbs_of(self, shown: set[str], methods: Names) -> Names:
-        """Return the limbs of what is shown of some methods."""
-        if not any(self.method(self.network_source_of(name)).limbs for name in methods):
-            return tuple(self.layout.groups)
+    def _limbs_of(self, shown: set[str]) -> Names:
+        """Return the limbs of some limbs or joints that are shown."""
         groups = self.layout.groups.items()
         return tuple(limb for limb, joints in groups if limb in shown or shown.intersection(joints))
 
@@ -103,7 +108,7 @@ class Catalogue:
     def trials(self) -> tuple[MethodVariant, ...]:
         """Every variant that is tried."""
         given = self.settings.trials, self.settings.methods, self.settings.development
-        return (*tuned(*given), *compared(*given))
+        return (*tuned(*given), *compared(*given), *taught(*given[:2]))
 
     @cached_property
     def tried(self) -> dict[str, Method]:
@@ -129,6 +134,10 @@ class Catalogue:
         """Return the method whose networks a method runs on: itself if it has some, else that of its fit."""
         return method if self.method(method).limbs else self.source_of(method)
 
+    def owner_of(self, method: str, limb: str) -> str:
+        """Return the method whose network of a limb a method runs: its own, if it names no other one."""
+        return self.method(method).networks_of.get(limb, method)
+
     def estimated(self, method: str, scenario: str, level: str) -> Names:
         """Return the joints that a method estimates in a test.
 
@@ -140,7 +149,7 @@ class Catalogue:
         for limb in self.method(self.network_source_of(method)).limbs:
             groups += networks[limb].joints
         known = layout.limbs(groups) or layout.names
-        held = layout.limbs(self.limbs.get(scenario, {}).get(level, layout.groups))
+        held = layout.limbs(self.limbs.get((scenario, level, method), layout.groups))
         return tuple(joint for joint in held if joint in known)
 
     def network(self, method: str, limb: str) -> Network:
@@ -149,7 +158,8 @@ class Catalogue:
         if limb not in rows:
             raise ConfigError(not_accepted("network", limb, rows))
         ports = self.settings.robot.networks[limb]
-        return Network.model_validate({**vars(ports), **vars(rows[limb]), **self.method(method).network})
+        owner = self.method(self.owner_of(method, limb))
+        return Network.model_validate({**vars(ports), **vars(rows[limb]), **owner.network})
 
     def experiment(self, method: str, limb: str) -> Experiment:
         """Return how long and how often a method's network is trained at the chosen scale."""

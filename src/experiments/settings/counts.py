@@ -56,8 +56,9 @@ def known_hours(settings: "Settings", _: "Cell") -> float:
 
 
 def robots_of(settings: "Settings") -> int:
-    """Return how many surrogate robots the chosen scale has."""
-    return settings.sizes.fleet or len(settings.fleet.robots)
+    """Return how many surrogate robots of the chosen scale walk all tests."""
+    sizes = settings.sizes
+    return sizes.fleet_whole or sizes.fleet or len(settings.fleet.robots)
 
 
 def shards_of(settings: "Settings") -> int:

@@ -2,12 +2,15 @@
 
 from typing import Any
 
-from experiments.settings.catalogue import ByTest, Catalogue, Names
+from experiments.settings.catalogue import ByTest, Catalogue, Held, Names
 from experiments.settings.scales import Experiment
+from experiments.settings.settings import Settings
 from experiments.settings.trials import experiments_of
 from mobnet.settings.surrogate import Fleet, Level, SurrogateRobot, Variant
 
 FIRST_SEED = 101  # of the networks of the fleet's robots, one for each; all other networks have lower ones
+# The first robot's tests have seeds from here on, the next robot's so many more: no two robots walk the same.
+OWN_TESTS = 10_000
 
 
 def as_robot(catalogue: Catalogue, robot: str) -> Catalogue:
@@ -32,7 +35,10 @@ def as_robot(catalogue: Catalogue, robot: str) -> Catalogue:
         )
         for name, row in lengths.items()
     }
-    test = settings.sizes.test.model_copy(update={"shards": settings.sizes.fleet_shards or settings.sizes.test.shards})
+    plant = settings.sizes.test
+    first_seed = OWN_TESTS * (index + 1) + plant.first_seed
+    shards = settings.sizes.fleet_shards or plant.shards
+    test = plant.model_copy(update={"first_seed": first_seed, "shards": shards})
     sizes = settings.sizes.model_copy(update={"experiments": experiments, "test": test})
     changed: dict[str, Any] = {
         "levels": {**settings.levels, **levels},
@@ -40,8 +46,21 @@ def as_robot(catalogue: Catalogue, robot: str) -> Catalogue:
         "scales": {settings.scale: sizes},
         "fleet": fleet.model_copy(update={"robots": ()}),
     }
-    own = _own(fleet, catalogue.tests, robot), _own(fleet, catalogue.limbs, robot)
+    if not is_whole(settings, robot):
+        # What is fitted learns from the walks of its legs alone.
+        methods = settings.methods.items()
+        fits = {name: row.model_copy(update={"fitted": (fleet.leg,)}) for name, row in methods if row.fitted}
+        changed["methods"] = {**settings.methods, **fits}
+        own = _own_of_a_leg(fleet, catalogue, robot)
+    else:
+        own = _own(fleet, catalogue, robot)
     return Catalogue(settings.model_copy(update=changed), own)
+
+
+def is_whole(settings: Settings, robot: str) -> bool:
+    """Return whether a robot walks all tests at the chosen scale, and not those of a leg alone."""
+    whole = settings.sizes.fleet_whole
+    return whole is None or settings.fleet.robots.index(robot) < whole
 
 
 def varied(level: Level, row: Variant) -> Level:
@@ -52,16 +71,31 @@ def varied(level: Level, row: Variant) -> Level:
     return level.model_copy(update={"surrogate": changed, "friction": row.friction})
 
 
-def _own(fleet: Fleet, named: ByTest, robot: str) -> ByTest:
-    """Return the methods or limbs of the tests that a robot walks, at its own levels.
+def _own(fleet: Fleet, catalogue: Catalogue, robot: str) -> tuple[ByTest, Held]:
+    """Return the methods of the tests that a robot walks, at its own levels, and the limbs of each of them.
 
     What stands at the robot's own level adds to what the whole fleet has.
     """
-    found = dict[str, dict[str, Names]]()
-    for scenario, rows in named.items():
+    tests = dict[str, dict[str, Names]]()
+    limbs = dict[tuple[str, str, str], Names]()
+    for scenario, rows in catalogue.tests.items():
         for name in (*fleet.levels, robot):
-            if name in rows:
-                own = found.setdefault(scenario, {})
-                level = fleet.level_of(robot, name)
-                own[level] = tuple(dict.fromkeys([*own.get(level, ()), *rows[name]]))
-    return found
+            level = fleet.level_of(robot, name)
+            for method in rows.get(name, ()):
+                own = tests.setdefault(scenario, {})
+                own[level] = tuple(dict.fromkeys([*own.get(level, ()), method]))
+                held = (*limbs.get((scenario, level, method), ()), *catalogue.limbs[scenario, name, method])
+                limbs[scenario, level, method] = tuple(dict.fromkeys(held))
+    return tests, limbs
+
+
+def _own_of_a_leg(fleet: Fleet, catalogue: Catalogue, robot: str) -> tuple[ByTest, Held]:
+    """Return the same of a robot of which a scale wants but a leg."""
+    tests = dict[str, dict[str, Names]]()
+    limbs = dict[tuple[str, str, str], Names]()
+    for scenario in fleet.leg_tests:
+        named = catalogue.tests.get(scenario, {}).get(fleet.name, ())
+        tests[scenario] = {robot: tuple(name for name in named if name in fleet.leg_methods)}
+        for method in tests[scenario][robot]:
+            limbs[scenario, robot, method] = (fleet.leg,)
+    return tests, limbs

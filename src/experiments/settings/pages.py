@@ -103,10 +103,12 @@ class ExploreStory(Checked):
 class ExploreScene(Checked, LimbRuns):
     """A scene of the page: the first push of the first run that begins from a time on, and the joint shown first.
 
-    `push` and `plant` are the texts of its buttons.
+    `push` and `plant` are the texts of its buttons, `gate` the method that tells of an early contact, where networks of
+    that of detectors are not trained.
     """
 
     scenario: base.PushedName
+    gate: base.MethodName | None = None
     push: base.Text
     plant: base.Text
     joint: base.MotorName
@@ -119,7 +121,7 @@ class ExploreScene(Checked, LimbRuns):
         if self.joint not in joints or self.joint not in results.pushed_joints(self.scenario):
             text = misfit(self.joint, f"a joint of {', '.join(self.limbs)} that its push turns")
             yield (*place, "joint"), text
-        yield from results.not_gated((*place, "methods"), self.methods)
+        yield from results.not_gated((*place, "methods"), self.methods, self.gate)
 
 
 class Explore(Section):

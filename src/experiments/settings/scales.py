@@ -59,8 +59,9 @@ class Scale(Section):
 
     `durations_s` gives the duration [s] of tests whose recordings are longer or shorter than the others; `robots` has
     the experiments that take another length on the robots of the fleet or more than one network of each, `fleet` how
-    many of these robots there are, the first ones, and `fleet_shards` how many recordings of each test each of them
-    makes; all of them, and as many as elsewhere, without these.
+    many of these robots there are, the first ones, `fleet_whole` how many of them, again the first ones, walk more than
+    the tests of a leg, and `fleet_shards` how many recordings of each test each of them makes; all of them, and as many
+    as elsewhere, without these.
     """
 
     decides: bool
@@ -70,6 +71,7 @@ class Scale(Section):
     experiments: dict[LowerName, Experiment] = Field(min_length=1)
     robots: dict[LowerName, RobotLength] = {}
     fleet: Annotated[Count, Field(le=100)] | None = None
+    fleet_whole: Annotated[Count, Field(le=100)] | None = None
     fleet_shards: Annotated[Count, Field(le=100)] | None = None
     reactions: Reactions
     least_swings: Annotated[Count, Field(le=100_000)] | None = None

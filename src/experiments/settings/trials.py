@@ -10,11 +10,12 @@ from pydantic import Field
 
 from mobnet.settings import base
 from mobnet.settings.base import Section
-from mobnet.settings.data import Development
+from mobnet.settings.data import Development, Scenario, TrainingSet
 from mobnet.settings.methods import Method
 
 Value = bool | int | float | str
 EXPERIMENT, RECIPE = "experiment", "recipe"  # what a comparison changes
+DATA = "data"  # what the factorial changes
 
 
 class Grid(Section):
@@ -56,13 +57,38 @@ class Explored(Section):
     first_seed: base.Whole = Field(ge=601, le=900)
 
 
+class Factorial(Section):
+    """What walks teach: networks of a limb that learn from each of the `cells`, training sets of equal size.
+
+    The scenarios of the cells differ in random torque, pushes and commands, and have every combination of them. The set
+    `another_day` has the scenario of `same_day`, one of the cells. Each robot walks `walk`, where errors are means over
+    the limb's joints, and `hits`, where they are those of a `joint` in the time around pushes that test `as_in` has.
+    `references` stand beside, and the method `fitted`, which is fitted to the set `same_day`.
+    """
+
+    robots: base.Distinct[base.SurrogateLevelName]
+    limb: base.NetworkName
+    method: base.LearnedName
+    experiment: base.ExperimentName
+    cells: base.Distinct[base.TrainingSetName]
+    same_day: base.TrainingSetName
+    another_day: base.TrainingSetName
+    references: base.MethodNames
+    fitted: base.MethodName
+    walk: base.ScenarioName
+    hits: base.PushedName
+    as_in: base.PushedTestName
+    joint: base.JointName
+
+
 class Trials(Section):
-    """The trials: recipes (keys of `learning` over those of a method), tables of comparisons, and random torques."""
+    """The trials: recipes (keys of `learning` over those of a method), comparisons, random torques, a factorial."""
 
     recipes: dict[str, base.Change]
     tuning: Tuning
     compared: dict[base.LowerName, tuple[Comparison, ...]]
     random_torque: Explored
+    factorial: Factorial
 
 
 class MethodVariant(NamedTuple):
@@ -73,6 +99,25 @@ class MethodVariant(NamedTuple):
     changes: Mapping[str, Value]
     method: Method
     task: str
+
+
+class Factors(NamedTuple):
+    """What the walks of a training set have: random torque, pushes, and commands of a kind."""
+
+    random_torque: bool
+    pushes: bool
+    commands: str
+
+
+def factors_of(sets: Mapping[str, TrainingSet], scenarios: Mapping[str, Scenario], name: str) -> Factors:
+    """Return what the walks of a training set have."""
+    row = scenarios[sets[name].scenario]
+    return Factors(row.random_torque, bool(row.pushes), str(row.commands))
+
+
+def sets_of(trial: Factorial) -> tuple[str, ...]:
+    """Return all training sets of the factorial, that of another day last."""
+    return (*trial.cells, trial.another_day)
 
 
 def combinations(grid: Grid) -> Iterator[dict[str, Value]]:
@@ -114,6 +159,21 @@ def compared(
             changes: dict[str, Value] = {EXPERIMENT: experiment, RECIPE: recipe}
             method = _changed(methods[name], tasks.get(row.task), experiment, trials.recipes.get(recipe, {}), {})
             yield MethodVariant(name, trial_name(name, changes), changes, method, row.task)
+
+
+def taught(trials: Trials, methods: Mapping[str, Method]) -> Iterator[MethodVariant]:
+    """Yield the factorial's method with each of its training sets, then the method that is fitted to one of them."""
+    trial = trials.factorial
+    if trial.method in methods:
+        method = methods[trial.method]
+        for name in sets_of(trial):
+            network = {**method.network, "experiment": trial.experiment, DATA: name}
+            own = method.model_copy(update={"limbs": (trial.limb,), "network": network})
+            yield MethodVariant(trial.method, trial_name(trial.method, {DATA: name}), {DATA: name}, own, "")
+    if trial.fitted in methods:
+        changes: dict[str, Value] = {DATA: trial.same_day}
+        own = methods[trial.fitted].model_copy(update={"fitted": (trial.limb,), "network": changes})
+        yield MethodVariant(trial.fitted, trial_name(trial.fitted, changes), changes, own, "")
 
 
 def experiments_of(trials: Trials) -> set[str]:

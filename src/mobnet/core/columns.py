@@ -265,6 +265,19 @@ TABLE_01 = (
     "horizon_published",
 )
 FALLEN = (*FALLS, "per_hour", "low", "high", "chosen")  # of each robot, and of all of them
+FACTORIAL = (
+    "part",
+    "name",
+    "random_torque_nm",
+    "pushes",
+    "commands",
+    "measure",
+    "robot",
+    "value",
+    "low",
+    "high",
+    "unit",
+)  # of a method or a training set, of each robot and of all, then of effects; empty: over all levels of a factor
 DATA = ("set", "quantity", "part", "value", "unit", "published")
 BIN = ("set", "command", "bin_from", "bin_to", "count")
 STEPS = (*BIN, "commanded", "measured", "ratio", "within", "unit")

@@ -25,7 +25,8 @@ class Method(Section):
 
     `fitted` names networks of Table 1 whose joints are fitted without a network, on the training set of that network.
     With `of` it runs on another method: on its output, or, if it has networks of its own, on its fit. `start` names the
-    method from whose networks its own are fine-tuned. `options` are numbers of its kind, which checks them.
+    method from whose networks its own are fine-tuned, `networks_of` another method whose network of a limb it runs
+    instead of one of its own. `options` are numbers of its kind, which checks them.
     """
 
     kind: base.Text
@@ -36,6 +37,7 @@ class Method(Section):
     fitted: Networks = ()
     of: base.SourceName | None = None
     start: base.MethodName | None = None
+    networks_of: dict[base.NetworkName, base.MethodName] = {}
     options: dict[str, JsonValue] = {}
 
 

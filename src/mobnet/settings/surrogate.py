@@ -11,9 +11,11 @@ from mobnet.settings.base import (
     Index,
     LimbName,
     LowerName,
+    MethodNames,
     NotNegative,
     Range,
     Real,
+    ScenarioName,
     Section,
     Share,
     Some,
@@ -104,7 +106,8 @@ class SurrogateRobot(Section):
     Without `drives`, the friction of its joints is (23), and without `body` or `sensors` these are as on the plant of
     section 5.1. `running_s` is the range of the time since its gears were cold, at the start of a recording. Friction
     and torque constants of its drives are those drawn, times a ratio, and so are the gains of its legs' joints. Its
-    `gait` replaces ranges of the commands, and `payload_kg` comes on top of the payload drawn.
+    `gait` replaces ranges of the commands, and `payload_kg` comes on top of the payload drawn. On another `day` than 0
+    its sensors have other errors, as they were mounted and zeroed anew.
     """
 
     seed: Index
@@ -115,6 +118,7 @@ class SurrogateRobot(Section):
     gain_ratio: Ratio = 1.0
     gait: CommandRanges = CommandRanges()
     payload_kg: Payload = 0.0
+    day: Index = 0
 
 
 class Level(Section):
@@ -146,6 +150,7 @@ class Variant(Section):
     gain_ratio: Ratio = 1.0
     gait: CommandRanges = CommandRanges()
     payload_kg: Payload = 0.0
+    day: Index = 0
 
 
 class Fleet(Section):
@@ -153,11 +158,15 @@ class Fleet(Section):
 
     A test at the level `name` is walked by each of the `robots`, with methods that are fitted and trained on that
     robot's recordings; at the level of a variant, by each of them changed. There, `sets` take the place of the training
-    sets that networks name.
+    sets that networks name. Robots of which a scale wants but a leg walk the `leg_tests` alone, as they are, with
+    the `leg_methods`, which estimate the limb `leg`.
     """
 
     name: LowerName
     robots: Distinct[SurrogateLevelName]
+    leg: LimbName
+    leg_tests: Distinct[ScenarioName]
+    leg_methods: MethodNames
     sets: dict[TrainingSetName, TrainingSetName]
     variants: dict[LowerName, Variant]
 

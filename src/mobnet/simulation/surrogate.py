@@ -39,6 +39,9 @@ def draw_hidden(
         return Hidden(robot, plant, no_drives(robot.layout.nu), no_faults(robot_spec(robot).compile()))
     seeds = np.random.SeedSequence([seed, zlib.crc32(b"surrogate"), chosen.seed]).spawn(3)
     body, drives, sensors = (np.random.default_rng(stream) for stream in seeds)
+    if chosen.day:
+        of_the_day = np.random.SeedSequence([seed, zlib.crc32(b"sensors of another day"), chosen.seed, chosen.day])
+        sensors = np.random.default_rng(of_the_day)
     parts = chosen.parts
     if "body" in parts:
         robot = _other_links(surrogate.body, robot, chosen.payload_kg, body)

@@ -25,8 +25,8 @@ from mobnet.core.store import write_array
 from mobnet.estimation.low_pass import low_pass
 
 START, LENGTH, PEAK_N, PEAK_NM, GAIN_HZ = GROUND + 150, 80, 150.0, 50.0, 100.0
-SHARES = {"MOB": 1.5, "MOB-fric-dahl": 1.0, "MOB-Net": 0.7}  # of the push in each estimate
-OFFSETS_NM = {"MOB": 20.0, "MOB-fric-dahl": 10.0, "MOB-Net": 3.0}  # errors that never change
+SHARES = {"MOB": 1.5, "MOB-fric-dahl": 1.0, "MOB-Net-pushed": 0.7}  # of the push in each estimate
+OFFSETS_NM = {"MOB": 20.0, "MOB-fric-dahl": 10.0, "MOB-Net-pushed": 3.0}  # errors that never change
 DELAY_S = 0.035
 Made = tuple[Story, list[Run], dict[str, dict[str, Path]]]
 
@@ -77,7 +77,7 @@ def test_shares_delays_and_errors_are_those_of_the_estimates(settings: Settings,
     assert {method: own.share for method, own in felt.items()} == pytest.approx(SHARES, abs=1e-3)
     errors_nm = {method: push.error_nm(torque, story.joint) for method, torque in torques.items()}
     assert errors_nm["MOB-fric-dahl"] == pytest.approx(OFFSETS_NM["MOB-fric-dahl"], rel=1e-3)
-    late = [felt[method].delay_ms for method in ("MOB", "MOB-fric-dahl", "MOB-Net")]
+    late = [felt[method].delay_ms for method in ("MOB", "MOB-fric-dahl", "MOB-Net-pushed")]
     assert late == sorted(late)  # a lower one reaches half of the peak later
     assert (push.time_s[0], push.time_s[-1]) == pytest.approx((-0.3, 0.399))
     assert np.linalg.norm(push.force, axis=1).max() == pytest.approx(PEAK_N, rel=0.01)
@@ -121,12 +121,14 @@ def test_the_lines_at_the_end_have_the_numbers_of_each_method() -> None:
     felt = {
         "MOB": PushResponse(98.0, 1.504, 2.0),
         "FTS-e2e": PushResponse(20.0, 0.3, None),
-        "MOB-Net": PushResponse(43.0, 0.72, 24.7),
+        "MOB-Net-pushed": PushResponse(43.0, 0.72, 24.7),
     }
-    heads, *lines = lines_of(felt, {"MOB": 27.8, "FTS-e2e": 5.4, "MOB-Net": 3.9})
+    heads, *lines = lines_of(felt, {"MOB": 27.8, "FTS-e2e": 5.4, "MOB-Net-pushed": 3.9})
     assert lines == [
-        ("MOB-Net", "72 %", "25 ms", "4 N m"), ("FTS-e2e", "30 %", "-", "5 N m"), ("MOB", "150 %", "2 ms", "28 N m")
-    ]  # fmt: skip
+        ("MOB-Net-pushed", "72 %", "25 ms", "4 N m"),
+        ("FTS-e2e", "30 %", "-", "5 N m"),
+        ("MOB", "150 %", "2 ms", "28 N m"),
+    ]
     assert len(heads) == len(lines[0])
 
 

@@ -15,14 +15,22 @@ ROBOTS, WALKS, DRAWS = 3, 6, 200
 LEAST = 0.91  # of 200 intervals, of which 95 % hold: three standard deviations below are .904
 
 
-def places_of(each: int, robots: int = ROBOTS) -> list[ClusterKey]:
-    """Return the places of some values in every walk of every robot."""
-    return [ClusterKey(f"robot_{k}", 240 + w) for k in range(robots) for w in range(WALKS) for _ in range(each)]
+def places_of(each: int, robots: int = ROBOTS, shared: bool = False) -> list[ClusterKey]:
+    """Return the places of some values in every walk of every robot, whose walks are its own or those of all."""
+    found: list[ClusterKey] = []
+    for robot in range(robots):
+        first = 240 if shared else 240 + 1000 * robot
+        for walk in range(WALKS):
+            found += [ClusterKey(f"robot_{robot}", first + walk)] * each
+    return found
 
 
-def effects(rng: np.random.Generator, each: int, robot: float, walk: float, rest: float = 0.0) -> np.ndarray:
-    """Return normal effects of robots and of walks, which the robots share, and a rest, (robots x walks x each,)."""
-    found = robot * rng.standard_normal((ROBOTS, 1, 1)) + walk * rng.standard_normal((1, WALKS, 1))
+def effects(
+    rng: np.random.Generator, each: int, robot: float, walk: float, rest: float = 0.0, shared: bool = False
+) -> np.ndarray:
+    """Return normal effects of robots and of walks, their own or shared, and a rest, (robots x walks x each,)."""
+    walks = walk * rng.standard_normal((1 if shared else ROBOTS, WALKS, 1))
+    found = robot * rng.standard_normal((ROBOTS, 1, 1)) + walks
     return (found + rest * rng.standard_normal((ROBOTS, WALKS, each))).ravel()
 
 
@@ -36,14 +44,15 @@ def covered(draw: Callable[[np.random.Generator], Number], truth: float) -> floa
 @pytest.mark.parametrize("each", [1, 6])
 @pytest.mark.parametrize(("robot", "walk"), [(0.0, 0.0), (1.5, 0.0), (0.0, 1.0), (1.5, 1.0)])
 @pytest.mark.parametrize("middle", [-3.0, 0.0, 1.5])
+@pytest.mark.parametrize("shared", [False, True])
 def test_shares_are_covered_whether_robots_walks_or_neither_differ(
-    each: int, robot: float, walk: float, middle: float
+    each: int, robot: float, walk: float, middle: float, shared: bool
 ) -> None:
     of_all = middle + np.hypot(robot, walk) * np.random.default_rng(0).standard_normal(100_000)
-    truth, places = float(np.mean(1.0 / (1.0 + np.exp(-of_all)))), places_of(each)
+    truth, places = float(np.mean(1.0 / (1.0 + np.exp(-of_all)))), places_of(each, shared=shared)
 
     def draw(rng: np.random.Generator) -> Number:
-        chance = 1.0 / (1.0 + np.exp(-middle - effects(rng, each, robot, walk)))
+        chance = 1.0 / (1.0 + np.exp(-middle - effects(rng, each, robot, walk, shared=shared)))
         return share_in(list(rng.random(len(chance)) < chance), places, STATISTICS)
 
     assert covered(draw, truth) >= LEAST
@@ -130,6 +139,13 @@ def test_of_a_full_grid_the_mean_s_interval_is_that_of_intervals() -> None:
     from experiments.evaluation.number.intervals import RunGrid, summarise
 
     values = np.exp(np.random.default_rng(3).normal(size=(ROBOTS, WALKS)))
-    ours = mean_in(list(values.ravel()), places_of(1), STATISTICS, "N")
-    grid = summarise([RunGrid(values, "robots")], STATISTICS)
-    assert ours.with_ends == pytest.approx(grid.with_ends)
+    for shared in (False, True):
+        ours = mean_in(list(values.ravel()), places_of(1, shared=shared), STATISTICS, "N")
+        grid = summarise([RunGrid(values, "robots", () if shared else tuple(range(ROBOTS)))], STATISTICS)
+        assert grid.low is not None
+        assert ours.low is not None
+        # Robots that differ less than independent values would count as these.
+        assert ours.low <= grid.low + 1e-12
+        apart = values.var(ddof=1) / values.size
+        if values.mean(axis=1).var(ddof=1) / ROBOTS > apart:
+            assert ours.with_ends == pytest.approx(grid.with_ends)

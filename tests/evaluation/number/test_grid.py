@@ -27,8 +27,23 @@ def test_robots_are_the_rows_of_every_method_and_networks_those_of_one(make_scor
     scores = make_scores(3, 2)
     robots = [replace(row, network_seed=FIRST_SEED + row.network_seed) for row in scores]
     both = WANTED, replace(WANTED, method="FTS-e2e")
-    networks, paired = ([run_grid(rows, each).rows for each in both] for rows in (scores, robots))
-    assert (networks, len(set(paired))) == (["MOB-Net", "FTS-e2e"], 1)
+    networks, paired = ([run_grid(rows, each) for each in both] for rows in (scores, robots))
+    assert [(grid.rows, grid.robots) for grid in networks] == [("MOB-Net", ()), ("FTS-e2e", ())]
+    assert [grid.robots for grid in paired] == [(101, 102, 103)] * 2
+
+
+def test_robots_have_walks_of_their_own_and_equally_many(make_scores: Scores) -> None:
+    """As test seeds of theirs say, which no two robots share."""
+    scores = make_scores(3, 2)
+    own = [
+        replace(row, network_seed=FIRST_SEED + row.network_seed, test_seed=1000 * row.network_seed + row.test_seed)
+        for row in scores
+    ]
+    grid = run_grid(own, WANTED)
+    np.testing.assert_array_equal(grid.values, run_grid(scores, WANTED).values)
+    assert grid.has_own_walks
+    with pytest.raises(DataError, match="5 rows"):
+        run_grid([row for row in own if row != WANTED.rows(own)[0]], WANTED)
 
 
 def test_order_of_rows_does_not_matter(make_scores: Scores, rng: np.random.Generator) -> None:

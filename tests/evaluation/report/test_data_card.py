@@ -44,10 +44,10 @@ def test_texts_are_those_of_the_docstring() -> None:
 def test_minutes_are_recordings_times_their_length() -> None:
     text = sizes(SETTINGS)
     assert "| paper | walk | random_walk | all_uncertainty | 12 | 60 |" in text
-    assert "| default | test | each test | as its table asks | 15 | 7.5 |" in text
-    assert "| default | test | leg_sines | as its table asks | 15 | 15 |" in text
-    assert "| default | test | each test of a robot | as its table asks | 6 | 3 |" in text
-    assert "| default | test | long_walk | as its table asks | 6 | 63 |" in text
+    assert "| default | test | each test | as its table asks | 12 | 6 |" in text
+    assert "| default | test | leg_sines | as its table asks | 12 | 12 |" in text
+    assert "| default | test | each test of a robot | as its table asks | 4 | 2 |" in text
+    assert "| default | test | long_walk | as its table asks | 4 | 40 |" in text
 
 
 @pytest.mark.parametrize(("section", "table"), list(zip(DRAWN, drawn(SETTINGS), strict=True)), ids=list(DRAWN))

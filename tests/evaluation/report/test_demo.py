@@ -35,7 +35,7 @@ METHODS = EVALUATION.story.methods
 SETTLED_NM, AFTER_NM = 0.002, 0.0002  # bounds of differences once estimators are judged, and from the push on
 READ = (
     "recording.json", "recording.parquet", "collisions.csv", "thresholds.csv", "fits/MOB-fric-dahl.json",
-    "networks/MOB-Net-LL/weights.safetensors",
+    "networks/MOB-Net-pushed-LL/weights.safetensors",
 )  # fmt: skip
 Estimates = Mapping[str, Estimate]
 
@@ -63,7 +63,7 @@ def test_what_is_stored_makes_the_estimates_of_the_published_run(
     """Those began at the beginning of the walk, ours begin a little before the push."""
     ours, made = estimates[method], DATA / estimate_place(method)
     signals = {EXTERNAL: ours.tau_ext} | ({} if ours.std is None else {STD: ours.std})
-    assert (STD in signals) == (method == "MOB-Net")
+    assert (STD in signals) == (method == "MOB-Net-pushed")
     for signal, values in signals.items():
         run, _ = read_array(made, named(signal, push.joints))
         assert np.abs(values - run)[push.settled :].max() < SETTLED_NM
@@ -79,8 +79,8 @@ def test_what_was_copied_has_the_hash_that_is_noted_and_is_of_the_published_run(
     assert [name for name in copied if file_hash(DATA / name) != sources[name]["sha256"]] == []
     assert note["scale"] == published["scale"]
     assert sources["recording.parquet"]["commit"] == read_json(DATA / "recording.json")["provenance"]["commit"]
-    weights = sources["networks/MOB-Net-LL/weights.safetensors"]
-    assert weights["commit"] == read_json(DATA / "networks/MOB-Net-LL/run.json")["provenance"]["commit"]
+    weights = sources["networks/MOB-Net-pushed-LL/weights.safetensors"]
+    assert weights["commit"] == read_json(DATA / "networks/MOB-Net-pushed-LL/run.json")["provenance"]["commit"]
 
 
 def test_the_stored_push_is_small() -> None:
@@ -220,7 +220,7 @@ def test_the_code_of_the_page_runs(capsys: pytest.CaptureFixture[str], stored: S
     assert len([line for line in code.splitlines() if line and not line.startswith("from")]) == 5
     found: dict[str, object] = {}
     exec(code, found)
-    last = read_array(DATA / estimate_place("MOB-Net"), named(EXTERNAL, stored.joints))[0][-1]
+    last = read_array(DATA / estimate_place("MOB-Net-pushed"), named(EXTERNAL, stored.joints))[0][-1]
     printed = eval(capsys.readouterr().out, {"np": np})
     assert list(printed) == list(stored.joints)
     np.testing.assert_allclose(list(printed.values()), last, atol=AFTER_NM)
@@ -236,7 +236,9 @@ def test_every_method_can_be_loaded(method: str, stored: StoredPush) -> None:
 
 
 def test_a_method_that_is_not_stored_is_named() -> None:
-    with pytest.raises(ConfigError, match="method: 'FTS-e2e' is not accepted; accepted: MOB, MOB-Net, MOB-fric-dahl"):
+    with pytest.raises(
+        ConfigError, match="method: 'FTS-e2e' is not accepted; accepted: MOB, MOB-Net-pushed, MOB-fric-dahl"
+    ):
         load("FTS-e2e")
 
 

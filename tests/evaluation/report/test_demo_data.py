@@ -39,7 +39,7 @@ def cut(tmp_path: Path) -> Cut:
             "pushes": SETTINGS.scenarios[STORY.scenario].pushes,
             "recording": run / "s240",
             "estimates": {method: run / "estimates" / method for method in STORY.methods},
-            "copied": {name: run / name for name in ("networks/MOB-Net-LL/run.json", "fits/MOB-fric-dahl.json")},
+            "copied": {name: run / name for name in ("networks/MOB-Net-pushed-LL/run.json", "fits/MOB-fric-dahl.json")},
             "detections": {name: run / f"{name}.csv" for name in ("collisions", "thresholds", "detected")},
         }
         out = tmp_path / name / SOURCES
@@ -127,9 +127,12 @@ def test_the_snapshot_copies_what_the_description_lists_and_nothing_older_stays(
 def test_the_plan_takes_the_first_recording_and_the_networks_of_its_robot() -> None:
     plan = make_plan(SETTINGS, with_pdf=False)
     needs, robot = demo_needs(plan.files), "results/default/robot_1"
-    assert str(needs["recording"]) == f"{robot}/recordings/collisions/robot_1/s{plan.files.test_seeds[0]}"
-    weights = needs["copied"]["networks/MOB-Net-LL/weights.safetensors"]
-    assert str(weights) == f"{robot}/networks/MOB-Net-LL-s101/weights.safetensors"
+    assert (
+        str(needs["recording"])
+        == f"{robot}/recordings/collisions/robot_1/s{plan.files.robots['robot_1'].test_seeds[0]}"
+    )
+    weights = needs["copied"]["networks/MOB-Net-pushed-LL/weights.safetensors"]
+    assert str(weights) == f"{robot}/networks/MOB-Net-pushed-LL-s101/weights.safetensors"
     (product,) = [one for one in plan.products if one.name == "demo_data"]
     assert f"{robot}/recordings/collisions/robot_1" in product.inputs
     stored = {str(path.relative_to(DATA)) for path in DATA.rglob("*") if path.is_file()}

@@ -60,4 +60,4 @@ def test_the_published_push_has_the_alarm_of_the_run(stored: StoredPush) -> None
     hit, push = stored.published()
     assert push.alarm is not None
     assert (hit.link, push.alarm.link, push.alarm.direction) == ("knee", "knee", "front")
-    assert set(push.stds) == {"MOB-Net"}
+    assert set(push.stds) == {"MOB-Net-pushed"}

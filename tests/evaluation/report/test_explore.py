@@ -42,7 +42,7 @@ def test_numbers_of_a_push_are_those_that_were_made(robot, settings):
     assert found["FTS-e2e"].share == pytest.approx(0.4)
     assert found["FTS-e2e"].late_ms is None
     assert found["truth"].late_ms == pytest.approx(1000.0 / GAIN_HZ, abs=3.0)
-    assert found["MOB"].error == pytest.approx(20 * found["MOB-Net"].error, rel=1e-6)
+    assert found["MOB"].error == pytest.approx(20 * found["MOB-Net-pushed"].error, rel=1e-6)
     assert 30.0 < found["MOB"].quiet_nm < 45.0
     assert found["MOB"].false_alarms >= 2
 
@@ -111,9 +111,9 @@ def test_page_without_scripts_says_so_and_has_the_numbers(robot, settings):
     text, found = page(robot, settings), numbers_of(pushed_scene(robot).push, settings)
     assert '<p id="still">' in text
     assert '<div class="live" hidden>' in text
-    row = re.search(r'<tr data-method="MOB-Net">.*?</tr>', text, re.DOTALL)
+    row = re.search(r'<tr data-method="MOB-Net-pushed">.*?</tr>', text, re.DOTALL)
     assert row
-    assert f'<td data-label="peak [N m]">{found["MOB-Net"].peak:.1f}</td>' in row[0]
+    assert f'<td data-label="peak [N m]">{found["MOB-Net-pushed"].peak:.1f}</td>' in row[0]
 
 
 def test_joints_have_names_that_a_reader_knows(robot):
@@ -138,11 +138,11 @@ def recorded(tmp_path_factory, made_up, robot):
     note = {"rate_hz": RATE_HZ, "gain_hz": GAIN_HZ}
     write_array(folder / "residual", np.concatenate([external + 9.0, external], axis=1), residual_columns(layout), note)
     runs = []
-    for error, method in enumerate(("MOB", "MOB-fric-dahl", "MOB-Net")):
+    for error, method in enumerate(("MOB", "MOB-fric-dahl", "MOB-Net-pushed")):
         joints = layout.limb("LL")
         array = external[:, layout.columns(joints)] + error
         columns = torque_columns(layout, ["tau_ext"], joints)
-        if method == "MOB-Net":
+        if method == "MOB-Net-pushed":
             array, columns = (
                 np.concatenate([array, np.full_like(array, 2.0)], axis=1),
                 torque_columns(layout, ["tau_ext", "std"], joints),
@@ -154,7 +154,7 @@ def recorded(tmp_path_factory, made_up, robot):
 
 def scene_of(runs, settings, name=None, from_s=0.0):
     pushes = {push: settings.pushes[push] for push in ("collision_left_foot_front", "collision_left_knee_front")}
-    return PageScene("Knee", "robot", runs, ("LL",), "LL3", 20.0, pushes, name, from_s)
+    return PageScene("Knee", "robot", runs, ("LL",), "LL3", 20.0, "MOB-Net-pushed", pushes, name, from_s)
 
 
 def read(scene, settings, robot):
@@ -171,8 +171,8 @@ def test_a_scene_is_the_recording_around_its_push(recorded, settings, robot):
     assert (shown.start - shown.settled, shown.end - shown.start, shown.settled) == (before, 100, LEAD)
     assert len(shown.truth) == LEAD + before + round(story.after_s * RATE_HZ)
     assert shown.first + shown.start == PUSHES[0][0]
-    np.testing.assert_allclose(shown.estimates["MOB-Net"] - shown.truth, 2.0, atol=1e-3)
-    assert set(shown.stds) == {"MOB-Net"}
+    np.testing.assert_allclose(shown.estimates["MOB-Net-pushed"] - shown.truth, 2.0, atol=1e-3)
+    assert set(shown.stds) == {"MOB-Net-pushed"}
     assert np.abs(shown.push[: shown.start]).max() == 0.0
     assert shown.push[shown.end - 1, 2] == pytest.approx(40.0)
 

@@ -262,7 +262,7 @@ def test_a_line_is_picked_before_it_has_a_name(browse):
     assert browser.value(names) == ["truth", "line A", "line B", "line C", "line D"]
     browser.click("#lines [data-line='FTS-e2e']")
     browser.until("state.guess", "FTS-e2e")
-    assert "MOB-Net" in browser.value(names)
+    assert "MOB-Net-pushed" in browser.value(names)
     answer = browser.value("document.querySelector('#guessed').textContent")
     assert "You picked FTS-e2e, with 40 % of the peak" in answer
 
@@ -281,7 +281,7 @@ def test_the_second_step_gives_no_answer_before_a_line_is_picked(browse):
     assert set(others) == {""}
     browser.click("#lines [data-line='MOB']")
     browser.until("document.querySelector('#table').hidden", False)
-    browser.until("document.querySelector('#result').textContent.includes('MOB-Net recovers')", True)
+    browser.until("document.querySelector('#result').textContent.includes('MOB-Net-pushed recovers')", True)
     assert "" not in asked(browser, values)
 
 

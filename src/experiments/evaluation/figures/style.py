@@ -80,10 +80,12 @@ FORMULA = Look("#8A6100", "-", "\\\\", "h", 0.7, 2.2)
 LOOKS: Mapping[str, Look] = {
     **dict(zip(KINDS, PALETTE, strict=False)),
     "MOB-Net": Look("#D55E00", "-", "////", "D", 1.2, 2.6),
+    "MOB-Net-pushed": Look("#D55E00", (0, (7, 1)), "\\\\\\\\", "d", 1.2, 2.6),
     "MOB-Net-Single": Look("#009E73", "-", "xxxx", "^", 1.1, 2.4),
     "MOB-Net-Single-2X": Look("#F0E442", (0, (3, 2)), "oooo", "*"),
     "MOB-Net-gray": Look("#009E73", (0, (5, 1.5)), "xxxx", "^", 1.1, 2.4),
     "FTS-e2e": Look("#CC79A7", (0, (6, 1, 1.5, 1)), "++++", "P", 1.1, 2.7),
+    "FTS-e2e-pushed": Look("#CC79A7", (0, (3, 1)), "++++", "p", 1.1, 2.7),
     "MOB": Look("#0072B2", (0, (4, 1)), "", "o", 0.6, 2.0),
     "MOB-fric": Look("#7CC7F0", (0, (8, 1.5)), "....", "s", 1.2, 1.9),
     "MOB-fric-BPF": Look("#E69F00", (0, (3, 1, 1, 1, 1, 1)), "||||", "v"),

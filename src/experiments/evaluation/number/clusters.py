@@ -3,8 +3,9 @@
 What a robot does in one walk tells what it does in the next, so that a hundred collisions of three robots say less
 than a hundred of independent ones. As in `intervals` (docs/notes/measures.md) the variance of a mean is the sum
 of two, that over robots and that over walks of the same seed, each with a quantile of Student's law of its own; of one
-robot it is that over its walks alone, and of a single walk there is no interval. Robots and walks need not have equally
-many values, and a value may be missing.
+robot it is that over its walks alone, and of a single walk there is no interval. Where each robot has walks of its own,
+their variance is part of that over robots, which alone counts. Robots and walks need not have equally many values, and
+a value may be missing.
 
 Means of positive values have their interval on a log scale, so that no impulse is below zero. Shares have Wilson's
 interval (1927) and rates that of a Poisson count (Garwood 1936), both with the number of independent values that would
@@ -42,7 +43,10 @@ def mean_in(values: Sequence[float], places: Sequence[ClusterKey], statistics: S
     effects = _effects((found - mean) / len(found), places)
     if not effects:
         return Number(mean, unit=unit)
-    reach = sum(_squared(count, statistics) * variance for count, variance in effects) ** 0.5
+    (first, variance), *others = effects
+    # Robots that happen to differ less than independent values would are no evidence for a shorter interval.
+    variance = max(variance, float(found.var(ddof=1)) / len(found))
+    reach = sum(_squared(count, statistics) * own for count, own in [(first, variance), *others]) ** 0.5
     # Impulses and times are positive: on a log scale no end of theirs is below zero.
     if (found > 0.0).all():
         factor = float(np.exp(reach / mean))
@@ -97,8 +101,11 @@ def garwood(count: float, statistics: Statistics) -> tuple[float, float]:
 
 def _effects(parts: Array, places: Sequence[ClusterKey]) -> list[tuple[int, float]]:
     """Return of robots and of walks, where there are several, how many and the variance of the sum of parts (n,)."""
+    robots = [place.robot for place in places]
+    seeds = [place.seed for place in places]
+    has_own_walks = len(set(robots)) > 1 and len(set(places)) == len(set(seeds))
     found: list[tuple[int, float]] = []
-    for names in ([place.robot for place in places], [place.seed for place in places]):
+    for names in (robots,) if has_own_walks else (robots, seeds):
         labels, index = np.unique(names, return_inverse=True)
         count = len(labels)
         if count > 1:

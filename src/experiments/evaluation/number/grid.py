@@ -58,24 +58,26 @@ def run_grid(scores: Sequence[Score], wanted: Wanted) -> RunGrid:
     """
     rows = wanted.rows(scores)
     # In ascending order column k of every grid is the walk of the same seed, over which numbers are paired
-    # (docs/notes/measures.md).
+    # (docs/notes/measures.md); a robot has walks of its own.
     networks = sorted({row.network_seed for row in rows})
     tests = sorted({row.test_seed for row in rows})
     values = {(row.network_seed, row.test_seed): row.value for row in rows}
-    # Variances of rows and of columns need every network on every walk, and each run once.
-    if len(values) != len(rows) or len(values) != len(networks) * len(tests):
+    robots = robots_of(networks)
+    walks = len(rows) // len(networks) if robots else len(tests)
+    runs: list[list[float]] = []
+    for network in networks:
+        runs.append([values[network, test] for test in tests if (network, test) in values])
+    # Variances of rows and of columns need equally many walks of each network, and each run once.
+    if len(values) != len(rows) or any(len(own) != walks for own in runs):
         raise DataError(
             f"scores: {len(rows)} rows for {wanted}; expected one for each of networks {networks} on tests {tests}"
         )
-    runs: list[list[float]] = []
-    for network in networks:
-        runs.append([values[network, test] for test in tests])
-    return RunGrid(np.array(runs), rows_of(wanted.method, networks))
+    return RunGrid(np.array(runs), wanted.method, robots)
 
 
-def rows_of(method: str, seeds: Sequence[int]) -> str:
-    """Return what the rows of a method's runs with some network seeds are: its own networks, or robots, as of all."""
-    return f"robots {seeds}" if min(seeds) >= FIRST_SEED else method
+def robots_of(seeds: Sequence[int]) -> tuple[int, ...]:
+    """Return the robots of runs with some network seeds, where these are robots; else nothing."""
+    return tuple(seeds) if min(seeds) >= FIRST_SEED else ()
 
 
 def number_of(

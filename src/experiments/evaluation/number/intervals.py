@@ -4,7 +4,8 @@ Runs are a grid, every network on every walk: a run's error is a mean, an effect
 and a rest. The variance of a number is estimated as the sum of two: that of its rows over the networks, for each method
 apart because networks of different methods have nothing in common, and that of its columns over the walks, for all
 methods together because they share the walks. The sum has the rest twice and so is rather too large than too small.
-Of surrogate robots a row is a robot with its networks, and all methods together have the rows, too.
+Of surrogate robots a row is a robot with its networks, and all methods together have the rows, too. Each robot has
+walks of its own, whose variance is part of that over the robots' means, which alone counts.
 
 An interval reaches sqrt(sum t^2 s^2 / n) to each side, where each variance s^2 over n has a quantile t of its own of
 Student's law with n - 1 degrees of freedom. With normal effects it covers what it prints or more (Banerjee 1960,
@@ -31,12 +32,24 @@ Combine = Callable[[Array], Array]
 class RunGrid:
     """Runs of one number, (networks, walks) [its unit]; a method without networks has one row.
 
-    `rows` says what the rows are: networks of a method, or robots. Grids with the same and with equally many rows have
-    them in common, row by row. Grids with equally many columns have walks of the same seeds, column by column.
+    `rows` says what the rows are: networks of this method, unless `robots` has the seed of each row's robot. Grids with
+    the same and with equally many rows have them in common, row by row. Grids with equally many columns have walks of
+    the same seeds, column by column, but each of several robots has walks of its own.
     """
 
     values: Array
     rows: str = ""
+    robots: tuple[int, ...] = ()
+
+    @property
+    def has_own_walks(self) -> bool:
+        """Whether no row has a walk of another one."""
+        return len(self.robots) > 1
+
+    def of(self, robots: Sequence[int]) -> "RunGrid":
+        """Return the runs of some of the robots."""
+        kept = [robot in robots for robot in self.robots]
+        return RunGrid(self.values[kept], self.rows, tuple(robots))
 
     @property
     def mean(self) -> float:
@@ -77,18 +90,22 @@ def summarise(grids: Sequence[RunGrid], statistics: Statistics, formula: Formula
     With one network and one walk there is no interval, with several of one of them it is over these alone. There is no
     number where the formula gives none, such as a ratio to zero.
     """
+    grids = over_common_robots(grids)
     means = np.array([grid.mean for grid in grids])
     # A ratio to zero is no fault of the caller: its number is left out below.
     with np.errstate(divide="ignore", invalid="ignore"):
         parts = formula.parts(means)
         slopes = slopes_of(formula.parts, means)
-    networks, walks = (effects_of(grids, slopes, axis) for axis in (0, 1))
+    crossed = [not grid.has_own_walks for grid in grids]
+    networks = effects_of(grids, slopes, 0)
+    shared_walks = effects_of([grid for grid in grids if not grid.has_own_walks], slopes[:, crossed], 1)
+    walks = [*shared_walks, *own_walks_of(grids, slopes)]
     found = Number(None, unit=unit, networks=counts_of(networks), walks=counts_of(walks))
     if not np.isfinite(parts).all() or not np.isfinite(slopes).all():
         return found
     shown = formula.shown(parts)
     least = int(shown.argmin())
-    drawn = [each for each in (*networks, *walks) if each.count > 1]
+    drawn = [each for each in (*networks, *shared_walks) if each.count > 1]
     # Errors and their ratios have their interval on a log scale, which a run of zero or below does not have.
     on_logs = formula.positive and all((grid.values > 0).all() for grid in grids)
     low, high = ends_of(formula, parts, drawn, statistics.confidence, on_logs) if drawn else (None, None)
@@ -97,6 +114,17 @@ def summarise(grids: Sequence[RunGrid], statistics: Statistics, formula: Formula
     stds = [std_of(each, least) for each in (networks, walks)]
     std_networks, std_walks = (None if std is None else steepness * std for std in stds)
     return replace(found, value=float(shown[least]), low=low, high=high, std_networks=std_networks, std_walks=std_walks)
+
+
+def over_common_robots(grids: Sequence[RunGrid]) -> list[RunGrid]:
+    """Return grids of which those of robots have the robots that all of these have.
+
+    Some robots walk only the tests of a leg, with fewer methods. What robots differ by is no difference between
+    methods.
+    """
+    robots = [set(grid.robots) for grid in grids if grid.robots]
+    common: list[int] = sorted(set[int].intersection(*robots)) if robots else []
+    return [grid.of(common) if grid.robots else grid for grid in grids]
 
 
 def slopes_of(made: Combine, at: Array) -> Array:
@@ -116,9 +144,25 @@ def effects_of(grids: Sequence[RunGrid], slopes: Array, axis: int) -> list[Effec
         means = grid.values.mean(axis=1 - axis)
         # All methods share the walks, and grids with the same rows share these. What they share is drawn once, so its
         # effects are added before they are squared; other rows are drawn apart.
-        key = ("" if axis else grid.rows, len(means))
+        rows = f"robots {grid.robots}" if grid.robots else grid.rows
+        key = ("" if axis else rows, len(means))
         groups[key] = groups.get(key, 0.0) + slope[:, None] * (means - grid.mean)
     return [Effects(count, (own**2).sum(axis=1) / max(1, count - 1)) for (_, count), own in groups.items()]
+
+
+def own_walks_of(grids: Sequence[RunGrid], slopes: Array) -> list[Effects]:
+    """Return the variances of parts over walks that are a robot's own, of one walk of each robot."""
+    groups: dict[tuple[str, int], Array] = {}
+    for grid, slope in zip(grids, slopes.T, strict=True):
+        if grid.has_own_walks:
+            own = grid.values - grid.values.mean(axis=1, keepdims=True)
+            key = (str(grid.robots), own.shape[1])
+            groups[key] = groups.get(key, 0.0) + slope[:, None, None] * own
+    found: list[Effects] = []
+    for (_, count), own in groups.items():
+        within = (own**2).sum(axis=2) / max(1, count - 1)
+        found.append(Effects(count, within.mean(axis=1) / own.shape[1]))
+    return found
 
 
 def counts_of(effects: Sequence[Effects]) -> tuple[int, ...]:

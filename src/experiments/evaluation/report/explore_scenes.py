@@ -104,7 +104,7 @@ def watched_rows(scene: PageScene, detection: Detection, robot: RobotDescription
     limb = layout.limb_of[scene.joint]
     if limb not in layout.legs.values():
         return np.ones(count, dtype=bool)
-    gating = next(run for run in scene.runs if run.method == detection.gate.method)
+    gating = next(run for run in scene.runs if run.method == scene.gate)
     pair = read_pair(gating, layout)
     read = read_sensed(scene.runs[0].recording, layout)
     gate = LegGate.of(detection.gate, robot, limb, read.rate_hz)

@@ -13,6 +13,7 @@ from pathlib import Path
 from experiments.plan.detection import level_of_detectors
 from experiments.plan.files import Files
 from experiments.plan.reactions import sizes_of
+from experiments.settings.fleet import OWN_TESTS
 from experiments.settings.settings import Settings
 from mobnet.core.code import SHORT, SOURCE, source_hash
 from mobnet.core.errors import DataError, misfit
@@ -109,7 +110,8 @@ def walked(files: Files, commit: str) -> WalkedSeeds:
                 # A robot may walk fewer recordings of a test than another, or than the plant: the most count.
                 others = tests[scenario].count if scenario in tests else 0
                 count = max(len(owner.test_seeds), others)
-                tests[scenario] = Span(first=owner.test_seeds[0], count=count)
+                # Robots count from the same number as the plant, each in a range of its own.
+                tests[scenario] = Span(first=owner.test_seeds[0] % OWN_TESTS, count=count)
     reactions: dict[str, Span] = {}
     if any(level_of_detectors(owner) for owner in files.owners):
         for case in files.settings.reaction.cases:

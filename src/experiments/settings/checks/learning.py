@@ -1,14 +1,16 @@
 """What must hold for networks, methods and sweeps."""
 
 from collections.abc import Iterator
+from itertools import product
 
 from experiments.settings.catalogue import Catalogue
 from experiments.settings.settings import Settings
+from experiments.settings.trials import Factors, factors_of
 from mobnet.core.errors import misfit, not_accepted
 from mobnet.settings.faults import at_most
 from mobnet.settings.methods import Method, swept_names
 from mobnet.settings.networks import Learning, Network, NetworkCell
-from mobnet.settings.reading import Problem
+from mobnet.settings.reading import Place, Problem
 
 
 def learning_problems(catalogue: Catalogue) -> Iterator[Problem]:
@@ -43,10 +45,39 @@ def _trial_problems(catalogue: Catalogue) -> Iterator[Problem]:
             yield ("trials", "tuning", "references", index), not_accepted("method without networks", name, plain)
     taken = {*catalogue.tests, *(row.scenario for row in settings.training_sets.values())}
     accepted = [name for name in settings.scenarios if name not in taken]
-    for task, walk in settings.development.items():
-        if walk.scenario in taken:
-            text = not_accepted("scenario apart from tests and training", walk.scenario, accepted)
-            yield ("development", task, "scenario"), text
+    developed: dict[Place, str] = {("development", t, "scenario"): w.scenario for t, w in settings.development.items()}
+    trial = settings.trials.factorial
+    developed |= {("trials", "factorial", "walk"): trial.walk, ("trials", "factorial", "hits"): trial.hits}
+    for place, scenario in developed.items():
+        if scenario in taken:
+            yield place, not_accepted("scenario apart from tests and training", scenario, accepted)
+    yield from _factorial_problems(catalogue)
+
+
+def _factorial_problems(catalogue: Catalogue) -> Iterator[Problem]:
+    """Yield cells that are not every combination of their factors, once, and names that do not belong there."""
+    settings = catalogue.settings
+    trial = settings.trials.factorial
+    place = ("trials", "factorial")
+    recorded = settings.fleet.sets
+    for index, name in enumerate(trial.cells):
+        if name not in recorded:
+            yield (*place, "cells", index), not_accepted("set of `fleet.sets`", name, recorded)
+    if trial.another_day not in recorded:
+        yield (*place, "another_day"), not_accepted("set of `fleet.sets`", trial.another_day, recorded)
+    if trial.same_day not in trial.cells:
+        yield (*place, "same_day"), not_accepted("cell", trial.same_day, trial.cells)
+    factors = [factors_of(settings.training_sets, settings.scenarios, name) for name in trial.cells]
+    every = set(map(Factors._make, product((False, True), (False, True), ("random", "joystick"))))
+    if set(factors) != every or len(factors) != len(every):
+        accepted = "each combination of random torque, pushes and commands `random` or `joystick`, once"
+        yield (*place, "cells"), misfit(list(trial.cells), accepted)
+    joints = settings.layout.limbs(settings.robot.networks[trial.limb].joints)
+    if trial.joint not in joints:
+        yield (*place, "joint"), not_accepted("joint of the network", trial.joint, joints)
+    for key, method, wanted in (("method", trial.method, "limbs"), ("fitted", trial.fitted, "fitted")):
+        if trial.limb not in getattr(settings.methods.get(method), wanted, ()):
+            yield (*place, key), misfit(method, f"a method with {trial.limb} in its `{wanted}`")
 
 
 def _method_problems(catalogue: Catalogue, name: str, method: Method) -> Iterator[Problem]:
@@ -62,6 +93,13 @@ def _method_problems(catalogue: Catalogue, name: str, method: Method) -> Iterato
     if method.of in settings.methods and method.limbs and not settings.methods[method.of].fitted:
         yield ("of",), misfit(method.of, "a method with `fitted`, for one with `limbs` of its own")
     yield from _tuning_problems(catalogue, name, method)
+    for limb, owner in method.networks_of.items():
+        row = settings.methods.get(owner)
+        # An unknown method is told elsewhere.
+        if row and (limb not in method.limbs or limb not in row.limbs or limb in row.networks_of):
+            yield ("networks_of", limb), misfit(owner, f"a method with a network of its own for {limb}, one of `limbs`")
+        elif row and row.target != method.target:
+            yield ("networks_of", limb), misfit(owner, f"a method whose networks learn the {method.target} torque")
     robot = settings.robot
     for index, limb in enumerate(method.fitted):
         if not set(robot.order.actuated).intersection(settings.layout.limbs(robot.networks[limb].joints)):

@@ -107,9 +107,9 @@ class Results:
             if name not in fitting:
                 yield place, not_accepted("case of reactions", name, fitting)
 
-    def not_gated(self, place: Place, methods: Sequence[str]) -> Iterator[Problem]:
-        """Yield methods without that of the gate of detectors."""
-        gate = self.settings.detection.gate.method
+    def not_gated(self, place: Place, methods: Sequence[str], gate: str | None = None) -> Iterator[Problem]:
+        """Yield methods without that of the gate, which is that of detectors where no other one is named."""
+        gate = gate or self.settings.detection.gate.method
         if gate not in methods:
             yield place, misfit(", ".join(methods), f"methods with {gate}, that of the gate")
 

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from experiments.evaluation.measure.learning.trainings import MEASURES, TrainedNetwork, read_trainings, sound
-from experiments.evaluation.number.grid import Wanted, column_of, members, rows_of, run_grid
+from experiments.evaluation.number.grid import Wanted, column_of, members, robots_of, run_grid
 from experiments.evaluation.number.intervals import RunGrid
 from experiments.evaluation.number.number import Number
 from experiments.evaluation.number.rows import read_scores
@@ -86,8 +86,10 @@ class Evidence:
         if metric == DIVERGED:
             return [RunGrid(np.array([[float(training.diverged)] for training in self.trainings[method]]))]
         good = sound(self.trainings[method])
-        rows = rows_of(method, [training.seed for training in good]) if good else ""
-        return [RunGrid(np.array([[MEASURES[metric][0](training)] for training in good]), rows)] if good else None
+        if not good:
+            return None
+        robots = robots_of([training.seed for training in good])
+        return [RunGrid(np.array([[MEASURES[metric][0](training)] for training in good]), method, robots)]
 
     def entry(self, cell: Cell) -> Number:
         """Return the number in a field of a table [its unit], with its interval; no number where the row has none.

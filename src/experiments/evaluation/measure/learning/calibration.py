@@ -16,6 +16,7 @@ from experiments.evaluation.compare.pair import read_pair, read_std
 from experiments.evaluation.compare.rmse import Spans, parts
 from experiments.evaluation.compare.windows import pushed_of
 from experiments.evaluation.measure.learning.trainings import NotedCalibration, read_training_note
+from experiments.evaluation.number.grid import robots_of
 from experiments.plan.runs import Run
 from experiments.settings.measures import CalibrationTest, Coverage
 from mobnet.core.arrays import Array
@@ -40,7 +41,8 @@ class CoverageGrid:
 
     Where only samples around pushes count, `pushed` is the joint that is pushed, else it is empty. Values are means
     over the limb's joints (networks, tests, 2, k + 2), uncalibrated and calibrated: coverage of k nominal shares,
-    negative log-likelihood [nats] and CRPS [unit].
+    negative log-likelihood [nats] and CRPS [unit]. `robots` has the seed of each network's robot, where these are
+    robots.
     """
 
     test: str
@@ -50,6 +52,7 @@ class CoverageGrid:
     limb: str
     unit: str
     values: Array
+    robots: tuple[int, ...] = ()
 
     @property
     def case(self) -> str:
@@ -135,7 +138,9 @@ def in_tests(
         if not cells:
             log.warning("%s: no push or no such limb in its %d runs", test.scenario, len(own))
         head = test.scenario, test.level, test.pushed or ""
-        grids += [CoverageGrid(*head, *key, grid_of(found)) for key, found in cells.items()]
+        for key, found in cells.items():
+            robots = robots_of(sorted({network for network, _ in found}))
+            grids.append(CoverageGrid(*head, *key, grid_of(found), robots))
     return grids
 
 
@@ -171,14 +176,17 @@ def run_cells(
 def grid_of(runs: Mapping[tuple[int, int], Array]) -> Array:
     """Return the cells of runs (network seed, test seed) as one array (networks, tests, ...) [their units].
 
+    Each robot has tests of its own.
+
     Raises:
         DataError: a network misses a test.
     """
     networks = sorted({network for network, _ in runs})
     tests = sorted({test for _, test in runs})
-    if len(runs) != len(networks) * len(tests):
-        raise DataError(f"runs {sorted(runs)}; expected one for each of networks {networks} on tests {tests}")
     rows: list[list[Array]] = []
     for network in networks:
-        rows.append([runs[network, test] for test in tests])
+        rows.append([runs[network, test] for test in tests if (network, test) in runs])
+    expected = len(rows[0]) if robots_of(networks) else len(tests)
+    if any(len(own) != expected for own in rows):
+        raise DataError(f"runs {sorted(runs)}; expected one for each of networks {networks} on tests {tests}")
     return np.array(rows)

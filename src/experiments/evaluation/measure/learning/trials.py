@@ -70,15 +70,19 @@ def read_walks(known: Known, task: TriedTask, rate_hz: float) -> ObservedWalks:
 
 def outcome_of(tried: Tried, known: Known, walks: ObservedWalks) -> VariantResult:
     """Run a variant on all walks side by side."""
-    given = known.robot, walks.level.nominal_mass_ratio, known.gravity_m_s2, known.observer
-    recipe = Recipe(tried.name, tried.methods, *given, rate_of(walks.read), tried.networks, tried.fitted)
-    estimator = build_estimator(recipe)
-    columns = [estimator.joints.index(joint) for joint in walks.joints]
-    results = run_segments(estimator, walks.read)
     errors = [
-        rmse(result.tau_ext[:, columns], truth, one.recording.segments)
-        for result, truth, one in zip(results, walks.truths, walks.read, strict=True)
+        rmse(estimate, truth, one.recording.segments)
+        for estimate, truth, one in zip(estimates_of(tried, known, walks), walks.truths, walks.read, strict=True)
     ]
     folder = next(iter(tried.networks.values()), None)
     training, seconds = (read_training(folder), training_seconds(folder)) if folder else (None, None)
     return VariantResult(tried, training, seconds, np.array(errors))
+
+
+def estimates_of(tried: Tried, known: Known, walks: ObservedWalks) -> list[Array]:
+    """Return what a variant estimates of the joints of all walks, which run side by side, (T_i, n) [N m]."""
+    given = known.robot, walks.level.nominal_mass_ratio, known.gravity_m_s2, known.observer
+    recipe = Recipe(tried.name, tried.methods, *given, rate_of(walks.read), tried.networks, tried.fitted)
+    estimator = build_estimator(recipe)
+    columns = [estimator.joints.index(joint) for joint in walks.joints]
+    return [result.tau_ext[:, columns] for result in run_segments(estimator, walks.read)]

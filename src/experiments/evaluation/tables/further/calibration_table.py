@@ -51,7 +51,7 @@ def trust_of(grid: CoverageGrid, levels: Sequence[float], statistics: Statistics
     found = {}
     for measure, share, place in measures:
         stages = [grid.values[:, :, stage, place] for stage in range(len(STAGES))]
-        before, after = (summarise([RunGrid(values)], statistics) for values in stages)
+        before, after = (summarise([RunGrid(values, robots=grid.robots)], statistics) for values in stages)
         found[measure, share] = before, after
     return found
 
