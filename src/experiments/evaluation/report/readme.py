@@ -79,7 +79,7 @@ FINDINGS = (
     "**Random torque.** The original trains with random torques on the joints. Without them MOB-Net's error is "
     "{c[rte-walk].value:.2f} times as large in walking (original {c[rte-walk].published:.2f}) and "
     "{c[rte-swing].value:.2f} times in a hit on the swinging knee (original {c[rte-swing].published:.2f}): not "
-    "reproduced. Both of our training sets have pushes of the foot in nearly every swing.",
+    "reproduced. Both training sets have few small pushes of the foot, as the original's.",
     "**Reaction.** After an alarm the robot steps back. Of robots that walk into a block with the "
     "foot, {s[foot MOB-Net-ratio].fell} of {s[foot MOB-Net-ratio].walks} fall with this reaction and "
     "{s[foot none].fell} of {s[foot none].walks} without it; into a bar with the knee, {s[knee MOB-Net-ratio].fell} of "
