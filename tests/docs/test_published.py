@@ -134,3 +134,35 @@ def test_pushes_of_the_foot_are_few_in_both_training_sets_and_in_nearly_every_sw
     first = settings.pushes["left_foot"]
     assert first.force_n == (10.0, 60.0)
     assert r"pushed with 10 to 60\,N every 2 to 8\,s" in " ".join(MAIN.split())
+
+
+# Rows of the table in the note on training -> cells of docs/trials/factorial.csv: effect, random torque, pushes, commands.
+TAUGHT = {
+    "random torque, joystick and no pushes": ("without / with random torque", "", "none", "joystick"),
+    "random torque, varied commands and no pushes": ("without / with random torque", "", "none", "varied"),
+    "random torque, varied commands and pushes": ("without / with random torque", "", "often", "varied"),
+    "random torque, over all levels": ("without / with random torque", "", "", ""),
+    "pushes, over all levels": ("without / with pushes", "", "", ""),
+    "variety of commands, over all levels": ("joystick / varied commands", "", "", ""),
+    "the day of the tests": ("another day / same day", "", "", ""),
+}
+
+
+def test_the_note_on_training_has_the_numbers_of_the_trial_of_training_data() -> None:
+    note = (ROOT / "docs" / "notes" / "training.md").read_text()
+    rows = read_texts(ROOT / "docs" / "trials" / "factorial.csv")
+    found: dict[tuple[str, ...], str] = {}
+    values: dict[tuple[str, ...], float] = {}
+    shares: dict[str, list[float]] = {}
+    for row in rows:
+        key = tuple(row[name] for name in ("name", "random_torque_nm", "pushes", "commands", "measure"))
+        if row["part"] == "effects":
+            values[key] = float(row["value"])
+            found[key] = f"{float(row['value']):.2f} [{float(row['low']):.2f}, {float(row['high']):.2f}]"
+        elif row["pushes"] and row["measure"] == "share" and row["robot"] == "all":
+            shares.setdefault(row["pushes"], []).append(float(row["value"]))
+    for name, of in TAUGHT.items():
+        assert f"| {name} | {found[*of, 'walking']} | {found[*of, 'hits']} |" in note
+    assert max(shares["none"]) < 0.405 and min(shares["often"]) > 0.66  # two fifths, two thirds
+    both = [values[*TAUGHT[name], "walking"] for name in ("random torque, joystick and no pushes", "the day of the tests")]
+    assert f"would make {both[0]:.2f} x {both[1]:.2f} = {both[0] * both[1]:.2f}" in " ".join(note.split())

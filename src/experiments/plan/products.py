@@ -37,6 +37,7 @@ TESTS = (  # scenario and level of those whose errors the page of trainings show
     "changed_walk/*",
 )  # fmt: skip
 MAIN_TABLES = ("legs", "limbs", "detectors")  # of the paper's main text, made with its numbers
+KEPT_TABLE = Path("docs/trials/factorial")  # a table of a trial that the paper shows and takes numbers from
 LOOKED_THROUGH = ("accounts", "results", "beside")  # arguments that are folders, of whatever stands there then
 KEPT = "kept"  # parameter of a figure that shows a file of the repository
 TIMES = "TIMES.sha256"  # beside the manifest: the list of files that hold times, and so differ between equal runs
@@ -245,7 +246,7 @@ class Products:
         numbers = {
             "train": self.files.training_size("walk"),
             "table_csvs": csvs,
-            "further_csvs": [tables / f"{name}.csv" for name in quoted()],
+            "further_csvs": [*(tables / f"{name}.csv" for name in quoted()), KEPT_TABLE.with_suffix(".csv")],
             "captions": self._captions(),
             "compared": self.settings.evaluation.main_tables,
             "sources": [tables / f"{name}.csv" for name in sources(self.settings.evaluation)],
@@ -278,7 +279,7 @@ class Products:
         compute = [results / f"compute.{ending}" for ending in TABLE]
         yield self._report_product("compute", accounts, compute)
         names = (*self.table_names, "numbers", "captions", "deviations")
-        texts = [*(tables / f"{name}.tex" for name in names), compute[1]]
+        texts = [*(tables / f"{name}.tex" for name in names), compute[1], KEPT_TABLE.with_suffix(".tex")]
         sources = {"main": Path("paper/main.tex"), "references": Path("paper/refs.bib"), "tables": texts}
         figures = [self.folders.figures / f"{picture}.pdf" for picture in self._drawn]
         built = [paper / "build.json", *([paper / "main.pdf"] if self.with_pdf else [])]
@@ -310,7 +311,7 @@ class Products:
 
     def _captions(self) -> list[Path]:
         """Return the captions of all tables and figures that have one, for the paper and the report."""
-        files = _files(CAPTIONS / "tables", [*self.table_names, "compute"], ["rst"])
+        files = _files(CAPTIONS / "tables", [*self.table_names, "compute", KEPT_TABLE.name], ["rst"])
         files += _files(CAPTIONS / "figures", [*self._drawn, STILL], ["rst"])
         return [path for path in files if path.is_file()]
 
