@@ -36,7 +36,8 @@ def section(settings):
         "command": DetectorSettings(method="MOB-Net", signals=("mean",), commanded=True),
         "blind": DetectorSettings(method="MOB", signals=("mean",)),
     }
-    return settings.detection.model_copy(update={"thresholds": numbers, "detectors": detectors})
+    gate = settings.detection.gate.model_copy(update={"method": "MOB-Net"})
+    return settings.detection.model_copy(update={"thresholds": numbers, "detectors": detectors, "gate": gate})
 
 
 @pytest.fixture(scope="module")

@@ -83,7 +83,7 @@ def test_every_scale_is_accepted(scale: str) -> None:
         ("training_sets.motion.sizes.tiny", {"shards": 1, "shard_s": 1.0}, f"sizes.tiny: scale: 'tiny' {ACCEPTED}"),
         ("networks.tail", {"data": "walk", "experiment": "sweep", "horizon_steps": 1, "cell": "constant"},
          f"networks.tail: network of the robot: 'tail' {ACCEPTED}LA"),
-        ("networks.LL.data", "wolks", f"networks.LL.data: training set: 'wolks' {ACCEPTED}walk, .*motion"),
+        ("networks.LL.data", "wolks", f"networks.LL.data: training set: 'wolks' {ACCEPTED}walk, "),
     ],
 )  # fmt: skip
 def test_a_fault_is_one_line_with_file_key_value_and_accepted(key: str, value: object, message: str) -> None:
