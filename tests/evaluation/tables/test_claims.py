@@ -32,7 +32,8 @@ MEANS = BRANCHES | {
     "MOB-Net-Single": 2.0,
     "MOB-Net-Single-2X": 2.1,
     "MOB-Net-gray": 1.4,
-    "MOB-Net-joystick": 3.0,
+    "MOB-Net-pushed": 2.2,
+    "FTS-e2e-pushed": 2.6,
     "zero": 5.0,
 }
 PLACES = {  # scenario -> tables of the paper and places of its methods there

@@ -40,7 +40,7 @@ def write_files(settings: Settings, robot: RobotDescription, folder: Path) -> tu
     push = np.zeros((len(sensed), 4))
     push[:, 1:] = -force[:, None] * axes[:, 0]
     push[force > 0.0, 0] = 1 + list(settings.scenarios["collisions"].pushes).index("collision_left_knee_front")
-    paths = {name: folder / name / "robot_1" / f"s{SEED}" for name in ("recording", "residual", "MOB", "MOB-Net")}
+    paths = {name: folder / name / "robot_1" / f"s{SEED}" for name in ("recording", "residual", "MOB", "MOB-Net-pushed")}
     meta = {"rate_hz": RATE_HZ}
     truth = unseen(layout, len(sensed), push)
     write_recording(paths["recording"], Recording(sensed, ((0, len(sensed)),), RATE_HZ, {}, truth), layout)
@@ -52,12 +52,12 @@ def write_files(settings: Settings, robot: RobotDescription, folder: Path) -> tu
     wrong[:, joints.index("V2")] += WRONG_N
     write_array(paths["MOB"], wrong, torque_columns(layout, ["tau_ext"], joints), meta)
     known = np.concatenate([tau, np.full(tau.shape, 0.5)], axis=1)
-    write_array(paths["MOB-Net"], known, torque_columns(layout, ["tau_ext", "std"], joints), meta)
+    write_array(paths["MOB-Net-pushed"], known, torque_columns(layout, ["tau_ext", "std"], joints), meta)
     held = "collisions", SEED, "LL", 1, section.detector, section.kind
     said = Detected(*held, 2.0, DELAY_S, None, "mean.LL3", "foot", "front", 90.0)
     write_rows(folder / "detected.csv", [said], Detected)
     runs = [Run("collisions", "robots", name, 0, SEED, paths["recording"], paths["residual"], paths[name])
-            for name in ("MOB", "MOB-Net")]  # fmt: skip
+            for name in ("MOB", "MOB-Net-pushed")]  # fmt: skip
     return runs, {"detected": folder / "detected.csv"}
 
 

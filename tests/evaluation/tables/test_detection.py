@@ -122,8 +122,8 @@ def test_rates_of_false_alarms_have_what_is_found_and_a_sentence(made: Make) -> 
     assert (half.value, half.count) == (0.5, 24)
     assert rows["robots", "MOB-Net-OR", "collision", "delay"].value == pytest.approx(21.5)
     sentence = (
-        "Robots: whoever accepts 0.2, 1, 10 or 60 false alarms of a leg in an hour of random walking finds "
-        "100.0, 100.0, 100.0 or 100.0 % of these collisions with MOB-Net-OR, the detector that finds most at 0.2"
+        "Robots: whoever accepts 0.16, 1, 10 or 60 false alarms of a leg in an hour of random walking finds "
+        "100.0, 100.0, 100.0 or 100.0 % of these collisions with MOB-Net-OR, the detector that finds most at 0.16"
     )
     assert sentence in table.with_suffix(".md").read_text()
 
