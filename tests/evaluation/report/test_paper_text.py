@@ -21,6 +21,8 @@ SET_UP = {  # typed quantities that are no result, and what they are
     r"10\,mm": "height of the plates",
     r"50\,N": "largest force on a hand",
     r"5\,N\,m": "largest moment on a hand",
+    r"60\,N": "largest push of the swing foot in training", r"8\,s": "longest time between such pushes",
+    r"140\,N": "largest push of the swing foot in the training of MOB-Net-pushed",
     r"50\,ms": "phase after a touch-down", r"30\,\%": "added friction of a changed robot",
 }  # fmt: skip
 

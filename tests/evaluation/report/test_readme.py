@@ -120,7 +120,8 @@ def test_findings_have_the_numbers_of_claims_and_tables_and_the_falls_of_reactio
     results: Path,
 ) -> None:
     text = blocks(results)["findings"]
-    assert "Without them MOB-Net's error is 0.50 times as large in walking (original nan)" in text
+    assert "Without random torques in its training MOB-Net's error is 0.50 times as large in walking (original nan)" in text
+    assert "without them its error there is 1.65 times as large, without random torques 0.89 times" in text
     assert "1 of 20 fall with this reaction and 20 of 20 without it" in text
     assert "(FTS-e2e) has 5.0 N m on that leg" in text
     assert "recovers 75% of the peak after 20 ms" in text
