@@ -19,7 +19,7 @@ from mobnet.interface import Estimator, Observer, Robot, lab, read_recording
 from mobnet.robot.description import given_robot
 from mobnet.robotlog.pieces import root_mean_square
 
-NETWORK = DEMO / "networks" / "MOB-Net-LL"
+NETWORK = DEMO / "networks" / "MOB-Net-pushed-LL"
 RECORDING = DEMO / "recording"
 log = logging.getLogger(__name__)
 

@@ -18,7 +18,7 @@ from mobnet.learning.model import build_network
 from mobnet.settings.limb_thresholds import LimbThresholds
 from mobnet.settings.networks import NetworkCell
 
-NETWORK = DATA / "networks" / "MOB-Net-LL"
+NETWORK = DATA / "networks" / "MOB-Net-pushed-LL"
 STD_MIN = 1e-6
 
 

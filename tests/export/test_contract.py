@@ -34,7 +34,7 @@ def test_a_file_a_contract_and_numpy_give_the_estimate(contract, demo):
     wxyz = {axis: columns[name] for axis, name in contract["quaternion"].items()}
     columns |= {one["name"]: eval(one["formula"], {}, wxyz) for one in network["inputs"] if "formula" in one}
     session, state = ort.InferenceSession(demo / network["file"]), np.zeros(network["state"], np.float32)
-    residual, stored = (pq.read_table(DATA / "estimates" / f"{method}.parquet") for method in ("MOB", "MOB-Net"))
+    residual, stored = (pq.read_table(DATA / "estimates" / f"{method}.parquet") for method in ("MOB", "MOB-Net-pushed"))
     assert network["estimates"] == "uncertainty"
     found = []
     for x in np.stack([columns[one["name"]] for one in network["inputs"]], axis=1).astype(np.float32):

@@ -25,7 +25,7 @@ from mobnet.learning.deployed.limbs import load_limb_networks
 from mobnet.settings.detection import DetectorSettings
 
 EXAMPLE = Path(__file__).parents[2] / "docs" / "examples" / "run_onnx.py"
-NETWORK = DATA / "networks" / "MOB-Net-LL"
+NETWORK = DATA / "networks" / "MOB-Net-pushed-LL"
 SEGMENTS = [[0, 1200], [1300, 4000]]  # between them samples are missing
 LIMITS = {"mean": [6, 18, 18, 25, 8, 6], "ratio": [4.0] * 6}  # N m, and none of a ratio
 

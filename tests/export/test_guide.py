@@ -30,7 +30,7 @@ def test_the_page_is_followed_to_the_letter(tmp_path, monkeypatch, capsys):
     (code,) = re.findall(r"^```python\n(.*?)^```$", PAGE, re.DOTALL | re.MULTILINE)
     names = {}
     exec(code, names)
-    estimator, samples = load("MOB-Net")
+    estimator, samples = load("MOB-Net-pushed")
     state = estimator.init()
     for k in range(len(samples)):
         state, wanted = estimator.step(state, samples[k])

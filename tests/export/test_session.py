@@ -28,7 +28,7 @@ def push():
 
 @pytest.fixture(scope="module")
 def own():
-    return load_network(DATA / "networks" / "MOB-Net-LL")
+    return load_network(DATA / "networks" / "MOB-Net-pushed-LL")
 
 
 @pytest.fixture(scope="module")
@@ -60,7 +60,7 @@ def test_flags_come_at_the_same_samples(demo, push):
 
 def _stepped(push, networks):
     """Return MOB-Net's estimate with some networks, step by step."""
-    own = push.estimator("MOB-Net")
+    own = push.estimator("MOB-Net-pushed")
     estimator = ResidualEstimator(own._observer, push.robot.layout, networks)
     state, steps, sensed = estimator.init(), [], push.recording.sensed
     for k in range(len(sensed)):

@@ -20,7 +20,7 @@ from mobnet.settings.limb_thresholds import LimbThresholds
 ROOT = Path(__file__).parents[2]
 ARM, DEMO = ROOT / "tests" / "data" / "arm.yaml", ROOT / "docs" / "demo"
 PAGE = (ROOT / "docs" / "interface.md").read_text()
-LEG = DEMO / "networks" / "MOB-Net-LL"
+LEG = DEMO / "networks" / "MOB-Net-pushed-LL"
 JOINTS = tuple(f"LL{k}" for k in range(1, 7))
 HEAVY = ("numpy", "pinocchio", "numba", "torch", "mujoco")
 PUSH = slice(1700, 1760)  # rows of the demo's recording in which its push acts

@@ -247,7 +247,7 @@ def test_the_limb_is_the_only_one_or_has_to_be_named(layout, arm):
 
 
 def test_a_network_that_learned_the_external_torque_itself_is_taken_off_no_residual(settings, layout, tmp_path):
-    made = DATA / "networks" / "MOB-Net-LL"
+    made = DATA / "networks" / "MOB-Net-pushed-LL"
     assert read_network_folder(made, layout, settings).limb == "LL"
     shutil.copytree(made, tmp_path / "net")
     note = json.loads((made / "run.json").read_text())

@@ -77,13 +77,13 @@ def push():
 @pytest.fixture(scope="session")
 def felt(push):
     """What the project estimates of the stored push, step by step."""
-    return push.estimate("MOB-Net")
+    return push.estimate("MOB-Net-pushed")
 
 
 @pytest.fixture(scope="session")
 def published(push):
     """The network of the stored push."""
-    return RuntimeNetwork(*read_weights(push.folder / "networks" / "MOB-Net-LL" / "weights.safetensors"))
+    return RuntimeNetwork(*read_weights(push.folder / "networks" / "MOB-Net-pushed-LL" / "weights.safetensors"))
 
 
 def chain_of(thresholds):

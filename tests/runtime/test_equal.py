@@ -88,7 +88,7 @@ def test_residual_with_friction_of_the_drives(runtime, observer_of, machine):
 
 def test_the_stored_push(runtime, push, published, felt):
     """A published network, its thresholds and gate on the recording of the demo."""
-    estimator, row = push.estimator("MOB-Net"), push.settings.detection.detectors["MOB-Net-ratio"]
+    estimator, row = push.estimator("MOB-Net-pushed"), push.settings.detection.detectors["MOB-Net-ratio"]
     chain, gate = push._setup.chain(push._thresholds(row)), push._setup.gate
     watching = RuntimeDetector("LL", push.joints, row.signals, chain, gate)
     sensed, columns = push.recording.sensed, push.robot.layout.columns(push.joints)

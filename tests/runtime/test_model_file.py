@@ -233,7 +233,7 @@ def _thresholds(robot, limb, method, signal, watched):
 
 def test_from_exported_networks_and_their_contract(library, push, settings):
     """What `./reproduce export` passes on, for a leg in its swing and for arms that are always watched."""
-    robot, folder = describe(push.settings.robot), push.folder / "networks" / "MOB-Net-LL"
+    robot, folder = describe(push.settings.robot), push.folder / "networks" / "MOB-Net-pushed-LL"
     trained, gate = read_trained(folder, robot.layout), settings.detection.gate
     rows = {"LL": ("MOB-Net", "ratio", "swing"), "RL": ("MOB", "mean", "swing"), "RA": ("MOB", "mean", "always")}
     thresholds = [_thresholds(robot, limb, *row) for limb, row in rows.items()]
@@ -253,7 +253,7 @@ def test_from_exported_networks_and_their_contract(library, push, settings):
 
 def test_the_command_writes_a_model_that_runs(library, push, felt, tmp_path):
     """Robot, rate and observer of the configuration are those of the stored push, and so is the estimate."""
-    assert main([str(push.folder / "networks" / "MOB-Net-LL"), "--out", str(tmp_path)]) == 0
+    assert main([str(push.folder / "networks" / "MOB-Net-pushed-LL"), "--out", str(tmp_path)]) == 0
     found, columns = Runtime(library, (tmp_path / MODEL).read_bytes()), push.robot.layout.columns(push.joints)
     for k in range(200):
         assert found.step(push.recording.sensed[k]) == OK

@@ -46,7 +46,7 @@ def test_the_example_prints_the_flags_of_the_project(built, push, published, fel
     row = push.settings.detection.detectors["MOB-Net-ratio"]
     chain, gate = push._setup.chain(push._thresholds(row)), push._setup.gate
     watching = RuntimeDetector("LL", push.joints, row.signals, chain, gate)
-    write_model_file(tmp_path / "model.bin", push.estimator("MOB-Net")._observer, [published], [watching])
+    write_model_file(tmp_path / "model.bin", push.estimator("MOB-Net-pushed")._observer, [published], [watching])
     csv = tmp_path / "recording.csv"
     pd.read_parquet(push.folder / "recording.parquet").astype("float64").to_csv(csv, index=False)
     header, *lines = program(make("example", built), tmp_path / "model.bin", csv)
