@@ -57,6 +57,17 @@ def test_so_many_robots_decide_and_one_fewer_does_not() -> None:
     assert not found.is_beyond
 
 
+def test_more_than_a_hundred_runs_are_told_to_two_digits() -> None:
+    """A number that was stored with six digits needs as many as the number itself."""
+    texts = set[str]()
+    for value in (1.0, 1.0000004):
+        number = Number(value, value - reach(3), value + reach(3), networks=(3, 3), walks=(6,))
+        texts.add(effort(DIFFERENCE, number, 0.9, None).text)
+    (text,) = texts
+    assert reach(390) < 0.1 < reach(380)
+    assert text.startswith("390 robots (here 3) decide the size")
+
+
 def test_what_costs_too_much_says_so() -> None:
     number = Number(1.0, 1.0 - reach(3), 1.0 + reach(3), networks=(3, 3), walks=(6,))
     found = effort(DIFFERENCE, number, 0.6, None)

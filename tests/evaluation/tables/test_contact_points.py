@@ -40,7 +40,8 @@ def write_files(settings: Settings, robot: RobotDescription, folder: Path) -> tu
     push = np.zeros((len(sensed), 4))
     push[:, 1:] = -force[:, None] * axes[:, 0]
     push[force > 0.0, 0] = 1 + list(settings.scenarios["collisions"].pushes).index("collision_left_knee_front")
-    paths = {name: folder / name / "robot_1" / f"s{SEED}" for name in ("recording", "residual", "MOB", "MOB-Net-pushed")}
+    names = ("recording", "residual", "MOB", "MOB-Net-pushed")
+    paths = {name: folder / name / "robot_1" / f"s{SEED}" for name in names}
     meta = {"rate_hz": RATE_HZ}
     truth = unseen(layout, len(sensed), push)
     write_recording(paths["recording"], Recording(sensed, ((0, len(sensed)),), RATE_HZ, {}, truth), layout)

@@ -6,6 +6,7 @@ from experiments.settings.published import PublishedTable
 
 # Names of methods that a reader would take for something else: of an error "below zero" nobody thinks of a method.
 SHOWN = {"zero": "no estimate"}
+LARGEST = 1e6  # from here on a number is written with a power of ten: a training that diverges has such losses
 
 
 @dataclass(frozen=True)
@@ -70,8 +71,15 @@ class Number:
 
 
 def number_text(value: float | None, digits: int = 2) -> str:
-    """Return a number with fixed digits and no minus before zero, or a dash where there is none."""
-    return "-" if value is None else f"{round(value, digits) + 0.0:.{digits}f}"
+    """Return a number with fixed digits and no minus before zero, or a dash where there is none.
+
+    A number from `LARGEST` on has one digit after the point and a power of ten.
+    """
+    if value is None:
+        return "-"
+    if abs(value) >= LARGEST:
+        return f"{value:.1e}"
+    return f"{round(value, digits) + 0.0:.{digits}f}"
 
 
 def interval_text(low: float | None, high: float | None, digits: int = 2) -> str:

@@ -37,7 +37,8 @@ implementation with. It has learned one simulated robot.
 ## Where not to use it
 * **On any other robot, a real one least of all.** On simulated robots with other gears, masses and sensors, drawn from
   the same ranges, the error of {tried} is {other} N m instead of {known}, and the central 68% interval holds
-  {other_share} of the errors instead of {known_share}. `./reproduce learn` trains a network on a robot's logs ([guide](robots.md)).
+  {other_share} of the errors instead of {known_share}. `./reproduce learn` trains a network on a robot's logs
+  ([guide](robots.md)).
 * **As the only measure of a short hit.** It recovers {push} of the peak torque of a hit on the swinging knee, and rises
   to half of it {delay} ms late.
 * **Where safety depends on it.** All numbers come from simulation.
@@ -47,7 +48,8 @@ MADE = """
 Commit `{commit}` trained it with seed {seed}. The weights are `{file}` of that run, sha256
 `{sha256}`. The licence is that of the project, MIT. No person's data is in it, and nothing was measured on a robot.
 """
-MEANS = """RMSE [N m], mean over the joints of the leg, over walks and over the networks of all robots, with 95% intervals.
+MEANS = """\
+RMSE [N m], mean over the joints of the leg, over walks and over the networks of all robots, with 95% intervals.
 These are networks of {tried}: of the same kind and size, they learned from walks with fewer pushes of the swing foot
 than this one of {method} did. Conditions that training does not have were tried with them alone.
 """

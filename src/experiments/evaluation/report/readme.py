@@ -10,7 +10,9 @@ from mobnet.core.columns import (
     CLAIMED,
     HELD,
     NEAR,
+    NOT_MEASURED,
     NOT_REPRODUCED,
+    OPEN,
     OURS,
     PAPER,
     PRINTED,
@@ -65,31 +67,29 @@ ELAPSED = re.compile(r"^\| elapsed [^|]*\|[^|]*\|[^|]*\| (?P<hours>[\d.]+) \| (?
 # errors on the robots (e) and ratios of errors under hits in a trial (f).
 FINDINGS = (
     "**Formula against network.** On robots with unknown gears the best friction formula has "
-    "{c[model-walk].value:.1f} times MOB-Net's error on a leg, {c[model-waist].value:.1f} times on the waist and "
-    "{c[model-right-arm].value:.1f} times on the right arm. A network that learns the torque itself (FTS-e2e) has "
-    "{e[FTS-e2e]} N m on that leg. Of a hit on the swinging knee, the formula with a memory recovers "
-    "{t[share MOB-fric-dahl]:.0%} of the peak after {t[late MOB-fric-dahl]:.0f} ms, MOB-Net {t[share MOB-Net]:.0%} "
-    "after {t[late MOB-Net]:.0f} ms, and MOB-Net-pushed, trained with a push in nearly every swing, "
-    "{t[share MOB-Net-pushed]:.0%} after {t[late MOB-Net-pushed]:.0f} ms.",
-    "**False alarms.** The ratio detector divides MOB-Net-pushed's torque by the standard deviation that it predicts. "
-    "With thresholds for one false alarm an hour it finds {t[found MOB-Net-ratio]:.0%} of the collisions of a swinging "
-    "leg at {t[false MOB-Net-ratio]:.1f} false alarms an hour, counted in other walks; a friction formula finds "
+    "{c[model-walk].value:.1f} times MOB-Net's error on a leg and {c[model-waist].value:.1f} times on the waist; on "
+    "the right arm {c[model-right-arm].value:.1f} times leaves open which is better. A network that "
+    "learns the torque itself (FTS-e2e) has {e[FTS-e2e]} N m on that leg. Of a hit on the swinging knee, the formula "
+    "with a memory recovers {t[share MOB-fric-dahl]:.0%} of the peak after {t[late MOB-fric-dahl]:.0f} ms, MOB-Net "
+    "{t[share MOB-Net]:.0%} after {t[late MOB-Net]:.0f} ms, and MOB-Net-pushed, trained with a push in nearly every "
+    "swing, {t[share MOB-Net-pushed]:.0%} after {t[late MOB-Net-pushed]:.0f} ms.",
+    "**False alarms.** With thresholds for one false alarm an hour, the ratio of MOB-Net-pushed's torque to its "
+    "standard deviation finds {t[found MOB-Net-ratio]:.0%} of the collisions of a swinging leg at "
+    "{t[false MOB-Net-ratio]:.1f} false alarms an hour, counted in other walks; a friction formula finds "
     "{t[found MOB-fric-load]:.0%} at {t[false MOB-fric-load]:.1f}. With the original's thresholds the observer alone "
-    "finds {c[found-mob].value:.0%} (original {c[found-mob].published:.0%}), at {t[largest MOB]:.0f} false alarms an "
-    "hour.",
-    "**Random torque.** Without random torques in its training MOB-Net's error is {c[rte-walk].value:.2f} times as "
-    "large in walking (original {c[rte-walk].published:.2f}), which is the original's sign but not its size, and "
-    "{c[rte-swing].value:.2f} times in a hit on the swinging knee (original {c[rte-swing].published:.2f}): not "
-    "reproduced. In a trial on four robots, pushes teach a network to show a hit: without them its error there is "
+    "finds {c[found-mob].value:.0%} (original {c[found-mob].published:.0%}), at {t[largest MOB]:.0f} an hour.",
+    "**Random torque.** Without random torques in training MOB-Net's error is {c[rte-walk].value:.2f} times as large "
+    "in walking (original {c[rte-walk].published:.2f}: the sign holds, the size does not) and "
+    "{c[rte-swing].value:.2f} times in a hit on the swinging knee (original {c[rte-swing].published:.2f}: not "
+    "reproduced). In a trial on four robots, pushes teach a network to show a hit: without them its error there is "
     "{f[pushes]:.2f} times as large, without random torques {f[torques]:.2f} times.",
-    "**Reaction.** After an alarm the robot steps back. Of robots that walk into a block with the "
-    "foot, {s[foot MOB-Net-ratio].fell} of {s[foot MOB-Net-ratio].walks} fall with this reaction and "
+    "**Reaction.** After an alarm the robot steps back. Of walks into a block with the foot, "
+    "{s[foot MOB-Net-ratio].fell} of {s[foot MOB-Net-ratio].walks} end in a fall with this reaction and "
     "{s[foot none].fell} of {s[foot none].walks} without it; into a bar with the knee, {s[knee MOB-Net-ratio].fell} of "
-    "{s[knee MOB-Net-ratio].walks} and {s[knee none].fell} of {s[knee none].walks}; into a door, "
-    "{s[door MOB-Net-ratio].fell} of {s[door MOB-Net-ratio].walks} with it.",
+    "{s[knee MOB-Net-ratio].walks} and {s[knee none].fell} of {s[knee none].walks}.",
 )
 # Claims whose verdict a sentence names.
-SAID = {"rte-walk": SIGN_ONLY, "rte-swing": NOT_REPRODUCED}
+SAID = {"rte-walk": SIGN_ONLY, "rte-swing": NOT_REPRODUCED, "model-right-arm": OPEN}
 HIT = {"scenario": "knee_swing", "level": "robots", "limb": "LL", "joint": "avg"}
 # What the data of networks teach, a trial that is kept: each effect over all levels of the others.
 TAUGHT = Path("docs/trials/factorial.csv")
@@ -149,6 +149,8 @@ def verdicts(results: Path) -> str:
     for verdict in (*VERDICTS, "all"):
         paper = counts[PAPER, verdict]
         ours = counts[OURS, verdict]
+        if verdict == NOT_MEASURED and paper["statements"] == ours["statements"] == "0":
+            continue  # the one verdict that says nothing of a claim
         lines.append(f"| {verdict} | {paper['statements']} | {paper['firsts']} | {ours['statements']} |\n")
     failed = sum(int(counts[PAPER, verdict]["statements"]) for verdict in (NOT_REPRODUCED, SIGN_ONLY))
     unexplained = counts[PAPER, UNEXPLAINED]["statements"]

@@ -23,6 +23,7 @@ TRIALS, HOURS, AS_MANY = "independent trials", "hours of walking", "times as muc
 # the fifteen walks of a test, twice the paper's 60 collisions, twice the hour that false reactions are counted in.
 AFFORDABLE = {ROBOTS: 16.0, NETWORKS: 12.0, WALKS: 60.0, TRIALS: 120.0, HOURS: 2.0, AS_MANY: 2.0}
 MOST = 1e4  # times as many runs: beyond, no number of them decides
+EXACT = 100.0  # so many runs are told exactly; more to two digits, as the number that they come from is not exact
 LEAST_SIZE, MOST_SIZE = 1e-3, 1e9  # of trials [-] or hours [h] that are looked for
 HALVINGS = 60  # of the logarithm of a number that is looked for
 ON_LOGS = ("value", "ratio", "least ratio")  # quantities whose interval is on a log scale where it is above zero
@@ -80,11 +81,14 @@ def text_of(efforts: Sequence[Effort], scales: Sequence[str]) -> str:
 
 def count_text(needed: float, runs: Shrinking) -> str:
     """Return how many runs are needed as text, with how many there are."""
+    several = f"{needed:.1f}" if runs.kind in (AS_MANY, HOURS) else f"{ceil(needed)}"
+    if needed > EXACT:
+        several = f"{float(f'{needed:.1e}'):.0f}"
     if runs.kind == AS_MANY:
-        return f"{needed:.1f} {runs.kind}"
+        return f"{several} {runs.kind}"
     if runs.kind == HOURS:
-        return f"{needed:.1f} {runs.kind} (here {runs.count:.1f})"
-    return f"{ceil(needed)} {runs.kind} (here {runs.count:.0f})"
+        return f"{several} {runs.kind} (here {runs.count:.1f})"
+    return f"{several} {runs.kind} (here {runs.count:.0f})"
 
 
 def least_times(ends: Callable[[float], Ends], bounds: Bounds) -> float:

@@ -70,15 +70,15 @@ def safety(
     columns = [
         ViewColumn("touched", text=field_text("hit")),
         ViewColumn("falls", {"measure": FALLS}, ends=share),
-        ViewColumn("first peak [N]", {"measure": PEAK}, 0, ends=share),
-        ViewColumn("its impulse [N s]", {"measure": FIRST}, 1),
-        ViewColumn("all contacts [N s]", {"measure": IMPULSE}, 1, ends=share),
+        ViewColumn("peak [N]", {"measure": PEAK}, 0, ends=share),
+        ViewColumn("its [N s]", {"measure": FIRST}, 1),
+        ViewColumn("all [N s]", {"measure": IMPULSE}, 1, ends=share),
         ViewColumn("median", {"measure": MEDIAN}, 1),
-        ViewColumn(f"above {settings.heavy_ns:g} N s", {"measure": HEAVY}),
+        ViewColumn(f"over {settings.heavy_ns:g}", {"measure": HEAVY}),
         ViewColumn("alarm [ms]", {"measure": ALARM}, 0),
-        ViewColumn(f"within {settings.within_deg:g} deg", {"measure": WITHIN}),
+        ViewColumn(f"{settings.within_deg:g} deg", {"measure": WITHIN}),
         ViewColumn("by (24)", {"measure": BASE_WITHIN}),
-        ViewColumn("before contact", {"measure": EARLY}),
+        ViewColumn("early", {"measure": EARLY}),
     ]
     labels = {"case": "Case", "line": "Detector", "thresholds": "thresholds"}
     rows.write(table_dir / "safety", View(labels, columns, blocks=("case",)))
