@@ -55,8 +55,8 @@ def test_it_needs_public_names_and_packages_that_come_with_them_alone():
 
 
 def test_its_errors_are_those_that_the_demo_prints(told):
-    errors = dict(re.findall(r"^(MOB|MOB-Net) .*RMSE ([\d.]+) N m", DEMO.read_text(), re.MULTILINE))
-    found = {"MOB": told["errors"]["observer"], "MOB-Net": told["errors"]["MOB-Net"]}
+    errors = dict(re.findall(r"^(MOB|MOB-Net-pushed) .*RMSE ([\d.]+) N m", DEMO.read_text(), re.MULTILINE))
+    found = {"MOB": told["errors"]["observer"], "MOB-Net-pushed": told["errors"]["MOB-Net-pushed"]}
     assert {name: f"{error:.1f}" for name, error in found.items()} == errors
 
 
