@@ -16,7 +16,7 @@ from mobnet.settings.data import Push
 RATE_HZ, GAIN_HZ, POSE_HZ = 1000.0, 100.0, 100.0
 LEAD, START, LENGTH, ROWS = 500, 2200, 80, 4500
 SWINGS = ((700, 1250), (2100, 2650), (3500, 4050))
-METHODS = ("MOB", "MOB-fric-dahl", "MOB-Net", "FTS-e2e")
+METHODS = ("MOB", "MOB-fric-dahl", "MOB-Net-pushed", "FTS-e2e")
 
 
 def pushed_scene(robot: RobotDescription, seed: int = 0, push: str = "Knee, in the air", plant: str = "a") -> PagePush:
@@ -29,13 +29,13 @@ def pushed_scene(robot: RobotDescription, seed: int = 0, push: str = "Knee, in t
     hit = raw - np.where(swing, 0.0, 50.0)[:, None]
     truth, pushed = (low_pass(signal, GAIN_HZ, RATE_HZ) for signal in (raw, hit))
     residual = low_pass(raw + friction, GAIN_HZ, RATE_HZ)
-    shares = {"MOB": 0.0, "MOB-fric-dahl": 0.9, "MOB-Net": 0.95}
+    shares = {"MOB": 0.0, "MOB-fric-dahl": 0.9, "MOB-Net-pushed": 0.95}
     estimates = {name: residual - share * (residual - truth) for name, share in shares.items()}
     estimates["FTS-e2e"] = truth - 0.6 * pushed
     watched = flagged([(start + 90, end - 30) for start, end in SWINGS])
     run = Run("collisions", "robot_1", "MOB", 101, 240, Path("recording"), Path("residual"), Path("estimate"))
     row = Push(point="left_knee_front", duration_s=(0.08, 0.08), force_n=(100.0, 100.0), shape="half_sine")
-    scene = PageScene(push, plant, (run,), ("LL",), "LL3", 20.0, "MOB-Net", {"collision_left_knee_front": row})
+    scene = PageScene(push, plant, (run,), ("LL",), "LL3", 20.0, "MOB-Net-pushed", {"collision_left_knee_front": row})
     force = np.outer(shape[:: round(RATE_HZ / POSE_HZ)], [-150.0, 0.0, 80.0])
     shown = PushScene(
         joints=joints,
@@ -48,7 +48,7 @@ def pushed_scene(robot: RobotDescription, seed: int = 0, push: str = "Knee, in t
         truth=truth,
         push=hit,
         estimates=estimates,
-        stds={"MOB-Net": np.full(truth.shape, 3.0)},
+        stds={"MOB-Net-pushed": np.full(truth.shape, 3.0)},
         flags={"swing": swing, "watched": watched, "pushed": flagged([(START, START + LENGTH)])},
         q=np.zeros((ROWS, robot.layout.nq)),
         force=np.outer(shape, [-150.0, 0.0, 80.0]),

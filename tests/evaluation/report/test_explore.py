@@ -13,7 +13,7 @@ from made_scenes import GAIN_HZ, LEAD, RATE_HZ, ROWS, START, pushed_scene
 
 from experiments.evaluation.figures.drawing.robot import lowest
 from experiments.evaluation.measure.estimates.pushes import read_pushes
-from experiments.evaluation.report.explore import PackedArray, explore, joint_names, packed, page_of
+from experiments.evaluation.report.explore import PackedArray, explore, joint_names, packed, page_of, role_of
 from experiments.evaluation.report.explore_numbers import ALREADY, ASLEEP, NEVER, push_numbers
 from experiments.evaluation.report.explore_scenes import read_scene
 from experiments.plan.parts import PageScene
@@ -114,6 +114,12 @@ def test_page_without_scripts_says_so_and_has_the_numbers(robot, settings):
     row = re.search(r'<tr data-method="MOB-Net-pushed">.*?</tr>', text, re.DOTALL)
     assert row
     assert f'<td data-label="peak [N m]">{found["MOB-Net-pushed"].peak:.1f}</td>' in row[0]
+
+
+def test_a_variant_has_the_colour_of_its_method_and_the_fourth_step_tells_of_it(robot, settings):
+    roles = {name: role_of(name) for name in ("MOB", "MOB-Net", "MOB-Net-pushed", "FTS-e2e-pushed", "MOB-fric-dahl")}
+    assert list(roles.values()) == ["observer", "network", "network", "direct", "formula"]
+    assert '<p data-step="4">MOB-Net-pushed subtracts' in page(robot, settings)
 
 
 def test_joints_have_names_that_a_reader_knows(robot):

@@ -36,7 +36,9 @@ from mobnet.settings.robot import RobotTable
 LARGEST = 2**15 - 1  # of a whole number of 16 bits
 OBSERVER = "MOB"
 STORY = "story"
-ROLES = {OBSERVER: "observer", "MOB-Net": "network", "FTS-e2e": "direct"}  # method -> its colour; others are formulas
+NETWORK, DIRECT, FORMULA = "network", "direct", "formula"
+ROLES = {OBSERVER: "observer", "MOB-Net": NETWORK, "FTS-e2e": DIRECT}  # method -> its colour; others are formulas
+PUSHED = "-pushed"  # ends the name of a method with other training data
 SIDES = {"L": ("left",), "R": ("right",)}  # first letter of a joint's name in the source of the table -> word
 FLAGS = ("swing", "watched", "pushed")
 STEP_M, STEP_N = 1e-4, 0.1  # of positions [m, rad, -] and forces [N]
@@ -164,7 +166,8 @@ def page_with(
         told=json.dumps(told, separators=(",", ":")),
         numbers=numbers,
         scenes=scenes,
-        roles=ROLES,
+        role_of=role_of,
+        network=next((method for method in steps.get(STORY, {}) if role_of(method) == NETWORK), None),
         data=data,
         detection=detection,
         peaks=peaks,
@@ -245,7 +248,7 @@ def scene_note(
         "joint": scene.joint,
         "threshold": scene.threshold_nm,
         "joints": [[joint, names[joint]] for joint in push.joints],
-        "methods": [[method, ROLES.get(method, "formula")] for method in push.estimates],
+        "methods": [[method, role_of(method)] for method in push.estimates],
         "stds": list(push.stds),
         "rate": push.rate_hz,
         "gain": push.gain_hz,
@@ -278,7 +281,12 @@ def parts_of(shown: PagePush, settings: Explore) -> Iterator[PackedArray]:
 
 def is_whole(shown: PushScene, method: str) -> bool:
     """Return whether a method's torque is stored, and not what it subtracts from the observer's."""
-    return OBSERVER not in shown.estimates or ROLES.get(method) in ("observer", "direct")
+    return OBSERVER not in shown.estimates or role_of(method) in (ROLES[OBSERVER], DIRECT)
+
+
+def role_of(method: str) -> str:
+    """Return what a method is, which gives it its colour."""
+    return ROLES.get(method.removesuffix(PUSHED), FORMULA)
 
 
 def as_stored(shown: PushScene, step_nm: float) -> PushScene:

@@ -18,14 +18,19 @@ function momentOf(scene) {
 
 // What a step of the story shows; what it leaves out is as at the beginning.
 function stepOf(step) {
-  const story = sceneOf("story"), quiet = Math.ceil(quietOf(story, "MOB-Net") ?? story.threshold);
+  const story = sceneOf("story"), network = networkOf(story);
+  const quiet = Math.ceil(quietOf(story, network) ?? story.threshold);
   return {
     1: { t: 0.9, zoom: 4, lines: ["truth"] },
     2: { zoom: 0.4, lines: ["truth", ...story.methods.map(([method]) => method)] },
     3: { zoom: 4, lines: ["truth", "MOB"] },
-    4: { zoom: 1, lines: ["truth", "MOB", "MOB-Net"], threshold: quiet },
+    4: { zoom: 1, lines: ["truth", "MOB", network], threshold: quiet },
     5: { scene: "hip_step", zoom: 1 },
   }[step] ?? {};
+}
+
+function networkOf(scene) {
+  return (scene.methods.find(([, role]) => role === "network") ?? scene.methods.at(-1))[0];
 }
 
 function quietOf(scene, method) {
