@@ -21,6 +21,7 @@ from mobnet.core.store import read_array
 SETTINGS = load_settings()
 STORY = SETTINGS.evaluation.story
 SHORTER = {"before_s": 0.5, "after_s": 0.25, "settle_s": 0.1}
+SEED = read_json(DATA / "recording.json")["seed"]
 ROWS = slice(1200, 1950)  # of the stored push, that begins in row 1700
 Cut = Callable[..., Path]
 
@@ -31,13 +32,13 @@ def cut(tmp_path: Path) -> Cut:
     run = tmp_path / "run"
     shutil.copytree(DATA, run)
     for ending in (".parquet", ".json"):
-        (run / f"recording{ending}").rename(run / f"s240{ending}")
+        (run / f"recording{ending}").rename(run / f"s{SEED}{ending}")
 
     def make(name: str = "a", story: dict[str, float] = SHORTER, **changes: Any) -> Path:
         needs: dict[str, Any] = {
             "settings": STORY.model_copy(update=story),
             "pushes": SETTINGS.scenarios[STORY.scenario].pushes,
-            "recording": run / "s240",
+            "recording": run / f"s{SEED}",
             "estimates": {method: run / "estimates" / method for method in STORY.methods},
             "copied": {name: run / name for name in ("networks/MOB-Net-pushed-LL/run.json", "fits/MOB-fric-dahl.json")},
             "detections": {name: run / f"{name}.csv" for name in ("collisions", "thresholds", "detected")},
@@ -65,7 +66,7 @@ def test_each_file_is_noted_with_what_it_was_made_from(cut: Cut, tmp_path: Path)
     folder = cut()
     note = read_json(folder / SOURCES)
     assert [note["cut"][key] for key in ("from_row", "to_row")] == [ROWS.start, ROWS.stop]
-    assert note["sources"]["recording.parquet"]["file"] == str(tmp_path / "run" / "s240.parquet")
+    assert note["sources"]["recording.parquet"]["file"] == str(tmp_path / "run" / f"s{SEED}.parquet")
     assert note["sources"]["recording.parquet"]["sha256"] == file_hash(DATA / "recording.parquet")
     commit = read_json(DATA / "recording.json")["provenance"]["commit"]
     assert note["sources"]["recording.parquet"]["commit"] == commit
@@ -102,11 +103,11 @@ def test_thresholds_of_other_detectors_and_rows_of_other_pushes_are_left_out(cut
 
 
 def test_a_push_that_is_not_there_or_not_whole_is_told(cut: Cut, tmp_path: Path) -> None:
-    with pytest.raises(DataError, match=r"s240\.json: segments: .* accepted: rows -300 to 1950 in one segment"):
+    with pytest.raises(DataError, match=rf"s{SEED}\.json: segments: .* accepted: rows -300 to 1950 in one segment"):
         cut(story={**SHORTER, "before_s": 2.0})
     with pytest.raises(DataError, match=r"weights\.safetensors: file is missing"):
         cut(copied={"weights.safetensors": tmp_path / "weights.safetensors"})
-    with pytest.raises(DataError, match=r"collisions\.csv: no row of collisions, 240, LL, collision_left_foot_side"):
+    with pytest.raises(DataError, match=rf"collisions\.csv: no row of collisions, {SEED}, LL, collision_left_foot_side"):
         cut(story={**SHORTER, "push": "collision_left_foot_side"})
     assert not (tmp_path / "a" / SOURCES).exists()
 
