@@ -68,7 +68,7 @@ def test_the_demo_runs(run):
 
 
 def test_the_notebook_runs(run):
-    assert "MOB-Net   RMSE" in run("python", "-c", f"import os\nos.chdir({str(FOLDER)!r})\n{program()}")
+    assert "MOB-Net-pushed RMSE" in run("python", "-c", f"import os\nos.chdir({str(FOLDER)!r})\n{program()}")
 
 
 def test_an_arm_goes_from_a_log_to_flags_and_to_a_program(run):

@@ -32,7 +32,7 @@ REPO = Path(__file__).parents[3]
 PAGE = (REPO / "docs" / "demo.md").read_text()
 EVALUATION = load_settings().evaluation
 METHODS = EVALUATION.story.methods
-SETTLED_NM, AFTER_NM = 0.002, 0.0002  # bounds of differences once estimators are judged, and from the push on
+SETTLED_NM, AFTER_NM = 0.002, 0.0003  # bounds of differences once estimators are judged, and from the push on
 READ = (
     "recording.json", "recording.parquet", "collisions.csv", "thresholds.csv", "fits/MOB-fric-dahl.json",
     "networks/MOB-Net-pushed-LL/weights.safetensors",

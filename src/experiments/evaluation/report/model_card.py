@@ -4,7 +4,7 @@ Made from the network's run.json, the sources of the stored push and the publish
 `python -m experiments.evaluation.report.model_card` write it, and a test fails when it is out of date.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -159,7 +159,7 @@ def _values(table: Path, place: Row) -> dict[str, float]:
     return {row["metric"]: float(row["value"]) for row in _rows(table, place)}
 
 
-def _rows(table: Path, place: Row) -> list[Row]:
+def _rows(table: Path, place: Row) -> Sequence[Row]:
     """Return the rows at a place of a table, which has some."""
     rows = [row for row in read_texts(table) if place.items() <= row.items()]
     if not rows:
