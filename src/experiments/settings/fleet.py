@@ -90,7 +90,7 @@ def _own(fleet: Fleet, catalogue: Catalogue, robot: str) -> tuple[ByTest, Held]:
 
 
 def _own_of_a_leg(fleet: Fleet, catalogue: Catalogue, robot: str) -> tuple[ByTest, Held]:
-    """Return the same of a robot of which a scale wants but a leg."""
+    """Return the methods and limbs of the tests of a robot that walks those of one leg alone."""
     tests = dict[str, dict[str, Names]]()
     limbs = dict[tuple[str, str, str], Names]()
     for scenario in fleet.leg_tests:

@@ -9,7 +9,7 @@ import gzip
 import json
 import logging
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -274,14 +274,15 @@ def parts_of(shown: PagePush, settings: Explore) -> Iterator[PackedArray]:
     yield PackedArray("truth", step, push.truth)
     yield PackedArray("push", step, push.push)
     for method, estimate in push.estimates.items():
-        yield PackedArray(method, step, estimate if is_whole(push, method) else push.estimates[OBSERVER] - estimate)
+        values = estimate if is_whole(push.estimates, method) else push.estimates[OBSERVER] - estimate
+        yield PackedArray(method, step, values)
     for method, std in push.stds.items():
         yield PackedArray(f"std {method}", step, std)
 
 
-def is_whole(shown: PushScene, method: str) -> bool:
-    """Return whether a method's torque is stored, and not what it subtracts from the observer's."""
-    return OBSERVER not in shown.estimates or role_of(method) in (ROLES[OBSERVER], DIRECT)
+def is_whole(methods: Collection[str], method: str) -> bool:
+    """Return whether a page stores a method's torque, and not what the method subtracts from the observer's."""
+    return OBSERVER not in methods or role_of(method) in (ROLES[OBSERVER], DIRECT)
 
 
 def role_of(method: str) -> str:
@@ -296,7 +297,7 @@ def as_stored(shown: PushScene, step_nm: float) -> PushScene:
         return np.round(np.asarray(values, dtype=np.float64) / step_nm) * step_nm
 
     def rebuilt(method: str, torque: NDArray[Any]) -> NDArray[np.float64]:
-        if is_whole(shown, method):
+        if is_whole(shown.estimates, method):
             return stored(torque)
         # The page gets what the method subtracts from the residual, which is smoother.
         residual = shown.estimates[OBSERVER]

@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from experiments.evaluation.measure.push_scene import PushScene
-from experiments.evaluation.report.explore import DIRECT, FLAGS, OBSERVER, ROLES, page_numbers, page_with, role_of
+from experiments.evaluation.report.explore import FLAGS, OBSERVER, is_whole, page_numbers, page_with
 from experiments.evaluation.report.snapshot import SNAPSHOT, note_renewal, run_renewal
 from experiments.plan.products import TEMPLATES
 from experiments.settings.load import load_settings
@@ -100,8 +100,7 @@ def _scene(note: Mapping[str, Any], arrays: Mapping[str, NDArray[np.float64]]) -
     names = [method for method, _ in note["methods"]]
     estimates: dict[str, NDArray[np.float64]] = {}
     for method in names:
-        is_whole = OBSERVER not in names or role_of(method) in (ROLES[OBSERVER], DIRECT)
-        estimates[method] = arrays[method] if is_whole else arrays[OBSERVER] - arrays[method]
+        estimates[method] = arrays[method] if is_whole(names, method) else arrays[OBSERVER] - arrays[method]
     flags: dict[str, NDArray[np.bool_]] = {}
     for key in FLAGS:
         flags[key] = np.zeros(count, dtype=bool)
