@@ -32,6 +32,7 @@ rule all:
         rules.explore.output,
         rules.demo_data.output,
         rules.wandb_runs.output,
+        rules.manifest.input.sets,  # Snakemake makes what is missing where it is asked for
         rules.manifest.output,
 
 

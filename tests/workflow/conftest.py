@@ -80,19 +80,24 @@ def make_project(tmp_path_factory, compiled):
 
     def make(name, origin=ROOT):
         folder = tmp_path_factory.mktemp(name)
-        for part in PARTS:
-            source = origin / part
-            ignored = shutil.ignore_patterns("__pycache__", "*.pdf", "build.json", ".*")
-            if source.is_dir():
-                shutil.copytree(source, folder / part, symlinks=True, ignore=ignored)
-            else:
-                shutil.copy2(source, folder / part)
-        (folder / ".venv").symlink_to(sys.prefix)  # runs the code of the folder in which it is called
+        copy_project(origin, folder)
         for source, place in compiled_in(cache_root() if origin == ROOT else origin / COMPILED, origin, folder):
             shutil.copytree(source, folder / COMPILED / place, ignore=shutil.ignore_patterns("*.tmp.*"))
         return folder
 
     return make
+
+
+def copy_project(origin, folder):
+    """Copy the project, or a copy, into a folder, without its environment and without what it has compiled."""
+    for part in PARTS:
+        source = origin / part
+        ignored = shutil.ignore_patterns("__pycache__", "*.pdf", "build.json", ".*")
+        if source.is_dir():
+            shutil.copytree(source, folder / part, symlinks=True, ignore=ignored)
+        else:
+            shutil.copy2(source, folder / part)
+    (folder / ".venv").symlink_to(sys.prefix)  # runs the code of the folder in which it is called
 
 
 def compiled_in(root, origin, folder):

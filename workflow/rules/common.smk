@@ -26,6 +26,9 @@ from experiments.plan.plan import (
 from experiments.plan.products import shown as report_of
 from experiments.plan.room import Sizes, check_room, share_at_once
 from experiments.plan.schedule import TimedJob
+from experiments.running.begun import BEGUN as BEGUN_LIST
+from experiments.running.begun import lost, record_begun, record_end
+from experiments.running.one_run import hold_folder, only_looks
 from experiments.running.progress import in_time
 from experiments.running.terminal import RunHandler
 from experiments.running.words import in_set, nearest, one_of, scale_of_targets
@@ -77,6 +80,8 @@ try:
     if is_main():
         for name in (".snakemake", ".cache"):  # Snakemake and packages write there
             check_folder(ROOT / name)
+        if not only_looks(sys.argv[1:]):
+            hold_folder(ROOT, sys.argv[1:])
     WORDS = known_words() if is_main() else None
     TARGETS = [str(target) for target in WORDS.targets] if WORDS else []
     if scale := scale_of_targets(TARGETS, config.get("scale")):
@@ -91,6 +96,8 @@ except MobnetError as error:
 
 JOBS = PLAN.jobs
 SIZES = Sizes(JOBS)
+STATE = PLAN.folders.results / BEGUN_LIST
+LOST = lost(STATE) if is_main() else []
 config["scale"] = SETTINGS.scale  # the report names it
 if GPUS and "gpu" not in workflow.global_resources:
     workflow.register_resource("gpu", GPUS)
@@ -116,10 +123,11 @@ wildcard_constraints:
 onstart:
     BEGUN.set()
     try:
-        sweep_project(ROOT)  # Snakemake holds its lock: no other run begins here
+        sweep_project(ROOT)  # no other run goes on here
         record_precision(PLAN.folders.results, PRECISION)
         record_stacks(SETTINGS, PLAN.folders.results)
         waiting = list(workflow.dag.needrun_jobs())
+        record_begun(STATE, PLAN.kept(str(output) for job in waiting for output in job.output))
         seconds = tell_prices(waiting)
         check_room(waiting, room_share(waiting, seconds))
         if commit() == UNKNOWN:
@@ -139,6 +147,7 @@ onstart:
 
 
 onsuccess:
+    record_end(STATE)
     sys.stderr.write(f"{made_line(TARGETS, PLAN.folders)}, in {in_time(time.time() - STARTED_S)}\n")
 
 
@@ -154,7 +163,13 @@ onerror:
 
 def needed(job, *names):
     """Return a function of wildcards: what other jobs make of the files behind arguments that a job gets."""
-    return lambda w: made_by_jobs([job(w).get(name) for name in names])
+
+    def read(w):
+        # Snakemake has begun to ask what is to be made, and has not yet decided what of it runs.
+        workflow.dag.forcefiles.update(LOST)
+        return made_by_jobs([job(w).get(name) for name in names])
+
+    return read
 
 
 def code(module):

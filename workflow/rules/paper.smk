@@ -124,7 +124,8 @@ use rule deviations as pages with:
 use rule deviations as manifest with:
     # The hash of every file of results.
     input:
-        everything=[
+        sets=PLAN.sets,
+        products=[
             *rules.tables.input,
             *rules.figures.input,
             *rules.pictures.output,

@@ -6,17 +6,18 @@ is part of what the training is, and a node of another kind of processor makes t
 """
 
 import shutil
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
 from experiments.plan.call import Call
 from experiments.plan.detection import level_of_detectors
-from experiments.plan.files import PLANT, Files, made_by_jobs
+from experiments.plan.files import PLANT, SETS, Files, made_by_jobs
 from experiments.plan.jobs import Jobs
 from experiments.plan.products import CAPTIONS, TEMPLATES, Folders, Product, Products
 from experiments.plan.reactions import courses_of, is_pushed
+from experiments.plan.sets import sets_left
 from experiments.plan.trials import trial_products
 from experiments.running.words import MAIN
 from experiments.settings.catalogue import Catalogue
@@ -158,6 +159,21 @@ class Plan:
         if name not in self._by_name:
             raise ConfigError(not_accepted("table, figure or text", name, self._by_name))
         return self._by_name[name]
+
+    @cached_property
+    def sets(self) -> list[str]:
+        """Files and folders of results that jobs make before products, but those that the configuration lets go."""
+        scores = f"{self.folders.results}/scores/"
+        found = dict.fromkeys(sets_left(self.files))
+        for product in self.products:
+            found |= dict.fromkeys(name for name in product.inputs if name.startswith(scores))
+        return self.kept(found)
+
+    def kept(self, outputs: Iterable[str]) -> list[str]:
+        """Return outputs of jobs without the sets that are let go once nothing needs them."""
+        if self.settings.keep == "all":
+            return list(outputs)
+        return [output for output in outputs if not set(Path(output).parts) & set(SETS)]
 
     @property
     def shown(self) -> list[str]:
