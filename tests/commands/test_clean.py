@@ -5,6 +5,7 @@ import io
 import pytest
 
 from experiments.commands.clean import clean
+from experiments.running.one_run import held_folder
 from mobnet.core.errors import CommandError
 
 PRODUCTS = ("results/smoke/a.parquet", "tables/t.csv", "tables/smoke/t.csv", "paper/main.pdf", ".snakemake/log/x")
@@ -66,14 +67,11 @@ def test_a_question_is_asked_at_a_terminal(project, monkeypatch, answer, status)
 
 
 def test_a_running_workflow_is_left_alone(project):
-    """Snakemake's locks say so, also those that a killed run left."""
-    lock = project / ".snakemake" / "locks" / "0.output.lock"
-    lock.parent.mkdir(parents=True, exist_ok=True)
-    lock.touch()
-    before = files(project)
-    with pytest.raises(CommandError, match=r"nothing is removed: .* --unlock"):
-        clean(project, everything=True, is_dry=False, is_sure=True)
-    assert files(project) == before
+    with held_folder(project, ["all"]):
+        before = files(project)
+        with pytest.raises(CommandError, match="a run goes on in this folder since"):
+            clean(project, everything=True, is_dry=False, is_sure=True)
+        assert files(project) == before
 
 
 @pytest.mark.parametrize("name", ["results", "tables", "results/smoke"])

@@ -6,6 +6,7 @@ import pytest
 
 from experiments.commands import setup
 from experiments.commands.tools import Tools
+from experiments.running.one_run import held_folder
 from mobnet.core.errors import CommandError
 
 SITE = Path(".venv/lib/python3.12/site-packages")
@@ -40,6 +41,13 @@ def fill(root):
 def stamp(root):
     """Say that .venv is whole."""
     (root / ".venv" / setup.STAMP).write_text(f"{setup.lock_hash(root)} cpu\none-1.0.dist-info")
+
+
+def test_the_environment_of_a_run_that_goes_on_is_left_alone(project):
+    (project / "environment.lock").write_text("one==2.0\n")
+    with held_folder(project, ["all"]), pytest.raises(CommandError, match="a run goes on in this folder"):
+        setup.set_up(project)
+    assert (project / ".venv" / setup.STAMP).exists()
 
 
 def test_a_whole_environment_is_left_alone(project):

@@ -1,7 +1,7 @@
 """Stands in for the script of each rule where a test stops and resumes runs: it writes what follows from what it reads.
 
 What it writes depends on the arguments of the job and on the bytes of its inputs, so that a stale file is seen. It takes
-a moment, and fails where a file of the project's folder names its rule.
+a moment, waits while one file of the project's folder is there, and fails where another one names its rule.
 """
 
 import hashlib
@@ -9,7 +9,7 @@ import time
 from pathlib import Path
 
 MOMENT_S = 0.15
-FAILING = Path("failing.txt")
+FAILING, HELD = Path("failing.txt"), Path("held.txt")
 
 
 def files_of(place):
@@ -26,6 +26,8 @@ for name in snakemake.input:
         digest.update(path.name.encode())
         digest.update(path.read_bytes())
 time.sleep(MOMENT_S)
+while HELD.exists():
+    time.sleep(MOMENT_S)
 if FAILING.is_file() and FAILING.read_text() == snakemake.rule:
     raise SystemExit(1)
 for name in snakemake.output:

@@ -109,8 +109,6 @@ def test_a_killed_run_started_again_ends_the_same(cluster, project, trained):
     cluster.ask("pkill", "-KILL", "-f", "snakemake --cores")
     run.wait(HANGS_S)
     cluster.ask("scancel", "--user", "root")
-    unlock = [sys.executable, str(project / "reproduce"), "all", *SMOKE, "--unlock"]
-    subprocess.run(unlock, cwd=project, check=True, capture_output=True)
     again = start(cluster, project)
     assert_ends_the_same(again, cluster, project, trained)
 

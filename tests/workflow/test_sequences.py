@@ -6,13 +6,16 @@ The rules and the plan are the project's own; a script that takes a moment stand
 import hashlib
 import os
 import random
+import re
 import shutil
 import signal
 import subprocess
+import sys
 import time
 from pathlib import Path
 
 import pytest
+from patience import HANGS_S, wait_for
 
 from .conftest import ROOT, copy_project
 
@@ -32,6 +35,12 @@ RULES = ("collect", "observe", "fit", "train", "train_gray", "estimate", "score"
 MADE = ("results/smoke", "figures/smoke")
 LONGEST_S = 8.0  # from the start of a call to its stop: a call takes three seconds to plan, some jobs a second each
 LEAST_S = 2.0
+
+SECOND = (  # words of ./reproduce
+    "all", "docs", "films", "report", "tuning", "tables/smoke/table_01.tex", "clean --yes", "snapshot", "all --touch",
+    "all --unlock", "results/smoke --delete-all-output",
+)  # fmt: skip
+REFUSED = rf"a run goes on in this folder since \d\d:\d\d \(.*{TARGET}.*, process \d+\); wait for it, or use a clone"
 
 pytestmark = pytest.mark.slow
 
@@ -110,6 +119,29 @@ def stood_in(tmp_path_factory):
         shutil.copy(STAND_IN, script)
     (folder / "src/experiments/evaluation/report/wandb_live.py").write_text("")
     return folder
+
+
+def test_while_a_run_goes_on_a_second_command_is_refused_and_no_job_of_the_run_fails(stood_in, snakemake):
+    held = stood_in / "held.txt"
+    held.touch()
+    started = [sys.executable, str(stood_in / "reproduce"), TARGET, "--cores", "2", "--forceall"]
+    with (stood_in / "out.log").open("w") as out:
+        run = subprocess.Popen(started, cwd=stood_in, stdout=out, stderr=out, start_new_session=True)
+    try:
+        wait_for(lambda: list((stood_in / ".snakemake" / "scripts").glob("*")))
+        for second in SECOND:
+            words = [sys.executable, str(stood_in / "reproduce"), *second.split()]
+            done = subprocess.run(words, cwd=stood_in, capture_output=True, text=True, check=False)
+            assert done.returncode != 0, second
+            assert re.fullmatch(f"reproduce: {REFUSED}\n", done.stderr.splitlines(keepends=True)[-1]), done.stderr
+        done = snakemake("--cores", "1", TARGET, folder=stood_in)
+        assert (done.returncode, done.stdout) == (1, "")
+        assert re.fullmatch(REFUSED, done.stderr.splitlines()[-1]), done.stderr
+        assert snakemake("-n", TARGET, folder=stood_in).returncode == 0
+    finally:
+        held.unlink()
+    assert run.wait(HANGS_S) == 0, (stood_in / "out.log").read_text()
+    assert "failed" not in (stood_in / "out.log").read_text()
 
 
 def test_after_any_sequence_a_plain_call_makes_the_files_of_an_unbroken_run(stood_in, snakemake):

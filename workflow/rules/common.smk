@@ -35,7 +35,7 @@ from experiments.running.words import in_set, nearest, one_of, scale_of_targets
 from experiments.settings.checks.claims import text_problems
 from experiments.running.cluster import LIMITED, failed_jobs, warm_cache
 from experiments.running.environment import fault_of_process, quieten, sweep_project
-from experiments.running.processes import PREFIX, end_jobs, follow_trainings
+from experiments.running.processes import PREFIX, end_jobs, end_orphans, follow_trainings
 from experiments.settings.load import load_settings
 from mobnet.core.code import UNKNOWN, code_hash, commit
 from mobnet.core.detections import FILES
@@ -82,6 +82,7 @@ try:
             check_folder(ROOT / name)
         if not only_looks(sys.argv[1:]):
             hold_folder(ROOT, sys.argv[1:])
+            end_orphans(ROOT)
     WORDS = known_words() if is_main() else None
     TARGETS = [str(target) for target in WORDS.targets] if WORDS else []
     if scale := scale_of_targets(TARGETS, config.get("scale")):

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from experiments.commands.tell import in_gb, say
+from experiments.running.one_run import held_folder
 from mobnet.core.errors import CommandError
 
 PRODUCTS = {  # folder -> endings of what it holds besides products
@@ -15,7 +16,6 @@ PRODUCTS = {  # folder -> endings of what it holds besides products
     "paper": ("README.md", ".tex", ".bib"),
 }
 WHOLE = ("results", ".snakemake", "report.html", "MUJOCO_LOG.TXT")
-UNLOCK = "if none is going on, `./reproduce all --unlock` takes its locks away"
 ENVIRONMENT = (".venv", ".cache", ".pytest_cache", ".ruff_cache", ".hypothesis")
 
 
@@ -72,19 +72,13 @@ def clean(root: Path, *, everything: bool, is_dry: bool, is_sure: bool) -> int:
     sys.stdout.write(f"{in_gb(sum(sizes)):>10}  in all\n")
     if is_dry or not found:
         return 0
-    if is_in_use(root):
-        raise CommandError(f"nothing is removed: a run is going on here, or was killed; {UNLOCK}")
-    if not (is_sure or agreed()):
-        say("nothing is removed")
-        return 1
-    for place in found:
-        remove(place)
+    with held_folder(root, ["clean"]):
+        if not (is_sure or agreed()):
+            say("nothing is removed")
+            return 1
+        for place in found:
+            remove(place)
     return 0
-
-
-def is_in_use(root: Path) -> bool:
-    """Return whether a run of Snakemake holds a project's folder, or one that was killed left its locks there."""
-    return any((root / ".snakemake" / "locks").glob("*"))
 
 
 def places(root: Path, *, everything: bool) -> Iterator[Path]:

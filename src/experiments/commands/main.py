@@ -12,6 +12,7 @@ from experiments.commands.setup import set_up
 from experiments.commands.tell import say
 from experiments.commands.words import Words, parse
 from experiments.running.environment import child_environment, fault_of_place
+from experiments.running.one_run import held_folder, only_looks
 from mobnet.commands import COMMANDS as LAB
 from mobnet.core.errors import CommandError, MobnetError
 
@@ -72,7 +73,11 @@ def run(root: Path, words: Words) -> int:
         if words.command in OUTSIDE:
             return subprocess.run([python, "-P", "-m", *module], cwd=given, check=False).returncode
         return subprocess.run([python, "-m", *module], check=False).returncode
-    return run_workflow(python, [*words.extra, *(REPORT if words.command == "report" else ())])
+    asked = [*words.extra, *(REPORT if words.command == "report" else ())]
+    if not only_looks(asked):
+        with held_folder(root, asked):  # Snakemake, which will hold it, would say the same some seconds later
+            pass
+    return run_workflow(python, asked)
 
 
 def environment(root: Path) -> dict[str, str]:

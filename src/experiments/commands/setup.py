@@ -15,6 +15,7 @@ from experiments.commands.clean import remove, sizes_of
 from experiments.commands.install import CONSTRAINTS, costs, install, make_venv, wanted_build
 from experiments.commands.tell import in_gb, say
 from experiments.commands.tools import LOG, Tools
+from experiments.running.one_run import held_folder
 from mobnet.core.files import taken
 from mobnet.core.heartbeat import heartbeat
 
@@ -35,7 +36,8 @@ def set_up(root: Path, build: str | None = None) -> None:
         wait_for(handle.fileno())
         fault = fault_of(root, build)
         if fault is not None:
-            make(root, fault, build)
+            with held_folder(root, ["setup"]):  # a run that goes on would lose its packages
+                make(root, fault, build)
 
 
 def wait_for(handle: int) -> None:

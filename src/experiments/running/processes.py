@@ -8,8 +8,11 @@ from pathlib import Path
 
 import psutil
 
+from experiments.running.environment import SCRIPTS
+
 MODULE = "experiments.evaluation.report.wandb_live"
 LONGEST_S = 20.0  # that it may take to end
+LEAVE_S = 5.0  # that a job of a killed run has to remove what it was writing
 # Before the command of each job: a terminal sends Ctrl-C to jobs too, and Python may not have loaded yet what hears it.
 PREFIX = "trap '' INT; "
 
@@ -20,6 +23,18 @@ def end_jobs() -> None:
         with contextlib.suppress(psutil.Error, ProcessLookupError):
             if os.getpgid(child.pid) == os.getpgrp():  # the process beside the run ends later
                 child.terminate()
+
+
+def end_orphans(root: Path) -> None:
+    """End jobs whose run was killed outright: what they still write may be older than what the next run makes."""
+    place = str(root / SCRIPTS)
+    left = [process for process in psutil.process_iter(["cmdline"]) if place in " ".join(process.info["cmdline"] or ())]
+    for process in left:
+        with contextlib.suppress(psutil.Error):
+            process.terminate()
+    _, alive = psutil.wait_procs(left, LEAVE_S)
+    for process in alive:
+        process.kill()
 
 
 def follow_trainings(python: str, results: Path, log: Path) -> subprocess.Popen[bytes]:

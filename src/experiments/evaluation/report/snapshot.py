@@ -28,6 +28,7 @@ from experiments.plan.detection import all_detections
 from experiments.plan.dry_run import dry_run
 from experiments.plan.plan import make_plan
 from experiments.plan.reactions import all_reactions
+from experiments.running.one_run import held_folder
 from experiments.plan.work import works_of
 from experiments.running.logs import LOGS, read_account
 from experiments.running.words import results_parser
@@ -325,7 +326,8 @@ def main(words: list[str]) -> int:
     try:
         with heartbeat():
             if command == "snapshot":
-                store(options.manifest)
+                with held_folder(Path.cwd(), words):  # tables change while a run goes on
+                    store(options.manifest)
                 return 0
             found = compare_snapshot(SNAPSHOT, TABLES, FIGURES) if compares else differences(options.manifest)
     except MobnetError as error:
