@@ -35,6 +35,15 @@ def test_rules_make_all_that_is_planned_once_and_say_what_they_need(planned, sca
     assert set(without) <= {"all", "tables", "figures", "paper_core"}  # which run nothing
 
 
+@pytest.mark.parametrize("scale", SCALES)
+def test_the_manifest_names_all_that_other_jobs_make(planned, scale):
+    jobs = planned(scale)
+    (manifest,) = (job for job in jobs if job.rule == "manifest")
+    others = [job for job in jobs if job.rule not in ("manifest", "all", "wandb_runs")]
+    made = {name for job in others for name in job.outputs}
+    assert set(manifest.inputs) == made
+
+
 def test_what_no_product_reads_is_not_made(planned):
     """Of trials nothing, and of everything else what somebody reads."""
     plan = make_plan(load_settings(overrides={"scale": "smoke"}), with_pdf=False)

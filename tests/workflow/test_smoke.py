@@ -250,6 +250,17 @@ def test_edits_rerun_exactly_what_depends_on_them(unbroken, snakemake, edits, to
     assert not spared & set(planned.split())
 
 
+def test_a_set_that_somebody_removed_is_made_again(unbroken, snakemake):
+    """Also one that only other sets were made from."""
+    place = unbroken / "results/smoke/plant/residuals/forward_walk/ideal"
+    aside = unbroken / "aside"
+    place.rename(aside)
+    planned = snakemake("-n", "--quiet", "host", *SMOKE, folder=unbroken).stdout
+    aside.rename(place)
+    assert "output: results/smoke/plant/residuals/forward_walk/ideal\n" in planned
+    assert "rule collect:" not in planned
+
+
 def test_damaged_recording_stops_with_one_line_and_nothing_half_written(unbroken, make_project, snakemake):
     folder = make_project("damaged", unbroken)
     own = Path("results") / "smoke" / "plant"

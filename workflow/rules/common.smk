@@ -173,6 +173,11 @@ def needed(job, *names):
     return read
 
 
+def gone(names):
+    """Return what a run has made and somebody has removed: Snakemake misses what it is asked for, not what lies between."""
+    return [name for name in names if PLAN.folders.manifest.exists() and not Path(name).exists()]
+
+
 def code(module):
     """Return what a job reruns on besides its files and arguments: the code of a module and of all that it imports."""
     return lambda w: code_hash(module)

@@ -125,19 +125,7 @@ use rule deviations as manifest with:
     # The hash of every file of results.
     input:
         sets=PLAN.sets,
-        products=[
-            *rules.tables.input,
-            *rules.figures.input,
-            *rules.pictures.output,
-            *rules.numbers.output,
-            *rules.deviations.output,
-            *rules.compute.output,
-            *rules.paper.output,
-            *rules.pages.output,
-            *rules.runs_page.output,
-            *rules.explore.output,
-            *rules.demo_data.output,
-        ],
+        products=PLAN.listed,
     output:
         [flagged(name) for name in PLAN.product("manifest").outputs],
     log:

@@ -169,6 +169,15 @@ class Plan:
             found |= dict.fromkeys(name for name in product.inputs if name.startswith(scores))
         return self.kept(found)
 
+    @property
+    def listed(self) -> list[str]:
+        """Files of products whose hashes the manifest has: all but its own, and those of a tool with times in them."""
+        found: list[str] = []
+        for product in self.products:
+            if product.name not in ("manifest", "wandb_runs"):
+                found += product.outputs
+        return found
+
     def kept(self, outputs: Iterable[str]) -> list[str]:
         """Return outputs of jobs without the sets that are let go once nothing needs them."""
         if self.settings.keep == "all":
