@@ -1,0 +1,53 @@
+"""The command for the demo and the Python of docs/runtime.md run, and its tables name every key."""
+
+import json
+import re
+from pathlib import Path
+
+import numpy as np
+
+from mobnet.export.contract import Contract, NetworkContract
+from mobnet.export.export import main
+from mobnet.settings.limb_thresholds import LimbThresholds
+
+ROOT = Path(__file__).parents[3]
+PAGE = (ROOT / "docs" / "runtime.md").read_text()
+
+
+def keys_below(heading):
+    """Return the keys in the first column of the tables below a heading, or below words of the page."""
+    part = re.split(r"\n## |\nA network has\n|\nA detector has ", PAGE.split(heading)[1])[0]
+    rows = [line.split("|")[1] for line in part.splitlines() if line.startswith("| `")]
+    return set(re.findall(r"`(\w+)`", "".join(rows)))
+
+
+def test_the_page_is_followed_to_the_letter(push, tmp_path, monkeypatch, capsys):
+    (tmp_path / "docs").symlink_to(ROOT / "docs")
+    monkeypatch.chdir(tmp_path)
+    words = re.search(r"^    \./reproduce export (docs/demo.*)$", PAGE, re.MULTILINE)
+    assert main(words[1].split()) == 0
+    (code,) = re.findall(r"^```python\n(.*?)^```$", PAGE, re.DOTALL | re.MULTILINE)
+    names = {}
+    exec(code, names)
+    estimator, samples = push.estimator("MOB-Net-pushed"), push.recording.sensed
+    state = estimator.init()
+    for k in range(len(samples)):
+        state, wanted = estimator.step(state, samples[k])
+    np.testing.assert_allclose(names["estimate"].std, wanted.std, rtol=1e-4)
+    assert set(names["estimator"].joints) == set(estimator.joints)
+    assert "LL3" in capsys.readouterr().out
+
+
+def test_the_page_names_every_key_of_the_contract(demo):
+    contract = json.loads((demo / "contract.json").read_text())
+    assert keys_below("## The contract\n") == set(contract) == set(Contract.model_fields)
+    assert keys_below("\nA network has\n") == set(NetworkContract.model_fields)
+    inner = {*contract["networks"][0]["inputs"][0], "formula", *contract["networks"][0]["outputs"][0]}
+    assert all(f"`{key}`" in PAGE for key in {*inner, *contract["observer"]})
+
+
+def test_the_page_names_the_keys_of_a_detector_that_a_program_needs():
+    part = PAGE.split("\nA detector has ")[1].split("\n## ")[0]
+    used = {"limb", "joints", "signal", "thresholds", "low_pass_hz", "hold_s", "settle_s", "watched"}
+    assert used <= set(LimbThresholds.model_fields)
+    assert all(f"`{key}`" in part for key in used)
