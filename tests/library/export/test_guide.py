@@ -4,10 +4,7 @@ import json
 import re
 from pathlib import Path
 
-import numpy as np
-
 from mobnet.export.contract import Contract, NetworkContract
-from mobnet.export.export import main
 from mobnet.settings.limb_thresholds import LimbThresholds
 
 ROOT = Path(__file__).parents[3]
@@ -19,23 +16,6 @@ def keys_below(heading):
     part = re.split(r"\n## |\nA network has\n|\nA detector has ", PAGE.split(heading)[1])[0]
     rows = [line.split("|")[1] for line in part.splitlines() if line.startswith("| `")]
     return set(re.findall(r"`(\w+)`", "".join(rows)))
-
-
-def test_the_page_is_followed_to_the_letter(push, tmp_path, monkeypatch, capsys):
-    (tmp_path / "docs").symlink_to(ROOT / "docs")
-    monkeypatch.chdir(tmp_path)
-    words = re.search(r"^    \./reproduce export (docs/demo.*)$", PAGE, re.MULTILINE)
-    assert main(words[1].split()) == 0
-    (code,) = re.findall(r"^```python\n(.*?)^```$", PAGE, re.DOTALL | re.MULTILINE)
-    names = {}
-    exec(code, names)
-    estimator, samples = push.estimator("MOB-Net-pushed"), push.recording.sensed
-    state = estimator.init()
-    for k in range(len(samples)):
-        state, wanted = estimator.step(state, samples[k])
-    np.testing.assert_allclose(names["estimate"].std, wanted.std, rtol=1e-4)
-    assert set(names["estimator"].joints) == set(estimator.joints)
-    assert "LL3" in capsys.readouterr().out
 
 
 def test_the_page_names_every_key_of_the_contract(demo):

@@ -4,19 +4,35 @@ import json
 
 import pytest
 import torch
+from library_settings import recipes
 from made_notes import network_note
 from safetensors.torch import save_file
 
 from experiments.jobs.fitting import write_fit
+from experiments.plan.plan import with_precision
 from experiments.settings.catalogue import Catalogue
+from experiments.settings.load import load_settings
 from mobnet.core.files import WEIGHTS
 from mobnet.estimation.recipe import build_estimator
 from mobnet.learning.deployed.weights import NOTE
 from mobnet.learning.features import limb_inputs
 from mobnet.learning.model import build_network
+from mobnet.learning.precision import of_processor
 
 SECONDS, FIT_SECONDS = 0.15, 0.3
 INPUT_STD, TARGET_STD = 2.0, 10.0
+
+
+@pytest.fixture(scope="session")
+def settings():
+    """The configuration at a scale that tries every value of its sweeps."""
+    return with_precision(load_settings(overrides={"scale": "quick"}), of_processor())
+
+
+@pytest.fixture(scope="session")
+def recipe_of(settings):
+    """The same as elsewhere, for all of these methods."""
+    return recipes(settings, Catalogue(settings).all_methods)
 
 
 @pytest.fixture(scope="session")

@@ -100,14 +100,14 @@ def test_a_fine_tuning_begins_with_the_robot_s_own_network_and_learns_from_the_c
     def given(method: str) -> Any:
         return arguments(plan, "train", "robot_2", **network(f"{method}-LL-s102"))
 
-    tuned = given("MOB-Net-other-swing-data-s-60")
+    tuned = given("MOB-Net-other-swing-data-s-10")
     assert tuned["start"] == RESULTS / "robot_2/networks/MOB-Net-LL-s102/weights.safetensors"
     assert tuned["recordings"] == (RESULTS / "robot_2/recordings/robot_walk/robot_2_robots_other/s1000",)
     swings = plan.settings.evaluation.changed
     assert tuned["margins"] == (swings.lift_off_s, swings.landing_s)
     learning = tuned["training"].learning
-    assert (learning.data_s, learning.labels) == (60, "swing")
-    assert "margins" not in given("MOB-Net-other-data-s-60")
+    assert (learning.data_s, learning.labels) == (10, "swing")
+    assert "margins" not in given("MOB-Net-other-data-s-10")
     assert "start" not in given("MOB-Net")
 
 

@@ -10,6 +10,7 @@ from experiments.plan.seeds import FIRST_DEVELOPMENT_SEED, FIRST_TRAINING_SEED
 from experiments.settings import evaluation
 from experiments.settings.catalogue import Catalogue
 from experiments.settings.claims import TAKES, Claim
+from experiments.settings.load import load_settings
 from experiments.settings.settings import Settings
 from mobnet.core.errors import ConfigError
 from mobnet.core.notes import Note
@@ -37,6 +38,21 @@ def test_a_sweep_stands_for_one_method_for_each_value(settings: Settings) -> Non
     }
     sizes = sum(len(sweep.of) * len(sweep.values) for sweep in settings.sweeps.values())
     assert len(catalogue.all_methods) == len(settings.methods) + sizes
+
+
+def test_a_scale_may_try_fewer_values_of_a_sweep_and_claims_are_about_these() -> None:
+    """Their order, and what is no value of a sweep, stay; another scale has them all."""
+    few, whole = (load_settings(overrides={"scale": scale}) for scale in ("smoke", "quick"))
+    assert whole.sweeps.keys() == few.sweeps.keys()
+    for key, row in whole.sweeps.items():
+        values = few.scales["smoke"].sweeps.get(key, row.values)
+        assert few.sweeps[key] == row.model_copy(update={"values": values})
+    made = [f"MOB-Net-hidden-{value}" for value in few.scales["smoke"].sweeps["hidden"]]
+    assert [cell.method for cell in few.claims["size-mob-net"].cells] == made
+    assert len(whole.claims["size-mob-net"].cells) == 7
+    assert [cell.method for cell in few.claims["data-mob-net"].cells][-1] == "MOB-Net-hidden-150"
+    assert few.claims["gru-validation"] == whole.claims["gru-validation"]
+    assert len(Catalogue(few).all_methods) < len(Catalogue(whole).all_methods)
 
 
 def test_a_method_changes_its_networks_alone(settings: Settings) -> None:
