@@ -8,21 +8,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 from browser import BROWSER, Browser
+from library_settings import library_settings, recipes
 from made_swings import unseen
 from numpy.typing import NDArray
-from once import once
 from patience import hear_ctrl_c
 
-from experiments.evaluation.report.docs import docs
-from experiments.plan.plan import make_plan, with_precision
-from experiments.settings.catalogue import Catalogue
-from experiments.settings.load import load_settings
 from mobnet.core.columns import residual_columns
 from mobnet.core.joints import N_VIRTUAL, NQ_BASE, JointLayout
 from mobnet.core.recording import Recording, Sensed, write_recording
 from mobnet.core.store import write_array
-from mobnet.estimation.recipe import Recipe
-from mobnet.learning.precision import of_processor
 from mobnet.robot.description import describe, for_walking
 from mobnet.robot.nominal import NominalModel
 from mobnet.settings.lab import load_section
@@ -32,7 +26,7 @@ ROOT = Path(__file__).parents[1]
 RATE_HZ = 1000.0
 WAVES = 3  # sines per signal
 # minutes each; while one worker compiles for the first of them, another checks what needs nothing compiled
-LONGEST = ("test_smoke.py", "test_static.py", "test_cluster.py")
+LONGEST = ("world/workflow/test_smoke.py", "paper/workflow/test_static.py", "world/workflow/test_cluster.py")
 Array = NDArray[np.float64]
 
 
@@ -43,14 +37,14 @@ def pytest_configure() -> None:
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Begin with the longest files: begun last, one of them would run alone on one of the workers."""
-    places = {ROOT / "tests" / "workflow" / name: place for place, name in enumerate(LONGEST)}
+    places = {ROOT / "tests" / name: place for place, name in enumerate(LONGEST)}
     items.sort(key=lambda item: places.get(item.path, len(places)))
 
 
 @pytest.fixture(scope="session")
 def settings():
-    """The repository's configuration at its smoke scale, with this machine's number format."""
-    return with_precision(load_settings(overrides={"scale": "smoke"}), of_processor())
+    """What the library reads of the repository's configuration, with this machine's number format."""
+    return library_settings()
 
 
 @pytest.fixture
@@ -74,13 +68,7 @@ def robot_table():
 @pytest.fixture(scope="session")
 def recipe_of(settings):
     """Return a function of a method's name, its level, its files and other methods that makes its recipe."""
-
-    def recipe(name, level="all_uncertainty", **changes):
-        methods = changes.pop("methods", Catalogue(settings).all_methods)
-        observing = settings.levels[level].nominal_mass_ratio, settings.plant.gravity_m_s2, settings.observer
-        return Recipe(name, methods, settings.robot, *observing, RATE_HZ, **changes)
-
-    return recipe
+    return recipes(settings, settings.methods)
 
 
 @pytest.fixture(scope="session")
@@ -184,19 +172,6 @@ def mirrored(robot):
         return q, v, s
 
     return mirror
-
-
-@pytest.fixture(scope="session")
-def site(tmp_path_factory):
-    """The documentation of this checkout as the rule makes it, which takes some minutes: once for all tests."""
-
-    def build(folder):
-        with pytest.MonkeyPatch.context() as patch:
-            patch.chdir(ROOT)
-            (product,) = make_plan(load_settings(overrides={"scale": "smoke"}), with_pdf=False).docs
-            docs(**{**product.call.arguments, "out": folder})
-
-    return once(tmp_path_factory, "site", build)
 
 
 @pytest.fixture(scope="session")

@@ -164,7 +164,7 @@ def _checked(values: Mapping[str, Any], sources: Sources, further: Check | None)
     if not wrong:
         wrong = [*inconsistencies(catalogue), *(further(settings) if further else ())]
     refuse_faults(sources.told(place, text) for place, text in wrong)
-    return settings
+    return settings.with_own_sweeps()
 
 
 def _changes(catalogue: Catalogue) -> Iterator[Problem]:

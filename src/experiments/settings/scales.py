@@ -4,7 +4,19 @@ from typing import Annotated
 
 from pydantic import Field
 
-from mobnet.settings.base import Count, LowerName, NotNegative, Positive, ScenarioName, Section, Seeds, Share, Whole
+from mobnet.settings.base import (
+    Count,
+    LowerName,
+    NotNegative,
+    Positive,
+    Rising,
+    ScenarioName,
+    Section,
+    Seeds,
+    Share,
+    SweepName,
+    Whole,
+)
 from mobnet.settings.data import Recordings, RecordingSeconds, TestRecordings
 
 
@@ -61,7 +73,7 @@ class Scale(Section):
     the experiments that take another length on the robots of the fleet or more than one network of each, `fleet` how
     many of these robots there are, the first ones, `fleet_whole` how many of them, again the first ones, walk more than
     the tests of a leg, and `fleet_shards` how many recordings of each test each of them makes; all of them, and as many
-    as elsewhere, without these.
+    as elsewhere, without these. `sweeps` has the values of a sweep that are tried, where not all of them are.
     """
 
     decides: bool
@@ -70,6 +82,7 @@ class Scale(Section):
     development: Recordings
     experiments: dict[LowerName, Experiment] = Field(min_length=1)
     robots: dict[LowerName, RobotLength] = {}
+    sweeps: dict[SweepName, Rising[Count]] = {}
     fleet: Annotated[Count, Field(le=100)] | None = None
     fleet_whole: Annotated[Count, Field(le=100)] | None = None
     fleet_shards: Annotated[Count, Field(le=100)] | None = None

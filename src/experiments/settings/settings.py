@@ -31,7 +31,7 @@ from mobnet.settings.data import (
     TrainingSet,
 )
 from mobnet.settings.lab import Lab
-from mobnet.settings.methods import Method, Sweep
+from mobnet.settings.methods import Method, Sweep, swept_names
 from mobnet.settings.reaction import Reaction
 from mobnet.settings.surrogate import Fleet, Level, Surrogate
 from mobnet.settings.walking import Walking
@@ -82,6 +82,19 @@ class Settings(Lab):
     def sizes(self) -> Scale:
         """The chosen scale."""
         return self.scales[self.scale]
+
+    def with_own_sweeps(self) -> "Settings":
+        """Return the settings with the values of sweeps that the chosen scale tries, and claims about these alone."""
+        sweeps = dict[str, Sweep]()
+        left_out = set[str]()
+        for key, row in self.sweeps.items():
+            sweeps[key] = row.model_copy(update={"values": self.sizes.sweeps.get(key, row.values)})
+            left_out |= {*swept_names(key, row)} - {*swept_names(key, sweeps[key])}
+        claims = dict[str, Claim]()
+        for name, claim in self.claims.items():
+            cells = tuple(cell for cell in claim.cells if cell.method not in left_out)
+            claims[name] = claim.model_copy(update={"cells": cells})
+        return self.model_copy(update={"sweeps": sweeps, "claims": claims})
 
     def test_s(self, scenario: str) -> float:
         """Return the duration of a test's recordings at the chosen scale [s]."""

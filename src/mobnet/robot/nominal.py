@@ -1,7 +1,8 @@
 """The nominal model: what the observer knows of the robot (section 3.2), in Pinocchio.
 
 The root of a floating base is two joints, a translation and then a ball. A free-flyer would express the base's linear
-velocity in base axes, and Pinocchio's Coriolis matrix is wrong for one composite root (tests/robot/test_dynamics.py).
+velocity in base axes, and Pinocchio's Coriolis matrix is wrong for one composite root
+(tests/library/robot/test_dynamics.py).
 """
 
 from collections.abc import Sequence

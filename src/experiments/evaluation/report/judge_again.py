@@ -2,7 +2,7 @@
 
 `python -m experiments.evaluation.report.judge_again` writes the claims, their figures and their summary in
 docs/results, and what the README says of them. A number that is made otherwise than when it was published is not
-measured until the next run. `tests/docs` compares the published verdicts with these.
+measured until the next run. `tests/paper/docs` compares the published verdicts with these.
 """
 
 import logging

@@ -25,7 +25,7 @@ ITEM = re.compile(rf"({'|'.join(KINDS)}) \(?([\d.]*\d)")  # Table 7, Equation (1
 TITLED = re.compile(r"^(Table|Figure) \d+: ")  # the start of a caption's title that the paper's item has too
 OURS = " (ours)"  # at the end of a caption's title
 SHOWN = 3  # files of a product that are named
-TESTS = Path("tests/evaluation")  # where all of them are that check a product
+TESTS = Path("tests/paper/evaluation")  # where all of them are that check a product
 HEADER = ("paper", "what it shows", "files", "test", "made by")
 HEAD = f"""# Map of the paper
 

@@ -1,6 +1,6 @@
 """What must hold for claims: their cells are whole, and are of what is scored, trained or in a table.
 
-Units, bounds and quoted numbers, which only who words a claim can get wrong, are checked by tests/settings.
+Units, bounds and quoted numbers, which only who words a claim can get wrong, are checked by tests/paper/settings.
 """
 
 import re

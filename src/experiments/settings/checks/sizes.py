@@ -5,6 +5,7 @@ from itertools import chain
 
 from experiments.settings.catalogue import Catalogue
 from experiments.settings.checks.walking import is_whole
+from experiments.settings.claims import TAKES
 from experiments.settings.figures import Figure05, GaitFigure, HandFigure
 from experiments.settings.fleet import FIRST_SEED
 from experiments.settings.scales import Scale
@@ -37,6 +38,7 @@ def size_problems(catalogue: Catalogue) -> Iterator[Problem]:
                 if experiment not in names:
                     yield place, not_accepted("experiment", experiment, sorted(names))
                 yield from below((*place, "seeds"), max(row.seeds or [0]), FIRST_SEED, "the seeds of robots")
+        yield from _sweep_problems(scaled.settings)
         yield from _length_problems(scaled.settings, scale)
         yield from _time_problems(scaled, scale)
         yield from _training_problems(scaled)
@@ -44,6 +46,26 @@ def size_problems(catalogue: Catalogue) -> Iterator[Problem]:
         if results > RESULTS_MAX:
             accepted = f"{RESULTS_MAX} of them, by fewer shards or seeds"
             yield ("scales", name), misfit(f"{results} recordings, residuals, networks and estimates", accepted)
+
+
+def _sweep_problems(settings: Settings) -> Iterator[Problem]:
+    """Yield values of a sweep that it does not have, or too few for Figure 20 or a claim."""
+    place = ("scales", settings.scale, "sweeps")
+    for key, values in settings.sizes.sweeps.items():
+        row = settings.sweeps[key]
+        for value in values:
+            if value not in row.values:
+                yield (*place, key), not_accepted(f"value of sweep {key}", value, row.values)
+    sizes = settings.evaluation.figure_20
+    own = getattr(settings.networks[sizes.limb], sizes.parameters)
+    tried = settings.sizes.sweeps.get(sizes.parameters, (own,))
+    if own not in tried:
+        yield (*place, sizes.parameters), misfit(list(tried), f"values with {own}, that of Table 1")
+    for name, claim in settings.with_own_sweeps().claims.items():
+        least, step = TAKES[claim.quantity]
+        more = len(claim.cells) - least
+        if more < 0 or (more % step if step else more):
+            yield place, misfit(f"{len(claim.cells)} values for claim {name}", f"at least {least}")
 
 
 def _result_count(catalogue: Catalogue) -> int:

@@ -3,7 +3,8 @@
 A single lane multiplies a matrix with a vector at each step, and most of its time goes into reading the weights and
 into Python. Lanes start together from fresh states; one that ends leaves, so that lengths may differ. The state of a
 lane does not depend on the others but for the order of summation in a product, which the size of a matrix decides:
-numbers differ in their last bits from those of a lane alone (tests/learning/deployed/test_lanes.py has the bound).
+numbers differ in their last bits from those of a lane alone; tests/library/learning/deployed/test_lanes.py has the
+bound.
 """
 
 from collections.abc import Callable, Sequence

@@ -1,0 +1,193 @@
+"""Documents are in the index, their links lead somewhere, and what they say twice agrees."""
+
+import json
+import pkgutil
+import re
+import shlex
+import sys
+import tomllib
+from pathlib import Path
+
+import pytest
+import yaml
+from links import broken
+
+from experiments.commands.words import PARSERS, parse
+from experiments.evaluation.report.readme import blocks
+from experiments.plan.plan import make_plan
+from experiments.settings.load import load_settings
+
+ROOT = Path(__file__).parents[3]
+INDEX = ROOT / "docs" / "README.md"
+PAGES = sorted(path for part in ("*.md", "paper/*.md", "docs/*.md", "docs/notes/*.md") for path in ROOT.glob(part))
+NUMBERED = ROOT / "docs" / "notes" / "README.md"  # where the notes with numbers are
+NOTES = sorted(path for path in NUMBERED.parent.glob("*.md") if path != NUMBERED)
+ANCHOR = re.compile(r'^<a id="note-(\d{4})"></a>$', re.MULTILINE)
+CITED = re.compile(r"\bnotes?[\s_#*-]+\d{4}\b(?:(?:,| and| to)[\s#*]+\d{4}\b)*", re.IGNORECASE)
+TEXTS = ("*.md", "*.lock", "paper/*.tex", "docs/**/*.md", "configs/**/*.yaml", "workflow/**/*.*", "src/**/*.[pc]*")
+BINARY = (".pyc", ".png", ".svg")
+CITING = sorted(path for part in (*TEXTS, "tests/**/*.py") for path in ROOT.glob(part) if path.suffix not in BINARY)
+COMMAND = re.compile(r"`\./reproduce ([^`]+)`")
+CODE_BLOCK = re.compile(r"^ {4}(\./reproduce .+)$", re.MULTILINE)
+LINK = re.compile(r"\]\(([^)#:\s]+)(?:#[^)]*)?\)")
+BESIDE = re.compile(r"^```.*?^```$|^(?: {4}|\|)[^\n]*$", re.MULTILINE | re.DOTALL)  # what is no prose: code and tables
+PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())
+
+
+def links(page):
+    return [(page.parent / name).resolve() for name in LINK.findall(page.read_text())]
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: str(page.relative_to(ROOT)))
+def test_every_link_leads_to_a_file_and_to_a_heading_of_it(page):
+    assert list(broken([page])) == []
+
+
+def test_a_link_to_no_file_or_no_heading_is_found(tmp_path):
+    (tmp_path / "b.md").write_text('# One: two, three\n\n## Same\n\n## Same\n\n<a id="old-1"></a>\n')
+    links = (
+        "b.md",
+        "b.md#one-two-three",
+        "b.md#same-1",
+        "b.md#old-1",
+        "https://x.org",
+        "b.md#four",
+        "c.md",
+        "#nowhere",
+    )
+    (tmp_path / "a.md").write_text("\n".join(f"[x]({link})" for link in links) + "\n\n    [x](code.md)\n")
+    assert [line.split(": ")[1] for line in broken([tmp_path / "a.md"])] == ["b.md#four", "c.md", "#nowhere"]
+
+
+@pytest.fixture(scope="module")
+def made():
+    """All files that the workflow makes at the scale of the documents."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.chdir(ROOT)
+        plan = make_plan(load_settings(overrides={"scale": "default"}), with_pdf=True)
+    products = (*plan.products, *plan.trials, *plan.films, *plan.docs)
+    files: set[str] = set()
+    for product in products:
+        files.update((*product.inputs, *product.outputs))
+    return files | {str(Path(name).parent) for name in files}
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: str(page.relative_to(ROOT)))
+def test_every_command_of_a_document_is_accepted_with_its_options_and_its_targets_are_made(page, made):
+    for line in COMMAND.findall(CODE_BLOCK.sub(r"`\1`", page.read_text())):
+        line = re.sub(r"--config \w+=[A-Z]{3,}", "", line)  # an option goes with the word that stands for its value
+        words = shlex.split(line.partition("&&")[0], comments=True)
+        words = [word for word in words if word != "--help" and not re.search("[A-Z]{3,}", word)]
+        command = parse(words or ["all"]).command
+        if command in PARSERS:
+            known = PARSERS[command]().format_help()
+            assert [word for word in words if word.startswith("--") and f"{word} " not in known] == []
+        targets = [word for word in words if re.match(r"(tables|figures|results)/(?!smoke)", word)]
+        assert [target for target in targets if target not in made] == []
+
+
+def test_blocks_of_the_readme_are_those_of_the_published_results():
+    text = (ROOT / "README.md").read_text()
+    for name, block in blocks(ROOT / "docs" / "results").items():
+        assert f"<!-- {name} -->\n{block.strip()}\n<!-- /{name} -->" in text
+
+
+def test_every_document_and_every_folder_of_documents_is_in_the_index_once():
+    folders = [path for path in (ROOT / "docs").iterdir() if path.is_dir() and path.name != "notes"]
+    wanted = [*(set(PAGES) - {INDEX}), *folders]
+    found = links(INDEX)
+    assert [path for path in wanted if found.count(path) != 1] == []
+
+
+def test_the_index_says_one_sentence_of_each_note_once():
+    rows = re.findall(r"^\| \[[^]]+\]\(notes/(\w+\.md)\) \| [A-Z].*\. \|$", INDEX.read_text(), re.MULTILINE)
+    assert sorted(rows) == sorted([*(path.name for path in NOTES), NUMBERED.name])
+
+
+def test_notes_are_few_and_named_by_their_subjects():
+    assert 1 < len(NOTES) <= 18
+    assert [path.name for path in NOTES if not re.fullmatch(r"[a-z]+(_[a-z]+)*\.md", path.name)] == []
+    assert [path for path in NOTES if not re.match(r"# [A-Z]", path.read_text())] == []
+
+
+def test_the_table_of_old_numbers_leads_to_each_anchor_once():
+    rows = re.findall(r"^\| (\d{4}) \| \[[^]]+\]\((\w+\.md)#note-(\d{4})\) \|$", NUMBERED.read_text(), re.MULTILINE)
+    assert [number for number, _, anchor in rows if number != anchor] == []
+    placed = [(path.name, number) for path in NOTES for number in ANCHOR.findall(path.read_text())]
+    assert sorted((name, number) for number, name, _ in rows) == sorted(placed)
+    unused = re.findall(r"\d{4}", NUMBERED.read_text().rsplit("\n\n", 1)[1])
+    numbers = sorted(int(number) for number in [*unused, *(number for number, _, _ in rows)])
+    assert numbers == list(range(1, 49))
+
+
+def test_every_number_and_every_file_of_a_note_that_is_named_anywhere_leads_somewhere():
+    known = {number for path in NOTES for number in ANCHOR.findall(path.read_text())}
+    named, lost = 0, list[str]()
+    for path in CITING:
+        text = path.read_text(encoding="utf-8")
+        numbers = [number for found in CITED.findall(text) for number in re.findall(r"\d{4}", found)]
+        named += len(numbers)
+        lost += [f"{path}: note {number}" for number in numbers if number not in known]
+        files = set(re.findall(r"docs/notes/(\d{4}|[\w-]+\.md)", text))
+        lost += [f"{path}: {name}" for name in files if not (ROOT / "docs" / "notes" / name).is_file()]
+    assert lost == []
+    assert named > 10
+
+
+def test_the_newest_version_is_that_of_the_published_results_and_of_the_citation():
+    version, date, text = re.findall(
+        r"^## ([\d.]+), ([\d-]+)\n(.*?)(?=^## |\Z)", (ROOT / "CHANGELOG.md").read_text(), re.MULTILINE | re.DOTALL
+    )[0]
+    citation = yaml.safe_load((ROOT / "CITATION.cff").read_text())
+    assert PROJECT["project"]["version"] == citation["version"] == version
+    assert str(citation["date-released"]) == date
+    commit = json.loads((ROOT / "docs" / "results" / "provenance.json").read_text())["commit"]
+    assert commit[:7] in text
+
+
+def test_readme_citation_and_references_name_the_original_by_one_doi_and_the_version_that_is_reproduced():
+    """The entry of the original is the one that the paper cites; keys of BibTeX are no placeholders."""
+    readme = (ROOT / "README.md").read_text().split("\n## Cite\n")[1]
+    entry = re.search(
+        r"@article\{lim2023mobnet,.*?^\}", (ROOT / "paper/refs.bib").read_text(), re.MULTILINE | re.DOTALL
+    )
+    assert entry
+    (original,) = yaml.safe_load((ROOT / "CITATION.cff").read_text())["references"]
+    doi, version = original["doi"], "2402.11221v1"
+    assert re.findall(r"doi\s*= \{(.*?)\}", entry[0]) == [doi]
+    assert re.findall(r"doi\s*= \{(.*?)\}", readme) == [doi]
+    assert original["url"] == f"https://doi.org/{doi}"
+    assert f"https://doi.org/{doi}" in (ROOT / "README.md").read_text()
+    assert doi in (ROOT / "docs" / "deviations.md").read_text()
+    for text in (entry[0], readme, original["identifiers"][0]["value"]):
+        assert version in text
+    keys = re.findall(r"@\w+\{(\w+),", readme)
+    assert keys == ["lim2024mobnet", "mobnet2026reproduction"]
+    assert f"version = {{{PROJECT['project']['version']}}}" in readme
+
+
+@pytest.mark.slow
+def test_the_environment_has_as_many_files_as_the_page_of_clusters_says():
+    (told,) = re.findall(r"environment has about ([\d ]+) files", (ROOT / "docs" / "cluster.md").read_text())
+    files = sum(path.is_file() for path in Path(sys.prefix).rglob("*"))
+    assert files == pytest.approx(int(told.replace(" ", "")), rel=0.15)
+
+
+def test_the_guide_draws_the_packages_as_the_import_linter_checks_them():
+    """Its arrows are the layers of each wing, and its tables name every package once."""
+    contracts = PROJECT["tool"]["importlinter"]["contracts"]
+    layers = {one["containers"][0]: one["layers"] for one in contracts if one["type"] == "layers"}
+    part = (ROOT / "CONTRIBUTING.md").read_text().split("\n## How it fits together\n")[1].split("\n## ")[0]
+    for wing in ("mobnet", "experiments"):
+        assert re.findall(rf"^ {{4}}{wing}: (.*)$", part, re.MULTILINE) == [" -> ".join(layers[wing])]
+        (table,) = re.findall(rf"^\| package of `{wing}` \|.*\n.*\n((?:\| .*\n)+)", part, re.MULTILINE)
+        named = re.findall(r"`(\w+)`", "".join(re.findall(r"^\| (`.*?) \|", table, re.MULTILINE)))
+        modules = [module.name for module in pkgutil.iter_modules([str(ROOT / "src" / wing)])]
+        assert sorted(named) == sorted(name for name in modules if name != "__main__")
+
+
+@pytest.mark.parametrize("name", ["robots.md", "logs.md"])
+def test_a_guide_of_the_lab_is_read_in_ten_minutes(name):
+    """Words beside code and tables, at 200 a minute."""
+    prose = BESIDE.sub("", (ROOT / "docs" / name).read_text())
+    assert 1000 <= len(prose.split()) <= 2000

@@ -1,0 +1,98 @@
+"""Captions begin with a result: fields become numbers, marks TeX, and a number of the printed paper leaves."""
+
+from pathlib import Path
+
+import pytest
+
+from experiments.evaluation.report.captions import caption_tex, captions_tex, fill_captions, filled, inline_tex
+from mobnet.core.errors import DataError
+
+CAPTIONS = Path(__file__).parents[4] / "workflow/report"
+VALUES = {
+    "found@rte-walk": "1.04", "verdict@rte-walk": "not reproduced", "cell@peaks@all noise@MOB": "-0.80",
+    "value@peaks@all noise@MOB": "-0.8000", "cell@peaks@all noise@MOB-Net": "0.50",
+    "value@peaks@all noise@MOB-Net": "0.5000",
+}  # fmt: skip
+BELOW = "{below:peaks@all noise@MOB;peaks@all noise@MOB-Net}"
+
+
+@pytest.fixture
+def caption(tmp_path: Path) -> Path:
+    """A caption of two paragraphs."""
+    path = tmp_path / "figures/figure_05.rst"
+    path.parent.mkdir()
+    path.write_text("Figure 5: one gait cycle (ours)\n\nIt *moves* by 5 % [N m].\nSee ``zero``.\n\nMore.\n")
+    return path
+
+
+def written(path: Path, text: str) -> Path:
+    """Write a text below the title of a caption, and return its file."""
+    path.write_text(f"A title\n\n{text}\n")
+    return path
+
+
+def test_the_title_comes_first_without_the_number_that_the_paper_gave_it(caption: Path) -> None:
+    text = r"\textbf{One gait cycle.} It \emph{moves} by 5 \% [N m]. See \texttt{zero}. More."
+    assert caption_tex(caption, {}).replace(r"~N\,m", " N m").replace("[N~m]", "[N m]") == text
+
+
+def test_a_name_says_what_is_shown(caption: Path) -> None:
+    assert rf"\csname capt@figures/figure_05\endcsname{{{caption_tex(caption, {})}}}" in captions_tex([caption], {})
+
+
+def test_a_line_does_not_begin_with_a_space_where_its_first_number_is_none(caption: Path) -> None:
+    values = {**VALUES, "span@rte-walk": ""}
+    assert filled(written(caption, "By\n{foundspan:rte-walk} more."), values) == "A title\n\nBy\nmore.\n"
+
+
+@pytest.mark.parametrize(
+    ("text", "tex"),
+    [
+        ("a_b & 5 %", r"a\_b \& 5 \%"),
+        ("**not** *this* ``x_1``", r"\textbf{not} \emph{this} \texttt{x\_1}"),
+        ("2 * 3 is 6", "2 * 3 is 6"),
+        ("-3 dB", "$-$3 dB"),
+        ("by {found:rte-walk} %", r"by \found{rte-walk} \%"),
+        ("so{holds:rte-walk;not reproduced}", r"so\holds{rte-walk}{not reproduced}"),
+    ],
+)
+def test_marks_and_fields_of_a_line_become_tex(text: str, tex: str) -> None:
+    assert inline_tex(text) == tex
+
+
+def test_a_field_is_a_number_of_the_results_also_where_a_line_breaks_in_it(caption: Path, tmp_path: Path) -> None:
+    text = "By {found:rte-walk} and {cell:peaks@all\nnoise@MOB}" + BELOW + "{holds:rte-walk;open,not reproduced}."
+    fill_captions([written(caption, text)], VALUES, tmp_path / "out")
+    assert (tmp_path / "out/figures/figure_05.rst").read_text() == "A title\n\nBy 1.04 and -0.80.\n"
+    assert r"\cell{peaks@all noise@MOB}\below{peaks@all noise@MOB}" in caption_tex(caption, VALUES)
+
+
+def test_a_sentence_that_results_do_not_bear_out_has_a_dagger_that_is_explained(caption: Path) -> None:
+    turned = BELOW.replace("{below:", "{below:peaks@all noise@MOB-Net;").replace(";peaks@all noise@MOB-Net}", "}")
+    for guard in (turned, "{holds:rte-walk;reproduced}"):
+        line, explained = filled(written(caption, f"It is so{guard}."), VALUES).split("\n\n")[1:]
+        assert line == "It is so†."
+        assert explained.startswith("† The results shown here do not bear out")
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("", "no text below the title"),
+        ("The method `zero`.", "'`zero`.' is not accepted; accepted: ``code`` in double backticks"),
+        ("By {found:rte-wlak}.", "{found:rte-wlak}: no table has 'found@rte-wlak'; accepted: a name of numbers.tex"),
+        ("By {fuond:rte-walk}.", r"{fuond:rte-walk} is not accepted; accepted: ourcell, "),
+        ("By {found:rte-walk;a}.", r"{found:rte-walk;a} is not accepted; accepted: ourcell, "),
+        ("So{holds:rte-walk}.", "{holds:rte-walk} is not accepted; accepted: two names with a semicolon"),
+        ("So{holds:rte-wlak;open}.", "{holds:rte-wlak;open}: no table has 'verdict@rte-wlak'; accepted: "),
+    ],
+)
+def test_what_is_no_caption_is_refused_in_a_line(caption: Path, text: str, message: str) -> None:
+    with pytest.raises(DataError) as error:
+        caption_tex(written(caption, text), VALUES)
+    assert str(error.value).startswith(f"{caption}: {message}")
+
+
+@pytest.mark.parametrize("path", sorted(CAPTIONS.glob("*/*.rst")), ids=lambda path: f"{path.parent.name}/{path.stem}")
+def test_no_caption_asks(path: Path) -> None:
+    assert "?" not in path.read_text(encoding="utf-8")

@@ -1,0 +1,102 @@
+"""Sizes by which an outcome can be judged: enough walks and trainings, and nothing but what is compared differs."""
+
+from pathlib import Path
+
+import pytest
+from csv_files import read_table
+
+from experiments.evaluation.number.clusters import ClusterKey, rate_in, share_in
+from experiments.plan.files import Files
+from experiments.plan.reactions import sizes_of
+from experiments.settings.catalogue import Catalogue
+from experiments.settings.checks.outcomes import independent_part, is_met_by_a_rate, wilson
+from experiments.settings.claims import Cell
+from experiments.settings.load import load_settings
+from experiments.settings.settings import Settings
+
+ROOT = Path(__file__).parents[3]
+JUDGED = ("foot", "knee", "cart", "door")  # cases of which the paper tells that robots do not fall
+FALLS_SHARE, FALLS_PER_H, DIVERGED_SHARE = 0.1, 4.0, 0.5  # at most, of walks, in an hour, and of trainings
+HOUR_S = 3600.0
+
+
+@pytest.fixture(scope="module")
+def paper() -> Settings:
+    """The configuration at the scale whose walks decide the claims about falls."""
+    return load_settings(overrides={"scale": "paper"})
+
+
+def places_of(robots: int, walks: int) -> list[ClusterKey]:
+    """Return the places of walks of several robots, which share the seeds."""
+    return [ClusterKey(f"robot_{robot}", seed) for robot in range(robots) for seed in range(walks)]
+
+
+def test_robots_that_never_fall_can_show_a_small_share_of_falls(paper: Settings) -> None:
+    files = Files(Catalogue(paper), Path("results"))
+    for case in JUDGED:
+        places = places_of(len(files.robots), sizes_of(files, case).runs)
+        high = share_in([False] * len(places), places, paper.evaluation.statistics).high
+        assert high is not None
+        assert high < FALLS_SHARE, f"{case}: {len(places)} walks"
+
+
+def test_free_walks_can_show_a_small_rate_of_falls(paper: Settings) -> None:
+    files = Files(Catalogue(paper), Path("results"))
+    sizes = sizes_of(files, "free")
+    places = places_of(len(files.whole_robots), sizes.runs)
+    hours = [sizes.longest_s / HOUR_S] * len(places)
+    high = rate_in([0] * len(places), hours, places, paper.evaluation.statistics).high
+    assert high is not None
+    assert high < FALLS_PER_H
+
+
+@pytest.mark.parametrize(("robots", "walks"), [(3, 6), (3, 57), (5, 12), (8, 7)])
+def test_what_no_outcome_can_reach_is_told_by_the_interval_that_the_tables_have(robots: int, walks: int) -> None:
+    """`settings` computes the best outcome without the code of results: of robots that are alike."""
+    settings = load_settings()
+    statistics = settings.evaluation.statistics
+    fleet = settings.fleet.model_copy(update={"robots": tuple(f"robot_{k}" for k in range(robots))})
+    sizes = settings.sizes.model_copy(update={"fleet": None, "fleet_whole": None})
+    scaled = settings.model_copy(update={"fleet": fleet, "scales": {settings.scale: sizes}})
+    part = independent_part(scaled, Cell(table="safety"), statistics.confidence)
+    places = places_of(robots, walks)
+    found = share_in([False] * len(places), places, statistics)
+    assert wilson(0.0, part * len(places), statistics.confidence) == pytest.approx((found.low, found.high))
+    rate = rate_in([0] * len(places), [0.1] * len(places), places, statistics)
+    assert rate.high is not None
+    for factor, is_met in ((1.001, True), (0.999, False)):
+        bounds = (None, factor * rate.high)
+        assert is_met_by_a_rate(bounds, part * 0.1 * len(places), statistics.confidence) == is_met
+
+
+@pytest.mark.parametrize("scale", ["default", "paper"])
+def test_trainings_that_never_diverge_can_show_that_most_do_not(scale: str) -> None:
+    sized = load_settings(overrides={"scale": scale})
+    files = Files(Catalogue(sized), Path("results"))
+    kinds, figure = sized.evaluation.kinds, sized.evaluation.figure_17
+    trained = files.network_folders(["GRU-printed-rate"], figure.limb, kinds.level)
+    _, high = wilson(0.0, len(trained), sized.evaluation.statistics.confidence)
+    assert high < DIVERGED_SHARE
+
+
+@pytest.mark.parametrize("scale", ["smoke", "quick", "default", "paper"])
+def test_networks_of_the_whole_body_learn_from_as_many_samples_whatever_their_size(scale: str) -> None:
+    experiments = load_settings(overrides={"scale": scale}).sizes.experiments
+    assert experiments["single"] == experiments["double"]
+
+
+def test_kinds_learn_by_one_recipe_at_the_rates_with_the_lowest_loss_of_it_in_the_trials() -> None:
+    catalogue = Catalogue(settings := load_settings())
+    figure, tried = settings.evaluation.figure_17, read_table(ROOT / "docs/trials/tuning.csv")
+    recipes = [catalogue.learned(method) for method in figure.methods]
+    assert [recipe.model_copy(update={"rate_first": 1.0}) for recipe in recipes] == [
+        recipes[0].model_copy(update={"rate_first": 1.0})
+    ] * len(recipes)
+    assert (recipes[0].optimizer, recipes[0].loss, recipes[0].coarse) == ("adam", "likelihood", ())
+    for recipe, best in zip(recipes, figure.best, strict=True):
+        name = "MOB-Net" if best == "GRU" else best  # the GRU of the left leg was tried under that name
+        losses = {
+            float(row.tried.rsplit(" ", 1)[1]): row.validation_loss
+            for row in tried if row.method == name and row.tried.startswith("loss likelihood")
+        }  # fmt: skip
+        assert recipe.rate_first == min(losses, key=lambda rate: losses[rate]), best

@@ -1,0 +1,74 @@
+"""Copies of the project in which the workflow may run without touching the checkout's results."""
+
+import hashlib
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from once import once
+from planned_jobs import COMPILED, ROOT, outputs, planned, snakemake
+
+from mobnet.core.compilation import cache_root
+
+__all__ = ["outputs", "planned", "snakemake"]
+PARTS = (
+    "Snakefile", "workflow", "profiles", "configs", "src", "docs", "paper", "reproduce", "environment.lock",
+    "README.md", "CONTRIBUTING.md", "CHANGELOG.md", "CITATION.cff", "SECURITY.md", "Dockerfile", "apptainer.def",
+    "tests/data",
+)  # fmt: skip
+
+
+@pytest.fixture(scope="session")
+def compiled(tmp_path_factory):
+    """All that jobs compile is compiled for this checkout: else each copy of it would take a minute of its own."""
+
+    def compile_all(folder):
+        folder.mkdir()
+        subprocess.run([sys.executable, "workflow/scripts/warm.py"], cwd=ROOT, check=True, capture_output=True)
+
+    return once(tmp_path_factory, "compiled", compile_all)
+
+
+@pytest.fixture(scope="session")
+def make_project(tmp_path_factory, compiled):
+    """Return a function of a name that copies the project, or a copy, without its environment.
+
+    The copy has the machine code that its origin has compiled, as its code is the same.
+    """
+
+    def make(name, origin=ROOT):
+        folder = tmp_path_factory.mktemp(name)
+        copy_project(origin, folder)
+        for source, place in compiled_in(cache_root() if origin == ROOT else origin / COMPILED, origin, folder):
+            shutil.copytree(source, folder / COMPILED / place, ignore=shutil.ignore_patterns("*.tmp.*"))
+        return folder
+
+    return make
+
+
+def copy_project(origin, folder):
+    """Copy the project, or a copy, into a folder, without its environment and without what it has compiled."""
+    for part in PARTS:
+        source = origin / part
+        ignored = shutil.ignore_patterns("__pycache__", "*.pdf", "build.json", ".*")
+        if source.is_dir():
+            shutil.copytree(source, folder / part, symlinks=True, ignore=ignored)
+        else:
+            shutil.copy2(source, folder / part)
+    (folder / ".venv").symlink_to(sys.prefix)  # runs the code of the folder in which it is called
+
+
+def compiled_in(root, origin, folder):
+    """Yield the folders of machine code below a root, and their places in a copy: numba names them by the source's."""
+    sources = [path.relative_to(origin) for path in (origin / "src").rglob("*") if path.is_dir()]
+    renamed = {named_by(origin / source): named_by(folder / source) for source in sources}
+    for path in root.glob("*/*"):
+        if path.name in renamed:
+            yield path, Path(path.parent.name) / renamed[path.name]
+
+
+def named_by(source):
+    """Return the name that numba gives to the machine code of the files of a folder."""
+    return f"{source.name}_{hashlib.sha1(str(source).encode()).hexdigest()}"
