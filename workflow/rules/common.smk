@@ -157,9 +157,12 @@ def needed(job, *names):
     return lambda w: made_by_jobs([job(w).get(name) for name in names])
 
 
-def code(module):
-    """Return what a job reruns on besides its files and arguments: the code of a module and of all that it imports."""
-    return lambda w: code_hash(module)
+def code(script, further=lambda w: []):
+    """Return what a job reruns on besides its files and arguments: the code of its script, with all that it uses.
+
+    What a script imports by a name that wildcards give, `further` says.
+    """
+    return lambda w: code_hash(ROOT / "workflow" / "scripts" / f"{script}.py", *further(w))
 
 
 def growing(memory_mb):
