@@ -17,7 +17,7 @@ from experiments.evaluation.measure.learning.trainings import TrainingNote, read
 from experiments.evaluation.measure.reaction.results import read_file
 from experiments.evaluation.number.rows import read_detections, read_scores
 from experiments.jobs.method_problems import method_problems
-from experiments.running.logs import AccountNote, read_account
+from experiments.running.accounts import AccountNote, read_account
 from experiments.running.words import KINDS, check_parser
 from experiments.settings.load import load_settings
 from mobnet.core.columns import (
@@ -48,7 +48,7 @@ from mobnet.estimation.kinds.friction import FrictionNote, read_friction
 from mobnet.learning.deployed.limbs import LimbNetworks, check_limb
 from mobnet.learning.deployed.networks import deployed
 from mobnet.learning.deployed.weights import read_weights
-from mobnet.robot.description import given_table
+from mobnet.robot.given import given_table
 from mobnet.robotlog.formats import FORMATS
 from mobnet.robotlog.wrenches import WRENCH_SIGNALS, wrench_columns
 from mobnet.settings.lab import Lab, load_lab, load_section

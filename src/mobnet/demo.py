@@ -16,7 +16,7 @@ from mobnet.core.store import read_array
 from mobnet.estimation import observer
 from mobnet.estimation.low_pass import low_pass
 from mobnet.interface import Estimator, Observer, Robot, lab, read_recording
-from mobnet.robot.description import given_robot
+from mobnet.robot.given import given_robot
 from mobnet.robotlog.pieces import root_mean_square
 
 NETWORK = DEMO / "networks" / "MOB-Net-pushed-LL"

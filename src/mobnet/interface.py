@@ -35,7 +35,8 @@ from mobnet.export.contract import CONTRACT
 from mobnet.learning.deployed.limbs import load_limb_networks
 from mobnet.reaction.handler import Handler, Reacted
 from mobnet.reaction.watchers import LegWatcher, LimbWatcher, some
-from mobnet.robot.description import RobotDescription, given_robot
+from mobnet.robot.description import RobotDescription
+from mobnet.robot.given import given_robot
 from mobnet.robot.nominal import NominalModel
 from mobnet.settings.base import TorqueKind
 from mobnet.settings.lab import Lab, load_lab

@@ -12,7 +12,7 @@ rule motion:
         runtime=20,
     params:
         given=JOBS.motion,
-        code=code("experiments.jobs.motions"),
+        code=code("motion"),
     script:
         "../scripts/motion.py"
 
@@ -34,7 +34,7 @@ rule collect:
         disk_mb=SIZES.recordings,
     params:
         given=JOBS.collect,
-        code=code("experiments.jobs.walks"),
+        code=code("collect"),
     script:
         "../scripts/collect.py"
 
@@ -56,6 +56,6 @@ rule observe:
         disk_mb=SIZES.residuals,
     params:
         given=JOBS.observe,
-        code=code("experiments.jobs.observing"),
+        code=code("observe"),
     script:
         "../scripts/observe.py"

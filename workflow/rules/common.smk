@@ -178,9 +178,12 @@ def gone(names):
     return [name for name in names if PLAN.folders.manifest.exists() and not Path(name).exists()]
 
 
-def code(module):
-    """Return what a job reruns on besides its files and arguments: the code of a module and of all that it imports."""
-    return lambda w: code_hash(module)
+def code(script, further=lambda w: []):
+    """Return what a job reruns on besides its files and arguments: the code of its script, with all that it uses.
+
+    What a script imports by a name that wildcards give, `further` says.
+    """
+    return lambda w: code_hash(ROOT / "workflow" / "scripts" / f"{script}.py", *further(w))
 
 
 def growing(memory_mb):

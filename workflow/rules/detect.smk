@@ -13,7 +13,7 @@ rule detect:
         runtime=20,
     params:
         given=JOBS.detect,
-        code=code("experiments.jobs.detect"),
+        code=code("detect"),
     script:
         "../scripts/detect.py"
 
@@ -34,7 +34,7 @@ rule watch:
         runtime=20,
     params:
         given=JOBS.watch,
-        code=lambda w: code_hash("experiments.jobs.calm", *JOBS.watched_by(w)),
+        code=code("watch", JOBS.watched_by),
     script:
         "../scripts/watch.py"
 
@@ -58,7 +58,7 @@ rule react:
         runtime=60,
     params:
         given=JOBS.react,
-        code=lambda w: code_hash("experiments.jobs.react", *JOBS.watched_by(w)),
+        code=code("react", JOBS.watched_by),
     script:
         "../scripts/react.py"
 

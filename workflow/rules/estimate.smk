@@ -16,7 +16,7 @@ rule estimate:
         disk_mb=SIZES.estimates,
     params:
         given=JOBS.estimate,
-        code=lambda w: code_hash("experiments.jobs.estimates", *JOBS.estimated_by(w)),
+        code=code("estimate", JOBS.estimated_by),
     script:
         "../scripts/estimate.py"
 
@@ -36,6 +36,6 @@ rule score:
         runtime=5,
     params:
         given=JOBS.score,
-        code=lambda w: code_hash("experiments.evaluation.measure.estimates.scores", *JOBS.measured_by(w)),
+        code=code("score", JOBS.measured_by),
     script:
         "../scripts/score.py"

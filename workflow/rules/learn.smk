@@ -19,7 +19,7 @@ rule fit:
         runtime=10,
     params:
         given=JOBS.fit,
-        code=lambda w: code_hash("experiments.jobs.fitting", *JOBS.modules_of(w, [w.method])),
+        code=code("fit", lambda w: JOBS.modules_of(w, [w.method])),
     script:
         "../scripts/fit.py"
 
@@ -44,7 +44,7 @@ rule train_stack:
         gpu=min(GPUS, 1),
     params:
         given=JOBS.train_stack,
-        code=code("experiments.jobs.stacks"),
+        code=code("train_stack"),
     script:
         "../scripts/train_stack.py"
 
@@ -73,7 +73,7 @@ rule train:
         gpu=lambda w: 0 if "lesson" in JOBS.train(w) else min(GPUS, 1),
     params:
         given=JOBS.train,
-        code=code("experiments.jobs.trainings"),
+        code=code("train"),
     script:
         "../scripts/train.py"
 
@@ -102,6 +102,6 @@ rule train_gray:
         gpu=lambda w: 0 if "lesson" in JOBS.train_gray(w) else min(GPUS, 1),
     params:
         given=JOBS.train_gray,
-        code=code("experiments.jobs.train_gray"),
+        code=code("train_gray"),
     script:
         "../scripts/train_gray.py"

@@ -14,7 +14,7 @@ rule falls:
         runtime=30,
     params:
         given=JOBS.falls,
-        code=code("experiments.evaluation.measure.data.random_torque"),
+        code=code("falls"),
     script:
         "../scripts/falls.py"
 

@@ -17,9 +17,10 @@ from experiments.settings.evaluation import ENTRIES, PRODUCTS, Evaluation, row_o
 from experiments.settings.products import MadeBy
 from experiments.settings.runs import Runs
 from experiments.settings.settings import Settings
-from mobnet.core.code import code_hash
+from mobnet.core.code import ROOT, code_hash
 
 EVALUATION = "experiments.evaluation"
+SCRIPT = ROOT / "workflow" / "scripts" / "product.py"  # that makes any product
 PAPER = "tables.paper"  # modules of the tables that the paper has
 TEMPLATES = Path("src/experiments/evaluation/report/templates")  # inputs of rules: the code hash reads Python only
 EXPLORE = tuple(
@@ -102,7 +103,7 @@ class Product:
     @property
     def code(self) -> str:
         """Hash of the code behind it."""
-        return code_hash(self.call.module, *self.modules)
+        return code_hash(SCRIPT, self.call.module, *self.modules)
 
     @property
     def params(self) -> dict[str, Callable[[Any], object]]:

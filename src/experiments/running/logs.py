@@ -12,41 +12,20 @@ import tempfile
 import threading
 import time
 from collections.abc import Iterator
-from dataclasses import asdict, dataclass
+from dataclasses import asdict
 from pathlib import Path
 
-from pydantic import ConfigDict
-
-from mobnet.core.code import PACKAGES, UNKNOWN, commit
-from mobnet.core.errors import DataError, MobnetError, not_accepted, refuse
+from experiments.running.accounts import Account
+from mobnet.core.code import commit
+from mobnet.core.errors import DataError, MobnetError
 from mobnet.core.files import REFUSALS, refusal, write_json
-from mobnet.core.notes import Note, NotNegative, Text, read_note
+from mobnet.core.source import PACKAGES
 
 log = logging.getLogger(__name__)
 FORMAT = "%(asctime)s %(levelname)s %(message)s"
 LOGS = "logs"  # folder of the jobs' logs, in which each rule with several jobs has a folder of its own
 STATUS = Path("/proc/self/status")
 MIB = 2**20
-
-
-@dataclass(frozen=True)
-class Account:
-    """What a job took in time [s] and memory [MiB], from the start of its work to its end, without Python's own start.
-
-    `job` is the name of its log below the folder of logs, of which the first part is that of its rule. Start and end
-    are in seconds since 1970, UTC; `wall_s` is by a clock that nobody sets. Processor time and peak memory include the
-    children that it waited for. `succeeded` is False where it failed or was interrupted; `commit` is that of the code,
-    as results note it.
-    """
-
-    job: str
-    start_s: float
-    end_s: float
-    wall_s: float
-    cpu_s: float
-    peak_mib: float
-    succeeded: bool
-    commit: str = UNKNOWN
 
 
 @contextlib.contextmanager
@@ -186,30 +165,3 @@ def peak_mib() -> float:
     held = re.search(r"^VmHWM:\s*(\d+) kB", STATUS.read_text() if STATUS.exists() else "", re.MULTILINE)
     peaks.append(int(held[1]) * 1024 if held else resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * unit)
     return max(peaks) / MIB
-
-
-class AccountNote(Note):
-    """The file of an `Account`."""
-
-    model_config = ConfigDict(extra="forbid")
-
-    job: Text
-    start_s: NotNegative
-    end_s: NotNegative
-    wall_s: NotNegative
-    cpu_s: NotNegative
-    peak_mib: NotNegative
-    succeeded: bool
-    commit: Text = UNKNOWN
-
-
-def read_account(path: Path) -> Account:
-    """Read what one job took.
-
-    Raises:
-        DataError: the file is missing or damaged, or a key or a value is not accepted; one line for each.
-    """
-    note = read_note(path, AccountNote)
-    if note.end_s < note.start_s:
-        refuse(path, [not_accepted("end_s", note.end_s, [f"{note.start_s} or more, the start"])])
-    return Account(**dict(note))

@@ -36,7 +36,8 @@ from mobnet.estimation.own import (
     refuse_twice,
     without_friction,
 )
-from mobnet.robot.description import RobotDescription, given_robot
+from mobnet.robot.description import RobotDescription
+from mobnet.robot.given import given_robot
 from mobnet.settings.detection import Signal
 from mobnet.settings.lab import Lab, load_lab
 

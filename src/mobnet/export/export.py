@@ -32,7 +32,8 @@ from mobnet.export.model_file import RuntimeDetector, RuntimeNetwork, model_cont
 from mobnet.export.session import OnnxNetwork
 from mobnet.export.trained import Trained, check_apart, contract_of, read_trained
 from mobnet.learning.deployed.networks import WITHOUT_TORCH, deployed
-from mobnet.robot.description import RobotDescription, given_robot
+from mobnet.robot.description import RobotDescription
+from mobnet.robot.given import given_robot
 from mobnet.robot.nominal import NominalModel
 from mobnet.settings.base import TorqueKind
 from mobnet.settings.detection import SwingGate

@@ -3,7 +3,6 @@
 import hashlib
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
-from pathlib import Path
 from typing import TypeVar
 
 import numpy as np
@@ -11,7 +10,6 @@ from numpy.typing import NDArray
 
 from mobnet.core.errors import ConfigError
 from mobnet.core.joints import LEG_AXES, JointLayout, Limits, right_of, with_image
-from mobnet.settings.lab import Lab, load_section
 from mobnet.settings.parts import (
     BodyRow,
     Colour,
@@ -224,24 +222,6 @@ def _posture(table: RobotTable) -> Posture:
     joints = tuple(joint for joint in table.order.actuated if joint in rows)
     numbers = np.array([rows[joint] for joint in joints], dtype=np.float64).reshape(-1, 3)
     return Posture(joints, *np.ascontiguousarray(numbers.T))
-
-
-def given_table(path: Path | None, settings: Lab) -> RobotTable:
-    """Return the table of a file, or that of the configuration where none is given.
-
-    Raises:
-        ConfigError: the file cannot be read, or is no table of a robot.
-    """
-    return load_section(path, RobotTable) if path else settings.robot
-
-
-def given_robot(path: Path | None, settings: Lab) -> RobotDescription:
-    """Return the robot of a table's file, or that of the configuration where none is given.
-
-    Raises:
-        ConfigError: the file cannot be read, or is no table of a robot.
-    """
-    return describe(given_table(path, settings))
 
 
 def dressed(robot: Robot, looks: Looks | None) -> Robot:

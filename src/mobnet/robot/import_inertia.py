@@ -7,8 +7,7 @@ import numpy as np
 
 from mobnet.core.arrays import Array
 from mobnet.robot.import_tree import Link, Part, RigidBody
-from mobnet.settings.checks.robot import GYRATION_M
-from mobnet.settings.parts import is_possible
+from mobnet.settings.parts import GYRATION_M, is_possible
 
 # Of a body without mass between joints, [kg] and [kg m^2]: it changes no torque by a digit that counts, and MuJoCo
 # simulates it.

@@ -9,7 +9,8 @@ from pathlib import Path
 
 from mobnet.core.errors import ConfigError, beyond, not_accepted, refuse_lines
 from mobnet.core.joints import JointLayout
-from mobnet.robot.description import RobotDescription, given_robot
+from mobnet.robot.description import RobotDescription
+from mobnet.robot.given import given_robot
 from mobnet.settings.lab import load_lab, load_section
 from mobnet.settings.limb_thresholds import LimbThresholds
 from mobnet.settings.parts import ARMATURE, SPEED_RAD_S, TORQUE_NM

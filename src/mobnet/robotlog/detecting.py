@@ -11,7 +11,8 @@ from mobnet.core.rows import csv_text
 from mobnet.detection.threshold_file import check_thresholds, read_thresholds, sampling_of
 from mobnet.estimation.estimate import write_estimate
 from mobnet.estimation.own import ESTIMATE, OwnNetwork, check_sampling, read_network_folder
-from mobnet.robot.description import RobotDescription, given_robot
+from mobnet.robot.description import RobotDescription
+from mobnet.robot.given import given_robot
 from mobnet.robot.nominal import NominalModel
 from mobnet.robotlog.detected import LogDetection, detect_log
 from mobnet.robotlog.flags import COLUMNS

@@ -20,7 +20,8 @@ from mobnet.core.recording import SensedRecording
 from mobnet.core.word_checks import RECORDING, check_new_file
 from mobnet.estimation import observer
 from mobnet.estimation.own import read_log_folder
-from mobnet.robot.description import RobotDescription, describe, given_table
+from mobnet.robot.description import RobotDescription, describe
+from mobnet.robot.given import given_table
 from mobnet.robot.table_file import head_of, write_table
 from mobnet.robot.word_checks import carrier_named
 from mobnet.robotlog.identifying.fit import JointFit, fit_joints

@@ -36,7 +36,8 @@ from mobnet.learning.job import TrainingJob
 from mobnet.learning.precision import in_precision, of_processor
 from mobnet.learning.train import train_on
 from mobnet.learning.trainer import own_device
-from mobnet.robot.description import describe, given_table
+from mobnet.robot.description import describe
+from mobnet.robot.given import given_table
 from mobnet.robot.nominal import NominalModel
 from mobnet.robotlog.free_check import Held, course_of, free_check, held_out, lines_of
 from mobnet.robotlog.labels import before, label_of, limb_data

@@ -19,7 +19,8 @@ from mobnet.core.options import motion_parser
 from mobnet.core.printed import printed
 from mobnet.core.recording import Recording
 from mobnet.core.word_checks import ENDINGS, check_motion
-from mobnet.robot.description import RobotDescription, given_robot
+from mobnet.robot.description import RobotDescription
+from mobnet.robot.given import given_robot
 from mobnet.settings.lab import load_lab
 from mobnet.simulation.free_run import Numbers, motion_pieces
 

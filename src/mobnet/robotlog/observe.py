@@ -27,7 +27,8 @@ from mobnet.core.store import NOTE, array_writer, file_of, write_array
 from mobnet.core.word_checks import check_observe
 from mobnet.estimation import observer
 from mobnet.estimation.own import DRIVES, ESTIMATE, OBSERVER, RECORDING
-from mobnet.robot.description import RobotDescription, given_robot
+from mobnet.robot.description import RobotDescription
+from mobnet.robot.given import given_robot
 from mobnet.robot.nominal import NominalModel
 from mobnet.robotlog.clocks import rate_of
 from mobnet.robotlog.convert import Converted, convert, with_tool

@@ -15,6 +15,9 @@ INERTIA_TOLERANCE = 1e-3  # share by which rounded figures may miss the triangle
 TORQUE_NM = (0.001, 5000)  # largest torque of a joint
 SPEED_RAD_S = (0.1, 100)  # largest speed of a joint
 ARMATURE = (0, 1000)  # of a joint [kg m^2]
+# Radius of gyration of a body: what is outside has its mass or inertia in another unit. Links of public files whose
+# figures were not measured reach 3.2 m.
+GYRATION_M = (0.001, 4.0)
 SIZES = {"box": 3, "ellipsoid": 3, "sphere": 1, "capsule": 2, "cylinder": 2}  # of a shape that stands at a point
 
 Side = Literal["left", "right"]

@@ -9,11 +9,12 @@ from pathlib import Path
 
 import pytest
 
-from mobnet.core import code
-from mobnet.core.code import code_hash, lock_lines, module_files, read, required
+from mobnet.core import code, source
+from mobnet.core.code import code_hash, lock_lines, required
 from mobnet.core.errors import ConfigError
+from mobnet.core.source import Part, declared_parts, is_declaring, module_files, read, read_declared
 
-CACHED = (code_hash, read, module_files, lock_lines, required)
+CACHED = (code_hash, lock_lines, required, read, read_declared, module_files, declared_parts, is_declaring)
 ONE = '''"""One."""
 import logging
 import warnings
@@ -38,6 +39,81 @@ def g(x, y=None):
     warnings.warn("slow", stacklevel=2)
     return f()
 '''
+TWO = """import one_dist.part
+from mobnet.settings import plant
+from mobnet.settings.plant import OTHER
+from mobnet.settings.robot import Robot, Row
+
+
+def f(robot: Robot, mass: plant.Mass):
+    row = 1
+    return robot.weight(), plant.twice(mass), OTHER, Row(size=row)
+"""
+PLANT = '''"""Plants."""
+from mobnet.core.errors import misfit
+from mobnet.settings.base import Section
+
+MOST = 7
+FIRST = 1
+OTHER = FIRST, 1
+unused = 1
+Mass = Annotated[float, Real, Field(le=9)]
+
+
+class Plant(Section):
+    """Text."""
+
+    mass: Mass
+    height: float = Field(default=0.5, ge=0, le=5)
+
+    @model_validator(mode="before")
+    def _spelt(cls, row):
+        return row if "name" in row else {}
+
+    @model_validator(mode="after")
+    def _fits(self):
+        if self.mass > MOST:
+            raise ValueError("too heavy")
+        return self
+
+    def problems(self, text):
+        if len(text) > 3:
+            yield "no size"
+
+    @property
+    def double(self) -> float:
+        return 2 * self.mass
+
+
+def twice(mass: Mass) -> float:
+    if mass is None:
+        return misfit(mass, "kilograms")
+    return _twice(mass)
+
+
+def _twice(value):
+    return 2 * value
+'''
+ROBOT = '''"""Robots."""
+from mobnet.settings import base
+from mobnet.settings.plant import Plant
+
+
+class Robot(base.Section):
+    """A robot, which code gets."""
+
+    plant: Plant | None = None
+
+    def weight(self):
+        return 4 * self.plant.mass
+
+
+class Row(base.Section):
+    """A row, which code makes."""
+
+    count: int = 1
+    size: int = Field(default=3, ge=1)
+'''
 LOCK = """one-dist==1.0 \\
     --hash=sha256:aa
 needed==2.0
@@ -60,21 +136,25 @@ def forget() -> None:
 
 @pytest.fixture
 def root(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A script and a package: script -> one -> two; three stands alone, settings is not followed."""
+    """A script and a package: script -> one -> two -> names of settings; three stands alone."""
     texts = {
         "script.py": "from mobnet import one\n",
         "mobnet/__init__.py": '"""Root."""\n',
         "mobnet/one.py": ONE,
-        "mobnet/two.py": "from mobnet.settings.plant import Plant\nimport one_dist.part\n\n\ndef f():\n    return 1\n",
+        "mobnet/two.py": TWO,
         "mobnet/three.py": "x = 1\n",
         "mobnet/settings/__init__.py": "",
-        "mobnet/settings/plant.py": "x = 1\n",
+        "mobnet/settings/plant.py": PLANT,
+        "mobnet/settings/robot.py": ROBOT,
+        "mobnet/settings/checks/__init__.py": "",
+        "mobnet/settings/checks/plant.py": "x = 1\n",
         "environment.lock": LOCK,
     }
     for name, text in texts.items():
-        (tmp_path / name).parent.mkdir(exist_ok=True)
+        (tmp_path / name).parent.mkdir(exist_ok=True, parents=True)
         (tmp_path / name).write_text(text)
     monkeypatch.setattr(code, "SOURCE", tmp_path)
+    monkeypatch.setattr(source, "SOURCE", tmp_path)
     monkeypatch.setattr(code, "LOCK", tmp_path / "environment.lock")
     monkeypatch.setattr(importlib.metadata, "requires", requirements)
     return tmp_path
@@ -110,11 +190,36 @@ def is_changed_by(root: Path, name: str, old: str, new: str) -> bool:
         ("mobnet/one.py", '"slow"', '"slower"', False),
         ("mobnet/one.py", "import typed", "import typed, other", False),
         ("mobnet/three.py", "1", "2", False),
-        ("mobnet/settings/plant.py", "1", "2", False),
+        ("mobnet/settings/plant.py", '"""Text."""', '"""Other text."""', False),
+        ("mobnet/settings/plant.py", "ge=0, le=5", "ge=1, le=6", False),
+        ("mobnet/settings/plant.py", "Real, Field(le=9)", "Real, Field(le=8)", False),
+        ("mobnet/settings/plant.py", "MOST = 7", "MOST = 8", False),
+        ("mobnet/settings/plant.py", "mass: Mass", "mass: Mass | None", False),
+        ("mobnet/settings/plant.py", "default=0.5", "default=0.6", False),
+        ("mobnet/settings/plant.py", "too heavy", "heavier than 7", False),
+        ("mobnet/settings/plant.py", "self.mass > MOST", "self.mass > 2 * MOST", False),
+        ("mobnet/settings/plant.py", "len(text) > 3", "len(text) > 4", False),
+        ("mobnet/settings/plant.py", "no size", "not a size", False),
+        ("mobnet/settings/plant.py", "kilograms", "tons", False),
+        ("mobnet/settings/plant.py", "unused = 1", "unused = 2", False),
+        ("mobnet/settings/plant.py", "class Plant", "class Further(Section):\n    x: int = 1\n\n\nclass Plant", False),
+        ("mobnet/settings/plant.py", "-> float:", "-> int:", False),
+        ("mobnet/settings/checks/plant.py", "1", "2", False),
         ("environment.lock", "aa", "bb", False),
         ("environment.lock", "other==3.0", "other==3.1", False),
-        ("mobnet/two.py", "return 1", "return 2", True),
-        ("mobnet/two.py", "return 1", 'return "1"', True),
+        ("mobnet/two.py", "row = 1", "row = 2", True),
+        ("mobnet/two.py", "row = 1", 'row = "1"', True),
+        ("mobnet/settings/plant.py", "2 * self.mass", "3 * self.mass", True),
+        ("mobnet/settings/plant.py", "def _twice", "@cached\ndef _twice", True),
+        ("mobnet/settings/plant.py", "2 * value", "3 * value", True),
+        ("mobnet/settings/plant.py", "FIRST = 1", "FIRST = 2", True),
+        ("mobnet/settings/plant.py", "OTHER = FIRST, 1", "OTHER = FIRST, 2", True),
+        ("mobnet/settings/plant.py", '"name" in row', '"title" in row', True),
+        ("mobnet/settings/robot.py", "4 * self.plant.mass", "5 * self.plant.mass", True),
+        ("mobnet/settings/robot.py", "base.Section", "base.Other", False),
+        ("mobnet/settings/robot.py", "count: int = 1", "count: int = 2", True),
+        ("mobnet/settings/robot.py", "default=3, ge=1", "default=4, ge=1", True),
+        ("mobnet/settings/robot.py", "default=3, ge=1", "default=3, ge=2", False),
         ("mobnet/one.py", "x > 1", "x > 2", True),
         ("mobnet/one.py", "raise DataError", "raise ValueError", True),
         ("mobnet/one.py", "return f()", "from mobnet.three import x\n    return f()", True),
@@ -172,7 +277,9 @@ def project_files() -> list[Path]:
 
 
 def test_every_package_that_is_imported_has_a_line_in_the_lock() -> None:
-    missing = {name: path for path in project_files() for name in read(path).packages if name not in lock_lines()}
+    missing: dict[str, Path] = {}
+    for path in project_files():
+        missing |= {name: path for name in read(Part(path)).packages if name not in lock_lines()}
     assert not missing
 
 
@@ -198,4 +305,4 @@ def test_a_new_mujoco_counts_for_the_code_that_imports_it(tmp_path: Path, monkey
 
 def packages_behind(path: Path) -> set[str]:
     """Return the packages that a file and what it imports of this package import."""
-    return {name for source in code.reached([path]) for name in source.packages}
+    return {name for part in code.reached([path]) for name in part.packages}

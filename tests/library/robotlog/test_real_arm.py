@@ -13,8 +13,8 @@ from made_ur10e import GAINS, UR10E, ur10e_rows, write_ur10e_table
 
 from mobnet.detection.chain import low_passed, make_chain
 from mobnet.estimation.observer import MomentumObserver
-from mobnet.robot.description import given_robot
 from mobnet.robot.dynamics import inverse_dynamics
+from mobnet.robot.given import given_robot
 from mobnet.robot.nominal import NominalModel
 from mobnet.robotlog.identify import main as identify
 from mobnet.robotlog.observe import converted_log

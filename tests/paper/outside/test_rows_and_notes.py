@@ -12,7 +12,7 @@ from experiments.check import check
 from experiments.evaluation.measure.learning.trainings import read_training
 from experiments.evaluation.number.rows import read_scores
 from experiments.evaluation.report.runs_page import read_training_run
-from experiments.running.logs import read_account
+from experiments.running.accounts import read_account
 from mobnet.core.detections import FILES as DETECTION_FILES
 from mobnet.core.errors import DataError
 from mobnet.estimation.kinds.dahl import read_dahl

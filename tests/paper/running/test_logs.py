@@ -8,7 +8,8 @@ import time
 
 import pytest
 
-from experiments.running.logs import Account, job
+from experiments.running.accounts import Account
+from experiments.running.logs import job
 from mobnet.core.errors import DataError
 from mobnet.core.files import read_json
 

@@ -18,7 +18,7 @@ from experiments.evaluation.report.cost import costs
 from experiments.evaluation.report.rates import measured
 from experiments.plan.plan import make_plan
 from experiments.plan.work import works_of
-from experiments.running.logs import read_account
+from experiments.running.accounts import read_account
 from experiments.settings.load import load_settings
 
 from .clicks import choose, explain, show, text_of_frame

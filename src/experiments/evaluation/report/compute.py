@@ -9,7 +9,7 @@ from pathlib import Path
 
 from experiments.evaluation.number.number import Number
 from experiments.evaluation.tables.layout import RULE, Line, Table, write_table
-from experiments.running.logs import Account, read_account
+from experiments.running.accounts import Account, read_account
 from experiments.settings.tables import Compute
 from mobnet.core.columns import COMPUTE
 from mobnet.core.errors import DataError

@@ -11,7 +11,7 @@ from scipy.optimize import nnls
 
 from experiments.evaluation.report.compute import HOUR_S
 from experiments.plan.work import Work
-from experiments.running.logs import Account
+from experiments.running.accounts import Account
 from mobnet.core.errors import DataError
 from mobnet.core.notes import Note, NotNegative, Positive, Text
 from mobnet.learning.precision import PROCESSOR

@@ -30,7 +30,8 @@ from experiments.plan.plan import make_plan
 from experiments.plan.reactions import all_reactions
 from experiments.running.one_run import held_folder
 from experiments.plan.work import works_of
-from experiments.running.logs import LOGS, read_account
+from experiments.running.accounts import read_account
+from experiments.running.logs import LOGS
 from experiments.running.words import results_parser
 from experiments.settings.load import load_settings
 from experiments.settings.settings import Settings

@@ -11,16 +11,13 @@ from mobnet.core.errors import misfit, not_accepted
 from mobnet.core.joints import LEG_AXES, N_VIRTUAL, right_of, with_image
 from mobnet.settings.faults import as_many, within
 from mobnet.settings.names import unknown, uses
-from mobnet.settings.parts import PointRow, ShapeRow
+from mobnet.settings.parts import GYRATION_M, PointRow, ShapeRow
 from mobnet.settings.reading import Place, Problem
 from mobnet.settings.robot import WORLD, RobotTable
 
 MASS_TOLERANCE = 1e-6  # relative, of the total
 LENGTH_TOLERANCE_M = 1e-6
 Row = TypeVar("Row", bound=PointRow)
-# Radius of gyration of a body: what is outside has its mass or inertia in another unit. Links of public files whose
-# figures were not measured reach 3.2 m.
-GYRATION_M = (0.001, 4.0)
 
 
 def robot_problems(table: RobotTable) -> Iterator[Problem]:

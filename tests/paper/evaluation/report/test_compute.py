@@ -7,7 +7,7 @@ import pytest
 from csv_files import read_table
 
 from experiments.evaluation.report.compute import ELAPSED, STAGES, WHOLE, compute
-from experiments.running.logs import Account
+from experiments.running.accounts import Account
 from experiments.settings.tables import Compute
 from mobnet.core.errors import DataError
 from mobnet.core.files import write_json

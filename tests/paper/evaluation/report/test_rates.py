@@ -6,7 +6,7 @@ import pytest
 
 from experiments.evaluation.report.rates import fitted, price, processor
 from experiments.plan.work import Work
-from experiments.running.logs import Account
+from experiments.running.accounts import Account
 from mobnet.core.errors import DataError
 
 START_S, PER_SECOND, PER_STEP, BASE_MIB, PER_NUMBER = 2.0, 0.1, 3e-6, 300.0, 2e-5

@@ -17,7 +17,7 @@ from experiments.evaluation.report.snapshot import (
     with_block,
     write_snapshot,
 )
-from experiments.running.logs import Account
+from experiments.running.accounts import Account
 from experiments.running.words import MANIFEST
 from experiments.settings.load import load_settings
 from mobnet.core.errors import DataError
