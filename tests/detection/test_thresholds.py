@@ -93,3 +93,8 @@ def test_a_walk_drawn_anew_without_its_rare_swings_expects_no_alarm(numbers):
 def test_expected_counts_reach_over_both_what_is_unknown_and_chance():
     assert expected_counts(Calibrated(1.0, 1.0, 0.0, 3.0), 2.0, 0.95) == (0, 11)
     assert expected_counts(Calibrated(1.0, 60.0, 40.0, 80.0), 1.0, 0.95) == (28, 98)
+
+
+def test_a_rate_of_zero_promises_no_alarm():
+    assert expected_counts(Calibrated(1.0, 0.0, 0.0, 0.0), 2.0, 0.95) == (0, 0)
+    assert expected_counts(Calibrated(1.0, 1.0, 0.0, 3.0), 0.0, 0.95) == (0, 0)

@@ -158,4 +158,4 @@ def expected_counts(calibrated: Calibrated, hours: float, confidence: float) -> 
 
     low = poisson.ppf((1.0 - confidence) / 2.0, calibrated.low * hours)
     high = poisson.ppf((1.0 + confidence) / 2.0, calibrated.high * hours)
-    return int(max(low, 0)), int(high)
+    return int(low), int(high)
