@@ -149,12 +149,11 @@ def test_an_alarm_counts_late_but_not_behind_the_end_of_the_segment(plant_one):
 )
 def test_a_push_grows_and_fades_as_a_trapezoid(rows, ramp_s, shape, plant_one):
     times = {"short_s": (rows / RATE_HZ, rows / RATE_HZ), "long_s": (rows / RATE_HZ, rows / RATE_HZ)}
+    at_once, _ = plant_one(((0, rows),), ramp_s=0.0, **times)
     torque, spans = plant_one(((0, rows),), ramp_s=ramp_s, **times)
     assert spans == ((0, rows),)
-    expected = low_pass(np.array(shape)[:, None], GAIN_HZ, RATE_HZ)
-    largest = np.abs(torque).max(axis=0).argmax()
-    column = torque[:, largest]
-    np.testing.assert_allclose(column / column[-1], expected[:, 0] / expected[-1, 0])
+    whole, expected = (low_pass(np.array(each)[:, None], GAIN_HZ, RATE_HZ) for each in ([1.0] * rows, shape))
+    np.testing.assert_allclose(torque, expected * (at_once[-1] / whole[-1]))
 
 
 def test_a_push_of_one_row_has_its_whole_size(plant_one):
