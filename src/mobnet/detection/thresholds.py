@@ -72,8 +72,9 @@ def _moments(over: Array) -> tuple[float, float]:
     rank = (np.arange(1, len(over) + 1) - 0.35) / len(over)
     mean = float(over.mean())
     weighted = float((over * (1.0 - rank)).mean())
-    shape = float(np.clip(2.0 - mean / max(mean - 2.0 * weighted, 1e-12), *SHAPES))
-    return max(mean * (1.0 - shape), 1e-12), shape
+    # Ranks weigh large values less: the difference is no less than 0.3 / n of the mean, and the mean is above 0.
+    shape = float(np.clip(2.0 - mean / (mean - 2.0 * weighted), *SHAPES))
+    return mean * (1.0 - shape), shape
 
 
 def calibrate(
@@ -158,4 +159,4 @@ def expected_counts(calibrated: Calibrated, hours: float, confidence: float) -> 
 
     low = poisson.ppf((1.0 - confidence) / 2.0, calibrated.low * hours)
     high = poisson.ppf((1.0 + confidence) / 2.0, calibrated.high * hours)
-    return int(max(low, 0)), int(high)
+    return int(low), int(high)

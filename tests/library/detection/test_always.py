@@ -84,6 +84,14 @@ def test_numbers_that_rise_and_fall_are_alike_and_independent_ones_are_not():
     assert not alike([rng.lognormal(size=(1, 2)) for _ in range(30)])  # no window follows another
 
 
+def test_signals_and_windows_that_are_always_zero_do_not_decide_whether_windows_are_alike():
+    slowly = np.exp(np.sin(np.arange(300) / 10))[:, None]
+    assert not alike([np.zeros((300, 1))])
+    assert alike([np.hstack([slowly, np.zeros((300, 1))])])
+    begun = np.concatenate([np.zeros((20, 1)), slowly])  # nothing was measured at first
+    assert alike([begun])
+
+
 def test_too_short_a_recording_is_one_line_that_says_how_long_it_must_be(recorded, arm_setup):
     read, estimate = recorded(slow(np.random.default_rng(0), round(100 * RATE_HZ), 0.02))
     message = "99 s of free motion, in windows of 1 s; 200 s or more are needed"

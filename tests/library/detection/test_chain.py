@@ -31,6 +31,11 @@ def test_a_ratio_is_the_least_of_five_samples():
     assert not ratios(signal, np.full((1, 1), 2.0))[:4].any()  # fewer than five samples are no time
 
 
+def test_a_signal_is_held_for_a_sample_at_least():
+    """At a rate at which the time to hold is shorter than half a sample."""
+    assert [make_chain(15.0, 0.005, rate_hz, np.ones((1, 1))).hold for rate_hz in (10.0, 100.0, 1000.0)] == [1, 1, 5]
+
+
 def test_the_highest_joint_counts_and_is_named():
     signals = np.zeros((300, 3))
     signals[100:, 1], signals[150:, 2] = 3.0, -9.0
@@ -53,6 +58,7 @@ def test_thresholds_follow_the_phase_of_the_swing():
     phase = np.linspace(0.0, 1.0, 400)
     found = ratios(np.full((400, 1), 4.0), np.array([[1.0], [2.0]]), GateSignal(np.ones(400, dtype=bool), phase))
     assert (found[190], found[390]) == (pytest.approx(4.0, rel=1e-3), pytest.approx(2.0, rel=1e-3))
+    assert found[399] == pytest.approx(2.0, rel=1e-3)  # at the very end of the swing, which is in its last phase
 
 
 def test_the_norm_is_the_length_of_all_signals():

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from made_swings import AIR, GROUND, bent_to
 
+from mobnet.detection.gate import make_gate
 from mobnet.detection.leg import foot_load, unit_torques
 
 LATE = GROUND + AIR - 120  # when the plan and the pose let the foot meet the ground
@@ -66,3 +67,9 @@ def test_a_hit_from_the_front_is_no_ground(gate, walk, robot, link):
     tau = np.zeros((len(sensed), 6))
     tau[GROUND + 100 : GROUND + 178] = hit
     assert gate.run(sensed, tau).watched[GROUND + 100 : GROUND + AIR - 31].all()
+
+
+def test_times_of_the_gate_are_a_sample_at_least(settings):
+    """At a rate at which they are shorter than half a sample."""
+    gate = make_gate(settings.detection.gate, 1.0)
+    assert (gate.lift_off, gate.hold) == (1, 1)

@@ -19,9 +19,12 @@ from mobnet.detection.choice import (
     pushing_of,
     tried_on_pushes,
 )
+from mobnet.detection.detector import GateSignal
 from mobnet.detection.limb import OwnRecording, calibrate_limb
-from mobnet.detection.planted import found_pushes, plant
+from mobnet.detection.planted import PushPlan, found_pushes, plant
 from mobnet.detection.signals import Watched
+from mobnet.detection.watch import LegRecording, LimbSetup
+from mobnet.estimation.low_pass import low_pass
 from mobnet.robot.nominal import NominalModel
 from mobnet.settings.detection import DetectorSettings
 
@@ -106,3 +109,66 @@ def test_a_table_whose_friction_hides_pushes_is_told_and_not_kept(tried):
     assert kept.name == ALONE
     *_, last = lines_of(rows, kept, 10)
     assert last == "the observer without the table's friction finds more: take a table without `friction`"
+
+
+@pytest.fixture
+def plant_one(arm, quick):
+    """Return a function of segments and numbers of pushes -> torques (T, 2) of planted pushes, and their spans."""
+
+    def make(segments, late_s=0.0, **numbers):
+        rows = segments[-1][1]
+        gate = GateSignal(np.ones(rows, dtype=bool), np.zeros(rows))
+        limb = LegRecording(Path("log"), segments, np.zeros((rows, 0)), gate, (), ())
+        setup = LimbSetup(quick.detection, arm, "A", RATE_HZ)
+        known = {"pause_s": (0.0, 0.0), "torque_share": (0.1, 0.1), "weight_share": 10.0, **numbers}
+        pushes = quick.free_motion.pushes.model_copy(update=known)
+        poses = [np.full((rows, 2), 0.3)]
+        (found,) = plant(setup, NominalModel(arm), GAIN_HZ, [limb], poses, PushPlan(1, pushes, late_s), SEED)
+        return found.torque, found.spans
+
+    return make
+
+
+def test_an_alarm_counts_late_but_not_behind_the_end_of_the_segment(plant_one):
+    """A push may end with its segment, and what follows is another walk."""
+    times = {"short_s": (1.0, 1.0), "long_s": (1.0, 1.0)}
+    for late_s in (0.0, 0.5):
+        assert plant_one(((0, 100), (100, 200)), late_s, **times)[1] == ((0, 100), (100, 200))
+    assert plant_one(((0, 130), (130, 260)), 0.2, **times)[1] == ((0, 120), (130, 250))
+
+
+@pytest.mark.parametrize(
+    ("rows", "ramp_s", "shape"),
+    [
+        (8, 0.02, [0.5, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 0.5]),
+        (8, 0.0, [1.0] * 8),  # a ramp takes a row at least
+        (6, 1.0, [1 / 3, 2 / 3, 1.0, 1.0, 2 / 3, 1 / 3]),  # and half of the push at most
+        (2, 1.0, [1.0, 1.0]),
+    ],
+    ids=["ramps", "no ramp", "long ramp", "two rows"],
+)
+def test_a_push_grows_and_fades_as_a_trapezoid(rows, ramp_s, shape, plant_one):
+    times = {"short_s": (rows / RATE_HZ, rows / RATE_HZ), "long_s": (rows / RATE_HZ, rows / RATE_HZ)}
+    at_once, _ = plant_one(((0, rows),), ramp_s=0.0, **times)
+    torque, spans = plant_one(((0, rows),), ramp_s=ramp_s, **times)
+    assert spans == ((0, rows),)
+    whole, expected = (low_pass(np.array(each)[:, None], GAIN_HZ, RATE_HZ) for each in ([1.0] * rows, shape))
+    np.testing.assert_allclose(torque, expected * (at_once[-1] / whole[-1]))
+
+
+def test_a_push_of_one_row_has_its_whole_size(plant_one):
+    """Half of it is no row, over which nothing can grow."""
+    times = {"short_s": (1.0 / RATE_HZ, 1.0 / RATE_HZ), "long_s": (1.0 / RATE_HZ, 1.0 / RATE_HZ), "ramp_s": 1.0}
+    torque, spans = plant_one(((0, 3),), **times)
+    assert spans == ((0, 1), (1, 2), (2, 3))
+    assert np.abs(torque[1:]).max(axis=1).min() > 0.0
+
+
+def test_a_push_is_as_large_as_asked_or_as_the_robot_s_weight_allows(plant_one, arm):
+    times = {"short_s": (1.0, 1.0), "long_s": (1.0, 1.0), "ramp_s": 0.0}
+    whole, _ = plant_one(((0, 100),), torque_share=(0.1, 0.1), **times)
+    assert np.abs(whole[-1] / arm.torque_limits).max() == pytest.approx(0.1)
+    light, _ = plant_one(((0, 100),), torque_share=(0.1, 0.1), weight_share=1e-3, **times)
+    lighter, _ = plant_one(((0, 100),), torque_share=(0.1, 0.1), weight_share=5e-4, **times)
+    assert np.abs(light[-1] / arm.torque_limits).max() < 0.1
+    np.testing.assert_allclose(light, 2.0 * lighter)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from mobnet.detection.always import setup_of
-from mobnet.detection.points import axis_forces, axis_torques, felt_push, points_of
+from mobnet.detection.points import axis_forces, axis_torques, felt_push, points_of, some_rows
 from mobnet.robot.description import describe
 from mobnet.robot.nominal import NominalModel
 from mobnet.settings.parts import PointRow
@@ -60,3 +60,8 @@ def test_the_push_that_acts_is_named_with_its_force(sign, pointed, model):
 
 def test_a_limb_without_points_names_nothing(arm):
     assert felt_push(NominalModel(arm), JOINTS, POSE, np.ones(2), np.ones(2)) is None
+
+
+def test_rows_of_poses_are_evenly_apart_and_none_is_taken_twice():
+    assert some_rows(10, 4).tolist() == [0, 3, 6, 9]
+    assert some_rows(3, 10).tolist() == [0, 1, 2]

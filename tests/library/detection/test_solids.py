@@ -53,3 +53,17 @@ def test_points_are_as_far_apart_as_asked(title: str) -> None:
     nearest = distance.min(axis=1)
     assert 0.5 * SPACING_M < np.median(nearest) < 1.2 * SPACING_M
     assert nearest.max() < 2.0 * SPACING_M
+
+
+@pytest.mark.parametrize("title", SOLIDS)
+def test_a_solid_that_is_smaller_than_the_distance_asked_has_points_on_every_side(title: str) -> None:
+    shape = shape_of(title)
+    patch = patch_of(shape, 10.0)
+    np.testing.assert_allclose(depth(shape, patch.points), 0.0, atol=1e-9)
+    assert patch.area.sum() == pytest.approx(SOLIDS[title][1], rel=0.3)  # of a few pieces, each taken as flat
+
+
+def test_a_needle_has_a_point_on_every_ring() -> None:
+    row = {"name": "solid", "body": "link", "type": "cylinder", "tone": "grey", "size": (0.001, 0.5)}
+    patch = patch_of(ShapeRow.model_validate(row), 1.0)
+    assert patch.area.sum() == pytest.approx(2.0 * np.pi * 0.001 * (1.0 + 0.001), rel=1e-6)

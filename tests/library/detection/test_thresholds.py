@@ -5,7 +5,7 @@ import pytest
 from scipy.stats import lognorm
 
 from mobnet.core.errors import DataError
-from mobnet.detection.thresholds import Calibrated, Tail, calibrate, expected_counts, fit_tail
+from mobnet.detection.thresholds import SHAPES, Calibrated, Tail, calibrate, expected_counts, fit_tail
 
 SWINGS, DURATION_S = 870, 20 * 60.0  # of twenty minutes
 WALKS = 200
@@ -34,6 +34,22 @@ def test_a_law_with_an_end_gives_nothing_beyond_it():
     tail = Tail(level=1.0, share=0.1, scale=0.5, shape=-0.5)
     assert tail.above(2.0) == 0.0
     assert tail.size(1e-9) == pytest.approx(2.0, abs=1e-3)
+
+
+@pytest.mark.parametrize("shape", [-0.5, 0.0, 0.3])
+def test_below_its_level_a_tail_says_no_more_than_at_it(shape):
+    """The level of a walk drawn anew may lie above the threshold of the walk itself."""
+    tail = Tail(level=1.0, share=0.1, scale=0.5, shape=shape)
+    assert tail.above(0.2) == tail.above(1.0) == pytest.approx(0.1)
+    assert tail.size(0.5) == tail.size(0.1) == pytest.approx(1.0)
+
+
+def test_the_shape_of_a_tail_of_few_swings_stays_within_its_bounds():
+    one = fit_tail(np.array([*np.zeros(99), 1.0]), 0.01)
+    assert (one.shape, one.share) == (SHAPES[0], 0.01)
+    assert one.scale == pytest.approx((1.0 - one.level) * (1.0 - SHAPES[0]))
+    wide = fit_tail(np.concatenate([np.zeros(90), np.geomspace(1e-6, 1e6, 10)]), 0.1)
+    assert wide.shape == SHAPES[1]
 
 
 @pytest.mark.parametrize("spread", [0.2, 0.4], ids=["light tail", "heavy tail"])
@@ -93,3 +109,8 @@ def test_a_walk_drawn_anew_without_its_rare_swings_expects_no_alarm(numbers):
 def test_expected_counts_reach_over_both_what_is_unknown_and_chance():
     assert expected_counts(Calibrated(1.0, 1.0, 0.0, 3.0), 2.0, 0.95) == (0, 11)
     assert expected_counts(Calibrated(1.0, 60.0, 40.0, 80.0), 1.0, 0.95) == (28, 98)
+
+
+def test_a_rate_of_zero_promises_no_alarm():
+    assert expected_counts(Calibrated(1.0, 0.0, 0.0, 0.0), 2.0, 0.95) == (0, 0)
+    assert expected_counts(Calibrated(1.0, 1.0, 0.0, 3.0), 0.0, 0.95) == (0, 0)

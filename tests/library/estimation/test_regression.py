@@ -122,3 +122,21 @@ def test_factors_of_either_sign_are_those_of_bounded_least_squares(seed):
     expected = scipy.optimize.lsq_linear(columns / sizes, target, (lowest, np.inf), method="bvls")
     np.testing.assert_allclose([factors[name] for name in "abcde"] * sizes, expected.x, atol=1e-3)
     assert left == pytest.approx(np.sqrt(2 * expected.cost / 500), rel=1e-3)
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_columns_that_are_one_another_s_multiples_have_factors_in_spite_of_rounding(seed):
+    """The least eigenvalue of their products is zero but for rounding, which may make it negative."""
+    rng = np.random.default_rng(seed)
+    column = rng.normal(size=(50, 1))
+    products = np.hstack([column, 3.0 * column, 7.0 * column])
+    products = products.T @ products
+    factors, left = non_negative(products, {"one": np.eye(3)[0], "three": np.eye(3)[1]})
+    assert factors["one"] + 3.0 * factors["three"] == pytest.approx(7.0)
+    assert left == pytest.approx(0.0, abs=1e-5)
+
+
+def test_recordings_without_a_segment_fit_nothing(write, made_up):
+    recording = replace(made_up(3, 1.0), segments=())
+    for row in fit(write("nowhere", recording, np.zeros_like(recording.sensed.tau_motor))).values():
+        assert not any(number for name, number in row.items() if name != "stribeck_rad_s")

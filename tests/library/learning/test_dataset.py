@@ -71,6 +71,14 @@ def test_z_scores_come_from_the_given_rows_alone():
     assert scale.std[3] == 1.0
 
 
+@pytest.mark.parametrize("offset", [0.0, 1e-3, 1e3])
+def test_what_rounding_leaves_of_a_constant_column_is_no_signal(offset):
+    """Small constants are judged by 1 and large ones by their size."""
+    noise = 5e-10 * max(1.0, offset) * np.random.default_rng(0).choice([-1.0, 1.0], (1000, 1))
+    assert scale_of(offset + noise, [(0, 1000)]).std[0] == 1.0
+    assert scale_of(offset + 10.0 * noise, [(0, 1000)]).std[0] < 1e-5
+
+
 def test_the_last_recordings_are_held_out(stems, settings):
     limb, columns = network_of(settings, "MOB-Net", "LL"), tuple(zip(*stems, strict=True))
     data = load_limb_data(settings.layout, limb, "external", *columns, held_out=1)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from mobnet.core.errors import DataError
-from mobnet.learning.streams import cut_streams, deal, epoch_plan, split, validation_plan, window_plan
+from mobnet.learning.streams import cut_streams, deal, epoch_plan, some_of, split, validation_plan, window_plan
 
 SEGMENTS = [(0, 10_000), (10_000, 13_337), (13_337, 13_360), (13_360, 20_000)]
 STREAM, HORIZON, LANES = 1000, 50, 8
@@ -88,3 +88,28 @@ def test_windows_of_an_epoch_have_as_many_samples_as_the_blocks():
 def test_too_few_samples_for_a_batch_of_windows_are_refused():
     with pytest.raises(DataError, match="11 windows of 10 samples cannot fill a batch of 4"):
         window_plan([(0, 20)], 100, 10, 4, np.random.default_rng(0))
+
+
+def test_blocks_that_hold_no_window_are_refused_however_many_samples_are_asked_for():
+    with pytest.raises(DataError, match="0 windows of 10 samples cannot fill a batch of 4"):
+        window_plan([(0, 5)], 100, 10, 4, np.random.default_rng(0), samples=4000)
+    with pytest.raises(DataError, match="0 horizons"):
+        validation_plan([], STREAM, HORIZON, LANES)
+
+
+@pytest.mark.parametrize(("rows", "lanes"), [(100_000, LANES), (3100, 3), (900, 1)])
+def test_validation_has_a_lane_for_each_stream_at_least_one_and_at_most_all(rows, lanes):
+    assert validation_plan([(0, rows)], STREAM, HORIZON, LANES).rows.shape[1] == lanes
+
+
+def test_a_part_of_the_data_is_whole_streams_at_least_one_and_ends_with_its_block():
+    blocks, rng = [(0, 2500), (4000, 4300)], np.random.default_rng(0)
+    streams = {(0, 1000), (1000, 2000), (2000, 2500), (4000, 4300)}
+    assert some_of(blocks, STREAM, 1, rng) == blocks
+    seen = set()
+    for _ in range(30):
+        half = some_of(blocks, STREAM, 2, rng)
+        assert (len(half), half) == (2, sorted(half))
+        assert len(some_of(blocks, STREAM, 100, rng)) == 1
+        seen |= set(half)
+    assert seen == streams

@@ -41,6 +41,14 @@ def walked(tmp_path, made_up, write_pair):
     return write_pair(tmp_path, replace(recording, sensed=replace(recording.sensed, swing=swing)))
 
 
+def test_a_swing_that_is_shorter_than_its_margins_leaves_nothing_also_at_the_very_beginning():
+    """A row before the first one would be counted from the end."""
+    swing = np.zeros(40)
+    swing[:3] = swing[20:24] = 1.0
+    assert not hanging(swing, [(0, 40)], 1000.0, (0.001, 0.01)).any()
+    assert not hanging(swing, [(0, 40)], 1000.0, (0.01, 0.001)).any()
+
+
 def test_free_rows_are_those_of_the_leg_of_the_joints(walked, layout):
     left = free_rows(walked[0], layout, layout.limb("LL"), MARGINS)
     assert left.mean() == pytest.approx(2 * (0.5 - 0.09 - 0.03) / 4.0, abs=0.02)
@@ -70,6 +78,8 @@ def test_only_the_first_seconds_are_read(small):
     assert data.segments[-1][1] == rows
     assert data.segments[:-1] == whole.segments[: len(data.segments) - 1]
     np.testing.assert_array_equal(data.inputs, whole.inputs[:rows])
+    longer = load_limb_data(*given, first_s=1000.0)
+    assert (longer.segments, longer.digest) == (whole.segments, whole.digest)
 
 
 def test_nothing_is_learned_where_the_target_is_unknown():

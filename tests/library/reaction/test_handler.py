@@ -1,5 +1,7 @@
 """The pipeline sample by sample: alarm, limb, waiting time, footsteps that are kept, and one reaction only."""
 
+from dataclasses import replace
+
 import mujoco
 import numpy as np
 import pytest
@@ -104,6 +106,21 @@ def test_steps_end_in_place_and_there_are_as_many_as_asked(robot, settings, layo
     assert not steps[-reaction.stop_steps :, :3].any()
     assert steps[1, 0] == pytest.approx(-reaction.compliant.step_m)
     assert steps[:, 3] == pytest.approx([COMMAND[3], *[reaction.step_s] * (len(steps) - 1)])
+
+
+def test_a_robot_that_steps_faster_than_reacting_steps_keeps_its_pace(robot, settings, layout, estimate_of):
+    quick_s = 0.8 * settings.reaction.step_s
+    sample = sample_of(layout, 1, 0)
+    quick = replace(sample, command=np.array([*COMMAND[:3], quick_s, *COMMAND[4:]]))
+    steps = run(handler_of(robot, settings, {"LL": Alarm(2)}), [quick] * 4, estimate_of())[2].steps
+    assert steps[:, 3] == pytest.approx(quick_s)
+
+
+def test_a_robot_whose_filters_have_settled_reacts_however_late_it_is_hit(robot, settings, layout, estimate_of):
+    spacing_m = settings.walking.foot_spacing_m
+    handler = Handler(robot, settings.reaction, spacing_m, {"LL": Alarm(8)}, "compliant", settle=2)
+    found = run(handler, [sample_of(layout, 1, 0)] * 10, estimate_of())
+    assert [k for k, one in enumerate(found) if one is not None] == [8]
 
 
 def test_rewinding_knows_where_feet_have_stood(robot, settings, layout, estimate_of):

@@ -12,9 +12,12 @@ import pytest
 from mobnet.core.errors import DataError
 from mobnet.robot import import_checks, import_table
 from mobnet.robot.description import describe
-from mobnet.robot.import_checks import differences
+from mobnet.robot.import_checks import _apart, differences
 from mobnet.robot.import_inertia import balanced, is_rigid
+from mobnet.robot.import_mjcf import BOUND_INERTIA, BOUND_MASS, spec_of
+from mobnet.robot.import_rows import MOST_RAD, _range
 from mobnet.robot.import_table import main, robot_of_text, table_text
+from mobnet.robot.import_tree import Joint
 from mobnet.robot.importing import import_robot
 from mobnet.robot.plant import robot_spec
 from mobnet.settings.lab import load_section
@@ -463,3 +466,26 @@ def test_names_that_yaml_would_take_apart_are_quoted(name, tmp_path):
     found, robot = table_of(tmp_path / "odd.urdf", tmp_path)
     assert robot.name == "two-link arm"
     assert robot.joints[1].name == found.joints[1]["name"] != "J2"
+
+
+def test_a_range_beyond_what_a_table_takes_is_cut_at_both_ends():
+    def range_of(low, high):
+        return _range(Joint("j", "hinge", np.eye(3)[2], 0, range=(low, high)))
+
+    assert range_of(-1.0, 2.0) == (-1.0, 2.0)
+    assert range_of(-1e3, 2.0) == (-MOST_RAD, 2.0)
+    assert range_of(-1.0, 1e3) == (-1.0, MOST_RAD)
+    assert range_of(-1e3, 1e3) == (-MOST_RAD, MOST_RAD)
+
+
+def test_masses_that_a_file_bounds_itself_keep_its_bounds(tmp_path):
+    text = "<mujoco>{}<worldbody><body><geom size='.1'/></body></worldbody></mujoco>"
+    for compiler, least in (("", (BOUND_MASS, BOUND_INERTIA)), ("<compiler boundmass='2' boundinertia='3'/>", (2, 3))):
+        (tmp_path / "ball.xml").write_text(text.format(compiler))
+        bounds = spec_of(tmp_path / "ball.xml").compiler
+        assert (bounds.boundmass, bounds.boundinertia) == least
+
+
+def test_readings_that_differ_where_one_has_nothing_are_told_apart_by_a_least_size():
+    assert _apart(np.full((2, 2), 1e-3), np.zeros((2, 2)), 2.0) == pytest.approx(5e-4)
+    assert _apart(np.full((2, 2), 11.0), np.full((2, 2), 10.0), 2.0) == pytest.approx(0.1)

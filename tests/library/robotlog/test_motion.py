@@ -11,7 +11,7 @@ import pytest
 
 from mobnet.core.recording import Recording
 from mobnet.robot.description import describe
-from mobnet.robotlog.motion import main, write_log
+from mobnet.robotlog.motion import main, report_lines, write_log
 from mobnet.robotlog.observe import main as observe
 from mobnet.settings.lab import load_section
 from mobnet.settings.robot import RobotTable
@@ -101,6 +101,24 @@ def test_of_a_log_no_more_than_two_pieces_are_held(settings, tmp_path):
 
     told = write_log(pieces(), arm, tmp_path / "log.parquet", truth=False)
     assert told.samples == 5 * len(first.sensed)
+
+
+def test_what_is_told_of_a_log_is_the_largest_of_all_its_pieces(settings, tmp_path):
+    """The first piece moves most, by a motion in which the last one hardly moves."""
+    arm = describe(load_section(ARM, RobotTable))
+    numbers = Numbers(settings.free_motion, settings.plant, settings.rates)
+    first = record_motion(arm, numbers, 0.5, 1, ideal=True, pushed=False)
+    sensed = first.sensed
+    still = replace(first, sensed=replace(sensed, v=0.1 * sensed.v, tau_motor=0.1 * sensed.tau_motor))
+    told = write_log([still, first, still], arm, tmp_path / "log.parquet", truth=False)
+    table = pd.read_parquet(tmp_path / "log.parquet")
+    shares = [table[f"tau_motor.J{k}"].abs().max() / limit for k, limit in enumerate(arm.torque_limits, start=1)]
+    assert told.speed == pytest.approx(table[["v.J1", "v.J2"]].abs().to_numpy().max(), abs=1e-6)
+    assert told.share == pytest.approx(max(shares), abs=1e-6)
+    assert min(told.speed, told.share) > 0.0
+    assert list(report_lines(told, arm, 1000.0, tmp_path, truth=False))[1] == (
+        f"largest speed {told.speed:.2f} rad/s, largest torque {told.share:.0%} of what its motor gives"
+    )
 
 
 @pytest.mark.parametrize(

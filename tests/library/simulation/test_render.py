@@ -10,7 +10,7 @@ import pytest
 
 from mobnet.core.errors import DrawingError
 from mobnet.simulation import render
-from mobnet.simulation.terrain import draw_terrain
+from mobnet.simulation.terrain import DrawnTerrain, Piece, draw_terrain
 
 ROOT = Path(__file__).parents[3]
 SMALL = (400, 300)  # width, height [pixels]
@@ -133,3 +133,12 @@ def test_without_opengl_one_line_names_the_packages_and_nothing_is_written(tmp_p
     assert len(done.stdout.splitlines()) == 1
     assert render.PACKAGES in done.stdout
     assert not list(tmp_path.iterdir())
+
+
+def test_a_drawn_piece_without_an_end_ends_at_half_a_period():
+    """Light and fog are computed at corners alone."""
+    strip = Piece(np.array([np.inf, 0.3]), np.array([np.inf, 0.2]), 0.05, np.zeros(2))
+    wide = Piece(np.array([0.3, 2.5]), np.array([0.2, 2.5]), 0.05, np.ones(2))
+    first, second = render._cut(DrawnTerrain(4.0, (strip, wide))).pieces
+    assert (first.bottom.tolist(), first.top.tolist()) == ([2.0, 0.3], [2.0, 0.2])
+    assert (second.bottom.tolist(), second.top.tolist()) == ([0.3, 2.0], [0.2, 2.0])

@@ -3,7 +3,7 @@
 import pytest
 
 from experiments.plan.dry_run import PlannedJob
-from experiments.plan.schedule import TimedJob, elapsed_s
+from experiments.plan.schedule import TimedJob, elapsed_s, most_held
 
 
 def timed(name: str, seconds: float, reads: tuple[str, ...] = (), *, gpu: bool = False, priority: int = 0) -> TimedJob:
@@ -42,3 +42,12 @@ def test_nothing_takes_no_time() -> None:
 def test_the_order_in_which_jobs_are_told_has_no_part_in_it() -> None:
     jobs = [timed(name, 1.0) for name in "abc"] + [timed("end", 3.0, ("a",))]
     assert elapsed_s(jobs, 2) == elapsed_s(jobs[::-1], 2) == 4.0
+
+
+def test_what_is_held_at_most_is_a_running_maximum() -> None:
+    """After the first two jobs their files go, and what is left is less than what was there."""
+    jobs = [timed("a", 1.0), timed("b", 1.0, ("a",)), timed("c", 1.0, ("b",))]
+    size = {"a": 3.0, "b": 4.0, "c": 1.0}
+    assert most_held(jobs, 1, lambda job: size[job.name], lambda job: True) == 7.0
+    assert most_held(jobs, 1, lambda job: size[job.name], lambda job: False) == 8.0
+    assert most_held([], 1, lambda job: size[job.name], lambda job: True) == 0.0

@@ -190,3 +190,17 @@ def test_a_damaged_record_is_named(auto: Settings, tmp_path: Path) -> None:
 def test_another_word_is_refused(value: object) -> None:
     with pytest.raises(ConfigError, match="side_by_side"):
         load_settings(overrides={"stacks": {"side_by_side": value}})
+
+
+@pytest.mark.parametrize("scale", SCALES)
+def test_a_stack_holds_the_data_of_its_largest_member(plans: Mapping[str, Plan], scale: str) -> None:
+    """Its members learn from one set after another; a plan that forgot them would start two such stacks at once."""
+    plan = plans[scale]
+    for name, members in plan.jobs.stacks.members.items():
+        largest = 0.0
+        for own in members:
+            method, limb, seed = own.network
+            w = {"robot": own.robot, "method": method, "limb": limb, "seed": str(seed)}
+            largest = max(largest, work_of(plan, PlannedJob("train", "train/x", w, ("weights",), {})).held)
+        stack = PlannedJob("train_stack", "train_stack/x", {"stack": name}, ("stack",), {})
+        assert work_of(plan, stack).held == largest > 0.0

@@ -92,6 +92,16 @@ def test_factors_multiply_the_standard_deviation_alone(kind, x, tmp_path):
     np.testing.assert_allclose(scaled.std, plain.std * FACTORS.numpy(), rtol=1e-6)
 
 
+@pytest.mark.parametrize("kind", CELLS)
+def test_a_standard_deviation_is_no_less_than_the_least_one(kind, x, tmp_path, monkeypatch):
+    monkeypatch.setitem(globals(), "STD_MIN", 50.0)
+    network = deployed(tmp_path, model_of(CELLS[kind]), CELLS[kind])
+    least = 50.0 * SCALES["target.std"].numpy()
+    _, result = network.step(network.init(), x[0])
+    np.testing.assert_allclose(network.run_all([x])[0].std, np.tile(least, (STEPS, 1)), rtol=1e-6)
+    np.testing.assert_allclose(result.std, least, rtol=1e-6)
+
+
 def test_huge_inputs_give_finite_torques(x, tmp_path):
     result = deployed(tmp_path, model_of(CELLS["GRU"]), CELLS["GRU"]).run_all([1e6 * x])[0]
     assert np.isfinite(result.mean).all()

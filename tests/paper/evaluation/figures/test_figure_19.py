@@ -95,3 +95,13 @@ def test_a_panel_shows_the_ranges_by_phase_and_what_the_sets_have_in_common(
     assert (first.get_ylabel(), second.get_ylabel()) == ("desired torque [N m]", "")
     names = [text.get_text() for text in figure.legends[0].get_texts()]
     assert names == ["training with RTE", "training without RTE", "tests"]
+
+
+def test_a_training_set_without_samples_has_no_share_in_any_cell(evaluation: Evaluation) -> None:
+    """Its shares are zero and not 0/0."""
+    some = np.random.default_rng(0).normal(size=(100, 3)).astype(np.float32)
+    some[:, 2] = np.linspace(0.0, 0.99, 100)
+    plane = plane_of("LL3", {"with": some, "without": some[:0]}, evaluation.coverage)
+    assert plane.shares["without"].tolist() == np.zeros(plane.shares["with"].shape).tolist()
+    assert plane.shares["with"].sum() > 90.0
+    assert plane.common == 0.0

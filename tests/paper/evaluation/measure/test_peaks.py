@@ -1,24 +1,38 @@
 """Share and delay of pushes whose estimate is known."""
 
+from dataclasses import replace
+from pathlib import Path
+
 import numpy as np
 import pytest
+from made_swings import unseen
 
-from experiments.evaluation.compare.scene import ShownPushes
+from experiments.evaluation.compare.pair import Pair
+from experiments.evaluation.compare.scene import Scene, ShownPushes
 from experiments.evaluation.measure.estimates.peaks import (
+    DELAY,
+    OBSERVER,
     delays,
     first_above,
+    measure,
     medians,
     push_rows,
     slopes,
     turned_joints,
 )
-from experiments.settings.measures import Peaks
+from experiments.plan.runs import Run
+from experiments.settings.measures import Peaks, Scoring
 from experiments.settings.runs import PushedLimbRuns
+from mobnet.core.columns import torque_columns
+from mobnet.core.joints import JointLayout
+from mobnet.core.recording import Recording, Sensed, write_recording
+from mobnet.core.store import write_array
 from mobnet.estimation.low_pass import low_pass
 
 TEST = PushedLimbRuns(scenario="knee_swing", level="ideal", methods=("MOB",), limbs=("LL",))
 SETTINGS = Peaks(turned_share=0.5, before_s=0.03, after_s=0.05, longest_s=0.2, tests=(TEST,))
 COUNTED = np.array([True])
+GAIN_HZ = 100.0
 
 
 def half_sine(size: float, rows: int = 78, length: int = 200) -> np.ndarray:
@@ -93,3 +107,33 @@ def test_median_is_over_the_pushes_that_turn_a_joint() -> None:
     found = medians([np.array([1.0, nan, nan]), np.array([3.0, 5.0, nan]), np.array([9.0, 7.0, nan])], 3)
     np.testing.assert_allclose(found, [3.0, 6.0, nan])
     assert np.isnan(medians([], 2)).all()
+
+
+LATE, PUSHED_ROWS, SPAN = 7, (300, 380), 800
+
+
+@pytest.mark.parametrize("rate_hz", [1000.0, 500.0])
+def test_an_estimate_that_is_some_rows_late_is_late_by_their_time(
+    rate_hz: float, tmp_path: Path, layout: JointLayout
+) -> None:
+    """A row lasts for 1 ms at 1 kHz, and for 2 ms at 500 Hz."""
+    joint, rows = "LL3", np.arange(SPAN)
+    start, end = PUSHED_ROWS
+    pushed = (rows >= start) & (rows < end)
+    push = np.zeros((SPAN, layout.nv))
+    push[pushed, layout.columns([joint])] = 40.0
+    truth = replace(unseen(layout, SPAN, np.zeros((SPAN, 4))), tau_push=push)
+    truth.pushed[pushed, 0] = 1.0
+    none, feet = np.zeros((SPAN, layout.nu)), np.zeros((SPAN, 2))
+    q, v = np.zeros((SPAN, layout.nq)), np.zeros((SPAN, layout.nv))
+    sensed = Sensed(q, v, np.zeros((SPAN, 3)), none, none, feet, np.zeros((SPAN, 5)), feet)
+    stem, residual = tmp_path / "recording", tmp_path / "residual"
+    write_recording(stem, Recording(sensed, ((0, SPAN),), rate_hz, {}, truth), layout)
+    columns = torque_columns(layout, ["tau_ext_lp"], [joint])
+    write_array(residual, np.zeros((SPAN, 1)), columns, {"rate_hz": rate_hz, "gain_hz": GAIN_HZ})
+    scene = Scene(stem, layout, Scoring())
+    behind = scene.behind(GAIN_HZ, [joint])
+    run = Run("walk", "ideal", "MOB", 0, 1, stem, residual, tmp_path / "estimate")
+    pair = Pair(run, (joint,), np.roll(behind, LATE, axis=0), behind, ((0, SPAN),), rate_hz)
+    found = {one.metric: one.values for one in measure(pair, scene, SETTINGS)}
+    assert found[DELAY] - found[DELAY + OBSERVER] == pytest.approx([LATE * 1000.0 / rate_hz], abs=1e-3)

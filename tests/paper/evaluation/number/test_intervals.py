@@ -256,3 +256,15 @@ def test_a_gap_that_may_be_closed_reaches_zero() -> None:
 def test_a_ratio_to_zero_is_no_number() -> None:
     number = summarise([RunGrid(np.ones((1, 3))), RunGrid(np.zeros((1, 3)))], STATISTICS, RATIO)
     assert (number.value, number.low, number.walks) == (None, None, (3,))
+
+
+def test_walks_of_robots_vary_as_a_sum_written_by_hand() -> None:
+    """Three walks of each of two robots, by the variance over n - 1, and a number whose slope on the mean is 2."""
+    values = np.array([[1.0, 2.0, 6.0], [4.0, 4.0, 7.0]])
+    within = ((1 - 3) ** 2 + (2 - 3) ** 2 + (6 - 3) ** 2) / 2, ((4 - 5) ** 2 + (4 - 5) ** 2 + (7 - 5) ** 2) / 2
+    doubled = Formula(lambda means: 2.0 * means)
+    number = summarise([RunGrid(values, ROBOTS, (101, 102))], STATISTICS, doubled)
+    assert number.std_walks == pytest.approx(2.0 * sqrt((within[0] + within[1]) / 2 / 2))
+    assert number.std_networks == pytest.approx(2.0 * sqrt(2.0))  # of the means 3 and 5
+    alone = summarise([RunGrid(values[:, :1], ROBOTS, (101, 102))], STATISTICS, doubled)
+    assert (alone.walks, alone.std_walks) == ((1,), None)

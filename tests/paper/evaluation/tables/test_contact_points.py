@@ -148,3 +148,22 @@ def test_a_line_without_standard_deviations_is_refused(
     write_array(tmp_path / "few", rows, torque_columns(settings.layout, ["tau_ext"], settings.layout.limb("LL")), meta)
     with pytest.raises(DataError, match="are not estimated"):
         make_table("contact_points", runs=few, detections={"robot_1": files}, pushes=pushes)
+
+
+def test_a_hit_at_the_end_of_its_walk_is_told_by_its_last_row(
+    make_table: Make, settings: Settings, robot: RobotDescription, tmp_path: Path
+) -> None:
+    """The force is asked for some time after the alarm, when the walk may have ended."""
+    runs, files = write_files(settings, robot, tmp_path)
+    rows = len(swinging(settings.layout, 1))
+    section = settings.evaluation.contact_points
+    last_s = (rows - 1 - START) / RATE_HZ - DELAY_S
+    numbers: list[list[float | None]] = []
+    for after_s in (last_s, last_s + 0.001, last_s + 10.0):
+        lines = {title: line.model_copy(update={"after_s": None}) for title, line in section.lines.items()}
+        late = section.model_copy(update={"after_s": after_s, "lines": lines})
+        pushes = {name: settings.pushes[name] for name in settings.scenarios["collisions"].pushes}
+        given = {"settings": late, "runs": runs, "detections": {"robot_1": files}, "pushes": pushes}
+        table = make_table("contact_points", **given)
+        numbers.append([row.value for row in read_table(table)])
+    assert numbers[0] == numbers[1] == numbers[2]

@@ -88,7 +88,8 @@ def torque_range(
     groups = pd.Series(torque[cell >= 0].astype(np.float64)).groupby(cell[cell >= 0])
     ends = groups.quantile(np.asarray(shares)).unstack()[groups.size() >= least]
     low, high = np.full((2, cells.count), np.nan)
-    low[ends.index], high[ends.index] = ends.to_numpy().T
+    # Without any sample pandas gives no columns, and no cell has a range.
+    low[ends.index], high[ends.index] = ends.to_numpy().reshape(-1, 2).T
     return TorqueRange(cells, low, high)
 
 

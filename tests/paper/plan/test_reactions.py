@@ -1,0 +1,30 @@
+"""How much robots walk in a case: no other detector is tried in more walks than ours."""
+
+from pathlib import Path
+
+import pytest
+
+from experiments.plan.files import Files
+from experiments.plan.reactions import sizes_of, walks_in
+from experiments.settings.catalogue import Catalogue
+from experiments.settings.load import load_settings
+from experiments.settings.scales import ReactionSizes
+from mobnet.settings.reaction import watches_of
+
+CASE = "foot"
+
+
+@pytest.mark.parametrize(("runs", "compared", "of_others"), [(6, 2, 2), (2, 6, 2), (3, 3, 3)])
+def test_other_detectors_walk_as_often_as_asked_and_no_more_often_than_ours(
+    runs: int, compared: int, of_others: int
+) -> None:
+    settings = load_settings()
+    usual_s = settings.sizes.reactions.pushed.longest_s
+    cases = {CASE: ReactionSizes(runs=runs, compared=compared, longest_s=usual_s)}
+    reactions = settings.sizes.reactions.model_copy(update={"cases": cases})
+    sizes = settings.sizes.model_copy(update={"reactions": reactions})
+    files = Files(Catalogue(settings.model_copy(update={"scales": {settings.scale: sizes}})), Path("results"))
+    others = len(watches_of(settings.reaction, CASE)) - 1
+    assert sizes_of(files, CASE).runs == runs
+    assert others > 1
+    assert walks_in(files, CASE) == runs + of_others * others
