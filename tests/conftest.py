@@ -25,8 +25,9 @@ from mobnet.settings.robot import RobotTable
 ROOT = Path(__file__).parents[1]
 RATE_HZ = 1000.0
 WAVES = 3  # sines per signal
-# minutes each; while one worker compiles for the first of them, another checks what needs nothing compiled
+# Minutes each; while one worker compiles for the first of them, another checks what needs nothing compiled.
 LONGEST = ("world/workflow/test_smoke.py", "paper/workflow/test_static.py", "world/workflow/test_cluster.py")
+LAST = ("world/workflow/test_smoke_again.py",)  # which waits for the run of the first one
 Array = NDArray[np.float64]
 
 
@@ -37,8 +38,9 @@ def pytest_configure() -> None:
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Begin with the longest files: begun last, one of them would run alone on one of the workers."""
-    places = {ROOT / "tests" / name: place for place, name in enumerate(LONGEST)}
-    items.sort(key=lambda item: places.get(item.path, len(places)))
+    places = {ROOT / "tests" / name: place - len(LONGEST) for place, name in enumerate(LONGEST)}
+    places |= {ROOT / "tests" / name: place + 1 for place, name in enumerate(LAST)}
+    items.sort(key=lambda item: places.get(item.path, 0))
 
 
 @pytest.fixture(scope="session")

@@ -1,4 +1,4 @@
-"""The command for the demo and the Python of docs/runtime.md run, and its tables name every key."""
+"""The tables of docs/runtime.md name every key."""
 
 import json
 import re

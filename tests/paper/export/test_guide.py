@@ -1,4 +1,4 @@
-"""docs/export.md as a reader follows it, whose code begins with the demo of the paper."""
+"""docs/runtime.md as a reader follows it, whose code begins with the demo of the paper."""
 
 import re
 from pathlib import Path
@@ -9,7 +9,7 @@ from experiments.demo import load
 from mobnet.export.export import main
 
 ROOT = Path(__file__).parents[3]
-PAGE = (ROOT / "docs" / "export.md").read_text()
+PAGE = (ROOT / "docs" / "runtime.md").read_text()
 
 
 def test_the_page_is_followed_to_the_letter(tmp_path, monkeypatch, capsys):

@@ -12,6 +12,8 @@ from planned_jobs import COMPILED, ROOT, outputs, planned, snakemake
 
 from mobnet.core.compilation import cache_root
 
+from .smoke import MADE, reproduce, told
+
 __all__ = ["outputs", "planned", "snakemake"]
 PARTS = (
     "Snakefile", "workflow", "profiles", "configs", "src", "docs", "paper", "reproduce", "environment.lock",
@@ -33,23 +35,38 @@ def compiled(tmp_path_factory):
 
 @pytest.fixture(scope="session")
 def make_project(tmp_path_factory, compiled):
-    """Return a function of a name that copies the project, or a copy, without its environment.
-
-    The copy has the machine code that its origin has compiled, as its code is the same.
-    """
+    """Return a function of a name that copies the project, or a copy, without its environment."""
 
     def make(name, origin=ROOT):
         folder = tmp_path_factory.mktemp(name)
-        copy_project(origin, folder)
-        for source, place in compiled_in(cache_root() if origin == ROOT else origin / COMPILED, origin, folder):
-            shutil.copytree(source, folder / COMPILED / place, ignore=shutil.ignore_patterns("*.tmp.*"))
+        copy_project(folder, origin)
         return folder
 
     return make
 
 
-def copy_project(origin, folder):
-    """Copy the project, or a copy, into a folder, without its environment and without what it has compiled."""
+@pytest.fixture(scope="session")
+def smoke_run(tmp_path_factory, compiled):
+    """Two projects: `run`, in which the smoke scale ran on two cores, and `kept`, a copy of it that no test changes."""
+
+    def make(folder):
+        run, kept = folder / "run", folder / "kept"
+        shutil.rmtree(folder, ignore_errors=True)  # of a run that failed
+        run.mkdir(parents=True)
+        kept.mkdir()
+        copy_project(run)
+        assert reproduce(run).wait() == 0, told(run)
+        copy_project(kept, run)
+        copy_results(run, kept)
+
+    return once(tmp_path_factory, "smoke", make)
+
+
+def copy_project(folder, origin=ROOT):
+    """Copy the project, or a copy, into a folder, without its environment.
+
+    The copy has the machine code that its origin has compiled, as its code is the same.
+    """
     for part in PARTS:
         source = origin / part
         ignored = shutil.ignore_patterns("__pycache__", "*.pdf", "build.json", ".*")
@@ -58,6 +75,14 @@ def copy_project(origin, folder):
         else:
             shutil.copy2(source, folder / part)
     (folder / ".venv").symlink_to(sys.prefix)  # runs the code of the folder in which it is called
+    for source, place in compiled_in(cache_root() if origin == ROOT else origin / COMPILED, origin, folder):
+        shutil.copytree(source, folder / COMPILED / place, ignore=shutil.ignore_patterns("*.tmp.*"))
+
+
+def copy_results(origin, folder):
+    """Copy all that a run has made."""
+    for part in MADE:
+        shutil.copytree(origin / part, folder / part, symlinks=True, dirs_exist_ok=True)
 
 
 def compiled_in(root, origin, folder):

@@ -1,0 +1,37 @@
+"""Runs of the smoke scale, and what they made."""
+
+import subprocess
+import sys
+
+SMOKE = ("--config", "scale=smoke")
+MADE = ("results", "tables", "figures", "paper", ".snakemake")
+
+
+def reproduce(folder, *words, command="all"):
+    started = [sys.executable, str(folder / "reproduce"), command, *SMOKE, *words]
+    with (folder / "out.log").open("ab") as out:
+        return subprocess.Popen(started, cwd=folder, stdout=out, stderr=out, start_new_session=True)
+
+
+def told(folder):
+    return (folder / "out.log").read_text()[-5000:]
+
+
+def products(folder):
+    found = [*(folder / "tables" / "smoke").iterdir(), *(folder / "figures" / "smoke").glob("*.csv")]
+    return {path.name: path.read_bytes() for path in found}
+
+
+def manifest_of(folder):
+    """Return the list of results with their hashes; two runs of the same code have the same."""
+    return (folder / "results" / "smoke" / "MANIFEST.sha256").read_text()
+
+
+def names(folder):
+    """Return the names of all files but those that only some runs have: Snakemake's own, reports, caches."""
+    places = ("results", "tables", "figures", "paper", ".snakemake/scripts", ".cache/tmp")
+    return {str(path.relative_to(folder)) for place in places for path in (folder / place).rglob("*")}
+
+
+def accounts(folder):
+    return list((folder / "results" / "smoke" / "logs").rglob("*.json"))

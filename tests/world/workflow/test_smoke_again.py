@@ -1,0 +1,124 @@
+"""The smoke scale goes on where a part of it is lost: on a cluster, after kills; and not from damaged files.
+
+What was made is compared with a copy of the unbroken run that no test changes.
+"""
+
+import os
+import random
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from experiments.running.logs import read_account
+
+from .cluster import cluster_in
+from .conftest import copy_results
+from .smoke import SMOKE, accounts, manifest_of, names, products, reproduce, told
+
+KILLS = 5
+LONGEST_S = 20.0
+FIGURES = ("figures/smoke/drift.csv", "tables/smoke/coverage.csv", "tables/smoke/table_11.csv")
+LOST = (  # walks of a test and walks that a network learns from: jobs of most kinds run again
+    "results/smoke/plant/recordings/foot_hold",
+    "results/smoke/robot_1/recordings/robot_walk_plain",
+    "results/smoke/robot_1/networks/MOB-Net-plain-LL-s101",
+    "results/smoke/scores/foot_hold",
+    *FIGURES,
+)
+WHOLE_CLUSTER, LONGER = "MOBNET_WHOLE_CLUSTER", 1.5  # asks for the whole line on a cluster; its time by the local one
+
+pytestmark = [pytest.mark.slow, pytest.mark.sim]
+
+
+@pytest.fixture(scope="module")
+def unbroken(smoke_run):
+    """The project in which the smoke scale ran, as it was at the end of the run."""
+    return smoke_run / "kept"
+
+
+def test_damaged_recording_stops_with_one_line_and_nothing_half_written(unbroken, make_project, snakemake):
+    folder = make_project("damaged", unbroken)
+    own = Path("results") / "smoke" / "plant"
+    place = own / "recordings" / "forward_walk" / "ideal"
+    for made in (place, own / "residuals" / "forward_walk" / "ideal"):
+        shutil.copytree(unbroken / made, folder / made)
+    whole = (unbroken / place / "s101.parquet").read_bytes()
+    (folder / place / "s101.parquet").write_bytes(whole[: len(whole) // 2])
+    target = str(own / "estimates" / "forward_walk" / "ideal")
+    done = snakemake(*SMOKE, "--rerun-triggers", "mtime", "--", target, folder=folder)
+    assert done.returncode != 0
+    assert (done.stdout + done.stderr).count(f"{place}/s101.parquet: truncated or damaged") == 1
+    assert not (folder / target).exists()
+
+
+def run_on_cluster(folder, place, *targets):
+    """Make targets of a project on a cluster of this machine, whose files go to a place; return how long it took [s].
+
+    At this scale trainings take seconds, so that they go into the queue together too.
+    """
+    groups = (
+        "motions=20", "walks=25", "residuals=25", "fits=10", "networks=33", "estimates=120", "scores=20", "tables=100",
+    )  # fmt: skip
+    words = ["--profile", "workflow/profiles/slurm", "--cores", "1"]
+    command = [sys.executable, str(folder / "reproduce"), *targets, *SMOKE, *words, "--group-components", *groups]
+    with cluster_in(place) as cluster, (folder / "out.log").open("w") as out:
+        before = time.monotonic()
+        done = subprocess.run(cluster.words(*command), cwd=folder, stdout=out, stderr=out, check=False)
+    assert done.returncode == 0, told(folder)
+    return time.monotonic() - before
+
+
+def with_losses(make_project, unbroken, name):
+    """Return a copy of a project with its results, of which some are lost."""
+    folder = make_project(name, unbroken)
+    copy_results(unbroken, folder)
+    for place in (folder / name for name in LOST):
+        shutil.rmtree(place) if place.is_dir() else place.unlink()
+    return folder
+
+
+def numbers_below(place):
+    """Return the content of a file, or of all files of a folder but notes, which tell when and where they were made."""
+    found = place.rglob("*") if place.is_dir() else [place]
+    return {path.name: path.read_bytes() for path in found if path.is_file() and path.suffix != ".json"}
+
+
+def test_a_cluster_makes_the_same_files(unbroken, make_project, tmp_path_factory):
+    folder = with_losses(make_project, unbroken, "on_cluster")
+    run_on_cluster(folder, tmp_path_factory.mktemp("cluster"), *FIGURES)
+    for place in LOST:
+        assert numbers_below(folder / place) == numbers_below(unbroken / place) != {}
+    assert products(folder) == products(unbroken)
+
+
+if WHOLE_CLUSTER in os.environ:  # it takes as long as all other tests together
+
+    def test_a_cluster_makes_all_files_in_half_as_much_time_again(unbroken, make_project, tmp_path_factory):
+        folder = make_project("all_on_cluster", unbroken)
+        took_s = run_on_cluster(folder, tmp_path_factory.mktemp("cluster"), "all")
+        assert products(folder) == products(unbroken)
+        assert manifest_of(folder) == manifest_of(unbroken)
+        jobs = [read_account(path) for path in accounts(unbroken)]
+        assert took_s <= LONGER * (max(job.end_s for job in jobs) - min(job.start_s for job in jobs))
+
+
+def test_killed_at_random_moments_ends_with_the_same_tables(unbroken, make_project):
+    folder = with_losses(make_project, unbroken, "killed")
+    moments = random.Random(2023)
+    for kill in range(KILLS):
+        run = reproduce(folder, "--cores", "1")
+        time.sleep(moments.uniform(1.0, LONGEST_S))
+        if kill % 2:
+            os.killpg(run.pid, signal.SIGKILL)
+        else:
+            run.kill()  # its jobs live on until they end
+        run.wait()
+    assert reproduce(folder, "--cores", "3").wait() == 0, told(folder)  # whatever the number of cores is
+    assert products(folder) == products(unbroken)
+    assert manifest_of(folder) == manifest_of(unbroken)
+    assert names(folder) == names(unbroken)
