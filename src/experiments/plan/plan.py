@@ -31,7 +31,7 @@ PRECISION = Path("state") / "precision.json"  # below the results of a scale
 STACKS = Path("state") / "stacks.json"
 ROOT = ("README.md", "CONTRIBUTING.md", "CHANGELOG.md", "CITATION.cff", "SECURITY.md", "paper/README.md")
 DOCUMENTS = "docs/**/*.*"
-# All of them: docstrings and settings are shown, which the hash of the code leaves out.
+# All of them: docstrings and bounds are shown, which the hash of the code leaves out.
 MODULES = ("src/mobnet/**/*.py", "src/experiments/**/*.py")
 CLAIMS_PAGE = (
     "claims.html",

@@ -51,6 +51,8 @@ LOGGERS = frozenset({"log", "logging", "warnings"})
 LEVELS = frozenset({"debug", "info", "warning", "warn", "error", "exception", "critical", "log"})
 ERROR_TEXTS = frozenset({not_accepted.__name__, misfit.__name__})  # functions that return the text of an error
 ANNOTATIONS = frozenset({"annotation", "returns"})  # fields of syntax trees
+DEFAULTS = ("default", "default_factory")  # of what a field is declared with
+NO_DEFAULT = ast.Constant(...)
 CHECK = "problems"  # end of the name of a function that checks
 
 
@@ -155,21 +157,10 @@ def read_class(node: ast.ClassDef, reader: Reader, *, is_type: bool) -> None:
         if isinstance(statement, ast.AnnAssign):
             reader.note(statement.annotation)
             if not is_type:
-                read_field(statement, reader)
+                reader.read(statement.target)
+                reader.read(statement.value or NO_DEFAULT)
         elif not is_idle(statement) and not is_check(statement):
             reader.read(statement)
-
-
-def read_field(statement: ast.AnnAssign, reader: Reader) -> None:
-    """Read name and default of a field, without its bounds."""
-    reader.read(statement.target)
-    value = statement.value
-    if isinstance(value, ast.Call) and isinstance(value.func, ast.Name) and value.func.id == "Field":
-        for keyword in value.keywords:
-            if keyword.arg in ("default", "default_factory"):
-                reader.read(keyword.value)
-    elif value is not None:
-        reader.read(value)
 
 
 @functools.cache
@@ -228,8 +219,8 @@ class Reader:
 
     @property
     def digest(self) -> bytes:
-        """Hash of the words."""
-        return hashlib.sha256(" ".join(self.words).encode()).digest()
+        """Hash of the words; empty without any, so that it is the same whether a bound has a name or not."""
+        return hashlib.sha256(" ".join(self.words).encode()).digest() if self.words else b""
 
     def read(self, node: ast.AST) -> None:
         """Add a node with all below it."""
@@ -262,7 +253,7 @@ class Reader:
         self.types |= inner.values
 
     def _prepare(self, node: ast.AST) -> None:
-        """Take the texts out of an error, and note what a node uses and imports."""
+        """Take the texts out of an error and the bounds out of a field, and note what a node uses and imports."""
         if isinstance(node, ast.Name):
             self.values.add(node.id)
         elif isinstance(node, ast.Attribute):
@@ -270,9 +261,12 @@ class Reader:
                 self.values.add(f"{node.value.id}.{node.attr}")
         elif isinstance(node, ast.Raise) and isinstance(node.exc, ast.Call):
             node.exc = node.exc.func
-        elif isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id in ERROR_TEXTS:
-            node.args = []
-            node.keywords = []
+        elif isinstance(node, ast.Call) and isinstance(node.func, ast.Name):
+            if node.func.id in ERROR_TEXTS:
+                node.args = []
+                node.keywords = []
+            elif node.func.id == "Field" and self.is_declaring:
+                node.keywords = [keyword for keyword in node.keywords if keyword.arg in DEFAULTS]
         elif isinstance(node, ast.Import | ast.ImportFrom):
             self.imports.update(imported(node))
 

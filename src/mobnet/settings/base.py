@@ -1,8 +1,8 @@
 """What every section of the configuration is made of: frozen classes, bounded numbers, names that must exist elsewhere.
 
 A unit stands at the end of a field's name. Bounds are wide: what a humanoid or an arm of any size may need lies inside,
-a wrong unit (mm, ms, kHz, deg for rad) outside. Sections hold values and their checks, no computation: their code is
-not part of a rule's code hash, their values are parameters of every rule that takes them.
+a wrong unit (mm, ms, kHz, deg for rad) outside. Values of sections are parameters of every rule that takes them. So
+bounds and checks are in no hash of code; methods are in that of the code that gets the section (`mobnet.core.source`).
 """
 
 from dataclasses import dataclass
