@@ -11,9 +11,9 @@ from experiments.evaluation.report.compute import HOUR_S, WHOLE
 from experiments.evaluation.report.cost import costs
 from experiments.evaluation.report.machines import ASKED, PAGE, block_of, row, table
 from experiments.evaluation.report.paper import missing_packages
-from experiments.evaluation.report.rates import RATES, RatesNote
 from experiments.plan.dry_run import dry_run
 from experiments.plan.plan import make_plan
+from experiments.plan.prices import RATES, RatesNote
 from experiments.plan.work import works_of
 from experiments.settings.load import load_settings
 from mobnet.core.notes import read_note

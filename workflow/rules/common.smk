@@ -15,6 +15,7 @@ from experiments.evaluation.report.paper import missing_packages
 from experiments.jobs.method_problems import method_problems
 from experiments.plan.dry_run import PlannedJob
 from experiments.plan.files import made_by_jobs
+from experiments.plan.limits import limits
 from experiments.plan.plan import (
     auto_precision,
     make_plan,
@@ -86,6 +87,7 @@ try:
     SETTINGS = with_precision(SETTINGS, PRECISION)
     SETTINGS = with_stacks(SETTINGS, Path("results") / SETTINGS.scale, GPUS)
     PLAN = make_plan(SETTINGS, with_pdf=not missing_packages())
+    LIMITS = limits(PLAN)
 except MobnetError as error:
     sys.exit(str(error))
 
@@ -160,11 +162,6 @@ def needed(job, *names):
 def code(module):
     """Return what a job reruns on besides its files and arguments: the code of a module and of all that it imports."""
     return lambda w: code_hash(module)
-
-
-def growing(memory_mb):
-    """Return what a job asks for in memory [MB], each time it is sent again as much more."""
-    return lambda wildcards, attempt: attempt * memory_mb
 
 
 def shown(figure):

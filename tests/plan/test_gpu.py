@@ -4,11 +4,11 @@ from pathlib import Path
 
 import pytest
 
-from experiments.evaluation.report.gpu import GPU_RATES, GpuNote, GpuRates, fitted
+from experiments.plan.gpu import GPU_RATES, GpuNote, GpuRates, fitted
 from experiments.plan.work import OnGpu
 from mobnet.core.notes import read_note
 
-ROOT = Path(__file__).parents[3]
+ROOT = Path(__file__).parents[2]
 
 
 @pytest.fixture
