@@ -147,7 +147,7 @@ onsuccess:
 onerror:
     if not workflow.local_exec and not STOPPED.is_set():
         had = {
-            job.rule.name: {name: job.resources.get(name) for name in LIMITED}
+            str(job.log): {name: job.resources.get(name) for name in LIMITED}
             for job in workflow.dag.needrun_jobs()
         }
         for line in failed_jobs(ROOT, STARTED_S, had):

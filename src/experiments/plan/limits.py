@@ -4,7 +4,6 @@ import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cache
-from typing import Any
 
 from experiments.plan.dry_run import PlannedJob
 from experiments.plan.gpu import GPU_RATES, GpuNote, GpuRates, fitted
