@@ -14,7 +14,7 @@ from mobnet.core.notes import read_note
 
 MARGIN = 2.0  # prices are those of one processor, and what a job takes differs from the average of its kind
 GPU_MARGIN = 4.0  # those of a GPU are of a prototype on an H200, and most GPUs are half as fast or slower
-SNAKEMAKE_MB = 250.0  # what Snakemake itself holds beside each job
+SNAKEMAKE_MB = 300.0  # what Snakemake itself holds beside a job: twice 210 MB, of which 140 are shared
 LEAST_MIN = 10  # a job may wait for a slow disk at its start, and compile for minutes
 LEAST_MB = 2000  # most clusters give so much with a core, and jobs of a kind differ: a score takes 260 to 640 MB
 LEAST_GPU_MB = 12_000  # CUDA and its libraries, which nobody measured here
