@@ -147,8 +147,7 @@ onsuccess:
 onerror:
     if not workflow.local_exec and not STOPPED.is_set():
         had = {
-            str(job.log): {name: job.resources.get(name) for name in LIMITED}
-            for job in workflow.dag.needrun_jobs()
+            str(job.log): {name: job.resources.get(name) for name in LIMITED} for job in workflow.dag.needrun_jobs()
         }
         for line in failed_jobs(ROOT, STARTED_S, had):
             sys.stderr.write(f"{line}\n")

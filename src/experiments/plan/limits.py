@@ -21,18 +21,18 @@ LEAST_GPU_MB = 12_000  # CUDA and its libraries, which nobody measured here
 UNPRICED_S, UNPRICED_MB = 1800.0, 2000.0  # of jobs that the published run did not have: trials and films
 MINUTE_S = 60.0
 MB_OF_MIB = 2**20 / 1e6
-Asked = dict[str, Callable[..., int]]  # resource -> what a job asks for, from its wildcards and its attempt
+Resources = dict[str, Callable[..., int]]  # resource -> what a job asks for, from its wildcards and its attempt
 
 
 @dataclass(frozen=True)
-class Limits:
+class JobLimits:
     """The limits of the jobs of a plan; without rates of a GPU, no network learns there."""
 
     plan: Plan
     rates: RatesNote
     gpu: GpuRates | None
 
-    def of(self, name: str) -> Asked:
+    def of(self, name: str) -> Resources:
         """Return what jobs ask for in a rule, at each attempt as much more.
 
         Args:
@@ -67,11 +67,11 @@ class Limits:
         return priced(self.plan, self.rates, self.gpu, [job])[0]
 
 
-def limits(plan: Plan) -> Limits:
+def limits(plan: Plan) -> JobLimits:
     """Return the limits of the jobs of a plan, by the rates of the published run.
 
     Raises:
         DataError: rates are missing or damaged.
     """
     gpu = fitted(read_note(ROOT / GPU_RATES, GpuNote)) if plan.settings.stacks.side_by_side else None
-    return Limits(plan, read_note(ROOT / RATES, RatesNote), gpu)
+    return JobLimits(plan, read_note(ROOT / RATES, RatesNote), gpu)
