@@ -8,8 +8,7 @@ rule motion:
     group:
         "motions"
     resources:
-        mem_mb=growing(500),
-        runtime=20,
+        **LIMITS.of("motion"),
     params:
         given=JOBS.motion,
         code=code("motion"),
@@ -29,8 +28,7 @@ rule collect:
     group:
         "walks"
     resources:
-        mem_mb=growing(2400),
-        runtime=60,
+        **LIMITS.of("collect"),
         disk_mb=SIZES.recordings,
     params:
         given=JOBS.collect,
@@ -51,8 +49,7 @@ rule observe:
     group:
         "residuals"
     resources:
-        mem_mb=growing(1000),
-        runtime=15,
+        **LIMITS.of("observe"),
         disk_mb=SIZES.residuals,
     params:
         given=JOBS.observe,

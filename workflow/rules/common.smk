@@ -15,6 +15,7 @@ from experiments.evaluation.report.paper import missing_packages
 from experiments.jobs.method_problems import method_problems
 from experiments.plan.dry_run import PlannedJob
 from experiments.plan.files import made_by_jobs
+from experiments.plan.limits import limits
 from experiments.plan.plan import (
     auto_precision,
     make_plan,
@@ -92,6 +93,7 @@ try:
     SETTINGS = with_precision(SETTINGS, PRECISION)
     SETTINGS = with_stacks(SETTINGS, Path("results") / SETTINGS.scale, GPUS)
     PLAN = make_plan(SETTINGS, with_pdf=not missing_packages())
+    LIMITS = limits(PLAN)
 except MobnetError as error:
     sys.exit(str(error))
 
@@ -155,8 +157,7 @@ onsuccess:
 onerror:
     if not workflow.local_exec and not STOPPED.is_set():
         had = {
-            job.rule.name: {name: job.resources.get(name) for name in LIMITED}
-            for job in workflow.dag.needrun_jobs()
+            str(job.log): {name: job.resources.get(name) for name in LIMITED} for job in workflow.dag.needrun_jobs()
         }
         for line in failed_jobs(ROOT, STARTED_S, had):
             sys.stderr.write(f"{line}\n")
@@ -184,11 +185,6 @@ def code(script, further=lambda w: []):
     What a script imports by a name that wildcards give, `further` says.
     """
     return lambda w: code_hash(ROOT / "workflow" / "scripts" / f"{script}.py", *further(w))
-
-
-def growing(memory_mb):
-    """Return what a job asks for in memory [MB], each time it is sent again as much more."""
-    return lambda wildcards, attempt: attempt * memory_mb
 
 
 def shown(figure):

@@ -9,8 +9,7 @@ rule detect:
     group:
         "scores"
     resources:
-        mem_mb=growing(3000),
-        runtime=20,
+        **LIMITS.of("detect"),
     params:
         given=JOBS.detect,
         code=code("detect"),
@@ -30,8 +29,7 @@ rule watch:
     group:
         "scores"
     resources:
-        mem_mb=growing(3000),
-        runtime=20,
+        **LIMITS.of("watch"),
     params:
         given=JOBS.watch,
         code=code("watch", JOBS.watched_by),
@@ -54,8 +52,7 @@ rule react:
     group:
         "scores"
     resources:
-        mem_mb=growing(3000),
-        runtime=60,
+        **LIMITS.of("react"),
     params:
         given=JOBS.react,
         code=code("react", JOBS.watched_by),

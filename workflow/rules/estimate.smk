@@ -11,8 +11,7 @@ rule estimate:
     group:
         "estimates"
     resources:
-        mem_mb=growing(4000),
-        runtime=30,
+        **LIMITS.of("estimate"),
         disk_mb=SIZES.estimates,
     params:
         given=JOBS.estimate,
@@ -32,8 +31,7 @@ rule score:
     group:
         "scores"
     resources:
-        mem_mb=growing(500),
-        runtime=5,
+        **LIMITS.of("score"),
     params:
         given=JOBS.score,
         code=code("score", JOBS.measured_by),

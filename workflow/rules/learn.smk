@@ -15,8 +15,7 @@ rule fit:
     group:
         "fits"
     resources:
-        mem_mb=growing(4000),
-        runtime=10,
+        **LIMITS.of("fit"),
     params:
         given=JOBS.fit,
         code=code("fit", lambda w: JOBS.modules_of(w, [w.method])),
@@ -39,8 +38,7 @@ rule train_stack:
     group:
         "stacks"
     resources:
-        mem_mb=growing(12000),
-        runtime=240,
+        **LIMITS.of("train_stack"),
         gpu=min(GPUS, 1),
     params:
         given=JOBS.train_stack,
@@ -68,8 +66,7 @@ rule train:
     group:
         NETWORKS
     resources:
-        mem_mb=growing(6000),
-        runtime=60,
+        **LIMITS.of("train"),
         gpu=lambda w: 0 if "lesson" in JOBS.train(w) else min(GPUS, 1),
     params:
         given=JOBS.train,
@@ -97,8 +94,7 @@ rule train_gray:
     group:
         NETWORKS
     resources:
-        mem_mb=growing(6000),
-        runtime=60,
+        **LIMITS.of("train"),
         gpu=lambda w: 0 if "lesson" in JOBS.train_gray(w) else min(GPUS, 1),
     params:
         given=JOBS.train_gray,

@@ -12,8 +12,7 @@ rule deviations:
     group:
         "tables"
     resources:
-        mem_mb=growing(1700),
-        runtime=10,
+        **LIMITS.of("deviations"),
     params:
         **PLAN.product("deviations").params,
     script:
@@ -28,6 +27,8 @@ use rule deviations as numbers with:
         [flagged(name) for name in PLAN.product("numbers").outputs],
     log:
         "<logs>/numbers.log",
+    resources:
+        **LIMITS.of("numbers"),
     params:
         **PLAN.product("numbers").params,
 
@@ -40,6 +41,8 @@ use rule deviations as compute with:
         [flagged(name) for name in PLAN.product("compute").outputs],
     log:
         "<logs>/compute.log",
+    resources:
+        **LIMITS.of("compute"),
     params:
         **PLAN.product("compute").params,
 
@@ -55,6 +58,8 @@ use rule deviations as paper with:
         [flagged(name) for name in PLAN.product("paper").outputs],
     log:
         "<logs>/paper.log",
+    resources:
+        **LIMITS.of("paper"),
     params:
         **PLAN.product("paper").params,
 
@@ -69,6 +74,8 @@ use rule deviations as runs_page with:
         [flagged(name) for name in PLAN.product("runs_page").outputs],
     log:
         "<logs>/runs_page.log",
+    resources:
+        **LIMITS.of("runs_page"),
     params:
         **PLAN.product("runs_page").params,
 
@@ -81,6 +88,8 @@ use rule deviations as wandb_runs with:
         [flagged(name) for name in PLAN.product("wandb_runs").outputs],
     log:
         "<logs>/wandb_runs.log",
+    resources:
+        **LIMITS.of("wandb_runs"),
     params:
         **PLAN.product("wandb_runs").params,
 
@@ -93,6 +102,8 @@ use rule deviations as demo_data with:
         [flagged(name) for name in PLAN.product("demo_data").outputs],
     log:
         "<logs>/demo_data.log",
+    resources:
+        **LIMITS.of("demo_data"),
     params:
         **PLAN.product("demo_data").params,
 
@@ -105,6 +116,8 @@ use rule deviations as explore with:
         [flagged(name) for name in PLAN.product("explore").outputs],
     log:
         "<logs>/explore.log",
+    resources:
+        **LIMITS.of("explore"),
     params:
         **PLAN.product("explore").params,
 
@@ -117,6 +130,8 @@ use rule deviations as pages with:
         [flagged(name) for name in PLAN.product("pages").outputs],
     log:
         "<logs>/pages.log",
+    resources:
+        **LIMITS.of("pages"),
     params:
         **PLAN.product("pages").params,
 
@@ -130,5 +145,7 @@ use rule deviations as manifest with:
         [flagged(name) for name in PLAN.product("manifest").outputs],
     log:
         "<logs>/manifest.log",
+    resources:
+        **LIMITS.of("manifest"),
     params:
         **PLAN.product("manifest").params,

@@ -13,8 +13,7 @@ rule table:
     group:
         "tables"
     resources:
-        mem_mb=growing(1700),
-        runtime=10,
+        **LIMITS.of("{table}"),
     params:
         function=lambda w: PLAN.product(w.table).function,
         given=lambda w: PLAN.product(w.table).arguments,
@@ -33,6 +32,8 @@ use rule table as figure with:
         "<logs>/figure/{figure}.log",
     wildcard_constraints:
         figure=one_of(PLAN.made_by("figure")),
+    resources:
+        **LIMITS.of("{figure}"),
     params:
         function=lambda w: PLAN.product(w.figure).function,
         given=lambda w: PLAN.product(w.figure).arguments,
@@ -68,6 +69,8 @@ use rule table as figure_10 with:
         [flagged(name) for name in PLAN.product("figure_10").outputs],
     log:
         "<logs>/figure/figure_10.log",
+    resources:
+        **LIMITS.of("figure_10"),
     params:
         **PLAN.product("figure_10").params,
 
@@ -80,6 +83,8 @@ use rule table as bode with:
         [flagged(name) for name in PLAN.product("bode").outputs],
     log:
         "<logs>/figure/bode.log",
+    resources:
+        **LIMITS.of("bode"),
     params:
         **PLAN.product("bode").params,
 
@@ -94,6 +99,8 @@ use rule table as claims with:
         [flagged(name) for name in PLAN.product("claims").outputs],
     log:
         "<logs>/table/claims.log",
+    resources:
+        **LIMITS.of("claims"),
     params:
         **PLAN.product("claims").params,
 
@@ -106,6 +113,8 @@ use rule table as pictures with:
         [flagged(name) for name in PLAN.product("pictures").outputs],
     log:
         "<logs>/figure/pictures.log",
+    resources:
+        **LIMITS.of("pictures"),
     params:
         **PLAN.product("pictures").params,
 

@@ -10,8 +10,7 @@ rule falls:
     group:
         "walks"
     resources:
-        mem_mb=growing(2400),
-        runtime=30,
+        **LIMITS.of("falls"),
     params:
         given=JOBS.falls,
         code=code("falls"),
@@ -29,6 +28,8 @@ use rule table as trial with:
         "<logs>/trials/{trial}.log",
     wildcard_constraints:
         trial=one_of(PLAN.made_by("trial")),
+    resources:
+        **LIMITS.of("{trial}"),
     params:
         function=lambda w: PLAN.product(w.trial).function,
         given=lambda w: PLAN.product(w.trial).arguments,
@@ -43,6 +44,8 @@ use rule deviations as films with:
         [flagged(name) for name in PLAN.product("films").outputs],
     log:
         "<logs>/films.log",
+    resources:
+        **LIMITS.of("films"),
     params:
         **PLAN.product("films").params,
 
@@ -57,5 +60,7 @@ use rule deviations as docs with:
         [flagged(name) for name in PLAN.product("docs").outputs],
     log:
         "<logs>/docs.log",
+    resources:
+        **LIMITS.of("docs"),
     params:
         **PLAN.product("docs").params,

@@ -32,7 +32,7 @@ MEMORY = Limit("mem_mb", "ended by SLURM above its", "MB")
 TIME = Limit("runtime", "ended by SLURM after its", "min")
 LIMITS = {"memory limit": MEMORY, "oom_kill": MEMORY, "oom-kill": MEMORY, "TIME LIMIT": TIME}  # by SLURM's words
 LIMITED = tuple(dict.fromkeys(limit.resource for limit in LIMITS.values()))
-Had = Mapping[str, Mapping[str, int]]  # rule -> resource -> what its jobs asked for
+Had = Mapping[str, Mapping[str, int]]  # a job's own log -> resource -> what the job asked for
 
 
 def warm_cache(python: str, root: Path, jobs: int) -> None:
@@ -54,7 +54,7 @@ def failed_jobs(root: Path, since_s: float, had: Had) -> Iterator[str]:
             continue
         rule, *place = [block["rule"]] if block else placed(path.relative_to(root / LOGS).parts)
         kind, name = named(log) if log else (rule, *place, "")[:2]
-        yield f"{f'{kind} ({name})' if name else kind}: {reason(text, kind, had.get(rule, {}))} (log: {path})"
+        yield f"{f'{kind} ({name})' if name else kind}: {reason(text, kind, had.get(log, {}))} (log: {path})"
 
 
 def last_attempts(root: Path, since_s: float) -> list[tuple[Path, str]]:

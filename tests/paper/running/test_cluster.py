@@ -7,7 +7,10 @@ import pytest
 
 from experiments.running.cluster import FEW, LOGS, failed_jobs, warm_cache
 
-HAD = {"train": {"mem_mb": 100, "runtime": 30}}
+HAD = {  # jobs of a rule ask for different limits
+    "results/smoke/logs/train/MOB-Net-LL-s0.log": {"mem_mb": 100, "runtime": 30},
+    "results/smoke/logs/train/robot_1/MOB-Net-LL-s0.log": {"mem_mb": 300, "runtime": 90},
+}
 HEADER = "  Command: python -m snakemake --target-jobs {job} --allowed-rules train --cores 2 --attempt {attempt}\n"
 BEGUN = """
 [Wed Nov 25 03:24:21 2026]
@@ -53,10 +56,10 @@ def test_the_reason_is_told_with_a_remedy_where_there_is_one(tmp_path, text, why
 
 
 @pytest.mark.parametrize(("text", "place", "says"), [
-    (OVER, "rule_train/_MOB-Net_LL_0", f"train (MOB-Net_LL_0): ended by SLURM above its 100 MB; {MORE} train:mem_mb="),
+    (OVER, "rule_train/_MOB-Net_LL_0", f"train (MOB-Net_LL_0): ended by SLURM above its limit; {MORE} train:mem_mb=MB"),
     ("", "rule_train/_MOB-Net_LL_0", "train (MOB-Net_LL_0): no word of why (log: "),
     (OVER, "rule_table_05", f"table_05: ended by SLURM above its limit; {MORE} table_05:mem_mb=MB"),
-], ids=["before Snakemake began", "without a word", "without a known limit"])  # fmt: skip
+], ids=["before Snakemake began", "without a word", "without wildcards"])  # fmt: skip
 def test_a_job_is_named_by_its_place_whatever_it_says(tmp_path, text, place, says):
     (told,) = told_of(tmp_path, text, place=place)
     assert told.startswith(says)
@@ -66,7 +69,7 @@ def test_of_a_group_the_job_is_named_that_did_not_end(tmp_path):
     text = BEGUN.format(rule="collect", log="collect/s1", number=3) + "Finished jobid: 3 (Rule: collect)\n"
     text += BEGUN.format(rule="train", log="train/robot_1/MOB-Net-LL-s0", number=4) + OVER
     (told,) = told_of(tmp_path, text, place="group_walks")
-    assert told.startswith("train (robot_1/MOB-Net-LL-s0): ended by SLURM above its 100 MB")
+    assert told.startswith("train (robot_1/MOB-Net-LL-s0): ended by SLURM above its 300 MB")
 
 
 def test_of_a_group_the_job_is_named_that_snakemake_names(tmp_path):

@@ -11,9 +11,11 @@ from experiments.evaluation.report.compute import HOUR_S, WHOLE
 from experiments.evaluation.report.cost import costs
 from experiments.evaluation.report.machines import ASKED, PAGE, block_of, row, table
 from experiments.evaluation.report.paper import missing_packages
-from experiments.evaluation.report.rates import RATES, RatesNote
 from experiments.plan.dry_run import dry_run
+from experiments.plan.gpu import GPU_RATES, GpuNote, fitted
+from experiments.plan.limits import MB_OF_MIB, MINUTE_S, SNAKEMAKE_MB
 from experiments.plan.plan import make_plan
+from experiments.plan.prices import RATES, RatesNote, kind_of, priced
 from experiments.plan.work import works_of
 from experiments.settings.load import load_settings
 from mobnet.core.notes import read_note
@@ -218,6 +220,28 @@ def test_each_larger_scale_costs_more_and_quick_fits_into_its_hour(planned):
         _, found[scale], _ = costs(works_of(plan, planned(scale)), rates)[WHOLE]
     assert list(found.values()) == sorted(set(found.values()))
     assert found["quick"] < QUICK_S
+
+
+@pytest.mark.parametrize(("scale", "side_by_side"), [*((scale, False) for scale in SCALES), ("paper", True)])
+def test_no_job_takes_more_than_half_of_what_it_asks_for(planned, scale, side_by_side):
+    """By its price, in memory and time: a slower processor, or a job that takes more than others of its kind, may."""
+    stacks = {"side_by_side": side_by_side}
+    plan = make_plan(load_settings(overrides={"scale": scale, "stacks": stacks}), with_pdf=not missing_packages())
+    rates = read_note(ROOT / RATES, RatesNote)
+    gpu = fitted(read_note(ROOT / GPU_RATES, GpuNote)) if side_by_side else None
+    jobs = priced(plan, rates, gpu, planned(scale, side_by_side=side_by_side))
+    assert [job.work.job for job in jobs if kind_of(job.work, rates.kinds) is None] == []
+    over = []
+    for job in jobs:
+        asked = job.planned.resources
+        held_mb = job.peak_mib * MB_OF_MIB + SNAKEMAKE_MB
+        minutes = (job.cpu_s + job.gpu_s) / MINUTE_S
+        if 2 * held_mb > int(asked["mem_mb"]) or 2 * minutes > int(asked["runtime"]):
+            over.append(
+                f"{job.work.job}: {held_mb:.0f} of {asked['mem_mb']} MB, {minutes:.0f} of {asked['runtime']} min"
+            )
+    assert len(jobs) > len(rates.kinds)
+    assert over == []
 
 
 @pytest.mark.parametrize(("given", "message"), [

@@ -10,22 +10,21 @@ import logging
 import sys
 from argparse import Namespace
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
 from typing import Any
 
 import yaml
 
 from experiments.evaluation.report.compute import HOUR_S, STAGES, WHOLE, stage_of
-from experiments.evaluation.report.gpu import GPU_RATES, GpuNote, GpuRates
-from experiments.evaluation.report.gpu import fitted as fitted_rates
 from experiments.evaluation.report.paper import missing_packages
-from experiments.evaluation.report.rates import RATES, Kind, RatesNote, price
 from experiments.evaluation.tables.layout import markdown_table
 from experiments.plan.dry_run import PlannedJob, dry_run
+from experiments.plan.gpu import GPU_RATES, GpuNote, GpuRates
+from experiments.plan.gpu import fitted as fitted_rates
 from experiments.plan.plan import Plan, make_plan
+from experiments.plan.prices import RATES, Kind, Priced, RatesNote, kind_of, price, priced
 from experiments.plan.room import RESOURCE, share_at_once
 from experiments.plan.schedule import TimedJob, elapsed_s
-from experiments.plan.work import SECONDS, OnGpu, Work, on_gpu, works_of
+from experiments.plan.work import Work, works_of
 from experiments.running.words import cost_parser, scale_of_targets
 from experiments.settings.load import load_settings
 from mobnet.core.errors import ConfigError, DataError
@@ -43,28 +42,6 @@ STEPS_UNIT = 1e9
 PERCENT = 100.0
 Cost = tuple[int, float, float]  # jobs, processor time [s], largest peak of the memory [MiB]
 STACK, TRAINING = "train_stack", ("train", "train_gray")  # rules
-LIKE = {STACK: "train"}  # kind of jobs -> that whose rates count where it has none: both read and are prepared
-
-
-@dataclass(frozen=True)
-class Priced:
-    """A job with its price.
-
-    Attributes:
-        planned: the job.
-        work: what it has to do; of a training on a GPU what a core does.
-        cpu_s: processor time [s].
-        peak_mib: peak of the memory [MiB].
-        on_gpu: what a GPU does.
-        gpu_s: time of the GPU [s].
-    """
-
-    planned: PlannedJob
-    work: Work
-    cpu_s: float
-    peak_mib: float
-    on_gpu: OnGpu | None = None
-    gpu_s: float = 0.0
 
 
 def costs(works: Iterable[Work], kinds: Mapping[str, Kind]) -> dict[str, Cost]:
@@ -77,24 +54,6 @@ def costs(works: Iterable[Work], kinds: Mapping[str, Kind]) -> dict[str, Cost]:
                 jobs, before_s, most_mib = found[stage]
                 found[stage] = jobs + 1, before_s + cpu_s, max(most_mib, peak_mib)
     return {stage: cost for stage, cost in found.items() if cost[0]}
-
-
-def kind_of(work: Work, kinds: Mapping[str, Kind]) -> Kind | None:
-    """Return the rates of a job's kind, or of the one that is like it; None where there are none."""
-    return kinds.get(work.kind) or kinds.get(LIKE.get(work.kind, work.kind))
-
-
-def priced(plan: Plan, rates: RatesNote, gpu: GpuRates | None, planned: Iterable[PlannedJob]) -> list[Priced]:
-    """Return the jobs of a plan with their prices, none for those without a rate; without a GPU none learns there."""
-    jobs = [job for job in planned if job.name != job.rule or job.outputs[0]]
-    found: list[Priced] = []
-    for job, work in zip(jobs, works_of(plan, jobs), strict=True):
-        there = on_gpu(plan, job) if gpu else None
-        own = replace(work, amounts={SECONDS: work.amounts[SECONDS]}) if there else work
-        kind = kind_of(own, rates.kinds)
-        cpu_s, peak_mib = price(own, kind) if kind else (0.0, 0.0)
-        found.append(Priced(job, own, cpu_s, peak_mib, there, gpu.seconds(there) if gpu and there else 0.0))
-    return found
 
 
 def expected_s(plan: Plan, jobs: Mapping[int, PlannedJob]) -> dict[int, float]:

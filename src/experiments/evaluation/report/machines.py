@@ -10,12 +10,12 @@ from pathlib import Path
 from typing import NamedTuple
 
 from experiments.evaluation.report.compute import HOUR_S
-from experiments.evaluation.report.cost import CORES, CORES_WITH_GPU, priced, time_s, with_stacks
-from experiments.evaluation.report.gpu import GPU_RATES, GpuNote, fitted
-from experiments.evaluation.report.rates import RATES, RatesNote
+from experiments.evaluation.report.cost import CORES, CORES_WITH_GPU, time_s, with_stacks
 from experiments.evaluation.tables.layout import markdown_table
 from experiments.plan.dry_run import PlannedJob, dry_run
+from experiments.plan.gpu import GPU_RATES, GpuNote, fitted
 from experiments.plan.plan import make_plan
+from experiments.plan.prices import RATES, RatesNote, priced
 from experiments.settings.load import load_settings
 from mobnet.core.errors import DataError
 from mobnet.core.files import read_text, write_text

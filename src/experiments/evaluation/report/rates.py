@@ -10,33 +10,11 @@ from numpy.typing import NDArray
 from scipy.optimize import nnls
 
 from experiments.evaluation.report.compute import HOUR_S
+from experiments.plan.prices import HELD, JOB, Kind, RatesNote
 from experiments.plan.work import Work
 from experiments.running.accounts import Account
 from mobnet.core.errors import DataError
-from mobnet.core.notes import Note, NotNegative, Positive, Text
 from mobnet.learning.precision import PROCESSOR
-
-RATES = Path("docs/results/rates.json")
-JOB = "job"  # the amount that every job has once: its start
-HELD = "held"
-Rates = Mapping[str, float]  # amount -> what a unit of it takes
-
-
-class Kind(Note):
-    """What jobs of a kind take for each unit of an amount: processor time [s], and memory at its peak [MiB]."""
-
-    cpu_s: dict[str, NotNegative]
-    peak_mib: dict[str, NotNegative]
-
-
-class RatesNote(Note):
-    """The rates of each kind of job, the processor on which they were measured, and what that whole run took."""
-
-    processor: Text
-    scale: Text
-    core_h: Positive
-    peak_mib: Positive
-    kinds: dict[str, Kind]
 
 
 def measured(scale: str, works: Sequence[Work], jobs: Iterable[Account]) -> RatesNote:
@@ -88,11 +66,12 @@ def _kind(works: Sequence[Work], accounts: Sequence[Account]) -> Kind:
 
 
 def _rates(amounts: Sequence[Mapping[str, float]], taken: Sequence[float]) -> dict[str, float]:
-    """Return what a unit of each amount takes; a single job of its kind has no start of its own."""
+    """Return what a unit of each amount takes; jobs of a kind that all do as much have no start of their own."""
     names: list[str] = []
     for own in amounts:
         names += [name for name, amount in own.items() if amount and name not in names]
-    names = names if len(amounts) == 1 and names else [JOB, *names]
+    are_alike = all(own == amounts[0] for own in amounts)
+    names = names if are_alike and names else [JOB, *names]
     rows: list[list[float]] = []
     for own in amounts:
         known = {JOB: 1.0, **own}
@@ -101,12 +80,3 @@ def _rates(amounts: Sequence[Mapping[str, float]], taken: Sequence[float]) -> di
     largest = columns.max(axis=0)  # amounts of 1 and of 1e12 beside each other would be lost in rounding
     found: NDArray[np.float64] = nnls(columns / largest, np.array(taken))[0] / largest
     return {name: float(rate) for name, rate in zip(names, found, strict=True) if rate > 0}
-
-
-def price(work: Work, kind: Kind) -> tuple[float, float]:
-    """Return the processor time [s] and the peak of the memory [MiB] that a job will take."""
-    return _sum(kind.cpu_s, work.amounts), _sum(kind.peak_mib, {HELD: work.held})
-
-
-def _sum(rates: Rates, amounts: Mapping[str, float]) -> float:
-    return sum(rate * {JOB: 1.0, **amounts}.get(name, 0.0) for name, rate in rates.items())

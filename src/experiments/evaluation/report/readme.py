@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from types import SimpleNamespace
 
-from experiments.evaluation.report.rates import RATES, RatesNote
+from experiments.plan.prices import RATES, RatesNote
 from mobnet.core.columns import (
     CLAIMED,
     HELD,

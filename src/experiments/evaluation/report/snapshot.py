@@ -19,7 +19,7 @@ from experiments.evaluation.report.folder_page import write_page
 from experiments.evaluation.report.manifest import differences, file_hash
 from experiments.evaluation.report.model_card import CARD, card
 from experiments.evaluation.report.paper import missing_packages
-from experiments.evaluation.report.rates import RATES, measured
+from experiments.evaluation.report.rates import measured
 from experiments.evaluation.report.readme import blocks
 from experiments.evaluation.report.single_rows import write_single_rows
 from experiments.evaluation.report.walked import SEEDS, check_seeds, read_history, walked, write_history
@@ -27,6 +27,7 @@ from experiments.plan.demo import FOLDER
 from experiments.plan.detection import all_detections
 from experiments.plan.dry_run import dry_run
 from experiments.plan.plan import make_plan
+from experiments.plan.prices import RATES
 from experiments.plan.reactions import all_reactions
 from experiments.running.one_run import held_folder
 from experiments.plan.work import works_of

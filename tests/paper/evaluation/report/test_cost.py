@@ -10,10 +10,10 @@ import pytest
 
 from experiments.evaluation.report import cost
 from experiments.evaluation.report.cost import main, overrides
-from experiments.evaluation.report.gpu import GPU_RATES
-from experiments.evaluation.report.rates import RATES
 from experiments.plan import dry_run as dry_runs
 from experiments.plan.dry_run import PlannedJob
+from experiments.plan.gpu import GPU_RATES
+from experiments.plan.prices import RATES
 from mobnet.core.errors import ConfigError
 from mobnet.core.files import write_json
 

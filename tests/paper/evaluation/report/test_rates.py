@@ -4,7 +4,8 @@ from pathlib import Path
 
 import pytest
 
-from experiments.evaluation.report.rates import fitted, price, processor
+from experiments.evaluation.report.rates import fitted, processor
+from experiments.plan.prices import price
 from experiments.plan.work import Work
 from experiments.running.accounts import Account
 from mobnet.core.errors import DataError
@@ -48,6 +49,14 @@ def test_a_single_job_grows_with_what_it_reads_and_else_stays(amounts: dict[str,
     kinds = fitted([one], {"coverage": Account("coverage", 0.0, 7.0, 7.0, 7.0, 100.0, succeeded=True)})
     larger = Work("coverage", "coverage", {name: 2 * amount for name, amount in amounts.items()}, 0.0)
     assert price(larger, kinds["coverage"]) == (pytest.approx(twice), pytest.approx(100.0))
+
+
+def test_jobs_that_all_do_as_much_grow_with_it() -> None:
+    """As detectors of robots do: nothing else tells what they take at another scale."""
+    works = [Work(f"detect/{robot}", "detect", {"s": 50.0}, 30.0) for robot in range(3)]
+    took = {work.job: Account(work.job, 0.0, 7.0, 7.0, 7.0, 90.0, succeeded=True) for work in works}
+    larger = Work("detect/0", "detect", {"s": 100.0}, 60.0)
+    assert price(larger, fitted(works, took)["detect"]) == (pytest.approx(14.0), pytest.approx(180.0))
 
 
 def test_a_job_without_an_account_is_named() -> None:
