@@ -9,6 +9,7 @@ import time
 from importlib.metadata import version
 
 from snakemake.cli import get_argument_parser
+from snakemake.logging import logger
 
 from experiments.evaluation.measure.estimates.scores import measure_problems
 from experiments.evaluation.report.paper import missing_packages
@@ -40,6 +41,7 @@ from mobnet.core.detections import FILES
 from mobnet.core.errors import MobnetError
 from mobnet.core.files import check_room as check_folder
 from mobnet.core.machine import gpus_seen
+from mobnet.core.printed import end_where_full, watch_output
 
 ROOT = Path(workflow.current_basedir).parent.parent
 STARTED_S = time.time()
@@ -59,7 +61,10 @@ def is_main():
 def known_words():
     """Return the words of the call as Snakemake takes them apart."""
     refuse_twice(sys.argv[1:])
+    watch_output()
     known, _ = get_argument_parser().parse_known_args(sys.argv[1:])
+    if known.dryrun:
+        end_where_full(logger.handlers)  # it is for what it prints
     return known
 
 

@@ -3,6 +3,7 @@
 import argparse
 import functools
 import re
+import sys
 from collections.abc import Sequence
 from difflib import get_close_matches
 from pathlib import Path
@@ -10,7 +11,6 @@ from typing import NamedTuple
 
 from experiments.commands.install import BUILDS
 from experiments.running.words import (
-    MAIN,
     RESULTS,
     bench_parser,
     check_parser,
@@ -19,6 +19,7 @@ from experiments.running.words import (
     joined,
     list_option,
     results_parser,
+    scale_given,
     value_beside,
 )
 from mobnet.commands import COMMANDS as LAB
@@ -100,7 +101,6 @@ PARSERS = {
 }  # of commands whose module has words of its own
 CONFIG = {"-C", "--config"}
 CORES = {"-c": "all", "--cores": "all", "-j": "unlimited", "--jobs": "unlimited"}  # option -> as many as there are
-SCALE = "scale="  # the key of the configuration that every target follows
 KEY = re.compile(r"[a-zA-Z_]\w+")  # as Snakemake takes it: of two signs or more
 
 
@@ -118,7 +118,8 @@ def parse(words: Sequence[str]) -> Words:
     if first == "help":
         return parse([*words[1:2], "--help"])
     if first in VERSION:
-        overview().exit(0, versions())
+        sys.stdout.write(versions())
+        sys.exit(0)
     if first in HELP:
         overview().print_help()
         overview().exit(0 if words else 2)
@@ -163,8 +164,7 @@ def target_of(word: str, words: Sequence[str]) -> str:
 
 def table_of(trial: str, words: Sequence[str]) -> str:
     """Return the table of a trial at the scale that the words name."""
-    given = [word.removeprefix(SCALE) for word in words if word.startswith(SCALE)]
-    return f"results/{given[-1] if given else MAIN}/trials/{trial}.md"
+    return f"results/{scale_given(words)}/trials/{trial}.md"
 
 
 def overview() -> argparse.ArgumentParser:

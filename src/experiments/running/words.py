@@ -8,6 +8,7 @@ from pathlib import Path
 from mobnet.core.errors import ConfigError, near_names
 
 MAIN = "default"  # the scale whose tables stand where a reader looks for them; others have folders of their own
+SCALE = "scale="  # the key of the configuration that every target follows
 MANIFEST = Path("results/MANIFEST.sha256")
 KINDS = (
     "a recording, residual, estimate, wrench or motion (.parquet with its .json), weights.safetensors, run.json, "
@@ -71,6 +72,7 @@ def cost_parser() -> argparse.ArgumentParser:
         "--config",
         "-C",
         nargs="+",
+        action="extend",
         default=[],
         metavar="KEY=VALUE",
         help="keys of the configuration, such as scale=quick, as ./reproduce all takes them",
@@ -83,9 +85,24 @@ def results_parser(command: str) -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog=f"./reproduce {command}", description=RESULTS[command])
     if command != "compare":
         parser.add_argument(
-            "--manifest", type=Path, default=MANIFEST, help="list of files with their hashes (default: %(default)s)"
+            "--manifest", type=Path, help=f"list of files with their hashes (default: {MANIFEST}, or that of the scale)"
         )
+    parser.add_argument(
+        "--config", "-C", nargs="+", action="extend", default=[], metavar="KEY=VALUE",
+        help="scale=smoke: that scale's run; docs/results is of the scale default",
+    )  # fmt: skip
     return parser
+
+
+def scale_given(words: Sequence[str]) -> str:
+    """Return the scale that words KEY=VALUE of the configuration name."""
+    given = [word.removeprefix(SCALE) for word in words if word.startswith(SCALE)]
+    return given[-1] if given else MAIN
+
+
+def manifest_of(scale: str) -> Path:
+    """Return the list of a scale's files with their hashes."""
+    return MANIFEST if scale == MAIN else MANIFEST.parent / scale / MANIFEST.name
 
 
 def bench_parser() -> argparse.ArgumentParser:

@@ -30,13 +30,14 @@ from experiments.plan.plan import make_plan
 from experiments.plan.reactions import all_reactions
 from experiments.plan.work import works_of
 from experiments.running.logs import LOGS, read_account
-from experiments.running.words import results_parser
+from experiments.running.words import MAIN, manifest_of, results_parser, scale_given
 from experiments.settings.load import load_settings
 from experiments.settings.settings import Settings
 from mobnet.core.code import CHANGED, UNKNOWN, commit, provenance
 from mobnet.core.errors import DataError, MobnetError
 from mobnet.core.files import atomic_path, read_json, read_text, write_json, write_text
 from mobnet.core.heartbeat import heartbeat
+from mobnet.core.printed import to_output
 from mobnet.core.rows import read_texts
 
 log = logging.getLogger(__name__)
@@ -320,22 +321,26 @@ def main(words: list[str]) -> int:
     """Run one of the commands and return the exit status: 0 if nothing differs."""
     command, *others = words
     options = results_parser(command).parse_args(others)
-    logging.basicConfig(level=logging.INFO, format="%(message)s", stream=sys.stdout)
+    output = to_output()
     compares = command == "compare"
+    scale = scale_given(options.config)
+    manifest = None if compares else options.manifest or manifest_of(scale)
     try:
+        if scale != MAIN and command != "verify":
+            raise DataError(f"{SNAPSHOT}: holds the scale {MAIN}; accepted: {command} without scale={scale}")
         with heartbeat():
             if command == "snapshot":
-                store(options.manifest)
+                store(manifest)
                 return 0
-            found = compare_snapshot(SNAPSHOT, TABLES, FIGURES) if compares else differences(options.manifest)
+            found = differences(manifest) if manifest else compare_snapshot(SNAPSHOT, TABLES, FIGURES)
     except MobnetError as error:
         log.error("%s", error)
         return 1
     for line in found:
         log.info("%s", line)
-    listed = SNAPSHOT if compares else f"{options.manifest} ({file_hash(options.manifest)})"
+    listed = f"{manifest} ({file_hash(manifest)})" if manifest else SNAPSHOT
     log.info("%s: %s", listed, f"{len(found)} differences" if found else "no difference")
-    return 1 if found else 0
+    return 1 if found or output.is_cut else 0
 
 
 if __name__ == "__main__":
