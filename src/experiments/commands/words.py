@@ -77,7 +77,7 @@ EXAMPLES = {
     "all --config scale=smoke": "the same in minutes; its numbers mean nothing",
     "all --config scale=quick": "everything in about an hour, with shorter walks and trainings",
     "all --config keep=tables": "let recordings go when nothing needs them any more: less disk",
-    "tables/table_05.tex": "make one file and what it needs; tables/smoke/table_05.tex at that scale",
+    "tables/table_05.md": "make one file and what it needs; tables/smoke/table_05.md at that scale",
 }
 PROGRAM = "./reproduce"
 OWN = {"clean", "setup"}  # commands with options of their own

@@ -37,6 +37,8 @@ def faults_of_words(words: Any, rules: Rules, shown: Sequence[str], scales: Iter
         for name in getattr(words, option) or ():
             if name not in names:
                 yield not_accepted(f"{typed(option)}: rule", name, names)
+    for name in words.set_scatter:
+        yield not_accepted("--set-scatter", name, ())
     for option in OF_RULES_AND_FILES:
         for name in getattr(words, option) or ():
             if name not in names and not is_made(name, rules):
