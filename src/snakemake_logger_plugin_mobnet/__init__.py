@@ -10,6 +10,6 @@ from experiments.running.environment import fault_of_snakemake
 if fault := fault_of_snakemake():
     sys.exit(fault)
 
-from experiments.running.terminal import RunHandler as LogHandler  # noqa: E402
+from experiments.running.terminal import RunHandler as LogHandler
 
 __all__ = ["LogHandler"]

@@ -1,4 +1,4 @@
-"""Words of a call that would do nothing, or something else than they say, by made-up rules and Snakemake's own parser."""
+"""Words of a call that would do nothing, or something else than they say, by made-up rules and Snakemake's parser."""
 
 import re
 from types import SimpleNamespace
@@ -119,7 +119,10 @@ def test_an_option_of_several_values_that_is_given_twice_is_refused(words, toget
     assert str(refused.value) == f"{name}: is given twice, and Snakemake keeps the last alone; accepted: {together}"
 
 
-@pytest.mark.parametrize("words", ["--config a=1 b=2 -R train --until fit", "--profile a --profile b", "--config a=1 -- -C"])
+ONCE = ("--config a=1 b=2 -R train --until fit", "--profile a --profile b", "--config a=1 -- -C")
+
+
+@pytest.mark.parametrize("words", ONCE)
 def test_an_option_that_is_given_once_is_not(words):
     refuse_twice(words.split())
 

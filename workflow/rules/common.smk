@@ -144,7 +144,9 @@ onstart:
 
 
 onsuccess:
-    sys.stderr.write(f"{made_line(TARGETS, list(workflow.rules), PLAN.folders)}, in {in_time(time.time() - STARTED_S)}\n")
+    sys.stderr.write(
+        f"{made_line(TARGETS, list(workflow.rules), PLAN.folders)}, in {in_time(time.time() - STARTED_S)}\n"
+    )
 
 
 onerror:

@@ -86,5 +86,5 @@ def made_line(targets: Sequence[str], rules: Rules, folders: Folders) -> str:
 
 def file_of(target: str, rules: Rules) -> str:
     """Return the first file that a target's rule makes where the target is a rule, otherwise the target."""
-    made = next((list(rule.output) for rule in rules if rule.name == target), [])
+    made = [file for rule in rules if rule.name == target for file in rule.output]
     return str(made[0]) if made and not made[0].contains_wildcard() else target

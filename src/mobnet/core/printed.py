@@ -27,7 +27,7 @@ class Output(logging.StreamHandler[TextIO]):
         super().__init__(sys.stdout)
         self.is_cut = False
 
-    def handleError(self, record: logging.LogRecord) -> None:  # noqa: N802 as Python has it
+    def handleError(self, record: logging.LogRecord) -> None:
         """Take that a line could not be written."""
         error = sys.exc_info()[1]
         if not isinstance(error, OSError):

@@ -324,7 +324,7 @@ def main(words: list[str]) -> int:
     output = to_output()
     compares = command == "compare"
     scale = scale_given(options.config)
-    manifest = None if compares else options.manifest or manifest_of(scale)
+    manifest = manifest_of(scale) if compares or options.manifest is None else options.manifest
     try:
         if scale != MAIN and command != "verify":
             raise DataError(f"{SNAPSHOT}: holds the scale {MAIN}; accepted: {command} without scale={scale}")
@@ -332,13 +332,13 @@ def main(words: list[str]) -> int:
             if command == "snapshot":
                 store(manifest)
                 return 0
-            found = differences(manifest) if manifest else compare_snapshot(SNAPSHOT, TABLES, FIGURES)
+            found = compare_snapshot(SNAPSHOT, TABLES, FIGURES) if compares else differences(manifest)
     except MobnetError as error:
         log.error("%s", error)
         return 1
     for line in found:
         log.info("%s", line)
-    listed = f"{manifest} ({file_hash(manifest)})" if manifest else SNAPSHOT
+    listed = SNAPSHOT if compares else f"{manifest} ({file_hash(manifest)})"
     log.info("%s: %s", listed, f"{len(found)} differences" if found else "no difference")
     return 1 if found or output.is_cut else 0
 
