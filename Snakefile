@@ -6,6 +6,12 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(workflow.current_basedir) / "src"))  # of this folder, whatever Python reads this file
 
+from experiments.running.environment import fault_of_process, fault_of_snakemake
+
+# Before the first file that needs packages, or words of Snakemake that older ones do not know.
+if fault := fault_of_process(Path(workflow.current_basedir)) or fault_of_snakemake():
+    sys.exit(fault)
+
 
 report: "workflow/report/workflow.rst"
 
@@ -28,6 +34,7 @@ rule all:
         gone(rules.manifest.input),
 
 
-check_targets()
+if WORDS and (fault := next(faults_of_words(WORDS, list(workflow.rules), PLAN.shown, SETTINGS.scales), None)):
+    sys.exit(fault)
 let_go_early()
 answer_interrupts()

@@ -15,6 +15,7 @@ from mobnet.core.errors import not_accepted
 from mobnet.core.files import atomic_path
 from mobnet.core.heartbeat import heartbeat
 from mobnet.core.machine import one_thread
+from mobnet.core.printed import watch_output
 
 NAMES = (
     "collect_speed",
@@ -85,4 +86,5 @@ def _write(rows: list[Row], path: Path) -> None:
 
 
 if __name__ == "__main__":
+    watch_output()
     sys.exit(main())

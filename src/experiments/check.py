@@ -39,6 +39,7 @@ from mobnet.core.files import METRICS, RUN, check_regular, read_json, read_text
 from mobnet.core.heartbeat import heartbeat
 from mobnet.core.joints import JointLayout
 from mobnet.core.notes import ArrayNote, read_array_note, read_note
+from mobnet.core.printed import to_output
 from mobnet.core.reactions import TRIALS
 from mobnet.core.recording import Sensed, Truth
 from mobnet.core.store import ARRAY, NOTE, check_rate, file_of, read_pieces
@@ -277,7 +278,7 @@ def main(words: list[str]) -> int:
     options = parser.parse_args(words)
     if options.rate is not None and not 0.0 < options.rate < math.inf:
         parser.error(not_accepted("--rate", options.rate, ["a number above 0"]))
-    logging.basicConfig(level=logging.INFO, format="%(message)s", stream=sys.stdout)
+    output = to_output()
     against = Against(options.robot, options.rate)
     found: dict[Path, bool] = {}
     try:
@@ -289,7 +290,7 @@ def main(words: list[str]) -> int:
         wrong = sum(not accepted(file, against, asked) for file, asked in found.items())
     if len(found) != 1:
         log.info("%d files, %d of them not accepted", len(found), wrong)
-    return 1 if wrong else 0
+    return 1 if wrong or output.is_cut else 0
 
 
 if __name__ == "__main__":

@@ -17,6 +17,7 @@ from mobnet.core.code import ROOT
 from mobnet.core.errors import MobnetError, not_accepted
 from mobnet.core.estimator import TorqueEstimator
 from mobnet.core.heartbeat import heartbeat
+from mobnet.core.printed import to_output
 from mobnet.core.recording import Sensed
 
 DATA = ROOT / "docs" / "demo"
@@ -47,7 +48,7 @@ def main(words: Sequence[str]) -> int:
     out = options.out or PICTURE
     if out.suffix not in ENDINGS:
         parser.error(not_accepted("--out: ending", out.suffix, ENDINGS))
-    logging.basicConfig(level=logging.INFO, format="%(message)s", stream=sys.stdout)
+    output = to_output()
     logging.getLogger("matplotlib").setLevel(logging.ERROR)  # it warns that it makes its cache of fonts, once
     quieten(ROOT)
     try:
@@ -56,7 +57,7 @@ def main(words: Sequence[str]) -> int:
     except MobnetError as error:
         log.error("%s", error)
         return 1
-    return 0
+    return 1 if output.is_cut else 0
 
 
 def show(stored: StoredPush, out: Path) -> None:

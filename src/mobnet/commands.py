@@ -25,7 +25,7 @@ from mobnet.core.options import (
     observe_parser,
 )
 from mobnet.core.place import PROGRAM, version, with_extra
-from mobnet.core.printed import shown
+from mobnet.core.printed import shown, watch_output
 from mobnet.core.word_checks import (
     check_calibrate,
     check_detect,
@@ -132,6 +132,7 @@ def main(words: Sequence[str] | None = None) -> int:
     says = "show a push as observer and network estimate it"
     demo = Command(says, demo_parser, lambda _: None, "mobnet.demo")
     commands = {**COMMANDS, "demo": demo}
+    watch_output()
     if not words:
         overview(commands).print_help()
         return 2

@@ -9,6 +9,7 @@ import time
 from importlib.metadata import version
 
 from snakemake.cli import get_argument_parser
+from snakemake.logging import logger
 
 from experiments.evaluation.measure.estimates.scores import measure_problems
 from experiments.evaluation.report.paper import missing_packages
@@ -30,12 +31,13 @@ from experiments.plan.schedule import TimedJob
 from experiments.running.begun import BEGUN as BEGUN_LIST
 from experiments.running.begun import lost, record_begun, record_end
 from experiments.running.one_run import hold_folder, only_looks
+from experiments.plan.targets import faults_of_words, made_line
 from experiments.running.progress import in_time
 from experiments.running.terminal import RunHandler
-from experiments.running.words import in_set, nearest, one_of, scale_of_targets
+from experiments.running.words import one_of, refuse_twice, scale_of_targets
 from experiments.settings.checks.claims import text_problems
 from experiments.running.cluster import LIMITED, failed_jobs, warm_cache
-from experiments.running.environment import fault_of_process, quieten, sweep_project
+from experiments.running.environment import quieten, sweep_project
 from experiments.running.processes import PREFIX, end_jobs, end_orphans, follow_trainings
 from experiments.settings.load import load_settings
 from mobnet.core.code import UNKNOWN, code_hash, commit
@@ -43,13 +45,12 @@ from mobnet.core.detections import FILES
 from mobnet.core.errors import MobnetError
 from mobnet.core.files import check_room as check_folder
 from mobnet.core.machine import gpus_seen
+from mobnet.core.printed import end_where_full, watch_output
 
 ROOT = Path(workflow.current_basedir).parent.parent
 STARTED_S = time.time()
 BEGUN, STOPPED = threading.Event(), threading.Event()  # of the jobs; by Ctrl-C
 
-if fault := fault_of_process(ROOT):
-    sys.exit(fault)
 quieten(ROOT)
 PYTHON = sys.executable
 sys.executable = shlex.quote(PYTHON)  # Snakemake writes it into shell commands as it is
@@ -63,7 +64,11 @@ def is_main():
 
 def known_words():
     """Return the words of the call as Snakemake takes them apart."""
+    refuse_twice(sys.argv[1:])
+    watch_output()
     known, _ = get_argument_parser().parse_known_args(sys.argv[1:])
+    if known.dryrun:
+        end_where_full(logger.handlers)  # it is for what it prints
     return known
 
 
@@ -151,7 +156,9 @@ onstart:
 
 onsuccess:
     record_end(STATE)
-    sys.stderr.write(f"{made_line(TARGETS, PLAN.folders)}, in {in_time(time.time() - STARTED_S)}\n")
+    sys.stderr.write(
+        f"{made_line(TARGETS, list(workflow.rules), PLAN.folders)}, in {in_time(time.time() - STARTED_S)}\n"
+    )
 
 
 onerror:
@@ -246,34 +253,6 @@ def let_go_early():
     if SETTINGS.keep != "all":
         for each in workflow.rules:
             each.priority = first.get(each.name, 20)
-
-
-def file_of(target):
-    """Return the first file that a target's rule makes where the target is a rule, otherwise the target."""
-    made = list(workflow.get_rule(target).output) if workflow.is_rule(target) else []
-    return str(made[0]) if made and not made[0].contains_wildcard() else target
-
-
-def made_line(targets, folders):
-    """Return the line that says what a run has made: what was asked for, or the folders of all and where to begin."""
-    if targets and targets != ["all"]:
-        return f"{', '.join(map(file_of, targets))} {'is' if len(targets) == 1 else 'are'} made"
-    page = folders.results / "pages" / "index.html"
-    return f"{folders.tables}, {folders.figures} and {folders.paper} are made; begin with {page}"
-
-
-def check_targets():
-    """End with one line where a target is none; Snakemake would say so after it has worked out the whole graph."""
-    names = [rule.name for rule in workflow.rules]
-    for target in TARGETS:
-        if target not in names and not is_made(target):
-            (folder,) = made_by_jobs([Path(target)])
-            sys.exit(in_set(target, folder) if is_made(folder) else nearest(target, [*names, *PLAN.shown]))
-
-
-def is_made(target):
-    """Return whether a rule makes a file or a folder."""
-    return any(rule.is_producer(target.rstrip("/")) for rule in workflow.rules)
 
 
 def waits_for_jobs(frame):

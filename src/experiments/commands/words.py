@@ -3,21 +3,27 @@
 import argparse
 import functools
 import re
+import sys
 from collections.abc import Sequence
+from difflib import get_close_matches
+from pathlib import Path
 from typing import NamedTuple
 
 from experiments.commands.install import BUILDS
 from experiments.running.words import (
-    MAIN,
     RESULTS,
     bench_parser,
     check_parser,
     cost_parser,
     demo_parser,
+    joined,
+    list_option,
     results_parser,
+    scale_given,
+    value_beside,
 )
 from mobnet.commands import COMMANDS as LAB
-from mobnet.commands import in_groups, line_of, wrapped
+from mobnet.commands import in_groups, line_of, version, wrapped
 from mobnet.core.code import ROOT
 from mobnet.core.errors import CommandError, not_accepted
 
@@ -71,7 +77,7 @@ EXAMPLES = {
     "all --config scale=smoke": "the same in minutes; its numbers mean nothing",
     "all --config scale=quick": "everything in about an hour, with shorter walks and trainings",
     "all --config keep=tables": "let recordings go when nothing needs them any more: less disk",
-    "tables/table_05.tex": "make one file and what it needs; tables/smoke/table_05.tex at that scale",
+    "tables/table_05.md": "make one file and what it needs; tables/smoke/table_05.md at that scale",
 }
 PROGRAM = "./reproduce"
 OWN = {"clean", "setup"}  # commands with options of their own
@@ -83,6 +89,8 @@ TARGETS = {
     "docs": "docs",
 }  # command -> rule of the workflow
 HELP = {"-h", "--help"}
+VERSION = {"-v", "--version"}
+LIKE = 0.6  # share of the signs that a word has in common with a name that may be meant
 PARSERS = {
     "bench": bench_parser,
     "check": check_parser,
@@ -92,7 +100,7 @@ PARSERS = {
     **{name: functools.partial(results_parser, name) for name in RESULTS},
 }  # of commands whose module has words of its own
 CONFIG = {"-C", "--config"}
-SCALE = "scale="  # the key of the configuration that every target follows
+CORES = {"-c": "all", "--cores": "all", "-j": "unlimited", "--jobs": "unlimited"}  # option -> as many as there are
 KEY = re.compile(r"[a-zA-Z_]\w+")  # as Snakemake takes it: of two signs or more
 
 
@@ -107,14 +115,18 @@ class Words(NamedTuple):
 def parse(words: Sequence[str]) -> Words:
     """Take the words apart; --help and words that are not accepted end the process as those of argparse do."""
     first = words[0] if words else "--help"
+    if first == "help":
+        return parse([*words[1:2], "--help"])
+    if first in VERSION:
+        sys.stdout.write(versions())
+        sys.exit(0)
     if first in HELP:
         overview().print_help()
         overview().exit(0 if words else 2)
     if re.search(r"^-|[/.]", first):
         return Words("all", argparse.Namespace(), in_order(words))
     if first not in COMMANDS:
-        text = not_accepted("command or target", first, [*COMMANDS, *captioned()])
-        overview().exit(2, f"reproduce: {text}\n")
+        overview().exit(2, f"reproduce: {unknown(first)}\n")
     options = parser_of(first)
     if first in OWN:
         return Words(first, options.parse_args(words[1:]), [])
@@ -129,6 +141,22 @@ def parse(words: Sequence[str]) -> Words:
     return Words(first, argparse.Namespace(), extra)
 
 
+def unknown(word: str) -> str:
+    """Return the one line about what is no command, with the names like it if there are any."""
+    names = [*COMMANDS, *captioned()]
+    stems = [Path(name).stem for name in names]
+    if get_close_matches(word, stems, 1, LIKE):
+        return not_accepted("command or target", word, names)
+    return f"command or target: {word!r} is not accepted; {PROGRAM} --help lists all"
+
+
+def versions() -> str:
+    """Return the line that says which version of the project this is, and of Snakemake, which may not be there yet."""
+    lock = (ROOT / "environment.lock").read_text()
+    found = re.search(r"^snakemake==(\S+)", lock, re.MULTILINE)
+    return f"mobnet {version()}" + (f" (snakemake {found[1]})" if found else "") + "\n"
+
+
 def target_of(word: str, words: Sequence[str]) -> str:
     """Return the target that a command makes, at the scale that the words name; a word of another kind as it is."""
     return table_of(word, words) if word in TRIALS else TARGETS.get(word, word)
@@ -136,8 +164,7 @@ def target_of(word: str, words: Sequence[str]) -> str:
 
 def table_of(trial: str, words: Sequence[str]) -> str:
     """Return the table of a trial at the scale that the words name."""
-    given = [word.removeprefix(SCALE) for word in words if word.startswith(SCALE)]
-    return f"results/{given[-1] if given else MAIN}/trials/{trial}.md"
+    return f"results/{scale_given(words)}/trials/{trial}.md"
 
 
 def overview() -> argparse.ArgumentParser:
@@ -188,12 +215,12 @@ def in_order(words: Sequence[str]) -> list[str]:
     """Return words in the order that Snakemake needs: targets before `--config`, which would take them for values.
 
     Raises:
-        CommandError: what replaces a key of the configuration does not name one.
+        CommandError: what replaces a key of the configuration does not name one, or a number of cores is missing.
     """
     targets: list[str] = []
     others: list[str] = []
     taking = False
-    for word in words:
+    for word in opened(words):
         if taking and "=" in word and not word.startswith("-") and not KEY.fullmatch(word.partition("=")[0]):
             raise CommandError(f"--config: {word!r} is not accepted; accepted: KEY=VALUE, a key of configs")
         swallowed = taking and not word.startswith("-") and "=" not in word
@@ -201,4 +228,16 @@ def in_order(words: Sequence[str]) -> list[str]:
         taking = word in CONFIG or (taking and not word.startswith("-"))
     if others and others[-1] in CONFIG:
         raise CommandError(f"{others[-1]}: {' '.join(targets) or 'nothing'} is not accepted; accepted: KEY=VALUE")
-    return [*targets, *others]
+    for word, behind in zip(others, [*others[1:], "--"], strict=True):
+        if word in CORES and behind.startswith("-"):
+            raise CommandError(f"{word}: its number is missing; accepted: {word} 2, or {word} {CORES[word]}")
+    return joined([*targets, *others])
+
+
+def opened(words: Sequence[str]) -> list[str]:
+    """Return words in which `--config` and its first value are two, also where they were one, as --config=seed=3."""
+    found: list[str] = []
+    for word in words:
+        is_one = list_option(word) == "--config" and word not in CONFIG
+        found += ["--config", *value_beside(word)] if is_one else [word]
+    return found

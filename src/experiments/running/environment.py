@@ -8,6 +8,7 @@ import re
 import shlex
 import shutil
 import sys
+from importlib.metadata import version
 from pathlib import Path
 
 from mobnet.core.files import PARTIAL, discard
@@ -17,6 +18,8 @@ WRITTEN = ("results", "tables", "figures", "paper", "docs/results")  # folders i
 SCRIPTS = Path(".snakemake") / "scripts"  # what Snakemake runs in a job, removed with the end of the job
 ANY = "[a-z0-9_]" * 8  # what tempfile puts into the name of a file
 LONGEST_TEMPORARY = 70  # characters; the path of a Unix socket below it must not pass 108
+OLDEST = "9.25"  # Snakemake that reads the rules
+IN_VENV = "`./reproduce setup; . .venv/bin/activate`, then the same words"
 THREADED = ("OMP", "OPENBLAS", "MKL", "NUMEXPR", "NUMBA")
 CACHES = {
     "XDG_CACHE_HOME": "xdg",
@@ -85,8 +88,27 @@ def fault_of_process(root: Path) -> str | None:
     found = next((place for place in places if (place / "mobnet" / "__init__.py").is_file()), None)
     if found is not None and found.resolve() == source.resolve():
         return fault_of_place(root)
+    if found is None:
+        return f"{this_snakemake()} runs this file without the packages of the project; accepted: {IN_VENV}"
     remedy = f"`cd {shlex.quote(str(root))}; ./reproduce setup; . .venv/bin/activate`"
-    return f"{sys.executable}: runs {found or 'no code of a project'} in place of {source}; accepted: {remedy}"
+    return f"{sys.executable}: runs {found} in place of {source}; accepted: {remedy}"
+
+
+def fault_of_snakemake() -> str | None:
+    """Return why this Snakemake must not run a project: it is older than the oldest that does."""
+    from snakemake.exceptions import WorkflowError
+    from snakemake.utils import min_version
+
+    try:
+        min_version(OLDEST)
+    except WorkflowError:
+        return f"{this_snakemake()} is too old; accepted: {OLDEST} and later, or {IN_VENV}"
+    return None
+
+
+def this_snakemake() -> str:
+    """Return the version of the Snakemake that reads the rules, and its environment."""
+    return f"snakemake {version('snakemake')} of {sys.prefix}"
 
 
 def sweep_project(root: Path) -> None:

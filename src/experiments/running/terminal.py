@@ -20,6 +20,7 @@ from snakemake_interface_logger_plugins.base import LogHandlerBase
 from snakemake_interface_logger_plugins.common import LogEvent
 
 from experiments.running.progress import COMPILING, RunState, Underway, first, in_time, in_words
+from mobnet.core.printed import end_where_full
 
 # What Snakemake says of itself in each run. Whatever is not named here is printed.
 NOISE = re.compile(
@@ -183,6 +184,8 @@ def snakemakes(asked: Any) -> logging.Handler:
     stream = sys.stdout if asked.stdout else sys.stderr
     handler = ColorizingTextHandler(nocolor=asked.nocolor, stream=stream, formatter=words)
     handler.addFilter(chosen)
+    if asked.dryrun:
+        end_where_full([handler])
     return handler
 
 

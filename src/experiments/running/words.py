@@ -8,12 +8,28 @@ from pathlib import Path
 from mobnet.core.errors import ConfigError, near_names
 
 MAIN = "default"  # the scale whose tables stand where a reader looks for them; others have folders of their own
+SCALE = "scale="  # the key of the configuration that every target follows
 MANIFEST = Path("results/MANIFEST.sha256")
 KINDS = (
     "a recording, residual, estimate, wrench or motion (.parquet with its .json), weights.safetensors, run.json, "
     "metrics.csv, scores, what detectors find, a fit, an account of a job, a file of configs, a robot's table, "
     "a folder of these"
 )
+# Options of Snakemake that take several values, and their other names.
+LISTS = (
+    "--allowed-rules", "--cache", "--cleanup-metadata", "--config", "--configfile", "--consider-ancient",
+    "--default-resources", "--envvars", "--forcerun", "--group-components", "--groups", "--logger", "--omit-flags",
+    "--omit-from", "--preemptible-rules", "--prioritize", "--quiet", "--rerun-triggers", "--resources",
+    "--set-resource-scopes", "--set-resources", "--set-scatter", "--set-threads", "--shared-fs-usage",
+    "--software-deployment-method", "--strict-dag-evaluation", "--target-jobs", "--unneeded-temp-files", "--until",
+    "--wait-for-files",
+)  # fmt: skip
+ALIASES = {
+    "-C": "--config", "-O": "--omit-from", "-P": "--prioritize", "-R": "--forcerun", "-U": "--until", "-q": "--quiet",
+    "--cm": "--cleanup-metadata", "--configfiles": "--configfile", "--default-res": "--default-resources",
+    "--deployment": "--software-deployment-method", "--deployment-method": "--software-deployment-method",
+    "--res": "--resources", "--sdm": "--software-deployment-method",
+}  # fmt: skip
 RESULTS = {  # command -> what it does with the results of a run
     "verify": "List the missing, changed and unexpected files of a run, by its manifest.",
     "compare": "List the differences between the published tables and figures, docs/results, and those of this folder.",
@@ -56,6 +72,7 @@ def cost_parser() -> argparse.ArgumentParser:
         "--config",
         "-C",
         nargs="+",
+        action="extend",
         default=[],
         metavar="KEY=VALUE",
         help="keys of the configuration, such as scale=quick, as ./reproduce all takes them",
@@ -68,9 +85,24 @@ def results_parser(command: str) -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog=f"./reproduce {command}", description=RESULTS[command])
     if command != "compare":
         parser.add_argument(
-            "--manifest", type=Path, default=MANIFEST, help="list of files with their hashes (default: %(default)s)"
+            "--manifest", type=Path, help=f"list of files with their hashes (default: {MANIFEST}, or that of the scale)"
         )
+    parser.add_argument(
+        "--config", "-C", nargs="+", action="extend", default=[], metavar="KEY=VALUE",
+        help="scale=smoke: that scale's run; docs/results is of the scale default",
+    )  # fmt: skip
     return parser
+
+
+def scale_given(words: Sequence[str]) -> str:
+    """Return the scale that words KEY=VALUE of the configuration name."""
+    given = [word.removeprefix(SCALE) for word in words if word.startswith(SCALE)]
+    return given[-1] if given else MAIN
+
+
+def manifest_of(scale: str) -> Path:
+    """Return the list of a scale's files with their hashes."""
+    return MANIFEST if scale == MAIN else MANIFEST.parent / scale / MANIFEST.name
 
 
 def bench_parser() -> argparse.ArgumentParser:
@@ -88,8 +120,71 @@ def bench_parser() -> argparse.ArgumentParser:
     return parser
 
 
+def joined(words: Sequence[str]) -> list[str]:
+    """Return words in which an option of several values stands once: of two `--config` Snakemake keeps the last."""
+    others, values, last = parted(words)
+    for name, given in values.items():
+        others += [name, *given]
+    return [*others, *last]
+
+
+def refuse_twice(words: Sequence[str]) -> None:
+    """Refuse words of Snakemake that it would leave out without a word.
+
+    Raises:
+        ConfigError: an option of several values is given twice.
+    """
+    _, values, _ = parted(words)
+    for name, given in values.items():
+        together = " ".join([name, *given])
+        raise ConfigError(f"{name}: is given twice, and Snakemake keeps the last alone; accepted: {together}")
+
+
+def parted(words: Sequence[str]) -> tuple[list[str], dict[str, list[str]], list[str]]:
+    """Return words, those of options of several values that stand twice with all their values, and what `--` begins."""
+    end = words.index("--") if "--" in words else len(words)
+    names = [list_option(word) for word in words[:end]]
+    values: dict[str, list[str]] = {name: [] for name in LISTS if names.count(name) > 1}
+    others: list[str] = []
+    taking: list[str] | None = None
+    for word, name in zip(words[:end], names, strict=True):
+        if name in values:
+            value = value_beside(word)
+            values[name] += value
+            taking = None if value else values[name]
+        elif taking is None or word.startswith("-"):
+            taking = None
+            others.append(word)
+        else:
+            taking.append(word)
+    return others, values, list(words[end:])
+
+
+def list_option(word: str) -> str | None:
+    """Return the name of the option of several values that a word is, None where it is none."""
+    flag = word.partition("=")[0] if word.startswith("--") else word[:2]
+    flag = ALIASES.get(flag, flag)
+    if flag in LISTS:
+        return flag
+    # Snakemake takes the beginning of a name for the name, and refuses one that is the beginning of several.
+    is_part = flag.startswith("--") and flag != "--"
+    return next((name for name in LISTS if name.startswith(flag)), None) if is_part else None
+
+
+def value_beside(word: str) -> list[str]:
+    """Return the value that stands in one word with its option, as in --config=seed=3 and -Cseed=3, if any."""
+    if word.startswith("--"):
+        return [word.partition("=")[2]] if "=" in word else []
+    return [word[2:]] if word[2:] else []
+
+
 def scale_of(target: str) -> str | None:
-    """Return the scale that the path of a target names, None where it is no path of a result."""
+    """Return the scale that the path of a target names, None where it is no path of a result.
+
+    A folder of a scale, such as tables/smoke, is no target, and may be a file without its ending.
+    """
+    if re.fullmatch(r"(?:\./)*(?:results|tables|figures|paper)/[^/.]+/?", target):
+        return None
     found = re.match(r"(?:\./)*(?:results|tables|figures|paper)/(?:([^/]+)/)?", target)
     return (found[1] or MAIN) if found else None
 

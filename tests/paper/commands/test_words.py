@@ -24,9 +24,48 @@ from mobnet.core.options import calibrate_parser, missing_input
         ["all", "tables/smoke/table_05.tex", "--config", "scale=smoke", "seed=1", "-n"],
     ),
     (["all", "--config", "scale=smoke", "--", "x.md"], ["all", "--config", "scale=smoke", "--", "x.md"]),
+    (
+        ["all", "--config", "scale=smoke", "-n", "--config", "seed=3", "tables/smoke/table_05.tex"],
+        ["all", "tables/smoke/table_05.tex", "-n", "--config", "scale=smoke", "seed=3"],
+    ),
+    (["--config=scale=smoke", "all", "-Cseed=3"], ["all", "--config", "scale=smoke", "seed=3"]),
+    (["all", "-R", "train", "-n", "--forcerun", "fit"], ["all", "-n", "--forcerun", "train", "fit"]),
+    (["all", "-j", "4"], ["all", "-j", "4"]),
 ])  # fmt: skip
 def test_targets_come_first(words, handed):
     assert parse(words)[::2] == ("all", handed)
+
+
+@pytest.mark.parametrize("words", [["all", "--cores"], ["--jobs", "-n"], ["all", "-c", "--config", "scale=smoke"]])
+def test_a_number_of_cores_that_is_missing_is_one_line(words):
+    option = next(word for word in words if word in ("--cores", "--jobs", "-c"))
+    with pytest.raises(CommandError, match=f"^{option}: its number is missing; accepted: {option} 2, or {option} "):
+        parse(words)
+
+
+def test_the_version_is_that_of_this_project(capsys):
+    for word in ("--version", "-v"):
+        with pytest.raises(SystemExit, match="0"):
+            parse([word])
+        assert re.fullmatch(r"mobnet \d+\.\d+\.\d+ \(snakemake 9\.\d+\.\d+\)\n", capsys.readouterr().out)
+
+
+@pytest.mark.parametrize(("words", "other"), [(["help"], ["--help"]), (["help", "demo"], ["demo", "--help"])])
+def test_help_is_a_command_too(words, other, capsys):
+    printed = []
+    for each in (words, other):
+        with pytest.raises(SystemExit, match="0"):
+            parse(each)
+        printed.append(capsys.readouterr().out)
+    assert printed[0] == printed[1] != ""
+
+
+@pytest.mark.parametrize("word", ["networks", "wandb", "runs"])
+def test_a_word_that_is_like_no_command_gets_no_names(word, capsys):
+    with pytest.raises(SystemExit, match="2"):
+        parse([word])
+    line = f"reproduce: command or target: '{word}' is not accepted; ./reproduce --help lists all\n"
+    assert capsys.readouterr().err == line
 
 
 @pytest.mark.parametrize("command", TRIALS)
@@ -55,6 +94,8 @@ def test_words_that_name_no_key_are_refused(words, message):
     ("./paper/main.pdf", "default"),
     ("results/paper/networks/x", "paper"),
     ("configs/config.yaml", None),
+    ("tables/smoke", None),
+    ("results/smoke/", None),
     ("all", None),
 ])  # fmt: skip
 def test_a_path_tells_its_scale(target, scale):

@@ -6,16 +6,18 @@ import os
 import signal
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
+from mobnet.core.code import ROOT
 from mobnet.core.errors import DataError
 from mobnet.core.printed import STOPPED, printed
 
 CODE = """
 import logging
 from mobnet.core.printed import printed
-printed(logging.getLogger("own"), lambda: (f"line {k}" for k in range(100_000)))
+raise SystemExit(printed(logging.getLogger("own"), lambda: (f"line {k}" for k in range(100_000))))
 """
 
 
@@ -78,3 +80,20 @@ def test_ctrl_c_while_packages_are_imported_is_answered_by_the_command():
         assert child.stdout.readline() == b"ready\n"
         child.send_signal(signal.SIGINT)
         assert child.stdout.read() + child.stderr.read() == b"stopped, and so on\n"
+
+
+FULL = "standard output: cannot be written: No space left on device; what was to be printed is lost\n"
+
+
+@pytest.mark.parametrize("unbuffered", ["", "1"])
+@pytest.mark.parametrize("words", [
+    ("reproduce", "--help"), ("reproduce", "--version"), ("reproduce", "demo", "--help"), ("-m", "mobnet", "--help"),
+    ("-c", CODE.replace("100_000", "3")),
+])  # fmt: skip
+def test_a_full_disk_behind_standard_output_is_one_line_and_no_success(words, unbuffered):
+    environment = {**os.environ, "PYTHONUNBUFFERED": unbuffered}
+    with Path("/dev/full").open("w") as full:
+        streams = {"stdout": full, "stderr": subprocess.PIPE, "text": True}
+        done = subprocess.run([sys.executable, *words], cwd=ROOT, env=environment, check=False, **streams)
+    assert done.stderr == FULL
+    assert done.returncode == 1

@@ -33,13 +33,14 @@ from experiments.running.one_run import held_folder
 from experiments.plan.work import works_of
 from experiments.running.accounts import read_account
 from experiments.running.logs import LOGS
-from experiments.running.words import results_parser
+from experiments.running.words import MAIN, manifest_of, results_parser, scale_given
 from experiments.settings.load import load_settings
 from experiments.settings.settings import Settings
 from mobnet.core.code import CHANGED, UNKNOWN, commit, provenance
 from mobnet.core.errors import DataError, MobnetError
 from mobnet.core.files import atomic_path, read_json, read_text, write_json, write_text
 from mobnet.core.heartbeat import heartbeat
+from mobnet.core.printed import to_output
 from mobnet.core.rows import read_texts
 
 log = logging.getLogger(__name__)
@@ -323,23 +324,27 @@ def main(words: list[str]) -> int:
     """Run one of the commands and return the exit status: 0 if nothing differs."""
     command, *others = words
     options = results_parser(command).parse_args(others)
-    logging.basicConfig(level=logging.INFO, format="%(message)s", stream=sys.stdout)
+    output = to_output()
     compares = command == "compare"
+    scale = scale_given(options.config)
+    manifest = manifest_of(scale) if compares or options.manifest is None else options.manifest
     try:
+        if scale != MAIN and command != "verify":
+            raise DataError(f"{SNAPSHOT}: holds the scale {MAIN}; accepted: {command} without scale={scale}")
         with heartbeat():
             if command == "snapshot":
                 with held_folder(Path.cwd(), words):  # tables change while a run goes on
-                    store(options.manifest)
+                    store(manifest)
                 return 0
-            found = compare_snapshot(SNAPSHOT, TABLES, FIGURES) if compares else differences(options.manifest)
+            found = compare_snapshot(SNAPSHOT, TABLES, FIGURES) if compares else differences(manifest)
     except MobnetError as error:
         log.error("%s", error)
         return 1
     for line in found:
         log.info("%s", line)
-    listed = SNAPSHOT if compares else f"{options.manifest} ({file_hash(options.manifest)})"
+    listed = SNAPSHOT if compares else f"{manifest} ({file_hash(manifest)})"
     log.info("%s: %s", listed, f"{len(found)} differences" if found else "no difference")
-    return 1 if found else 0
+    return 1 if found or output.is_cut else 0
 
 
 if __name__ == "__main__":
