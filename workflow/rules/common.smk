@@ -2,13 +2,18 @@
 
 import os
 import shlex
-import signal
 import sys
-import threading
 import time
 from importlib.metadata import version
 
 from snakemake.cli import get_argument_parser
+
+from experiments.running.interrupts import Interrupts
+from experiments.running.terminal import shown_by
+
+# Ctrl-C is answered from here on: all that is imported below takes a second.
+SHOWN_BY = shown_by(workflow.logger_manager.get_log_handlers())
+INTERRUPTS = Interrupts(SHOWN_BY) if workflow.is_main_process else None
 
 from experiments.evaluation.measure.estimates.scores import measure_problems
 from experiments.evaluation.report.paper import missing_packages
@@ -27,12 +32,11 @@ from experiments.plan.products import shown as report_of
 from experiments.plan.room import Sizes, check_room, share_at_once
 from experiments.plan.schedule import TimedJob
 from experiments.running.progress import in_time
-from experiments.running.terminal import RunHandler
 from experiments.running.words import in_set, nearest, one_of, scale_of_targets
 from experiments.settings.checks.claims import text_problems
 from experiments.running.cluster import LIMITED, failed_jobs, warm_cache
 from experiments.running.environment import fault_of_process, quieten, sweep_project
-from experiments.running.processes import PREFIX, end_jobs, follow_trainings
+from experiments.running.processes import PREFIX, follow_trainings
 from experiments.settings.load import load_settings
 from mobnet.core.code import UNKNOWN, code_hash, commit
 from mobnet.core.detections import FILES
@@ -42,7 +46,6 @@ from mobnet.core.machine import gpus_seen
 
 ROOT = Path(workflow.current_basedir).parent.parent
 STARTED_S = time.time()
-BEGUN, STOPPED = threading.Event(), threading.Event()  # of the jobs; by Ctrl-C
 
 if fault := fault_of_process(ROOT):
     sys.exit(fault)
@@ -114,7 +117,7 @@ wildcard_constraints:
 
 
 onstart:
-    BEGUN.set()
+    INTERRUPTS.jobs_begin(are_local=workflow.local_exec)
     try:
         sweep_project(ROOT)  # Snakemake holds its lock: no other run begins here
         record_precision(PLAN.folders.results, PRECISION)
@@ -139,11 +142,12 @@ onstart:
 
 
 onsuccess:
+    INTERRUPTS.jobs_ended()
     sys.stderr.write(f"{made_line(TARGETS, PLAN.folders)}, in {in_time(time.time() - STARTED_S)}\n")
 
 
 onerror:
-    if not workflow.local_exec and not STOPPED.is_set():
+    if not workflow.local_exec:
         had = {
             job.rule.name: {name: job.resources.get(name) for name in LIMITED}
             for job in workflow.dag.needrun_jobs()
@@ -190,19 +194,14 @@ def flagged(name):
     return report(output, caption=caption, category=how.category, labels=labels)
 
 
-def shown_by():
-    """Return what shows the run, if it is ours."""
-    return [handler for handler in workflow.logger_manager.get_log_handlers() if isinstance(handler, RunHandler)]
-
-
 def tell_prices(jobs):
     """Tell what shows the run how long its jobs will take; return it, by their numbers [s]."""
     # This import takes a second, which the process of a job does not need.
     from experiments.evaluation.report.cost import expected_s
 
     seconds = expected_s(PLAN, {job.jobid: PlannedJob.of(job) for job in jobs})
-    for handler in shown_by():
-        handler.expect(seconds)
+    for handler in SHOWN_BY:
+        handler.expect(seconds, waiting=len(jobs), made=len(workflow.dag.jobs) - len(jobs))
     return seconds
 
 
@@ -254,42 +253,3 @@ def check_targets():
 def is_made(target):
     """Return whether a rule makes a file or a folder."""
     return any(rule.is_producer(target.rstrip("/")) for rule in workflow.rules)
-
-
-def waits_for_jobs(frame):
-    """Return whether a frame of the main thread is where Snakemake waits for the end of a job."""
-    while frame is not None and frame.f_code.co_name != "acquire":
-        frame = frame.f_back
-    return frame is not None and frame.f_back.f_code.co_name == "schedule"
-
-
-def answer_interrupts():
-    """Let Ctrl-C, which `./reproduce` blocks until here, say how to go on before Snakemake ends its jobs, if any."""
-
-    def stop(number, frame):
-        is_again = STOPPED.is_set() and number == signal.SIGINT
-        if not STOPPED.is_set():
-            STOPPED.set()
-            for handler in shown_by():
-                handler.stopped()
-            sys.stderr.write("stopped; the same command goes on from here\n")
-        if workflow.local_exec:
-            end_jobs()
-        if not BEGUN.is_set():
-            # Nothing is lost; an exception in the middle of Snakemake's tasks would end in a traceback.
-            # `unlock` removes locks of other runs, too.
-            if workflow.persistence and workflow.persistence._lockfile:
-                workflow.persistence.unlock()
-            for handler in shown_by():
-                handler.close()
-            sys.stdout.flush()
-            os._exit(128 + number)
-        if is_again or waits_for_jobs(frame):
-            raise KeyboardInterrupt
-        # Elsewhere Snakemake would print a traceback: it soon waits again.
-        signal.setitimer(signal.ITIMER_REAL, 0.1)
-
-    if workflow.is_main_process:
-        signal.signal(signal.SIGALRM, stop)
-        signal.signal(signal.SIGINT, stop)
-        signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
