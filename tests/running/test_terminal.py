@@ -98,7 +98,7 @@ def test_time_left_follows_prices_and_the_pace_of_jobs_that_ended():
     assert state.left_s(NOW_S) is None  # nobody knows yet how fast this machine is
     state.begin(1, "a", None, NOW_S)
     state.end(1, NOW_S + 20.0)
-    assert state.pace(NOW_S + 20.0) == pytest.approx(2.0)
+    assert state.pace == pytest.approx(2.0)
     assert state.share == pytest.approx(10.0 / 70.0)
     running = state.begin(3, "c", None, NOW_S + 20.0)
     # That of the longest job, which is more than half of all.

@@ -87,15 +87,10 @@ class Job:
         """Whether it compiles code, which happens once, and which no price contains."""
         return self.text.startswith(COMPILING)
 
-    @property
-    def tells(self) -> bool:
-        """Whether the time that it took says how long work takes."""
-        return self.done > LEAST and not self.has_compiled
-
     def left_s(self, now_s: float, pace: float | None) -> float | None:
         """Return the time left [s], by what it says itself or by its price and a pace; None where neither is known."""
         took_s = now_s - self.began_s
-        if self.tells:
+        if self.done > LEAST and not self.has_compiled:
             return max(0.0, took_s - START_S) * (1.0 - self.done) / self.done
         if pace is None:
             return None
@@ -141,18 +136,14 @@ class RunState:
             self._took_s += now_s - job.began_s
         return job
 
-    def pace(self, now_s: float) -> float | None:
-        """Return what jobs take, as a multiple of their prices; None before enough of them was measured.
+    @property
+    def pace(self) -> float | None:
+        """What jobs took, as a multiple of their prices; None before enough of them have ended.
 
         A job that compiled does not count: its time says nothing of the others.
         """
-        measured_s, took_s = self._measured_s, self._took_s
-        for job in tuple(self.running.values()):
-            if job.tells:
-                measured_s += job.done * job.price_s
-                took_s += now_s - job.began_s
         least_s = min(KNOWN_S, KNOWN * sum(self.prices.values()))
-        return took_s / measured_s if measured_s > 0.0 and measured_s >= least_s else None
+        return self._took_s / self._measured_s if self._measured_s and self._measured_s >= least_s else None
 
     @property
     def share(self) -> float:
@@ -164,9 +155,8 @@ class RunState:
 
     def left_s(self, now_s: float) -> float | None:
         """Return the time left of the run [s]; None while nothing tells it."""
-        pace = self.pace(now_s)
-        if pace is None:
+        if self.pace is None:
             return None
-        rest_s = [job.left_s(now_s, pace) or 0.0 for job in tuple(self.running.values())]
-        whole_s = sum(rest_s) + max(0.0, self._waiting_s) * pace
+        rest_s = [job.left_s(now_s, self.pace) or 0.0 for job in tuple(self.running.values())]
+        whole_s = sum(rest_s) + max(0.0, self._waiting_s) * self.pace
         return max([whole_s / self.slots, *rest_s])

@@ -222,15 +222,16 @@ def drawn(course: RunState, now_s: float, size: os.terminal_size) -> list[str]:
     jobs = sorted(course.running.values(), key=lambda job: (not job.text, job.began_s))
     for job in jobs:
         job.follow()
-    lines = [fitted(job.name, state_of(job, now_s, course.pace(now_s)), columns) for job in jobs[:most]]
+    lines = [fitted(job.name, state_of(job, now_s, course.pace), columns) for job in jobs[:most]]
     if len(jobs) > most:
         lines.append(f"and {len(jobs) - most} more")
     left_s = course.left_s(now_s)
-    state = "time left: not known yet"
-    if left_s is not None:
-        state = barred(course.share, f"{in_time(left_s)} left")
+    if left_s is not None or course.done == course.total:
+        state = barred(course.share, f"{in_time(left_s or 0.0)} left")
     elif any(job.is_compiling for job in jobs):
         state = "time left: not known while code compiles"
+    else:
+        state = "time left: not known yet"
     return [*lines, fitted(f"{course.done} of {counted(course.total)}, {took}", state, columns)]
 
 
