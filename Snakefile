@@ -37,4 +37,3 @@ rule all:
 if WORDS and (fault := next(faults_of_words(WORDS, list(workflow.rules), PLAN.shown, SETTINGS.scales), None)):
     sys.exit(fault)
 let_go_early()
-answer_interrupts()

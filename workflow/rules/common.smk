@@ -2,14 +2,19 @@
 
 import os
 import shlex
-import signal
 import sys
-import threading
 import time
 from importlib.metadata import version
 
 from snakemake.cli import get_argument_parser
 from snakemake.logging import logger
+
+from experiments.running.interrupts import Interrupts
+from experiments.running.terminal import shown_by
+
+# Ctrl-C is answered from here on: all that is imported below takes a second.
+SHOWN_BY = shown_by(workflow.logger_manager.get_log_handlers())
+INTERRUPTS = Interrupts(SHOWN_BY) if workflow.is_main_process else None
 
 from experiments.evaluation.measure.estimates.scores import measure_problems
 from experiments.evaluation.report.paper import missing_packages
@@ -33,12 +38,11 @@ from experiments.running.begun import lost, record_begun, record_end
 from experiments.running.one_run import hold_folder, only_looks
 from experiments.plan.targets import faults_of_words, made_line
 from experiments.running.progress import in_time
-from experiments.running.terminal import RunHandler
 from experiments.running.words import one_of, refuse_twice, scale_of_targets
 from experiments.settings.checks.claims import text_problems
 from experiments.running.cluster import LIMITED, failed_jobs, warm_cache
 from experiments.running.environment import quieten, sweep_project
-from experiments.running.processes import PREFIX, end_jobs, end_orphans, follow_trainings
+from experiments.running.processes import PREFIX, end_orphans, follow_trainings
 from experiments.settings.load import load_settings
 from mobnet.core.code import UNKNOWN, code_hash, commit
 from mobnet.core.detections import FILES
@@ -49,7 +53,6 @@ from mobnet.core.printed import end_where_full, watch_output
 
 ROOT = Path(workflow.current_basedir).parent.parent
 STARTED_S = time.time()
-BEGUN, STOPPED = threading.Event(), threading.Event()  # of the jobs; by Ctrl-C
 
 quieten(ROOT)
 PYTHON = sys.executable
@@ -129,7 +132,7 @@ wildcard_constraints:
 
 
 onstart:
-    BEGUN.set()
+    INTERRUPTS.jobs_begin(are_local=workflow.local_exec)
     try:
         sweep_project(ROOT)  # no other run goes on here
         record_precision(PLAN.folders.results, PRECISION)
@@ -155,6 +158,7 @@ onstart:
 
 
 onsuccess:
+    INTERRUPTS.jobs_ended()
     record_end(STATE)
     sys.stderr.write(
         f"{made_line(TARGETS, list(workflow.rules), PLAN.folders)}, in {in_time(time.time() - STARTED_S)}\n"
@@ -162,7 +166,7 @@ onsuccess:
 
 
 onerror:
-    if not workflow.local_exec and not STOPPED.is_set():
+    if not workflow.local_exec:
         had = {
             str(job.log): {name: job.resources.get(name) for name in LIMITED} for job in workflow.dag.needrun_jobs()
         }
@@ -217,19 +221,14 @@ def flagged(name):
     return report(output, caption=caption, category=how.category, labels=labels)
 
 
-def shown_by():
-    """Return what shows the run, if it is ours."""
-    return [handler for handler in workflow.logger_manager.get_log_handlers() if isinstance(handler, RunHandler)]
-
-
 def tell_prices(jobs):
     """Tell what shows the run how long its jobs will take; return it, by their numbers [s]."""
     # This import takes a second, which the process of a job does not need.
     from experiments.evaluation.report.cost import expected_s
 
     seconds = expected_s(PLAN, {job.jobid: PlannedJob.of(job) for job in jobs})
-    for handler in shown_by():
-        handler.expect(seconds)
+    for handler in SHOWN_BY:
+        handler.expect(seconds, waiting=len(jobs), made=len(workflow.dag.jobs) - len(jobs))
     return seconds
 
 
@@ -253,42 +252,3 @@ def let_go_early():
     if SETTINGS.keep != "all":
         for each in workflow.rules:
             each.priority = first.get(each.name, 20)
-
-
-def waits_for_jobs(frame):
-    """Return whether a frame of the main thread is where Snakemake waits for the end of a job."""
-    while frame is not None and frame.f_code.co_name != "acquire":
-        frame = frame.f_back
-    return frame is not None and frame.f_back.f_code.co_name == "schedule"
-
-
-def answer_interrupts():
-    """Let Ctrl-C, which `./reproduce` blocks until here, say how to go on before Snakemake ends its jobs, if any."""
-
-    def stop(number, frame):
-        is_again = STOPPED.is_set() and number == signal.SIGINT
-        if not STOPPED.is_set():
-            STOPPED.set()
-            for handler in shown_by():
-                handler.stopped()
-            sys.stderr.write("stopped; the same command goes on from here\n")
-        if workflow.local_exec:
-            end_jobs()
-        if not BEGUN.is_set():
-            # Nothing is lost; an exception in the middle of Snakemake's tasks would end in a traceback.
-            # `unlock` removes locks of other runs, too.
-            if workflow.persistence and workflow.persistence._lockfile:
-                workflow.persistence.unlock()
-            for handler in shown_by():
-                handler.close()
-            sys.stdout.flush()
-            os._exit(128 + number)
-        if is_again or waits_for_jobs(frame):
-            raise KeyboardInterrupt
-        # Elsewhere Snakemake would print a traceback: it soon waits again.
-        signal.setitimer(signal.ITIMER_REAL, 0.1)
-
-    if workflow.is_main_process:
-        signal.signal(signal.SIGALRM, stop)
-        signal.signal(signal.SIGINT, stop)
-        signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})

@@ -36,6 +36,7 @@ REPORT = ("--report", "report.html", "--report-after-run")
 def main(root: Path, words: Sequence[str]) -> int:
     """Run one command in a project's folder; return its exit status."""
     try:
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})  # `./reproduce` holds it back until here
         return run(root, parse(words))
     except MobnetError as problem:
         say(str(problem))

@@ -26,6 +26,7 @@ FORMAT = "%(asctime)s %(levelname)s %(message)s"
 LOGS = "logs"  # folder of the jobs' logs, in which each rule with several jobs has a folder of its own
 STATUS = Path("/proc/self/status")
 MIB = 2**20
+AGAIN_S = 5  # until a job that was told to end is told again
 
 
 @contextlib.contextmanager
@@ -131,22 +132,24 @@ def accounted(log_path: Path) -> Iterator[None]:
 
 @contextlib.contextmanager
 def terminable() -> Iterator[None]:
-    """Turn Ctrl-C and the signal to terminate into an exit without a traceback: files are whole or not there."""
+    """Turn Ctrl-C and the signal to terminate into an exit without a traceback: files are whole or not there.
+
+    Python ignores an exception in a function that was called from C, as numba calls some while it compiles. So the exit
+    is raised again, after a while and at each further signal, until it comes through.
+    """
 
     def leave(number: int, frame: object) -> None:
-        for other in (signal.SIGINT, signal.SIGTERM):
-            # One signal is enough, a second one would cut short what follows. One that has come already would be a
-            # fault of Python's if it were ignored.
-            signal.signal(other, lambda number, frame: None)
+        signal.alarm(AGAIN_S)
         raise SystemExit(128 + number)
 
     if threading.current_thread() is not threading.main_thread():
         yield  # other threads get no signals
         return
-    before = {number: signal.signal(number, leave) for number in (signal.SIGINT, signal.SIGTERM)}
+    before = {number: signal.signal(number, leave) for number in (signal.SIGINT, signal.SIGTERM, signal.SIGALRM)}
     try:
         yield
     finally:
+        signal.alarm(0)
         for number, handler in before.items():
             signal.signal(number, handler)
 

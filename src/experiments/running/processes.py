@@ -4,6 +4,7 @@ import atexit
 import contextlib
 import os
 import subprocess
+import time
 from pathlib import Path
 
 import psutil
@@ -11,18 +12,31 @@ import psutil
 from experiments.running.environment import SCRIPTS
 
 MODULE = "experiments.evaluation.report.wandb_live"
-LONGEST_S = 20.0  # that it may take to end
+LONGEST_S = 20.0  # that it, or a job, may take to end
 LEAVE_S = 5.0  # that a job of a killed run has to remove what it was writing
+STEP_S = 0.2  # between two looks for jobs that have begun meanwhile
 # Before the command of each job: a terminal sends Ctrl-C to jobs too, and Python may not have loaded yet what hears it.
-PREFIX = "trap '' INT; "
+# The shell stays until its job has ended, so that nothing is cleared away that a job still writes.
+PREFIX = "trap '' INT; trap : TERM; "
 
 
 def end_jobs() -> None:
-    """Let the jobs of this process end: what each of them had not finished is removed by itself."""
-    for child in psutil.Process().children(recursive=True):
-        with contextlib.suppress(psutil.Error, ProcessLookupError):
-            if os.getpgid(child.pid) == os.getpgrp():  # the process beside the run ends later
-                child.terminate()
+    """Let the jobs of this process end, also those that just begin, and kill those that do not; never returns.
+
+    What each of them had not finished is removed by itself.
+    """
+    told: dict[psutil.Process, float] = {}
+    while True:
+        for child in psutil.Process().children(recursive=True):
+            with contextlib.suppress(psutil.Error, ProcessLookupError):
+                if os.getpgid(child.pid) != os.getpgrp():
+                    continue  # the process beside the run ends later
+                if child not in told:
+                    told[child] = time.monotonic()
+                    child.terminate()
+                elif time.monotonic() - told[child] > LONGEST_S:
+                    child.kill()
+        time.sleep(STEP_S)
 
 
 def end_orphans(root: Path) -> None:

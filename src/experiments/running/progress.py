@@ -6,7 +6,7 @@ simulated" says how much of a part is done. Nothing else is needed, so that a jo
 
 import re
 import time
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -17,24 +17,9 @@ PART = re.compile(r"[a-z]+ (?P<begun>\d+) of (?P<all>[1-9]\d*)\b")  # at the sta
 AMOUNT = re.compile(r"(?P<done>\d+) of (?P<all>[1-9]\d*) [a-z]")
 COMPILING = "compiling code"
 LEAST = 0.03  # share of a job that is done before the rest of its time is told from it
-START_S = 6.0  # that a job takes besides what it is priced with: Python and its packages are loaded
-WORDS = {  # kind of jobs -> what they do
-    "motion": "motion",
-    "collect": "record",
-    "observe": "observe",
-    "fit": "fit",
-    "train": "train",
-    "train_stack": "train side by side",
-    "estimate": "estimate",
-    "score": "score",
-    "detect": "detectors",
-    "watch": "thresholds",
-    "react": "reaction",
-    "falls": "falls",
-    "table": "table",
-    "figure": "figure",
-    "trials": "trial",
-}
+START_S = 2.0  # that a job takes besides what it is priced with: Python and its packages are loaded
+KNOWN_S, KNOWN = 20.0, 0.05  # price, and share of that of the run, that is measured before the time left is told
+WORDS = {"collect": "record", "detect": "detectors", "watch": "thresholds", "react": "reaction"}  # rule -> what it does
 
 
 def in_words(rule: str, log: str | None) -> str:
@@ -54,31 +39,25 @@ def in_time(seconds: float) -> str:
 
 
 @dataclass
-class JobLog:
-    """What the log of a job says of its progress.
+class Job:
+    """A job that was started at `began_s`, its price [s], and what its log says: the share done, and its last line."""
 
-    Attributes:
-        path: the log; None of a job without one.
-        since_s: start of the job [s since 1970]; an older file is that of an earlier run.
-        done: share of the job that is done; 0 where it says nothing.
-        text: its last line, without time and level; empty before the first.
-    """
-
-    path: Path | None
-    since_s: float
+    name: str
+    log: Path | None
+    began_s: float
+    price_s: float = 0.0
     done: float = 0.0
     text: str = ""
+    has_compiled: bool = False
     _read: int = 0
     _part: tuple[float, float] = (0.0, 1.0)  # where the present part begins, and its share
 
     def follow(self) -> None:
-        """Read what was written since the last time."""
-        if self.path is None:
-            return
+        """Read what was written since the last time; an older log is that of an earlier run."""
         try:
-            if self.path.stat().st_mtime < self.since_s:
+            if self.log is None or self.log.stat().st_mtime < self.began_s:
                 return
-            with self.path.open("rb") as file:
+            with self.log.open("rb") as file:
                 file.seek(self._read)
                 new = file.read()
         except OSError:
@@ -90,8 +69,9 @@ class JobLog:
                 self.take(found["text"])
 
     def take(self, text: str) -> None:
-        """Take one line of the log."""
+        """Take one line of the log, without time and level."""
         self.text = text
+        self.has_compiled |= self.is_compiling
         done = self.done
         if part := PART.match(text):
             share = 1.0 / int(part["all"])
@@ -102,101 +82,81 @@ class JobLog:
             done = begin + share * int(amount["done"]) / int(amount["all"])
         self.done = min(1.0, max(self.done, done))
 
+    @property
+    def is_compiling(self) -> bool:
+        """Whether it compiles code, which happens once, and which no price contains."""
+        return self.text.startswith(COMPILING)
 
-@dataclass
-class Underway:
-    """A job that was started: its name in words, its log, when it began, and what it was to take [s]; None: unknown."""
-
-    name: str
-    log: JobLog
-    began_s: float
-    expected_s: float | None = None
-
-    def left_s(self, now_s: float, pace: float) -> float | None:
-        """Return the time left [s]: by what it says itself, or else by its price; None where neither is known.
-
-        Args:
-            now_s: the time.
-            pace: what jobs took so far, as a multiple of their prices.
-        """
+    def left_s(self, now_s: float, pace: float | None) -> float | None:
+        """Return the time left [s], by what it says itself or by its price and a pace; None where neither is known."""
         took_s = now_s - self.began_s
-        if self.log.done > LEAST:
-            return took_s * (1.0 - self.log.done) / self.log.done
-        return None if self.expected_s is None else max(0.0, self.expected_s * pace - took_s)
+        if self.done > LEAST and not self.has_compiled:
+            return max(0.0, took_s - START_S) * (1.0 - self.done) / self.done
+        if pace is None:
+            return None
+        whole_s = pace * self.price_s
+        return whole_s * (1.0 - self.done) if self.has_compiled else max(0.0, whole_s - took_s)
 
 
 @dataclass
 class RunState:
-    """How far a run is.
-
-    Attributes:
-        total: jobs of the run.
-        done: those that have ended.
-        slots: jobs that run at once.
-        running: those that were started, by their numbers.
-        expected: number -> what a job is to take [s]; empty where it is not known.
-        began_s: the start [s since 1970].
-    """
+    """How far a run is: its jobs, those that have ended, and those that run, by their numbers; `slots` run at once."""
 
     total: int = 0
     done: int = 0
     slots: int = 1
-    running: dict[int, Underway] = field(default_factory=dict)
-    expected: dict[int, float] = field(default_factory=dict)
+    running: dict[int, Job] = field(default_factory=dict)
+    prices: dict[int, float] = field(default_factory=dict)  # [s]
     began_s: float = field(default_factory=time.time)
     _waiting_s: float = 0.0  # price of the jobs that have not begun
     _ended_s: float = 0.0  # price of those that have ended
-    _took_s: float = 0.0  # what they took
+    _measured_s: float = 0.0  # price of those of them that compiled nothing
+    _took_s: float = 0.0  # what these took
 
     def expect(self, prices: Mapping[int, float]) -> None:
         """Take what each job that will run is to take [s], without what it takes to start."""
-        self.expected = {number: price + START_S for number, price in prices.items()}
-        self._waiting_s = sum(self.expected.values())
+        self.prices = {number: price_s + START_S for number, price_s in prices.items()}
+        self._waiting_s = sum(self.prices.values())
 
-    def begin(self, number: int, name: str, log: Path | None, now_s: float) -> Underway:
+    def begin(self, number: int, name: str, log: str | None, now_s: float) -> Job:
         """Take the start of a job; return it."""
-        expected_s = self.expected.get(number)
-        self._waiting_s -= expected_s or 0.0
-        self.running[number] = Underway(name, JobLog(log, now_s), now_s, expected_s)
-        return self.running[number]
+        job = Job(name, Path(log) if log else None, now_s, self.prices.get(number, 0.0))
+        self._waiting_s -= job.price_s
+        self.running[number] = job
+        return job
 
-    def end(self, number: int, now_s: float) -> Underway | None:
-        """Take the end of a job; return it, None where its start was not seen."""
-        job = self.running.pop(number, None)
-        if job is not None and job.expected_s is not None:
-            self._ended_s += job.expected_s
+    def end(self, number: int, now_s: float) -> Job:
+        """Take the end of a job; return it."""
+        job = self.running.pop(number)
+        job.follow()
+        self.done += 1
+        self._ended_s += job.price_s
+        if not job.has_compiled:
+            self._measured_s += job.price_s
             self._took_s += now_s - job.began_s
         return job
 
     @property
-    def pace(self) -> float:
-        """What jobs took so far, as a multiple of their prices."""
-        return self._took_s / self._ended_s if self._ended_s else 1.0
+    def pace(self) -> float | None:
+        """What jobs took, as a multiple of their prices; None before enough of them have ended.
+
+        A job that compiled does not count: its time says nothing of the others.
+        """
+        least_s = min(KNOWN_S, KNOWN * sum(self.prices.values()))
+        return self._took_s / self._measured_s if self._measured_s and self._measured_s >= least_s else None
 
     @property
     def share(self) -> float:
-        """Share of the run that is done: by prices where they are known, else by the number of jobs."""
-        whole_s = sum(self.expected.values())
-        if not whole_s:
-            return self.done / self.total if self.total else 0.0
-        jobs = self.running.values()
-        return min(1.0, (self._ended_s + sum(job.log.done * (job.expected_s or 0.0) for job in jobs)) / whole_s)
+        """Share of the run that is done, by prices where they are known, else by the number of jobs."""
+        if not self.prices:
+            return self.done / max(1, self.total)
+        done_s = self._ended_s + sum(job.done * job.price_s for job in tuple(self.running.values()))
+        return min(1.0, done_s / sum(self.prices.values()))
 
     def left_s(self, now_s: float) -> float | None:
         """Return the time left of the run [s]; None while nothing tells it."""
-        if not self.expected:
-            took_s = now_s - self.began_s
-            return took_s / self.done * (self.total - self.done) if self.done else None
-        rest = [left for job in self.running.values() if (left := job.left_s(now_s, self.pace)) is not None]
-        whole_s = sum(rest) + max(0.0, self._waiting_s) * self.pace
-        return max([whole_s / self.slots, *rest])
-
-    def follow(self) -> None:
-        """Read the logs of all running jobs."""
-        for job in tuple(self.running.values()):
-            job.log.follow()
-
-
-def first(logs: Iterable[str]) -> str | None:
-    """Return the first of some logs, if there is one."""
-    return next(iter(logs), None)
+        if self.pace is None:
+            return None
+        rest_s = [job.left_s(now_s, self.pace) or 0.0 for job in tuple(self.running.values())]
+        whole_s = sum(rest_s) + max(0.0, self._waiting_s) * self.pace
+        return max([whole_s / self.slots, *rest_s])

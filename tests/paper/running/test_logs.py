@@ -7,6 +7,7 @@ import sys
 import time
 
 import pytest
+from patience import HANGS_S
 
 from experiments.running.accounts import Account
 from experiments.running.logs import job
@@ -70,6 +71,36 @@ def test_children_count(tmp_path):
     told = account(tmp_path / "a.log")
     assert 300 < told.peak_mib < 400
     assert 0.1 < told.cpu_s <= told.wall_s + 0.1
+
+
+SWALLOWING = """
+import ctypes, sys, time
+from experiments.running import logs
+
+def wait():
+    print("begun", flush=True)
+    time.sleep(900)
+
+logs.AGAIN_S = 1
+with logs.job(sys.argv[1]):
+    ctypes.CFUNCTYPE(None)(wait)()  # as numba calls functions while it compiles: Python ignores what they raise
+    print("goes on", flush=True)
+    time.sleep(900)
+"""
+
+
+@pytest.mark.parametrize("signals", [1, 2])
+def test_a_job_that_loses_the_first_exit_ends_all_the_same(tmp_path, signals):
+    """By itself after a while, and at a second signal at once."""
+    words = [sys.executable, "-c", SWALLOWING, tmp_path / "a.log"]
+    with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL) as child:
+        assert child.stdout.readline() == b"begun\n"
+        child.terminate()
+        assert child.stdout.readline() == b"goes on\n"
+        if signals > 1:
+            child.terminate()
+        assert child.wait(HANGS_S) in (128 + signal.SIGTERM, 128 + signal.SIGALRM)
+    assert not account(tmp_path / "a.log").succeeded
 
 
 @pytest.mark.parametrize("number", [None, signal.SIGTERM, signal.SIGINT])

@@ -1,27 +1,25 @@
 """What a run shows of its jobs, by made records and logs: plain lines, lines in place, and what is never left out."""
 
-import io
 import json
 import logging
 import os
 import pty
-import re
 import subprocess
 import sys
 from types import SimpleNamespace
 
 import pytest
-from rich.console import Console
 from snakemake_interface_logger_plugins.common import LogEvent
 from snakemake_interface_logger_plugins.registry import LoggerPluginRegistry
 
-from experiments.running.progress import START_S, JobLog, RunState, in_time, in_words
+from experiments.running.progress import START_S, Job, RunState, in_time, in_words
 from experiments.running.terminal import RunHandler, drawn
 
 ASKED = {"dryrun": False, "verbose": False, "printshellcmds": False, "debug_dag": False, "quiet": None, "nocolor": True}
 LOG = "results/smoke/logs/train/plant/MOB-Net-LL-s0.log"
 NAME = "train plant, MOB-Net-LL-s0"
 NOW_S = 1000.0
+COMPILING = "compiling code for this processor"  # as mobnet.core.compilation says
 
 
 def record(text=None, level=logging.INFO, **told):
@@ -70,7 +68,7 @@ def test_times_are_short(seconds, text):
 
 
 @pytest.mark.parametrize(("texts", "done"), [
-    (["compiling code for this processor, which may take a minute, once"], 0.0),
+    ([f"{COMPILING}, which may take a minute, once"], 0.0),
     (["3 of 12 epochs, loss 0.1"], 0.25),
     (["recording 2 of 4, s101"], 0.25),
     (["recording 2 of 4, s101", "15 of 30 s simulated"], 0.375),
@@ -78,26 +76,26 @@ def test_times_are_short(seconds, text):
     (["s101: 0 falls of 3 seen"], 0.0),
 ])  # fmt: skip
 def test_a_log_tells_how_far_a_job_is(tmp_path, texts, done):
-    log = JobLog(tmp_path / "a.log", 0.0)
-    log.follow()  # before it is there
+    job = Job("a", tmp_path / "a.log", 0.0)
+    job.follow()  # before it is there
     (tmp_path / "a.log").write_text("".join(f"12:00:00 INFO {text}\n" for text in texts) + "12:00:01 INFO 9 of")
-    log.follow()
-    assert (log.done, log.text) == (pytest.approx(done), texts[-1])
+    job.follow()
+    assert (job.done, job.text) == (pytest.approx(done), texts[-1])
 
 
 def test_the_log_of_an_earlier_run_does_not_count(tmp_path):
     path = tmp_path / "a.log"
     path.write_text("12:00:00 INFO 9 of 10 epochs\n")
     os.utime(path, (NOW_S - 1, NOW_S - 1))
-    log = JobLog(path, NOW_S)
-    log.follow()
-    assert log.done == 0.0
+    job = Job("a", path, NOW_S)
+    job.follow()
+    assert job.done == 0.0
 
 
 def test_time_left_follows_prices_and_the_pace_of_jobs_that_ended():
     state = RunState(total=3, slots=2)
     state.expect({1: 10.0 - START_S, 2: 20.0 - START_S, 3: 40.0 - START_S})
-    assert state.left_s(NOW_S) == pytest.approx(35.0)
+    assert state.left_s(NOW_S) is None  # nobody knows yet how fast this machine is
     state.begin(1, "a", None, NOW_S)
     state.end(1, NOW_S + 20.0)
     assert state.pace == pytest.approx(2.0)
@@ -105,16 +103,60 @@ def test_time_left_follows_prices_and_the_pace_of_jobs_that_ended():
     running = state.begin(3, "c", None, NOW_S + 20.0)
     # That of the longest job, which is more than half of all.
     assert state.left_s(NOW_S + 20.0) == pytest.approx(80.0)
-    running.log.take("3 of 4 epochs")
-    assert running.left_s(NOW_S + 50.0, state.pace) == pytest.approx(10.0)
+    running.take("3 of 4 epochs")
+    assert running.left_s(NOW_S + 50.0 + START_S, None) == pytest.approx(10.0)
+
+
+def test_time_left_is_not_told_before_it_is_known_and_hardly_rises():
+    """A machine of two cores, three times as slow as the prices, on which the first two jobs compile for 3 minutes."""
+    slow, starts_s, compiles_s = 3.0, 3.0, 180.0
+    most, more_s = 1.25, 90.0  # a long job may come last
+    prices = {number: (5.0, 20.0, 60.0)[number % 3] for number in range(60)}
+    state = RunState(total=len(prices), slots=2)
+    state.expect(prices)
+    waiting = list(prices)
+    ends_s, begins_s, now_s = {}, {}, NOW_S
+    told, shown = [], []
+    while waiting or ends_s:
+        for number in [number for number, end_s in ends_s.items() if end_s <= now_s]:
+            del ends_s[number]
+            state.end(number, now_s)
+        while waiting and len(ends_s) < state.slots:
+            number = waiting.pop(0)
+            job = state.begin(number, f"job {number}", None, now_s)
+            begins_s[number] = now_s + starts_s + (compiles_s if number < state.slots else 0.0)
+            ends_s[number] = begins_s[number] + slow * prices[number]
+            job.text = "loading"
+        for number, job in state.running.items():
+            if now_s >= begins_s[number]:
+                share = (now_s - begins_s[number]) / (ends_s[number] - begins_s[number])
+                job.take(f"{100 * share:.0f} of 100 s simulated")
+            elif number < state.slots:
+                job.take(f"{COMPILING}: {int(now_s - NOW_S)} functions in 20 s so far")
+        left_s = state.left_s(now_s)
+        if left_s is not None:
+            told.append(left_s)
+        shown.append(drawn(state, now_s, os.terminal_size((100, 30))))
+        now_s += 1.0
+    assert "compiles code, once: 100 functions, 2 min" in shown[100][0]
+    assert shown[100][-1].endswith("time left: not known while code compiles")
+    assert len(told) > len(shown) / 2
+    assert told[0] == pytest.approx(len(told), rel=0.1)
+    for number, left_s in enumerate(told[1:], start=1):
+        assert left_s < most * min(told[:number]) + more_s
+
+
+RUNS = (
+    record("Building DAG of jobs..."),
+    record("Provided cores: 2", event=LogEvent.RESOURCES_INFO, cores=2),
+    record("stats", event=LogEvent.RUN_INFO, stats={"train": 1, "total": 2}),
+)
 
 
 def test_plain_lines_tell_start_and_end(handler, lines):
     printed = lines(
         handler,
-        record("Building DAG of jobs..."),
-        record("stats", event=LogEvent.RUN_INFO, stats={"train": 1, "total": 2}),
-        record("Provided cores: 2", event=LogEvent.RESOURCES_INFO, cores=2),
+        *RUNS,
         record("Select jobs to execute..."),
         record("Execute 1 jobs...", event=LogEvent.JOB_STARTED, jobs=[4]),
         started(4),
@@ -122,29 +164,52 @@ def test_plain_lines_tell_start_and_end(handler, lines):
         record("None", event=LogEvent.PROGRESS, done=1, total=2),
         record("Complete log(s): /home/somebody/a.log"),
     )
-    assert printed == ["2 jobs", f"begins: {NAME}", f"done: {NAME}, 0 s (1 of 2 jobs, 50 %, 0 s left)"]
+    assert printed == [f"begins: {NAME}", f"done: {NAME}, 0 s (1 of 2 jobs, 50 %)"]
 
 
-def test_a_failure_names_the_log_and_nothing_of_snakemake_is_lost(handler, lines):
+@pytest.mark.parametrize(("waiting", "made", "said"), [
+    (285, 77, "285 of 362 jobs; 77 are made already"), (1, 1, "1 of 2 jobs; 1 is made already"), (1, 0, "1 job"),
+])  # fmt: skip
+def test_a_run_that_goes_on_says_what_is_made(handler, capsys, waiting, made, said):
+    handler.expect({}, waiting=waiting, made=made)
+    assert capsys.readouterr().err.endswith(f" {said}\n")
+
+
+@pytest.mark.parametrize("records", [(record("Building DAG of jobs..."),), ()])
+def test_what_snakemake_says_stays_where_there_is_nothing_to_run(handler, lines, capsys, records):
+    said = "Nothing to be done (all requested files are present and up to date)."
+    assert lines(handler, *records, record(said)) == []
+    handler.close()
+    assert capsys.readouterr().err.splitlines() == [*(one.getMessage() for one in records), said]
+
+
+@pytest.mark.parametrize("asked", ["dryrun", "verbose", "printshellcmds", "debug_dag", "quiet"])
+def test_a_run_that_was_asked_for_details_is_left_to_snakemake(lines, asked):
+    given = [SimpleNamespace(name="PROGRESS")] if asked == "quiet" else True
+    handler = RunHandler(SimpleNamespace(**{**ASKED, asked: given}), None)
+    assert not handler.writes_to_stream
+    assert lines(handler, record("a warning", logging.WARNING)) == []
+
+
+def test_a_failure_names_the_log_and_no_error_is_lost(handler, lines, capsys):
     caused = "RuleException:\nCalledProcessError in file \"a.smk\", line 3:\nCommand 'a' "
     failed = {"event": LogEvent.JOB_ERROR, "jobid": 4, "rule_name": "train", "log": [LOG], "indent": False}
     printed = lines(
         handler,
+        *RUNS,
         started(4),
         record(f"{caused}returned non-zero exit status 1.", logging.ERROR, event=LogEvent.ERROR),
-        record(f"{caused}died with <Signals.SIGKILL: 9>.", logging.ERROR, event=LogEvent.ERROR),
+        record(f"{caused}returned non-zero exit status 137.", logging.ERROR, event=LogEvent.ERROR),
         record("Error in rule train", logging.ERROR, **failed),
-        record("Nothing to be done (all requested files are present and up to date)."),
         record("a warning of Snakemake", logging.WARNING),
     )
     assert printed[1:] == [
-        *f"{caused}died with <Signals.SIGKILL: 9>.".splitlines(),
+        *f"{caused}returned non-zero exit status 137.".splitlines(),
         f"failed: {NAME} (log: {LOG})",
-        "Nothing to be done (all requested files are present and up to date).",
         "a warning of Snakemake",
     ]
-    handler.stopped()
-    assert lines(handler, started(5), record("", logging.ERROR, **failed))[-1] == f"begins: {NAME}"
+    assert handler.stop() == "0 of 2 jobs are made"
+    assert lines(handler, started(5), record("", logging.ERROR, **failed)) == []
 
 
 def test_jobs_that_went_into_a_queue_together_fail_once(handler, lines):
@@ -154,19 +219,17 @@ def test_jobs_that_went_into_a_queue_together_fail_once(handler, lines):
     assert printed == ["failed: jobs that went into the queue together (log: 7.log)"]
 
 
-@pytest.mark.parametrize("width", [60, 80, 200])
+@pytest.mark.parametrize("width", [40, 60, 80, 200])
 def test_lines_in_place_never_wrap(width):
     state = RunState(total=300, done=7, began_s=NOW_S)
     for number in range(40):
         name = f"record robot_1, a_scenario_with_a_long_name-and_level_{number}"
-        state.begin(number, name, None, NOW_S).log.take("compiling code")
-    out = io.StringIO()
-    Console(file=out, width=width, force_terminal=True, no_color=True).print(drawn(state, NOW_S + 4000.0, width, 10))
-    shown = [line for line in out.getvalue().splitlines() if line.strip()]
+        state.begin(number, name, None, NOW_S).take(f"{COMPILING}: 107 functions in 158 s so far")
+    shown = drawn(state, NOW_S + 4000.0, os.terminal_size((width, 14)))
     assert len(shown) == 12  # ten jobs, that there are more, and the run
-    assert "and 30 more" in shown[-2]
-    assert "7 of 300 jobs, 1 h 07 min"[: width // 4] in shown[-1]
-    assert all(len(re.sub(r"\x1b\[[0-9;]*m", "", line)) <= width for line in shown)
+    assert shown[-2] == "and 30 more"
+    assert shown[-1].startswith("7 of 300 jobs, "[:15])
+    assert all(len(line) < width for line in shown)
 
 
 def test_snakemake_finds_it_by_the_name_in_the_profile():
@@ -197,7 +260,7 @@ sys.stderr.write("the end\\n")
 def test_on_a_terminal_what_jobs_print_stands_above_and_is_all_there():
     primary, secondary = pty.openpty()
     words = [sys.executable, "-c", IN_PLACE, json.dumps(ASKED), LOG]
-    environment = {**os.environ, "TERM": "xterm-256color", "COLUMNS": "80", "LINES": "30"}
+    environment = {**os.environ, "TERM": "xterm-256color"}
     run = subprocess.Popen(words, stdout=secondary, stderr=secondary, env=environment)
     os.close(secondary)
     written = b""

@@ -1,24 +1,26 @@
 """A run is stopped, killed or finds no room: one line, nothing is left behind, and the same command goes on."""
 
+import contextlib
 import os
+import pty
 import re
 import shutil
 import signal
 import subprocess
 import sys
+import threading
 import time
-from contextlib import contextmanager
 
 import psutil
 import pytest
-from patience import start_s, wait_for
+from patience import HANGS_S, start_s, wait_for
 
 SMOKE = ("--config", "scale=smoke")
 QUICK, SLOW = "tables/smoke/table_01.csv", "results/smoke/plant/recordings/forward_walk/ideal"
 ONE_CORE = ("--cores", "1", *SMOKE, "--")
 MOMENTS_S = (0.3, 1.0, 2.0, 4.0, 8.0)  # after the start: before and while the workflow is planned, while jobs run
 SOON = 10.0  # times that a start of Snakemake takes
-STOPPED = "stopped; the same command goes on from here"
+STOPPED = r"(reproduce: )?stopped; (\d+ of \d+ jobs? (is|are) made; )?the same command goes on from here"
 
 pytestmark = [pytest.mark.slow, pytest.mark.sim]
 
@@ -28,7 +30,7 @@ def project(make_project):
     return make_project("faults")
 
 
-@contextmanager
+@contextlib.contextmanager
 def small_disk(folder, size, how="rw"):
     """Mount an empty file system on a folder."""
     folder.mkdir(parents=True, exist_ok=True)
@@ -64,15 +66,64 @@ def test_ctrl_c_ends_soon_and_says_how_to_go_on(project, moment_s):
             out.seek(0)
             before = out.read()
             os.killpg(run.pid, signal.SIGINT)  # as a terminal does
-            assert run.wait(soon_s) != 0
+            status = run.wait(soon_s)
         finally:
             run.kill()
         out.seek(0)
         after = out.read().removeprefix(before)
-    assert after.count(STOPPED) == 1
+    assert_is_free(project)
+    if status == -signal.SIGINT:
+        assert after == ""  # Python itself had not begun
+        return
+    assert status == 128 + signal.SIGINT
+    assert re.fullmatch(STOPPED, after.splitlines()[-1])
+    assert after.count("stopped") == 1
     assert "Traceback" not in after
+
+
+def assert_is_free(project):
+    """Assert that a run has left no process, no half file and no lock."""
     assert processes(project) == left_behind(project) == []
     assert not list((project / ".snakemake" / "locks").glob("*"))
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_stopped_run_leaves_one_line_on_a_terminal(project, number):
+    """By snakemake itself, while a job runs: no line of a job stays, and no word of Snakemake comes after ours."""
+    shutil.rmtree(project / SLOW, ignore_errors=True)
+    primary, secondary = pty.openpty()
+    environment = {**os.environ, "PYTHONPATH": str(project / "src"), "TERM": "xterm"}
+    words = [sys.executable, "-m", "snakemake", *ONE_CORE, SLOW]
+    with subprocess.Popen(
+        words, cwd=project, env=environment, stdout=secondary, stderr=secondary, start_new_session=True
+    ) as run:
+        os.close(secondary)
+        screen = Screen(primary)
+        wait_for(lambda: "record plant" in screen.text())
+        run.send_signal(number)
+        assert run.wait(HANGS_S) == 128 + number
+    screen.join()
+    after = screen.text().rpartition("\x1b[J")[2]  # which clears what stood there
+    assert re.fullmatch(f"{STOPPED}\r\n", after)
+    assert not (project / SLOW).exists()
+    assert_is_free(project)
+
+
+class Screen(threading.Thread):
+    """Reads what is written on a terminal, until nobody has it open any more."""
+
+    def __init__(self, primary):
+        super().__init__(daemon=True)
+        self._primary, self._read = primary, []
+        self.start()
+
+    def run(self):
+        with contextlib.suppress(OSError), os.fdopen(self._primary, "rb", buffering=0) as primary:
+            while new := primary.read(65536):
+                self._read.append(new)
+
+    def text(self):
+        return b"".join(self._read).decode()
 
 
 def test_after_a_kill_the_same_command_goes_on_and_what_was_left_is_removed(project):
