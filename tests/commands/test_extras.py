@@ -82,6 +82,23 @@ def test_the_extras_are_those_of_the_project():
     assert told == extras()
 
 
+def test_the_page_of_the_package_says_which_command_needs_which_extra():
+    page = (place.ROOT / "docs" / "interface.md").read_text()
+    rows = re.findall(r"^\| `?(\w+)`? \| (.*) \| .* \|$", page.partition("| extra | for |")[2], re.MULTILINE)
+    for extra, text in rows[: 1 + len(place.EXTRAS)]:
+        named = set(re.findall(r"`(\w+)`", text)) & set(MODULES)
+        wanted = None if extra == "none" else extra
+        assert named == {name for name, command in MODULES.items() if command.extra == wanted}
+
+
+def test_the_readme_installs_what_its_four_commands_need():
+    part = (place.ROOT / "README.md").read_text().split("\n## Your own arm")[1].split("\n## ")[0]
+    (installed,) = re.findall(r"`pip install '\.\[(.*)\]'` installs these four commands", part)
+    four = re.findall(r"^ {4}\./reproduce (\w+)", part, re.MULTILINE)
+    assert len(four) == 4
+    assert {MODULES[name].extra for name in four} - {None} == set(installed.split(","))
+
+
 @pytest.mark.parametrize("name", MODULES)
 def test_a_command_imports_packages_of_no_extra_but_its_own(name):
     """Found by the import statements of all code that the command may reach."""
