@@ -7,6 +7,7 @@ that it needs: where that is not installed, one line says so before anything is 
 import argparse
 import contextlib
 import importlib
+import os
 import shutil
 import sys
 import textwrap
@@ -14,6 +15,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import NamedTuple
 
 from mobnet.core.errors import CommandError, ConfigError, MobnetError, not_accepted
+from mobnet.core.libraries import drop_foreign_libraries
 from mobnet.core.options import (
     calibrate_parser,
     detect_parser,
@@ -142,8 +144,11 @@ def demo_parser() -> argparse.ArgumentParser:
 
 
 def main(words: Sequence[str] | None = None) -> int:
-    """Run `mobnet COMMAND ...`; return its exit status."""
-    words = sys.argv[1:] if words is None else words
+    """Run `mobnet COMMAND ...`, by default with the words of this program; return its exit status."""
+    if words is None:
+        if drop_foreign_libraries():
+            os.execv(sys.executable, [sys.executable, *sys.orig_argv[1:]])  # the loader reads the variable at the start
+        words = sys.argv[1:]
     says = "show a push as observer and network estimate it"
     demo = Command(says, demo_parser, lambda _: None, "mobnet.demo")
     commands = {**COMMANDS, "demo": demo}
