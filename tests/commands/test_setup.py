@@ -1,5 +1,7 @@
 """When .venv is made again, what is checked before, and that a set-up that was stopped is begun again."""
 
+import contextlib
+import fcntl
 from pathlib import Path
 
 import pytest
@@ -69,6 +71,28 @@ def test_another_lock_or_build_is_told(project):
 def test_the_environment_of_a_moved_folder_is_whole(project, tmp_path):
     project.rename(tmp_path.with_name("it's moved"))
     assert setup.fault_of(tmp_path.with_name("it's moved"), None) is None
+
+
+@contextlib.contextmanager
+def held(project):
+    """Hold the lock of the set-up as another process does."""
+    (project / ".cache").mkdir(exist_ok=True)
+    with (project / ".cache" / "setup.lock").open("w") as handle:
+        fcntl.flock(handle, fcntl.LOCK_EX)
+        yield
+
+
+def test_a_command_of_a_whole_environment_waits_for_nobody(project, capsys):
+    with held(project):
+        setup.set_up(project)
+    assert capsys.readouterr().err == ""
+
+
+def test_what_another_set_up_has_made_meanwhile_is_not_made_again(project, stubs, monkeypatch):
+    (project / ".venv" / setup.STAMP).unlink()
+    monkeypatch.setattr(setup, "wait_for", lambda _: stamp(project))
+    setup.set_up(project)
+    assert stubs == []
 
 
 @pytest.fixture
