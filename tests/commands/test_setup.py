@@ -1,7 +1,5 @@
 """When .venv is made again, what is checked before, and that a set-up that was stopped is begun again."""
 
-import contextlib
-import fcntl
 from pathlib import Path
 
 import pytest
@@ -73,19 +71,9 @@ def test_the_environment_of_a_moved_folder_is_whole(project, tmp_path):
     assert setup.fault_of(tmp_path.with_name("it's moved"), None) is None
 
 
-@contextlib.contextmanager
-def held(project):
-    """Hold the lock of the set-up as another process does."""
-    (project / ".cache").mkdir(exist_ok=True)
-    with (project / ".cache" / "setup.lock").open("w") as handle:
-        fcntl.flock(handle, fcntl.LOCK_EX)
-        yield
-
-
-def test_a_command_of_a_whole_environment_waits_for_nobody(project, capsys):
-    with held(project):
-        setup.set_up(project)
-    assert capsys.readouterr().err == ""
+def test_a_command_of_a_whole_environment_waits_for_nobody(project, monkeypatch):
+    monkeypatch.setattr(setup, "wait_for", lambda _: pytest.fail("it waits"))
+    setup.set_up(project)
 
 
 def test_what_another_set_up_has_made_meanwhile_is_not_made_again(project, stubs, monkeypatch):
