@@ -1,11 +1,13 @@
 """The commands of a lab: `mobnet observe LOG ...`, which in a checkout is `./reproduce observe LOG ...`.
 
-What each one imports stands in its module, so that help is printed at once, and an extra that a command needs and that
-is not installed is named in one line.
+What each one imports stands in its module, so that help is printed at once. A command names the extra of pyproject.toml
+that it needs: where that is not installed, one line says so before anything is read or written.
 """
 
 import argparse
 import contextlib
+import importlib
+import os
 import shutil
 import sys
 import textwrap
@@ -13,6 +15,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import NamedTuple
 
 from mobnet.core.errors import CommandError, ConfigError, MobnetError, not_accepted
+from mobnet.core.libraries import drop_foreign_libraries
 from mobnet.core.options import (
     calibrate_parser,
     detect_parser,
@@ -24,7 +27,7 @@ from mobnet.core.options import (
     motion_parser,
     observe_parser,
 )
-from mobnet.core.place import PROGRAM, version, with_extra
+from mobnet.core.place import PROGRAM, check_extra, version
 from mobnet.core.printed import shown, watch_output
 from mobnet.core.word_checks import (
     check_calibrate,
@@ -39,12 +42,16 @@ from mobnet.core.word_checks import (
 
 
 class Command(NamedTuple):
-    """A command: what it does, in a line; parser and check of its options; and the module whose `main` runs it."""
+    """A command: what it does, in a line; parser and check of its options; the module whose `main` runs it; its extra.
+
+    The extra, if it needs one, is that of pyproject.toml whose packages the module imports, now or later.
+    """
 
     says: str
     parser: Callable[[], argparse.ArgumentParser]
     check: Callable[[argparse.Namespace], None]
     module: str
+    extra: str | None = None
 
     def read(self, words: Sequence[str]) -> argparse.Namespace:
         """Return the options that words are; nothing is imported but the standard library.
@@ -61,31 +68,39 @@ class Command(NamedTuple):
 
 COMMANDS = {
     "robot": Command(
-        "make a robot's table from its URDF or MJCF file", import_parser, check_robot, "mobnet.robot.import_table"
+        "make a robot's table from its URDF or MJCF file",
+        import_parser,
+        check_robot,
+        "mobnet.robot.import_table",
+        extra="simulate",
     ),
     "motion": Command(
         "simulate the log of a robot of a table that moves without walking",
         motion_parser,
         check_motion,
         "mobnet.robotlog.motion",
+        extra="simulate",
     ),
     "observe": Command(
         "make the residual of a robot's own log, and say what looks wrong with it",
         observe_parser,
         check_observe,
         "mobnet.robotlog.observe",
+        extra="logs",
     ),
     "identify": Command(
         "find friction and rotor inertia in logs of free motion, for the robot's table",
         identify_parser,
         check_identify,
         "mobnet.robotlog.identify",
+        extra="logs",
     ),
     "learn": Command(
         "train a network on a robot's own logs, and try it on their end",
         learn_parser,
         check_learn,
         "mobnet.robotlog.learn",
+        extra="learn",
     ),
     "calibrate": Command(
         "print thresholds of detection for a wanted rate of false alarms",
@@ -98,12 +113,14 @@ COMMANDS = {
         detect_parser,
         check_detect,
         "mobnet.robotlog.detect",
+        extra="logs",
     ),
     "export": Command(
         "write trained networks as ONNX files that run without this project",
         export_parser,
         check_export,
         "mobnet.export.export",
+        extra="export",
     ),
 }
 
@@ -127,8 +144,11 @@ def demo_parser() -> argparse.ArgumentParser:
 
 
 def main(words: Sequence[str] | None = None) -> int:
-    """Run `mobnet COMMAND ...`; return its exit status."""
-    words = sys.argv[1:] if words is None else words
+    """Run `mobnet COMMAND ...`, by default with the words of this program; return its exit status."""
+    if words is None:
+        if drop_foreign_libraries():
+            os.execv(sys.executable, [sys.executable, *sys.orig_argv[1:]])  # the loader reads the variable at the start
+        words = sys.argv[1:]
     says = "show a push as observer and network estimate it"
     demo = Command(says, demo_parser, lambda _: None, "mobnet.demo")
     commands = {**COMMANDS, "demo": demo}
@@ -143,18 +163,20 @@ def main(words: Sequence[str] | None = None) -> int:
         overview(commands).exit(2, f"mobnet: {not_accepted('command', first, commands)}\n")
     if {"-h", "--help"} & set(others):
         commands[first].parser().parse_args(["--help"])
-    # Here, as what a command imports takes seconds.
+    command = commands[first]
     try:
-        with contextlib.suppress(OSError):  # the command says what the system refuses
-            options = commands[first].read(others)
-            with_extra("mobnet.robot.word_checks").check_named(options)
-    except MobnetError as error:
-        sys.exit(shown(str(error)))
-    try:
-        module = with_extra(commands[first].module)
+        if command.extra:
+            check_extra(command.extra)
     except ConfigError as error:
         sys.exit(f"{PROGRAM} {first}: {error}")
-    return int(module.main(others))
+    try:
+        with contextlib.suppress(OSError):  # the command says what the system refuses
+            options = command.read(others)
+            importlib.import_module("mobnet.robot.word_checks").check_named(options)
+    except MobnetError as error:
+        sys.exit(shown(str(error)))
+    # Here, as what a command imports takes seconds.
+    return int(importlib.import_module(command.module).main(others))
 
 
 def overview(commands: dict[str, Command]) -> argparse.ArgumentParser:

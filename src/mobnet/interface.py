@@ -20,7 +20,7 @@ from mobnet.core.errors import ConfigError, DataError, not_accepted
 from mobnet.core.errors import MobnetError as MobnetError
 from mobnet.core.estimator import Estimate
 from mobnet.core.files import RUN
-from mobnet.core.place import with_extra
+from mobnet.core.place import check_extra
 from mobnet.core.recording import Recording, Sensed, SensedRecording, Truth, read_sensed
 from mobnet.core.recording import write_recording as write_whole
 from mobnet.detection import contact
@@ -84,7 +84,10 @@ class Robot:
         path = Path(path)
         if path.suffix not in FILES:
             return cls(given_robot(path, lab()))
-        return cls(with_extra("mobnet.robot.import_table").read_robot(path))
+        check_extra("simulate")
+        from mobnet.robot.import_table import read_robot  # MuJoCo, which comes with an extra
+
+        return cls(read_robot(path))
 
     def sample(
         self,
@@ -476,6 +479,8 @@ def export_networks(
     """
     paths = [Path(one) for one in folders]
     limits = [Path(one) for one in thresholds]
-    made = with_extra("mobnet.export.export")
-    made.export_folders(paths, robot.description, limits, made.Given(), lab(), Path(out))
+    check_extra("export")
+    from mobnet.export.export import Given, export_folders  # ONNX, which comes with an extra
+
+    export_folders(paths, robot.description, limits, Given(), lab(), Path(out))
     return Path(out) / CONTRACT

@@ -8,13 +8,14 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from experiments.commands.clean import clean
-from experiments.commands.setup import set_up
+from experiments.commands.setup import set_up, site_packages
 from experiments.commands.tell import say
 from experiments.commands.words import Words, parse
 from experiments.running.environment import child_environment, fault_of_place
 from experiments.running.one_run import held_folder, only_looks
 from mobnet.commands import COMMANDS as LAB
 from mobnet.core.errors import CommandError, MobnetError
+from mobnet.core.libraries import IN_SITE_PACKAGES, drop_foreign_libraries
 
 MODULES = {  # command -> the module that `python -m` runs, with words that come first
     # For two cores one process more than these: some tests wait for minutes, such as those of a cluster.
@@ -62,6 +63,7 @@ def run(root: Path, words: Words) -> int:
     os.chdir(root)
     os.environ.update(environment(root))
     set_up(root, getattr(words.options, "build", None))
+    drop_foreign_libraries(site_packages(root) / IN_SITE_PACKAGES)
     if words.command == "setup":
         return 0
     python = str(root / ".venv" / "bin" / "python")

@@ -30,12 +30,15 @@ def set_up(root: Path, build: str | None = None) -> None:
     Raises:
         CommandError: the machine lacks something; the line says what.
     """
+    # Without the lock, so that commands side by side do not wait for each other: the stamp of a whole one comes last.
+    if fault_of(root, build) is None:
+        return
     (root / ".cache").mkdir(exist_ok=True)
     with (root / ".cache" / "setup.lock").open("w") as handle:
         os.set_inheritable(handle.fileno(), True)  # what a killed set-up started holds it until it ends
         wait_for(handle.fileno())
         fault = fault_of(root, build)
-        if fault is not None:
+        if fault is not None:  # nobody has made it meanwhile
             with held_folder(root, ["setup"]):  # a run that goes on would lose its packages
                 make(root, fault, build)
 

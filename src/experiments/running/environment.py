@@ -12,6 +12,7 @@ from importlib.metadata import version
 from pathlib import Path
 
 from mobnet.core.files import PARTIAL, discard
+from mobnet.core.libraries import drop_foreign_libraries
 
 REFUSED = re.compile(r'[:{}"\\\x00-\x1f]')  # in the project's path: a colon parts PATH, others are signs for tools
 WRITTEN = ("results", "tables", "figures", "paper", "docs/results")  # folders in which jobs and a snapshot write
@@ -60,7 +61,8 @@ def child_environment(root: Path) -> dict[str, str]:
 
 
 def quieten(root: Path) -> None:
-    """Give this process, and so its children, the variables it does not have."""
+    """Give this process, and so its children, the variables it does not have, and take foreign libraries from them."""
+    drop_foreign_libraries()
     for name, value in child_environment(root).items():
         os.environ.setdefault(name, value)
 

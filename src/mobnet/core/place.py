@@ -4,12 +4,11 @@ A checkout keeps configuration and caches in its own folder. An installed packag
 its modules (pyproject.toml says which files), and machine code in the user's cache. Standard library only.
 """
 
-import importlib
 import importlib.metadata
+import importlib.util
 import os
 import tomllib
 from pathlib import Path
-from types import ModuleType
 
 from mobnet.core.code import ROOT
 from mobnet.core.errors import ConfigError
@@ -17,11 +16,14 @@ from mobnet.core.errors import ConfigError
 PACKAGE = Path(__file__).parents[1]
 IS_CHECKOUT = (ROOT / "reproduce").is_file()
 PROGRAM = "./reproduce" if IS_CHECKOUT else "mobnet"  # what a user types before a command's name
-PYTHON = ".venv/bin/python" if IS_CHECKOUT else "python"  # that has the packages
 CONFIGS = ROOT / "configs" if IS_CHECKOUT else PACKAGE / "configs"
 DEMO = ROOT / "docs" / "demo" if IS_CHECKOUT else PACKAGE / "demo_data"
-EXTRAS = {"torch": "learn", "mujoco": "simulate", "onnx": "export", "onnxruntime": "export"}
-LOGS = "logs"  # extra of all others
+EXTRAS = {  # extra of pyproject.toml -> its packages, by the names under which they are imported
+    "learn": ("torch",),
+    "simulate": ("mujoco",),
+    "logs": ("h5py", "matplotlib", "mcap", "mcap_ros2", "pandas", "rosbags"),
+    "export": ("onnx", "onnxruntime"),
+}
 
 
 def caches() -> Path:
@@ -43,17 +45,13 @@ def command(name: str) -> str:
     return f"{PROGRAM} {name}"
 
 
-def with_extra(name: str) -> ModuleType:
-    """Import a module of this package by its full name.
+def check_extra(extra: str) -> None:
+    """Check that the packages of an extra are installed; none of them is imported, which would take seconds.
 
     Raises:
-        ConfigError: a package that it needs is not installed; the line says how to install it.
+        ConfigError: one is not; the line says how to install it.
     """
-    try:
-        return importlib.import_module(name)
-    except ModuleNotFoundError as error:
-        package = str(error.name).partition(".")[0]
-        if package == "mobnet":
-            raise
-        remedy = "./reproduce setup" if IS_CHECKOUT else f"pip install 'mobnet[{EXTRAS.get(package, LOGS)}]'"
-        raise ConfigError(f"{package} is not installed; accepted: what `{remedy}` installs") from None
+    for package in EXTRAS[extra]:
+        if importlib.util.find_spec(package) is None:
+            remedy = "./reproduce setup" if IS_CHECKOUT else f"pip install 'mobnet[{extra}]'"
+            raise ConfigError(f"{package} is not installed; accepted: what `{remedy}` installs")

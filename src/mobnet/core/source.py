@@ -44,6 +44,7 @@ DISTRIBUTIONS = {  # import name -> name in the lock, where they differ; asking 
     "OpenGL": "pyopengl",
     "PIL": "pillow",
     "markdown_it": "markdown-it-py",
+    "mcap_ros2": "mcap-ros2-support",
     "pinocchio": "pin",
     "yaml": "pyyaml",
 }

@@ -1,21 +1,17 @@
 """Columns of a log, and what their readers share."""
 
-import importlib
 import os
 import resource
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from types import ModuleType
 from typing import Any
 
 from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array
 from mobnet.core.errors import DataError
-from mobnet.core.place import PYTHON
 
-PACKAGES = {"h5py": "h5py", "mcap": "mcap", "mcap_ros2": "mcap-ros2-support", "rosbags": "rosbags"}  # by module
 MOST = 1000  # entries of an array above which it is a picture or a map, and no signal
 GIB = 2**30
 
@@ -45,20 +41,6 @@ class LogColumn:
 
 
 Columns = Mapping[str, LogColumn]
-
-
-def module_of(name: str, path: Path) -> ModuleType:
-    """Return a reader's module.
-
-    Raises:
-        DataError: it is not installed; the line says how to install it.
-    """
-    try:
-        return importlib.import_module(name)
-    except ImportError:
-        package = PACKAGES[name.partition(".")[0]]
-        text = f"needs the package {package}; install it: {PYTHON} -m pip install {package}"
-        raise DataError(f"{path}: {text}") from None
 
 
 def check_memory(path: Path, rows: int, columns: int) -> None:

@@ -16,7 +16,6 @@ from mobnet.core.arrays import Array
 from mobnet.core.errors import DataError, not_accepted
 from mobnet.core.files import atomic_path
 from mobnet.core.place import version
-from mobnet.robotlog.columns import module_of
 from mobnet.robotlog.detected import LogDetection
 from mobnet.robotlog.flags import COLUMNS, Flag
 from mobnet.settings.limb_thresholds import LimbThresholds
@@ -49,9 +48,10 @@ def write_mcap(made: LogDetection, found: LimbThresholds, columns: NDArray[np.in
         path: the file.
 
     Raises:
-        DataError: the package mcap is missing, a time is below zero, or the file cannot be written.
+        DataError: a time is below zero, or the file cannot be written.
     """
-    writing = module_of("mcap.writer", path)
+    from mcap import writer as writing
+
     time_s = made.observed.converted.time_s
     if time_s[0] < 0.0:
         raise DataError(f"{path}: {not_accepted('first time of the log', float(time_s[0]), ['0 s or later'])}")

@@ -39,7 +39,7 @@ def column_names(path: Path) -> list[str]:
     """Return the names of all columns of a log; of messages those in the first ones of each topic.
 
     Raises:
-        DataError: the format is not known, its reader is not installed, or the file is missing or damaged.
+        DataError: the format is not known, or the file is missing or damaged.
     """
     names = _asked(path, lambda kind: kind.names(path))
     if not names:

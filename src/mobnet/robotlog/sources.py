@@ -9,7 +9,6 @@ from pathlib import Path
 from typing import IO, Any, NamedTuple
 
 from mobnet.core.errors import DataError, not_accepted
-from mobnet.robotlog.columns import module_of
 
 METADATA = "metadata.yaml"  # in each folder that `ros2 bag` wrote
 FILES = (".mcap", ".db3")  # that hold the messages there
@@ -65,10 +64,12 @@ def _folder(path: Path) -> Iterator[MessageLog]:
     files = sorted(file for file in path.iterdir() if file.suffix in FILES)
     with contextlib.ExitStack() as stack:
         if (path / METADATA).is_file():
+            from rosbags.highlevel import AnyReaderError
+
             try:
                 yield stack.enter_context(_bag(path))
                 return
-            except module_of("rosbags.highlevel", path).AnyReaderError:
+            except AnyReaderError:
                 # Of a recording that was stopped the files may be whole where the metadata are not.
                 if not files:
                     raise
@@ -89,8 +90,9 @@ def _folder(path: Path) -> Iterator[MessageLog]:
 @contextlib.contextmanager
 def _bag(path: Path) -> Iterator[MessageLog]:
     """Open a bag of ROS 1 or 2; definitions of messages come from the bag, or are those of ROS 2 where it has none."""
-    highlevel = module_of("rosbags.highlevel", path)
-    stores = module_of("rosbags.typesys", path)
+    from rosbags import highlevel
+    from rosbags import typesys as stores
+
     if path.is_file():
         _check_magic(path)
     with highlevel.AnyReader([path], default_typestore=stores.get_typestore(stores.Stores.LATEST)) as bag:
@@ -115,8 +117,10 @@ def _check_magic(path: Path) -> None:
 @contextlib.contextmanager
 def _database(path: Path) -> Iterator[MessageLog]:
     """Open a file of a bag of ROS 2 without its metadata, sqlite3."""
-    stores = module_of("rosbags.typesys", path)
-    reader = module_of("rosbags.rosbag2.storage_sqlite3", path).Sqlite3Reader(path)
+    from rosbags import typesys as stores
+    from rosbags.rosbag2.storage_sqlite3 import Sqlite3Reader
+
+    reader = Sqlite3Reader(path)
     reader.open()
     with contextlib.closing(reader):
         types = stores.get_typestore(stores.Stores.LATEST)
@@ -140,7 +144,8 @@ def _database(path: Path) -> Iterator[MessageLog]:
 @contextlib.contextmanager
 def _mcap(path: Path) -> Iterator[MessageLog]:
     """Open a MCAP file with messages of ROS 1, of ROS 2 or in JSON; one that ends early, as far as it is whole."""
-    reading = module_of("mcap.reader", path)
+    from mcap import reader as reading
+
     with path.open("rb") as file:
         reader = reading.make_reader(file)
         try:
@@ -171,7 +176,8 @@ def _mcap(path: Path) -> Iterator[MessageLog]:
 
 def _whole(file: IO[bytes], path: Path) -> Iterator[tuple[Any, Any, Any]]:
     """Yield schema, channel and message of each message of a MCAP file that ends early, up to there."""
-    records = module_of("mcap.records", path)
+    from mcap import records
+
     schemas = dict[int, Any]()
     channels = dict[int, Any]()
     for record in _records(file, path):
@@ -186,7 +192,8 @@ def _whole(file: IO[bytes], path: Path) -> Iterator[tuple[Any, Any, Any]]:
 
 def _records(file: IO[bytes], path: Path) -> Iterator[Any]:
     """Yield the whole records of a MCAP file that ends early, those of a last chunk too if it is not compressed."""
-    streams = module_of("mcap.stream_reader", path)
+    from mcap import stream_reader as streams
+
     most = path.stat().st_size
     start = 0
     # First the records of the file, then those within the chunk at which it is cut: the first ones there are whole.
@@ -220,8 +227,10 @@ def _decoder(channel: Any, schema: Any, path: Path) -> Decoder:
         return json.loads
     encoding = f"{channel.message_encoding} with {schema.encoding if schema else 'no schema'}"
     if encoding == "ros1 with ros1msg":
-        return _ros1(schema, path)
-    ros = module_of("mcap_ros2.decoder", path).DecoderFactory()
+        return _ros1(schema)
+    from mcap_ros2.decoder import DecoderFactory
+
+    ros = DecoderFactory()
     decoder = ros.decoder_for(channel.message_encoding, schema)
     if decoder is None:
         accepted = ["cdr with ros2msg", "ros1 with ros1msg", "json"]
@@ -229,9 +238,10 @@ def _decoder(channel: Any, schema: Any, path: Path) -> Decoder:
     return decoder
 
 
-def _ros1(schema: Any, path: Path) -> Decoder:
+def _ros1(schema: Any) -> Decoder:
     """Return the function that decodes messages of ROS 1."""
-    stores = module_of("rosbags.typesys", path)
+    from rosbags import typesys as stores
+
     types = stores.get_typestore(stores.Stores.EMPTY)
     name = schema.name
     package, _, kind = name.rpartition("/")

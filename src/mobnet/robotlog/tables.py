@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mobnet.core.errors import DataError
-from mobnet.robotlog.columns import MOST, LogColumn, check_memory, module_of
+from mobnet.robotlog.columns import MOST, LogColumn, check_memory
 from mobnet.robotlog.delimited import is_numeric, numbers
 
 
@@ -134,7 +134,8 @@ def _arrays(path: Path) -> Iterator[Mapping[str, Any]]:
         with np.load(path, allow_pickle=False) as file:
             yield dict(file)
         return
-    h5py = module_of("h5py", path)
+    import h5py
+
     if path.suffix.lower() == ".mat" and not h5py.is_hdf5(path):
         from scipy.io import loadmat
 

@@ -109,17 +109,6 @@ def test_a_csv_may_have_other_separators_empty_fields_whole_numbers_and_dates(tm
         read_log(path)
 
 
-def test_a_missing_reader_is_one_line_that_names_its_package(tmp_path, monkeypatch):
-    def refuse(name):
-        raise ImportError(name)
-
-    monkeypatch.setattr(importlib, "import_module", refuse)
-    for name, package in {"log.h5": "h5py", "log.mcap": "mcap", "log.bag": "rosbags"}.items():
-        (tmp_path / name).write_bytes(b"")
-        with pytest.raises(DataError, match=rf"{name}: needs the package {package}; install it: \.venv/bin/python -m"):
-            read_log(tmp_path / name)
-
-
 @pytest.mark.parametrize("name", ["log.csv", "log.parquet", "log.h5", "log.mcap", "log.bag"])
 def test_a_damaged_file_is_one_line(name, tmp_path):
     (tmp_path / name).write_bytes(b"\x00garbage\xff" * 20)

@@ -79,6 +79,18 @@ def test_the_environment_of_a_moved_folder_is_whole(project, tmp_path):
     assert setup.fault_of(tmp_path.with_name("it's moved"), None) is None
 
 
+def test_a_command_of_a_whole_environment_waits_for_nobody(project, monkeypatch):
+    monkeypatch.setattr(setup, "wait_for", lambda _: pytest.fail("it waits"))
+    setup.set_up(project)
+
+
+def test_what_another_set_up_has_made_meanwhile_is_not_made_again(project, stubs, monkeypatch):
+    (project / ".venv" / setup.STAMP).unlink()
+    monkeypatch.setattr(setup, "wait_for", lambda _: stamp(project))
+    setup.set_up(project)
+    assert stubs == []
+
+
 @pytest.fixture
 def stubs(monkeypatch):
     """The steps of an installation, noted; the last one fills .venv, or fails where it is told to."""

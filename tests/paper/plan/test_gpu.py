@@ -8,11 +8,7 @@ from experiments.plan.gpu import GPU_RATES, GpuNote, GpuRates, fitted
 from experiments.plan.work import OnGpu
 from mobnet.core.notes import read_note
 
-<<<<<<<< HEAD:tests/paper/evaluation/report/test_gpu.py
-ROOT = Path(__file__).parents[4]
-========
-ROOT = Path(__file__).parents[2]
->>>>>>>> limits/limits:tests/paper/plan/test_gpu.py
+ROOT = Path(__file__).parents[3]
 
 
 @pytest.fixture

@@ -1,19 +1,34 @@
 """The container: its image can be built and has an environment, and both definitions install what `.ci/run` does."""
 
+import ast
 import os
 import re
 import shutil
 import subprocess
+import sys
 from pathlib import Path
 
 import pytest
 
+from experiments.commands.tools import find_pip
+
 ROOT = Path(__file__).parents[3]
+BASE = getattr(sys, "_base_executable", sys.executable)  # that of .venv has no pip
 DOCKERFILE = ROOT / "Dockerfile"
 APPTAINER = ROOT / "apptainer.def"
 NEEDED = ("buildah", "debootstrap")
-# What lets pip find packages on this machine, which need not be the registry: its configuration, and certificates.
-PIP_FILES = (Path.home() / ".config/pip", Path("/etc/pip.conf"), Path("/etc/xdg/pip"))
+VARIABLES = ":env:"  # section of what pip takes from variables PIP_*
+# What lets pip find packages on this machine, which need not be the registry, whoever runs the test and from wherever.
+KEYS = (
+    "index-url",
+    "extra-index-url",
+    "find-links",
+    "no-index",
+    "trusted-host",
+    "constraint",
+    "cert",
+    "default-timeout",
+)
 CERTIFICATES = Path("/etc/ssl/certs/ca-certificates.crt")
 CHECKS = """
 RUN ./reproduce --help
@@ -30,16 +45,28 @@ def installed(path):
     return sorted(line.replace("$EXTRAS", extras[1] if extras else "").split())
 
 
-def places_of_packages():
+def pip_settings(text):
+    """Return where packages come from, by key, of what `pip config list` prints; variables come before files."""
+    files, variables = {}, {}
+    for section, key, value in re.findall(r"^(\S+)\.([a-z-]+)=('.*'|\".*\")$", text, re.MULTILINE):
+        if key in KEYS:
+            found = variables if section == VARIABLES else files
+            found[key] = ast.literal_eval(value)
+    return {**files, **variables}
+
+
+def pip_file(settings):
+    """Return a configuration of pip that says the same, and no other variable or file need reach the build."""
+    lines = [f"{key} = {' '.join(value.split())}" for key, value in settings.items()]
+    return "\n".join(["[global]", *lines, ""])
+
+
+def places_of_packages(settings):
     """Return the files and folders that the build must see to install packages as this machine does."""
-    files = [path for path in (*PIP_FILES, CERTIFICATES) if path.exists()]
-    texts = [value for name, value in os.environ.items() if name.startswith(("PIP_", "UV_"))]
-    for path in PIP_FILES:
-        texts += [file.read_text() for file in (path, *path.glob("*")) if file.is_file()]
-    named = {Path(name) for name in re.findall(r"(?:file://)?(/[\w./+-]+)", "\n".join(texts))}
+    named = {Path(name) for name in re.findall(r"(?:file://)?(/[\w./+-]+)", "\n".join(settings.values()))}
     # An index is a folder `simple` of links, which lead to files beside it.
-    folders = [path.parent if path.name == "simple" else path for path in sorted(named) if path.is_dir()]
-    return [*files, *folders]
+    places = [path.parent if path.name == "simple" else path for path in sorted({*named, CERTIFICATES})]
+    return [path for path in places if path.exists()]
 
 
 def test_both_definitions_install_the_same_and_tests_need_nothing_more_than_they_do():
@@ -58,6 +85,29 @@ def test_an_image_takes_what_git_tracks_and_nothing_that_is_made():
         assert {name, f"/{name}", f"**/{name}", f"!{name[1:].strip('/')}"} & set(kept), line
     for folder in ("tables", "figures"):
         assert f"!/{folder}/.gitignore" in kept
+
+
+def test_the_build_gets_packages_as_this_machine_does_by_variables_as_by_files(tmp_path):
+    """An index that a variable names comes before that of a file; its folder and the file of constraints are seen."""
+    for name in ("simple", "wheels"):
+        (tmp_path / name).mkdir()
+    (tmp_path / "constraints.txt").touch()
+    told = f""":env:.cache-dir='/somewhere'
+:env:.index-url='file://{tmp_path}/simple'
+global.constraint='{tmp_path}/constraints.txt'
+global.find-links='\\n{tmp_path}/wheels\\nhttps://example.org/wheels'
+global.index-url='https://example.org/simple'
+"""
+    settings = pip_settings(told)
+    assert pip_file(settings).splitlines() == [
+        "[global]",
+        f"constraint = {tmp_path}/constraints.txt",
+        f"find-links = {tmp_path}/wheels https://example.org/wheels",
+        f"index-url = file://{tmp_path}/simple",
+    ]
+    assert set(places_of_packages(settings)) - {CERTIFICATES} == {
+        tmp_path, tmp_path / "wheels", tmp_path / "constraints.txt",
+    }  # fmt: skip
 
 
 @pytest.mark.slow
@@ -82,8 +132,11 @@ def test_the_image_can_be_built_and_has_its_environment(tmp_path):
         str(tmp_path / "run"),
     ]
 
+    # Of this machine's variables none that pip or uv would read.
+    variables = {name: value for name, value in os.environ.items() if not name.startswith(("PIP_", "UV_"))}
+
     def run(*words):
-        done = subprocess.run([*store, *words], capture_output=True, text=True, check=False)
+        done = subprocess.run([*store, *words], env=variables, capture_output=True, text=True, check=False)
         assert done.returncode == 0, (done.stdout + done.stderr)[-3000:]
         return done.stdout.strip()
 
@@ -105,7 +158,11 @@ def test_the_image_can_be_built_and_has_its_environment(tmp_path):
         "-f",
         str(checked),
     ]
-    for path in places_of_packages():
-        inside = Path("/root") / path.relative_to(Path.home()) if path.is_relative_to(Path.home()) else path
-        words += ["--volume", f"{path}:{inside}:ro"]
+    told = subprocess.run([*find_pip(ROOT, BASE), "config", "list"], capture_output=True, text=True, check=True).stdout
+    settings = pip_settings(told)
+    configured = tmp_path / "pip.conf"
+    configured.write_text(pip_file(settings))
+    words += ["--volume", f"{configured}:/etc/pip.conf:ro"]
+    for path in places_of_packages(settings):
+        words += ["--volume", f"{path}:{path}:ro"]
     run(*words, "-t", "mobnet", str(ROOT))

@@ -80,6 +80,21 @@ def test_every_link_of_every_page_leads_to_a_file_and_a_place_in_it(site):
 
 
 @pytest.mark.slow
+def test_every_field_of_a_text_is_filled(site):
+    """Code shows how fields are written; scripts and styles have braces of their own."""
+    others = re.compile(r"<(code|pre|script|style)\b.*?</\1>", re.DOTALL)
+    found = {}
+    for page in site.rglob("*.html"):
+        if fields := re.findall(r"\{[a-z]+:[^}]*\}?", others.sub("", page.read_text())):
+            found[str(page.relative_to(site))] = fields
+    assert found == {}
+    text = (site / "docs" / "results" / "all_claims.html").read_text()
+    (statements,) = re.findall(r"Of (\d+) statements of the original", text)
+    readme = (ROOT / "README.md").read_text()
+    assert f"Of {statements} statements of the original" in readme
+
+
+@pytest.mark.slow
 def test_nothing_is_loaded_from_elsewhere(site):
     assert outside([*site.rglob("*.html"), *site.rglob("*.css")]) == set()
 

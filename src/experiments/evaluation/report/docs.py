@@ -15,7 +15,9 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
+from experiments.evaluation.report.captions import filled
 from experiments.evaluation.report.claims_page import claims_page
+from experiments.evaluation.report.numbers import texts_in
 from experiments.evaluation.report.pages import titled
 from experiments.evaluation.report.site.contents import README, menu, menus, sections
 from experiments.evaluation.report.site.reference import INTERNALS, PUBLIC, reference_pages
@@ -82,7 +84,8 @@ def docs(
         built = build(folder, Path(made) / "pages")
         (caption,) = (path for path in captions if path.stem == ALL_CLAIMS and path.parent.name == "tables")
         published = RESULTS / f"{ALL_CLAIMS}.csv"
-        page = claims_page(published, statistics.confidence, *titled(read_text(caption)), templates[0])
+        title, text = titled(filled(caption, texts_in(RESULTS)))
+        page = claims_page(published, statistics.confidence, title, text, templates[0])
         write_text(built / CLAIMS_PAGE, page)
         shutil.rmtree(out, ignore_errors=True)
         shutil.copytree(built, out)

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from mobnet.core.files import WEIGHTS
 from mobnet.core.machine import one_thread
+from mobnet.core.place import check_extra
 from mobnet.learning.deployed.weights import GRU_TENSORS, Z_SCORES, WeightsNote, read_weights, std_scale_of
 from mobnet.settings.networks import CellKind
 
@@ -208,6 +209,7 @@ def load_network(folder: Path) -> Deployed:
 
     Raises:
         DataError: the weights are missing, damaged or not accepted, one line for each fault.
+        ConfigError: the network needs torch, which is not installed.
     """
     return deployed(*read_weights(folder / WEIGHTS))
 
@@ -218,6 +220,7 @@ def deployed(tensors: Mapping[str, Array], note: WeightsNote) -> Deployed:
     cell = note.cell
     if cell.cell in WITHOUT_TORCH:
         return WITHOUT_TORCH[cell.cell](tensors, *common)
+    check_extra("learn")
     from mobnet.learning.deployed.module_network import ModuleNetwork  # torch starts slowly, and MOB-Net does without
 
     return ModuleNetwork(tensors, *common, cell=cell)

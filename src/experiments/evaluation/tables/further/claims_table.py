@@ -1,4 +1,4 @@
-"""Table of the paper's claims, judged against bounds that were fixed before any result was seen."""
+"""Table of the paper's claims, judged against their bounds."""
 
 from collections.abc import Iterator, Sequence
 from pathlib import Path
