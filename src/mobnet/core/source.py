@@ -9,8 +9,8 @@ that the code uses, each with the names that it uses in turn:
 * of a class, its methods, wherever an annotation names it: an object of it may come from anywhere. Where the code uses
   the class itself, also its fields with their defaults.
 
-Annotations and bounds of fields say what is accepted, which a value that was accepted no longer depends on. So do
-checks: functions whose names end with `problems`, and validators that see a whole section. None of these count.
+Annotations and bounds of fields do not count, nor do checks: functions whose names end with `problems`, and validators
+of a whole section. They only refuse, and a value that was accepted does not depend on them.
 
 Standard library only: the hash exists before anything is installed.
 """
@@ -118,17 +118,17 @@ def read_name(part: Part) -> Source:
     imports = {**declared.imports, **dict(reader.imports)}
     parts = set[Part]()
     outside = set[str]()
-    for used, is_type in [*((used, True) for used in reader.types), *((used, False) for used in reader.values)]:
+    for used in reader.types | reader.values:
         first, dot, rest = used.partition(".")
+        is_type = used not in reader.values
+        full_name = imports.get(first, "") + dot + rest
         if first in declared.statements:
             parts.add(Part(part.path, first, is_type))
-        elif first in imports:
-            full_name = imports[first] + dot + rest
-            if is_declaring(full_name):
-                parts.update(declared_parts(full_name, is_type=is_type))
-            elif not is_type:
-                parts.update(map(Part, module_files(full_name)))
-                outside.add(full_name)
+        elif is_declaring(full_name):
+            parts.update(declared_parts(full_name, is_type=is_type))
+        elif first in imports and not is_type:
+            parts.update(map(Part, module_files(full_name)))
+            outside.add(full_name)
     return Source(reader.digest, tuple(parts), distributions(outside))
 
 

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import importlib.metadata
+import re
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
 
+from experiments.plan.call import Call
+from experiments.plan.products import Product
 from mobnet.core import code, source
 from mobnet.core.code import code_hash, lock_lines, required
 from mobnet.core.errors import ConfigError
@@ -302,6 +305,21 @@ def test_a_new_mujoco_counts_for_the_code_that_imports_it(tmp_path: Path, monkey
     parts = {str(path.relative_to(library)) for path in users if path.is_relative_to(library)}
     assert {"simulation/record.py", "robot/plant.py"} <= parts
     assert not {"estimation/observe.py", "learning/train.py", "control/walking.py"} & parts
+
+
+def test_the_hash_of_a_rule_has_its_script() -> None:
+    found: list[str] = []
+    for path in sorted(code.ROOT.glob("workflow/rules/*.smk")):
+        for rule in re.split(r"^(?:use )?rule ", path.read_text(), flags=re.MULTILINE)[1:]:
+            scripts = re.findall(r'"\.\./scripts/(\w+)\.py"', rule)
+            hashed = re.findall(r'code=code\("(\w+)"', rule)
+            # The hash of a product has the script of all products.
+            assert hashed == scripts or (scripts == ["product"] and "PLAN.product(" in rule), rule
+            found += scripts
+    assert set(found) | {"warm"} == {path.stem for path in code.ROOT.glob("workflow/scripts/*.py")}
+    call = Call("experiments.evaluation.report.docs:docs", {})
+    script = code.ROOT / "workflow" / "scripts" / "product.py"
+    assert Product("docs", call, (), ()).code == code_hash(script, call.module)
 
 
 def packages_behind(path: Path) -> set[str]:
