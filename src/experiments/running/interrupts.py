@@ -18,7 +18,7 @@ from experiments.running.processes import end_jobs
 from experiments.running.terminal import RunHandler
 
 AGAIN_S = 5  # after which an exception was lost on its way, as Python ignores those in calls from C
-TOLD_S = 1.0  # that the line may take
+TOLD_S = 5.0  # that the line may take
 GO_ON = "the same command goes on from here"
 
 
@@ -33,6 +33,7 @@ class Interrupts:
         """Answer, and take what shows the run."""
         self.status = 0
         self._shown_by = shown_by
+        self._teller = threading.Thread(target=self._tell, daemon=True)
         self._begin_no_job: Callable[..., Any] | None = None  # Snakemake's own answer, while its local jobs run
         self._is_in_queue = False
         atexit.register(self._exit)
@@ -55,11 +56,11 @@ class Interrupts:
         """Answer a signal; those after the first one tell the jobs again."""
         if not self.status:
             self.status = 128 + number
-            # In a thread, as this one may be writing to the same stream.
-            self._in_thread(self._tell).join(TOLD_S)
+            self._teller.start()  # this thread may be writing to the same stream
+            self._teller.join(TOLD_S)
         if not self._is_in_queue:
-            # In a thread, as this one may hold the lock that Snakemake's answer waits for.
-            self._in_thread(self._end_jobs)
+            # This thread may hold the lock that Snakemake's answer waits for.
+            threading.Thread(target=self._end_jobs, daemon=True).start()
         if self._begin_no_job is not None:
             return
         if not self._is_in_queue:
@@ -71,12 +72,6 @@ class Interrupts:
         if self._begin_no_job is not None:
             self._begin_no_job()
         end_jobs()
-
-    def _in_thread(self, do: Callable[..., Any]) -> threading.Thread:
-        """Start a thread, which does not keep the process alive."""
-        thread = threading.Thread(target=do, daemon=True)
-        thread.start()
-        return thread
 
     def _tell(self) -> None:
         """Print the last line: what is printed by this process after it goes nowhere."""
@@ -92,4 +87,5 @@ class Interrupts:
     def _exit(self) -> None:
         """Leave a run that was stopped with its status: Snakemake knows success and failure alone."""
         if self.status:
+            self._teller.join(TOLD_S)
             os._exit(self.status)

@@ -16,7 +16,7 @@ LONGEST_S = 20.0  # that it, or a job, may take to end
 LEAVE_S = 5.0  # that a job of a killed run has to remove what it was writing
 STEP_S = 0.2  # between two looks for jobs that have begun meanwhile
 # Before the command of each job: a terminal sends Ctrl-C to jobs too, and Python may not have loaded yet what hears it.
-# The shell stays until its job has ended, so that nothing is cleared away that a job still writes.
+# A shell that is told to end before it has begun its job begins it all the same, so that none is overlooked.
 PREFIX = "trap '' INT; trap : TERM; "
 
 
@@ -27,18 +27,14 @@ def end_jobs() -> None:
     """
     told: dict[psutil.Process, float] = {}
     while True:
-        for child in psutil.Process().children(recursive=True):
+        for job in psutil.Process().children():
             with contextlib.suppress(psutil.Error, ProcessLookupError):
-                if os.getpgid(child.pid) != os.getpgrp():
-                    continue  # the process beside the run ends later
-                if child not in told:
-                    told[child] = time.monotonic()
-                    child.terminate()
-                elif time.monotonic() - told[child] > LONGEST_S:
-                    child.kill()
+                if os.getpgid(job.pid) == os.getpgrp():  # the process beside the run ends later
+                    end_job(job, told)
         time.sleep(STEP_S)
 
 
+<<<<<<< HEAD
 def end_orphans(root: Path) -> None:
     """End jobs whose run was killed outright: what they still write may be older than what the next run makes."""
     place = str(root / SCRIPTS)
@@ -49,6 +45,21 @@ def end_orphans(root: Path) -> None:
     _, alive = psutil.wait_procs(left, LEAVE_S)
     for process in alive:
         process.kill()
+=======
+def end_job(job: psutil.Process, told: dict[psutil.Process, float]) -> None:
+    """Tell the processes of a job once to end, and note when; kill them where they do not."""
+    working = [process for process in job.children(recursive=True) if process.status() != psutil.STATUS_ZOMBIE]
+    if working:
+        job.suspend()  # the shell, which stays until its command has ended, and would print that a signal did it
+    elif job.status() == psutil.STATUS_STOPPED:
+        job.kill()
+    for process in working or [job]:
+        if process not in told:
+            told[process] = time.monotonic()
+            process.terminate()
+        elif time.monotonic() - told[process] > LONGEST_S:
+            process.kill()
+>>>>>>> screen/screen
 
 
 def follow_trainings(python: str, results: Path, log: Path) -> subprocess.Popen[bytes]:

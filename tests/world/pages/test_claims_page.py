@@ -26,7 +26,7 @@ from experiments.settings.load import load_settings
 from mobnet.core.columns import VERDICTS
 from mobnet.core.rows import read_texts
 
-REPO = Path(__file__).parents[4]
+REPO = Path(__file__).parents[3]
 GOLDEN = REPO / "tests" / "golden" / "claims.csv"
 SHOWN = "[...document.querySelectorAll('#statements > tbody:not([hidden])')].map((body) => body.dataset.name)"
 OPEN = "[...document.querySelectorAll('details[open]')].map((one) => one.closest('tbody[data-name]').dataset.name)"

@@ -13,7 +13,7 @@ from experiments.evaluation.report.docs import SEARCHED, accessible, build, modu
 from mobnet.core.errors import DataError
 from mobnet.settings.reading import read_yaml
 
-ROOT = Path(__file__).parents[4]
+ROOT = Path(__file__).parents[3]
 
 
 def test_links_to_folders_and_to_the_readme_lead_to_pages(tmp_path, monkeypatch):

@@ -19,7 +19,7 @@ from experiments.plan.products import TEMPLATES
 from mobnet.estimation.low_pass import exact_pole, low_pass
 from mobnet.robot.plant import robot_spec
 
-REPO = Path(__file__).parents[4]
+REPO = Path(__file__).parents[3]
 ALARM = {"detector": "MOB-Net-ratio", "at": START + 24, "named": "left knee, front"}
 READY = "document.querySelector('#still').hidden && document.querySelector('#result').textContent.length > 0"
 SLOWER = 4.0  # is a slow processor

@@ -16,7 +16,7 @@ from mobnet.core.columns import SCORES, Score
 from mobnet.core.files import TIME, write_json, write_text
 from mobnet.core.rows import csv_text
 
-REPO = Path(__file__).parents[4]
+REPO = Path(__file__).parents[3]
 RUNS = {  # name -> cell, best validation loss, RMSE [N m]; the first one diverged before its first epoch ended
     "FTS-e2e-LL-s0": ("GRU", None, None),
     "GRU-LL-s0": ("GRU", -5.0, 1.5),
