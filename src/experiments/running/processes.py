@@ -34,7 +34,6 @@ def end_jobs() -> None:
         time.sleep(STEP_S)
 
 
-<<<<<<< HEAD
 def end_orphans(root: Path) -> None:
     """End jobs whose run was killed outright: what they still write may be older than what the next run makes."""
     place = str(root / SCRIPTS)
@@ -44,8 +43,10 @@ def end_orphans(root: Path) -> None:
             process.terminate()
     _, alive = psutil.wait_procs(left, LEAVE_S)
     for process in alive:
-        process.kill()
-=======
+        with contextlib.suppress(psutil.Error):
+            process.kill()
+
+
 def end_job(job: psutil.Process, told: dict[psutil.Process, float]) -> None:
     """Tell the processes of a job once to end, and note when; kill them where they do not."""
     working = [process for process in job.children(recursive=True) if process.status() != psutil.STATUS_ZOMBIE]
@@ -59,7 +60,6 @@ def end_job(job: psutil.Process, told: dict[psutil.Process, float]) -> None:
             process.terminate()
         elif time.monotonic() - told[process] > LONGEST_S:
             process.kill()
->>>>>>> screen/screen
 
 
 def follow_trainings(python: str, results: Path, log: Path) -> subprocess.Popen[bytes]:
