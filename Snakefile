@@ -31,9 +31,8 @@ rule all:
     input:
         rules.manifest.output,
         rules.wandb_runs.output,
-        gone(rules.manifest.input),
+        RUN.gone(rules.manifest.input),  # Snakemake misses a file that it is asked for, not one that lies between
 
 
-if WORDS and (fault := next(faults_of_words(WORDS, list(workflow.rules), PLAN.shown, SETTINGS.scales), None)):
-    sys.exit(fault)
-let_go_early()
+RUN.check_words()
+RUN.let_go_early()

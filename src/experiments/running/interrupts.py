@@ -11,11 +11,11 @@ import os
 import signal
 import sys
 import threading
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from typing import Any
 
 from experiments.running.processes import end_jobs
-from experiments.running.terminal import RunHandler
+from experiments.running.terminal import SHOWN_BY
 
 AGAIN_S = 5  # after which an exception was lost on its way, as Python ignores those in calls from C
 TOLD_S = 5.0  # that the line may take
@@ -29,10 +29,9 @@ class Interrupts:
         status: exit status of the run once it was stopped; 0 until then.
     """
 
-    def __init__(self, shown_by: Sequence[RunHandler]) -> None:
-        """Answer, and take what shows the run."""
+    def __init__(self) -> None:
+        """Answer."""
         self.status = 0
-        self._shown_by = shown_by
         self._teller = threading.Thread(target=self._tell, daemon=True)
         self._begin_no_job: Callable[..., Any] | None = None  # Snakemake's own answer, while its local jobs run
         self._is_in_queue = False
@@ -75,7 +74,7 @@ class Interrupts:
 
     def _tell(self) -> None:
         """Print the last line: what is printed by this process after it goes nowhere."""
-        parts = ["stopped", *[handler.stop() for handler in self._shown_by], GO_ON]
+        parts = ["stopped", *[handler.stop() for handler in SHOWN_BY], GO_ON]
         with contextlib.suppress(OSError):
             sys.stdout.flush()
             sys.stderr.write(f"{'; '.join(filter(None, parts))}\n")

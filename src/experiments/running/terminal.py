@@ -13,7 +13,6 @@ import select
 import sys
 import threading
 import time
-from collections.abc import Iterable
 from typing import Any
 
 from snakemake_interface_logger_plugins.base import LogHandlerBase
@@ -44,6 +43,7 @@ class RunHandler(LogHandlerBase):
         self.course = RunState()
         is_terminal = sys.stderr.isatty() and os.environ.get("TERM", "dumb") != "dumb"
         self._screen = Screen(self.course) if self._shows and is_terminal else None
+        SHOWN_BY.append(self)
 
     @property
     def writes_to_stream(self) -> bool:
@@ -132,6 +132,9 @@ class RunHandler(LogHandlerBase):
         super().close()
 
 
+SHOWN_BY: list[RunHandler] = []  # what shows the run of this process: nothing, or one
+
+
 class Screen:
     """Lines in place, below all that is printed meanwhile.
 
@@ -178,11 +181,6 @@ class Screen:
             os.close(kept)
         self._is_closed.set()
         self._thread.join(CLOSED_S)
-
-
-def shown_by(handlers: Iterable[object]) -> list[RunHandler]:
-    """Return what shows a run among the handlers of Snakemake's log: nothing, or one."""
-    return [handler for handler in handlers if isinstance(handler, RunHandler)]
 
 
 def write(text: str) -> None:

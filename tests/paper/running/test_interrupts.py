@@ -14,7 +14,7 @@ from experiments.running import interrupts, processes
 
 interrupts.AGAIN_S = 1
 processes.LONGEST_S = 1.0
-answers = interrupts.Interrupts([])
+answers = interrupts.Interrupts()
 
 def wait():
     print("begun", flush=True)

@@ -12,7 +12,10 @@ from experiments.running.one_run import LOCK, held_folder, only_looks
 from experiments.running.processes import end_orphans
 from mobnet.core.errors import CommandError
 
-REFUSED = r"a run goes on in this folder since \d\d:\d\d \(all --config scale=smoke, process \d+\); wait for it, or use a clone"
+REFUSED = (
+    r"a run goes on in this folder since \d\d:\d\d \(all --config scale=smoke, process \d+\); "
+    r"wait for it, or use a clone"
+)
 WORDS = ("all", "--config", "scale=smoke")
 
 

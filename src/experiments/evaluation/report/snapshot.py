@@ -29,10 +29,10 @@ from experiments.plan.dry_run import dry_run
 from experiments.plan.plan import make_plan
 from experiments.plan.prices import RATES
 from experiments.plan.reactions import all_reactions
-from experiments.running.one_run import held_folder
 from experiments.plan.work import works_of
 from experiments.running.accounts import read_account
 from experiments.running.logs import LOGS
+from experiments.running.one_run import held_folder
 from experiments.running.words import MAIN, manifest_of, results_parser, scale_given
 from experiments.settings.load import load_settings
 from experiments.settings.settings import Settings
