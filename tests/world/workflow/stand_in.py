@@ -1,7 +1,7 @@
 """Stands in for the script of each rule where a test stops runs: it writes what follows from what it reads.
 
-What it writes depends on the arguments of the job and on the bytes of its inputs, so that a stale file is seen. It takes
-a moment, waits while one file of the project's folder is there, and fails where another one names its rule.
+What it writes depends on the arguments of the job and on the bytes of its inputs, so that a stale file is seen. It
+takes a moment, waits while one file of the project's folder is there, and fails where another one names its rule.
 """
 
 import hashlib
