@@ -4,6 +4,7 @@ import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cache
+from typing import Any
 
 from experiments.plan.dry_run import PlannedJob
 from experiments.plan.gpu import GPU_RATES, GpuNote, GpuRates, fitted
@@ -44,10 +45,13 @@ class JobLimits:
             """Return the memory [MB] and the time [min] of the first attempt: Snakemake asks many times."""
             return self.asked(name, dict(wildcards))
 
-        return {
-            "mem_mb": lambda w, attempt: attempt * first(tuple(w.items()))[0],
-            "runtime": lambda w, attempt: attempt * first(tuple(w.items()))[1],
-        }
+        def memory_mb(w: Any, attempt: int) -> int:
+            return attempt * first(tuple(w.items()))[0]
+
+        def minutes(w: Any, attempt: int) -> int:
+            return attempt * first(tuple(w.items()))[1]
+
+        return {"mem_mb": memory_mb, "runtime": minutes}
 
     def asked(self, name: str, wildcards: Mapping[str, str]) -> tuple[int, int]:
         """Return the memory [MB] and the time [min] that a job asks for at first."""
