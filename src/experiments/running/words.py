@@ -17,19 +17,52 @@ KINDS = (
 )
 # Options of Snakemake that take several values, and their other names.
 LISTS = (
-    "--allowed-rules", "--cache", "--cleanup-metadata", "--config", "--configfile", "--consider-ancient",
-    "--default-resources", "--envvars", "--forcerun", "--group-components", "--groups", "--logger", "--omit-flags",
-    "--omit-from", "--preemptible-rules", "--prioritize", "--quiet", "--rerun-triggers", "--resources",
-    "--set-resource-scopes", "--set-resources", "--set-scatter", "--set-threads", "--shared-fs-usage",
-    "--software-deployment-method", "--strict-dag-evaluation", "--target-jobs", "--unneeded-temp-files", "--until",
+    "--allowed-rules",
+    "--cache",
+    "--cleanup-metadata",
+    "--config",
+    "--configfile",
+    "--consider-ancient",
+    "--default-resources",
+    "--envvars",
+    "--forcerun",
+    "--group-components",
+    "--groups",
+    "--logger",
+    "--omit-flags",
+    "--omit-from",
+    "--preemptible-rules",
+    "--prioritize",
+    "--quiet",
+    "--rerun-triggers",
+    "--resources",
+    "--set-resource-scopes",
+    "--set-resources",
+    "--set-scatter",
+    "--set-threads",
+    "--shared-fs-usage",
+    "--software-deployment-method",
+    "--strict-dag-evaluation",
+    "--target-jobs",
+    "--unneeded-temp-files",
+    "--until",
     "--wait-for-files",
-)  # fmt: skip
+)
 ALIASES = {
-    "-C": "--config", "-O": "--omit-from", "-P": "--prioritize", "-R": "--forcerun", "-U": "--until", "-q": "--quiet",
-    "--cm": "--cleanup-metadata", "--configfiles": "--configfile", "--default-res": "--default-resources",
-    "--deployment": "--software-deployment-method", "--deployment-method": "--software-deployment-method",
-    "--res": "--resources", "--sdm": "--software-deployment-method",
-}  # fmt: skip
+    "-C": "--config",
+    "-O": "--omit-from",
+    "-P": "--prioritize",
+    "-R": "--forcerun",
+    "-U": "--until",
+    "-q": "--quiet",
+    "--cm": "--cleanup-metadata",
+    "--configfiles": "--configfile",
+    "--default-res": "--default-resources",
+    "--deployment": "--software-deployment-method",
+    "--deployment-method": "--software-deployment-method",
+    "--res": "--resources",
+    "--sdm": "--software-deployment-method",
+}
 RESULTS = {  # command -> what it does with the results of a run
     "verify": "List the missing, changed and unexpected files of a run, by its manifest.",
     "compare": "List the differences between the published tables and figures, docs/results, and those of this folder.",
@@ -88,9 +121,14 @@ def results_parser(command: str) -> argparse.ArgumentParser:
             "--manifest", type=Path, help=f"list of files with their hashes (default: {MANIFEST}, or that of the scale)"
         )
     parser.add_argument(
-        "--config", "-C", nargs="+", action="extend", default=[], metavar="KEY=VALUE",
+        "--config",
+        "-C",
+        nargs="+",
+        action="extend",
+        default=[],
+        metavar="KEY=VALUE",
         help="scale=smoke: that scale's run; docs/results is of the scale default",
-    )  # fmt: skip
+    )
     return parser
 
 

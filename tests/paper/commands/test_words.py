@@ -7,7 +7,15 @@ import pytest
 
 from experiments.commands.main import run
 from experiments.commands.words import COMMANDS, GROUPS, TRIALS, in_order, parse
-from experiments.running.words import nearest, one_of, scale_of, scale_of_targets
+from experiments.running.words import (
+    manifest_of,
+    nearest,
+    one_of,
+    results_parser,
+    scale_given,
+    scale_of,
+    scale_of_targets,
+)
 from mobnet.commands import COMMANDS as LAB
 from mobnet.commands import main as lab
 from mobnet.core.errors import NEAREST, CommandError, ConfigError
@@ -169,6 +177,16 @@ def test_the_words_of_cost_are_those_of_a_run():
     assert parse(["cost", "docs"]).extra == ["docs"]
     assert parse(["cost", "report"]).extra == ["all"]
     assert parse(["cost", "tuning", *smoke]).extra == ["results/smoke/trials/tuning.md", *smoke]
+
+
+@pytest.mark.parametrize(("words", "manifest"), [
+    ([], "results/MANIFEST.sha256"),
+    (["--config", "scale=smoke", "-C", "seed=2"], "results/smoke/MANIFEST.sha256"),
+])  # fmt: skip
+def test_verify_takes_the_scale_as_a_run_does(words, manifest):
+    options = results_parser("verify").parse_args(words)
+    assert options.manifest is None
+    assert manifest_of(scale_given(options.config)) == Path(manifest)
 
 
 @pytest.mark.parametrize("command", COMMANDS)

@@ -163,6 +163,7 @@ def test_exit_status_tells_whether_anything_differs(monkeypatch: pytest.MonkeyPa
     assert main(["compare"]) == 0
     assert rewrite("1.5", "1.6")
     assert main(["compare"]) == 1
+    assert main(["compare", "--config", "scale=smoke"]) == 1  # published is the scale default
     assert main(["verify"]) == 1  # there is no manifest
 
 
