@@ -15,7 +15,7 @@ from experiments.plan.products import Product
 from mobnet.core import code, source
 from mobnet.core.code import code_hash, lock_lines, required
 from mobnet.core.errors import ConfigError
-from mobnet.core.source import Piece, declared_parts, is_declaring, module_files, read, read_declared
+from mobnet.core.source import CodePart, declared_parts, is_declaring, module_files, read, read_declared
 
 CACHED = (code_hash, lock_lines, required, read, read_declared, module_files, declared_parts, is_declaring)
 ONE = '''"""One."""
@@ -283,7 +283,7 @@ def project_files() -> list[Path]:
 def test_every_package_that_is_imported_has_a_line_in_the_lock() -> None:
     missing: dict[str, Path] = {}
     for path in project_files():
-        missing |= {name: path for name in read(Piece(path)).packages if name not in lock_lines()}
+        missing |= {name: path for name in read(CodePart(path)).packages if name not in lock_lines()}
     assert not missing
 
 
