@@ -23,7 +23,7 @@ from itertools import chain
 from pathlib import Path
 
 from mobnet.core.errors import ConfigError
-from mobnet.core.source import PACKAGES, SOURCE, Part, Source, lock_name, read
+from mobnet.core.source import PACKAGES, SOURCE, CodePart, Source, lock_name, read
 
 ROOT = SOURCE.parent
 LOCK = ROOT / "environment.lock"
@@ -72,8 +72,8 @@ def start_of(start: Path | str) -> Path:
 
 def reached(starts: Iterable[Path]) -> tuple[Source, ...]:
     """Return some files and all that they use of these packages, directly or not."""
-    found: dict[Part, Source] = {}
-    waiting = [Part(start) for start in starts]
+    found: dict[CodePart, Source] = {}
+    waiting = [CodePart(start) for start in starts]
     while waiting:
         part = waiting.pop()
         if part not in found:

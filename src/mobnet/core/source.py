@@ -57,7 +57,7 @@ NO_DEFAULT = ast.Constant(...)
 CHECK = "problems"  # end of the name of a function that checks
 
 
-class Part(NamedTuple):
+class CodePart(NamedTuple):
     """What counts by itself: a whole file, or a name that a declaring file defines; `is_type`: only as a type."""
 
     path: Path
@@ -69,7 +69,7 @@ class Source(NamedTuple):
     """What one part contributes: the hash of its syntax, and what it uses of these packages and of others."""
 
     digest: bytes
-    parts: tuple[Part, ...]
+    parts: tuple[CodePart, ...]
     packages: frozenset[str]
 
 
@@ -81,7 +81,7 @@ class Declared(NamedTuple):
 
 
 @functools.cache
-def read(part: Part) -> Source:
+def read(part: CodePart) -> Source:
     """Read one part."""
     return read_name(part) if part.name else read_file(part.path)
 
@@ -90,16 +90,16 @@ def read_file(path: Path) -> Source:
     """Read a whole file."""
     reader = Reader()
     reader.read(ast.parse(path.read_bytes(), str(path)))
-    parts = set[Part]()
+    parts = set[CodePart]()
     for name, full_name in reader.imports:
         if is_declaring(full_name):
             parts.update(used_parts(name, full_name, reader))
         else:
-            parts.update(map(Part, module_files(full_name)))
+            parts.update(map(CodePart, module_files(full_name)))
     return Source(reader.digest, tuple(parts), distributions(full_name for _, full_name in reader.imports))
 
 
-def used_parts(name: str, full_name: str, reader: Reader) -> Iterator[Part]:
+def used_parts(name: str, full_name: str, reader: Reader) -> Iterator[CodePart]:
     """Yield what a file uses of an import from a declaring package; what it only hands on, it uses."""
     used = reader.values | reader.types
     for found in [name, *(each for each in used if each.startswith(f"{name}."))]:
@@ -107,7 +107,7 @@ def used_parts(name: str, full_name: str, reader: Reader) -> Iterator[Part]:
         yield from declared_parts(full_name + found.removeprefix(name), is_type=is_type)
 
 
-def read_name(part: Part) -> Source:
+def read_name(part: CodePart) -> Source:
     """Read a name of a declaring file: its definition, or where it comes from."""
     declared = read_declared(part.path)
     reader = Reader(is_declaring=True)
@@ -116,18 +116,18 @@ def read_name(part: Part) -> Source:
     else:
         (reader.types if part.is_type else reader.values).add(part.name)
     imports = {**declared.imports, **dict(reader.imports)}
-    parts = set[Part]()
+    parts = set[CodePart]()
     outside = set[str]()
     for used in reader.types | reader.values:
         first, dot, rest = used.partition(".")
         is_type = used not in reader.values
         full_name = imports.get(first, "") + dot + rest
         if first in declared.statements:
-            parts.add(Part(part.path, first, is_type))
+            parts.add(CodePart(part.path, first, is_type))
         elif is_declaring(full_name):
             parts.update(declared_parts(full_name, is_type=is_type))
         elif first in imports and not is_type:
-            parts.update(map(Part, module_files(full_name)))
+            parts.update(map(CodePart, module_files(full_name)))
             outside.add(full_name)
     return Source(reader.digest, tuple(parts), distributions(outside))
 
@@ -307,13 +307,13 @@ def is_declaring(name: str) -> bool:
 
 
 @functools.cache
-def declared_parts(full_name: str, *, is_type: bool) -> tuple[Part, ...]:
+def declared_parts(full_name: str, *, is_type: bool) -> tuple[CodePart, ...]:
     """Return the part behind a dotted name in a declaring package; none behind that of a module or a package."""
     names = full_name.split(".")
     for count in range(1, len(names)):
         path = SOURCE.joinpath(*names[:count]).with_suffix(".py")
         if path.is_file():
-            return (Part(path, names[count], is_type),)
+            return (CodePart(path, names[count], is_type),)
     return ()
 
 

@@ -15,7 +15,7 @@ from experiments.plan.products import Product
 from mobnet.core import code, source
 from mobnet.core.code import code_hash, lock_lines, required
 from mobnet.core.errors import ConfigError
-from mobnet.core.source import Part, declared_parts, is_declaring, module_files, read, read_declared
+from mobnet.core.source import CodePart, declared_parts, is_declaring, module_files, read, read_declared
 
 CACHED = (code_hash, lock_lines, required, read, read_declared, module_files, declared_parts, is_declaring)
 ONE = '''"""One."""
@@ -283,14 +283,14 @@ def project_files() -> list[Path]:
 def test_every_package_that_is_imported_has_a_line_in_the_lock() -> None:
     missing: dict[str, Path] = {}
     for path in project_files():
-        missing |= {name: path for name in read(Part(path)).packages if name not in lock_lines()}
+        missing |= {name: path for name in read(CodePart(path)).packages if name not in lock_lines()}
     assert not missing
 
 
 def test_names_in_the_lock_are_those_of_the_installed_packages() -> None:
     installed = importlib.metadata.packages_distributions()
-    for name, wanted in code.DISTRIBUTIONS.items():
-        assert wanted in {code.lock_name(found) for found in installed.get(name, [wanted])}
+    for name, wanted in source.DISTRIBUTIONS.items():
+        assert wanted in {source.lock_name(found) for found in installed.get(name, [wanted])}
 
 
 def test_a_new_mujoco_counts_for_the_code_that_imports_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -67,6 +67,7 @@ def test_cached_code_follows_the_functions_that_it_calls(tmp_path: Path) -> None
         "core/code",
         "core/errors",
         "core/place",
+        "core/source",
         "core/compilation",
         "control/__init__",
     ):
