@@ -8,8 +8,8 @@ from typing import Any
 import pytest
 from made_detections import on_both_plants
 from made_notes import training_note
+from paper_settings import settings_at
 
-from experiments.settings.load import load_settings
 from experiments.settings.settings import Settings
 
 HEAD = "epoch,train_loss,validation_loss,validation_rmse,rate,gradient_norm,stride"
@@ -18,7 +18,7 @@ HEAD = "epoch,train_loss,validation_loss,validation_rmse,rate,gradient_norm,stri
 @pytest.fixture(scope="session")
 def settings() -> Settings:
     """The configuration at its default scale; what tables are made from is made once, for other tests too."""
-    return on_both_plants(load_settings(overrides={"scale": "default"}))
+    return on_both_plants(settings_at())
 
 
 @pytest.fixture(scope="session")

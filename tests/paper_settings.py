@@ -1,18 +1,27 @@
 """The whole configuration, for tests of the paper and of whole runs. A conftest imports the fixtures."""
 
+from functools import cache
+
 import pytest
 from library_settings import recipes
 
 from experiments.plan.plan import with_precision
 from experiments.settings.catalogue import Catalogue
 from experiments.settings.load import load_settings
+from experiments.settings.settings import Settings
 from mobnet.learning.precision import of_processor
+
+
+@cache
+def settings_at(scale: str = "default") -> Settings:
+    """Return the repository's configuration at a scale, which is read once: it takes a second."""
+    return load_settings(overrides={"scale": scale})
 
 
 @pytest.fixture(scope="session")
 def settings():
     """The repository's configuration at its smoke scale, with this machine's number format."""
-    return with_precision(load_settings(overrides={"scale": "smoke"}), of_processor())
+    return with_precision(settings_at("smoke"), of_processor())
 
 
 @pytest.fixture(scope="session")

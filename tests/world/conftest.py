@@ -2,12 +2,11 @@
 
 import pytest
 from once import once
-from paper_settings import recipe_of, settings
+from paper_settings import recipe_of, settings, settings_at
 from planned_jobs import ROOT
 
 from experiments.evaluation.report.docs import docs
 from experiments.plan.plan import make_plan
-from experiments.settings.load import load_settings
 
 __all__ = ["recipe_of", "settings"]
 
@@ -19,7 +18,7 @@ def site(tmp_path_factory):
     def build(folder):
         with pytest.MonkeyPatch.context() as patch:
             patch.chdir(ROOT)
-            (product,) = make_plan(load_settings(overrides={"scale": "smoke"}), with_pdf=False).docs
+            (product,) = make_plan(settings_at("smoke"), with_pdf=False).docs
             docs(**{**product.call.arguments, "out": folder})
 
     return once(tmp_path_factory, "site", build)

@@ -6,12 +6,12 @@ import pytest
 import torch
 from library_settings import recipes
 from made_notes import network_note
+from paper_settings import settings_at
 from safetensors.torch import save_file
 
 from experiments.jobs.fitting import write_fit
 from experiments.plan.plan import with_precision
 from experiments.settings.catalogue import Catalogue
-from experiments.settings.load import load_settings
 from mobnet.core.files import WEIGHTS
 from mobnet.estimation.recipe import build_estimator
 from mobnet.learning.deployed.weights import NOTE
@@ -26,7 +26,7 @@ INPUT_STD, TARGET_STD = 2.0, 10.0
 @pytest.fixture(scope="session")
 def settings():
     """The configuration at a scale that tries every value of its sweeps."""
-    return with_precision(load_settings(overrides={"scale": "quick"}), of_processor())
+    return with_precision(settings_at("quick"), of_processor())
 
 
 @pytest.fixture(scope="session")

@@ -2,14 +2,14 @@
 
 import numpy as np
 import pytest
+from paper_settings import settings_at
 
 from experiments.settings.catalogue import Catalogue
-from experiments.settings.load import load_settings
 from mobnet.estimation.kinds.zero import ZeroEstimator
 
 from .checks import CHECKS, the_past_matters
 
-METHODS = list(Catalogue(load_settings()).all_methods)
+METHODS = list(Catalogue(settings_at()).all_methods)
 
 
 @pytest.fixture(scope="module", params=METHODS)

@@ -9,19 +9,19 @@ import shutil
 import numpy as np
 import pyarrow.parquet as pq
 import pytest
+from paper_settings import settings_at
 
 from experiments.jobs.estimates import estimate
 from experiments.jobs.observing import observe
 from experiments.plan.parts import MethodRun
 from experiments.settings.catalogue import Catalogue
-from experiments.settings.load import load_settings
 from mobnet.core.columns import EXTERNAL_LP, FEET, SWING, named, recording_columns
 from mobnet.core.recording import Truth, write_recording
 from mobnet.core.store import footer_hash, read_array
 from mobnet.estimation.recipe import kind_names
 
 LEVEL, SECONDS, WRONG = "all_uncertainty", 0.12, 77.0
-METHODS = list(Catalogue(load_settings()).all_methods)
+METHODS = list(Catalogue(settings_at()).all_methods)
 
 
 def replaced(stem, names, value=None):

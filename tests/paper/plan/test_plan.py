@@ -10,6 +10,7 @@ from typing import Any
 
 import pytest
 from jobs_of import arguments, network, reads
+from paper_settings import settings_at
 
 from experiments.plan.call import Call, call_of, parameters
 from experiments.plan.files import files_in, made_by_jobs
@@ -18,7 +19,6 @@ from experiments.plan.plan import Plan, make_plan
 from experiments.plan.products import Shown, shown
 from experiments.plan.runs import SweptSize
 from experiments.settings.evaluation import PRODUCTS
-from experiments.settings.load import load_settings
 from experiments.settings.products import MadeBy
 from experiments.settings.settings import Settings
 from mobnet.core.errors import ConfigError
@@ -29,7 +29,7 @@ SCALES = ("smoke", "quick", "default", "paper")
 @pytest.fixture(scope="module")
 def plans() -> dict[str, Plan]:
     """The plan of every scale."""
-    return {scale: make_plan(load_settings(overrides={"scale": scale}), with_pdf=True) for scale in SCALES}
+    return {scale: make_plan(settings_at(scale), with_pdf=True) for scale in SCALES}
 
 
 @pytest.fixture

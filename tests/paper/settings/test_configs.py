@@ -6,19 +6,19 @@ from typing import get_args
 
 import numpy as np
 import pytest
+from paper_settings import settings_at
 
 from experiments.settings.catalogue import Catalogue
 from experiments.settings.checks.claims import metrics_of
 from experiments.settings.checks.results import Results
 from experiments.settings.claims import Bounds, Cell, Claim, MadeNumber, TrainingMetric, numbers_of
-from experiments.settings.load import load_settings
 from experiments.settings.metrics import unit_of_metric
 from experiments.settings.published import ARCHITECTURE
 from experiments.settings.tables import ErrorTable
 from mobnet.core.joints import right_of
 from mobnet.settings.robot import WORLD
 
-SETTINGS = load_settings()
+SETTINGS = settings_at()
 RESULTS = Results(Catalogue(SETTINGS))
 ROBOT, PUBLISHED, CLAIMS = SETTINGS.robot, SETTINGS.published, SETTINGS.claims
 SAME_M, SAME_SHARE = 0.01, 0.1  # by which the right side may differ from the left one's mirror image

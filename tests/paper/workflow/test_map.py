@@ -5,11 +5,11 @@ from functools import reduce
 from pathlib import Path
 
 import pytest
+from paper_settings import settings_at
 
 from experiments.evaluation.report.paper_map import MAP, SOURCE, files_of, paper_map, read_known
 from experiments.plan.plan import make_plan
 from experiments.plan.products import CAPTIONS
-from experiments.settings.load import load_settings
 from mobnet.core.code import start_of
 from mobnet.core.errors import ConfigError
 
@@ -18,7 +18,7 @@ TABLES = [f"Table {n}" for n in (*range(1, 12), 13)]
 FIGURES = [f"Figure {n}" for n in (*range(5, 11), *range(12, 21))]
 SECTIONS = ["Section 6.1", "Section 6.2", "Section 6.3", "Section 7"]
 NUMBERED = re.compile(r"(?:table|figure)_\d\d")
-MAIN = load_settings(overrides={"scale": "default"})
+MAIN = settings_at()
 
 
 KNOWN = read_known(ROOT / SOURCE)

@@ -35,11 +35,15 @@ def compiled(tmp_path_factory):
 
 @pytest.fixture(scope="session")
 def make_project(tmp_path_factory, compiled):
-    """Return a function of a name that copies the project, or a copy, without its environment."""
+    """Return a function of a name that copies the project, or a copy, without its environment.
+
+    The copy has the machine code that its origin has compiled, as its code is the same.
+    """
 
     def make(name, origin=ROOT):
         folder = tmp_path_factory.mktemp(name)
-        copy_project(folder, origin)
+        copy_project(origin, folder)
+        copy_compiled(origin, folder)
         return folder
 
     return make
@@ -54,19 +58,18 @@ def smoke_run(tmp_path_factory, compiled):
         shutil.rmtree(folder, ignore_errors=True)  # of a run that failed
         run.mkdir(parents=True)
         kept.mkdir()
-        copy_project(run)
+        copy_project(ROOT, run)
+        copy_compiled(ROOT, run)
         assert reproduce(run).wait() == 0, told(run)
-        copy_project(kept, run)
+        copy_project(run, kept)
+        copy_compiled(run, kept)
         copy_results(run, kept)
 
     return once(tmp_path_factory, "smoke", make)
 
 
-def copy_project(folder, origin=ROOT):
-    """Copy the project, or a copy, into a folder, without its environment.
-
-    The copy has the machine code that its origin has compiled, as its code is the same.
-    """
+def copy_project(origin, folder):
+    """Copy the project, or a copy, into a folder, without its environment and without what it has compiled."""
     for part in PARTS:
         source = origin / part
         ignored = shutil.ignore_patterns("__pycache__", "*.pdf", "build.json", ".*")
@@ -75,6 +78,10 @@ def copy_project(folder, origin=ROOT):
         else:
             shutil.copy2(source, folder / part)
     (folder / ".venv").symlink_to(sys.prefix)  # runs the code of the folder in which it is called
+
+
+def copy_compiled(origin, folder):
+    """Give a copy of the project the machine code of its origin."""
     for source, place in compiled_in(cache_root() if origin == ROOT else origin / COMPILED, origin, folder):
         shutil.copytree(source, folder / COMPILED / place, ignore=shutil.ignore_patterns("*.tmp.*"))
 

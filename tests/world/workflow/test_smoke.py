@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 from browser import with_browser
+from paper_settings import settings_at
 
 from experiments.evaluation.report.compute import HOUR_S, WHOLE
 from experiments.evaluation.report.cost import costs
@@ -15,7 +16,6 @@ from experiments.evaluation.report.rates import measured
 from experiments.plan.plan import make_plan
 from experiments.plan.work import works_of
 from experiments.running.accounts import read_account
-from experiments.settings.load import load_settings
 
 from .clicks import choose, explain, show, text_of_frame
 from .smoke import SMOKE, accounts, reproduce, told
@@ -27,7 +27,7 @@ pytestmark = [pytest.mark.slow, pytest.mark.sim]
 
 @pytest.fixture(scope="module")
 def plan():
-    return make_plan(load_settings(overrides={"scale": "smoke"}), with_pdf=False)
+    return make_plan(settings_at("smoke"), with_pdf=False)
 
 
 @pytest.fixture(scope="module")

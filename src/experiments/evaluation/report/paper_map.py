@@ -25,7 +25,8 @@ ITEM = re.compile(rf"({'|'.join(KINDS)}) \(?([\d.]*\d)")  # Table 7, Equation (1
 TITLED = re.compile(r"^(Table|Figure) \d+: ")  # the start of a caption's title that the paper's item has too
 OURS = " (ours)"  # at the end of a caption's title
 SHOWN = 3  # files of a product that are named
-TESTS = Path("tests/paper/evaluation")  # where all of them are that check a product
+TESTS = Path("tests")
+PAGES = Path("tests/world/pages")  # tests of what a browser shows
 HEADER = ("paper", "what it shows", "files", "test", "made by")
 HEAD = f"""# Map of the paper
 
@@ -164,7 +165,9 @@ def test_of(product: Product, known: Mapping[str, Path]) -> Path:
         if name in known:
             return known[name]
     package = product.call.function.split(".")[1:3]
-    test = Path("tests", *package, f"test_{product.name}.py")
+    test = Path("tests", "paper", *package, f"test_{product.name}.py")
+    if (PAGES / test.name).is_file():
+        return PAGES / test.name
     if not test.is_file():
         raise ConfigError(f"{SOURCE}: tests: {product.name!r} is missing; accepted: its test here, or {test}")
     return test

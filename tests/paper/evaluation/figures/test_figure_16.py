@@ -4,12 +4,12 @@ from dataclasses import replace
 
 import pytest
 from made_trials import EARLY, FORCE_N, HIT, write_made_course, write_trials
+from paper_settings import settings_at
 
 from experiments.evaluation.figures.paper.figure_16 import figure_16, force_of
-from experiments.settings.load import load_settings
 from mobnet.core.rows import read_texts
 
-SETTINGS = load_settings()
+SETTINGS = settings_at()
 SECTION = SETTINGS.evaluation.figure_16
 
 

@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from made_trials import FORCE_N, HIT, write_made_course, write_trials
+from paper_settings import settings_at
 from PIL import Image
 
 from experiments.evaluation.figures.drawing.robot import draw_scene, projection, solid_of
@@ -13,11 +14,10 @@ from experiments.evaluation.figures.further.films import films, read_curves
 from experiments.evaluation.figures.paper import figure_22 as pictures
 from experiments.evaluation.figures.paper.figure_21 import draw_strips, figure_21, sole_corners, stances_of
 from experiments.evaluation.figures.paper.figure_22 import figure_22, moments_of
-from experiments.settings.load import load_settings
 from mobnet.core.course import read_course
 from mobnet.core.rows import read_texts
 
-SETTINGS = load_settings()
+SETTINGS = settings_at()
 SHOWN = SETTINGS.robot, SETTINGS.obstacles
 DRESSED = SETTINGS.robot, SETTINGS.robot.looks, SETTINGS.obstacles
 

@@ -5,14 +5,14 @@ import re
 from pathlib import Path
 
 import pytest
+from paper_settings import settings_at
 
 from experiments.evaluation.report.data_card import CARD, DRAWN, card, column_rows, columns, drawn, field_texts, sizes
-from experiments.settings.load import load_settings
 from mobnet.core.columns import recording_columns, residual_columns
 from mobnet.core.recording import Sensed, Truth
 
 REPO = Path(__file__).parents[4]
-SETTINGS = load_settings(overrides={"scale": "default"})
+SETTINGS = settings_at()
 
 
 def test_the_card_is_current() -> None:

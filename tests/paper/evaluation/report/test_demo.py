@@ -10,6 +10,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from paper_settings import settings_at
 
 from experiments.demo import DATA, load, main
 from experiments.evaluation.measure.estimates.felt import PushResponse
@@ -20,7 +21,6 @@ from experiments.evaluation.report.demo import draw, lines_of, title_of
 from experiments.evaluation.report.manifest import file_hash
 from experiments.evaluation.report.snapshot import tell_demo
 from experiments.plan.demo import SOURCES, estimate_place
-from experiments.settings.load import load_settings
 from mobnet.core.columns import EXTERNAL, STD, named
 from mobnet.core.errors import ConfigError, DataError
 from mobnet.core.estimator import Estimate
@@ -30,7 +30,7 @@ from mobnet.estimation.low_pass import low_pass
 
 REPO = Path(__file__).parents[4]
 PAGE = (REPO / "docs" / "demo.md").read_text()
-EVALUATION = load_settings().evaluation
+EVALUATION = settings_at().evaluation
 METHODS = EVALUATION.story.methods
 SETTLED_NM, AFTER_NM = 0.002, 0.0003  # bounds of differences once estimators are judged, and from the push on
 READ = (
@@ -42,7 +42,7 @@ Estimates = Mapping[str, Estimate]
 
 @pytest.fixture(scope="module")
 def stored() -> StoredPush:
-    return StoredPush(DATA, load_settings())
+    return StoredPush(DATA, settings_at())
 
 
 @pytest.fixture(scope="module")
@@ -206,7 +206,7 @@ def test_thresholds_of_another_detector_are_told(tmp_path: Path, estimates: Esti
     path = shutil.copytree(DATA, tmp_path / "data") / "thresholds.csv"
     path.write_text(path.read_text().replace("ratio.LL3", "mean.LL3"))
     with pytest.raises(DataError, match=r"thresholds\.csv: threshold of ratio\.LL3, phase 1, is missing"):
-        StoredPush(tmp_path / "data", load_settings()).scene(estimates)
+        StoredPush(tmp_path / "data", settings_at()).scene(estimates)
 
 
 def test_pictures_of_another_kind_are_refused(capsys: pytest.CaptureFixture[str]) -> None:

@@ -7,18 +7,18 @@ from typing import Any
 
 import numpy as np
 import pytest
+from paper_settings import settings_at
 
 from experiments.demo import DATA
 from experiments.evaluation.report.demo_data import copy_demo, demo_data
 from experiments.evaluation.report.manifest import file_hash
 from experiments.plan.demo import SOURCES, demo_needs, demo_outputs
 from experiments.plan.plan import make_plan
-from experiments.settings.load import load_settings
 from mobnet.core.errors import DataError
 from mobnet.core.files import read_json
 from mobnet.core.store import read_array
 
-SETTINGS = load_settings()
+SETTINGS = settings_at()
 STORY = SETTINGS.evaluation.story
 SHORTER = {"before_s": 0.5, "after_s": 0.25, "settle_s": 0.1}
 SEED = read_json(DATA / "recording.json")["seed"]

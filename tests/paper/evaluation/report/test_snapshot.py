@@ -5,6 +5,7 @@ from dataclasses import asdict
 from pathlib import Path
 
 import pytest
+from paper_settings import settings_at
 
 from experiments.evaluation.report.manifest import write_lists
 from experiments.evaluation.report.readme import blocks
@@ -19,12 +20,11 @@ from experiments.evaluation.report.snapshot import (
 )
 from experiments.running.accounts import Account
 from experiments.running.words import MANIFEST
-from experiments.settings.load import load_settings
 from mobnet.core.errors import DataError
 from mobnet.core.files import read_json, write_json
 
 REPO = Path(__file__).parents[4]
-SETTINGS = load_settings()
+SETTINGS = settings_at()
 TABLES, FIGURES, COMPUTE, STORED = (Path(name) for name in ("tables", "figures", "compute.md", "docs/results"))
 TABLE = (
     "scenario,level,method,joint,metric,value,published\nwalk,ideal,MOB,LL1,rmse,1.5,2\nwalk,ideal,MOB,LL2,rmse,3,4\n"

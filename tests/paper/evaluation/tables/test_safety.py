@@ -5,14 +5,14 @@ from dataclasses import replace
 import pytest
 from csv_files import check_golden
 from made_trials import EARLY, HIT, LEANS, write_trials
+from paper_settings import settings_at
 
 from experiments.evaluation.measure.reaction.results import groups_of, is_early, outcome_of, read_trials
 from experiments.evaluation.tables.further.safety import safety
-from experiments.settings.load import load_settings
 from mobnet.core.errors import DataError
 from mobnet.core.rows import read_texts
 
-SETTINGS = load_settings()
+SETTINGS = settings_at()
 ROWS = [
     HIT,
     replace(HIT, seed=241, first_peak_n=300.0, angle_deg=50.0, level="robot_2"),

@@ -5,14 +5,14 @@ from dataclasses import replace
 import pytest
 from csv_files import check_golden
 from made_trials import FREE, write_trials
+from paper_settings import settings_at
 
 from experiments.evaluation.measure.reaction.results import POWER, TRACKING, VELOCITY
 from experiments.evaluation.tables.further.sensorless import sensorless
-from experiments.settings.load import load_settings
 from mobnet.core.reactions import NONE
 from mobnet.core.rows import read_texts
 
-SETTINGS = load_settings()
+SETTINGS = settings_at()
 ROWS = [
     FREE,
     replace(FREE, seed=241, walked_s=30.0, alarm_s=30.0, reacted_s=30.0, limb="RA", velocity_rmse_m_s=0.005),
