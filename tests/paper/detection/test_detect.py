@@ -4,7 +4,7 @@ import tracemalloc
 
 import numpy as np
 import pytest
-from csv_files import read_table
+from csv_files import check_golden, read_table
 from made_swings import AIR, GROUND, RATE_HZ, swinging, unseen
 
 from experiments.jobs.detect import detect
@@ -83,6 +83,10 @@ def made(section, settings, walks, tmp_path_factory):
     detect(left, settings.robot, RATE_HZ, walks, out)
     assert {path.stem for path in out.iterdir()} == set(FILES)
     return out
+
+
+def test_the_files_of_made_up_walks_are_the_golden_ones(made):
+    check_golden(*(made / f"{name}.csv" for name in ("collisions", "detected", "promises", "thresholds")))
 
 
 def test_collisions_are_those_of_the_recording(made):

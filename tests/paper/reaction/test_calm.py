@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from experiments.jobs.calm import calm_parts, limb_thresholds, watched_of, window_heights
+from experiments.jobs.calm import calm_parts, first_part, limb_thresholds, watched_of, window_heights
 from mobnet.core.errors import DataError
 from mobnet.core.estimator import Estimate
 from mobnet.reaction.watchers import BaseForce
@@ -69,3 +69,12 @@ def test_the_base_is_watched_by_the_force_on_it_and_a_limb_by_its_own_joints(set
     assert (found.tau_ext.tolist(), found.std.tolist()) == (expected.tau_ext.tolist(), expected.std.tolist())
     waist = watched_of(walker, "W", joints, sensed, estimate)
     assert waist.tau_ext.tolist() == known[:, -len(layout.limb("W")) :].tolist()
+
+
+def test_the_first_part_of_a_recording_ends_within_a_segment(made_up):
+    walk = made_up(1, 2.0, segments=4)
+    part = first_part(walk, 1200)
+    assert (len(part.sensed), len(part.truth.tau_ext)) == (1200, 1200)
+    assert part.segments == ((0, 500), (500, 1000), (1000, 1200))
+    assert first_part(walk, 1000).segments == walk.segments[:2]
+    assert first_part(walk, 9000).segments == walk.segments

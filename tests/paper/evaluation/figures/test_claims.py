@@ -15,6 +15,7 @@ from experiments.evaluation.measure.claims.places import (
     ClaimPosition,
     StatementPosition,
     beyond_bound,
+    margin,
     over_paper,
     statements_of,
 )
@@ -64,6 +65,23 @@ def test_without_a_number_of_the_paper_the_claimed_side_is_on_the_right(
     place = beyond_bound(judged(settings, name, ours))
     assert (place.axis, place.band) == (BEYOND_BOUND, (0.0, None))
     assert place.values == pytest.approx(values)
+
+
+@pytest.mark.parametrize(
+    ("number", "bounds", "inside"),
+    [
+        (0.3, (0.0, 1.0), 0.3),
+        (0.8, (0.0, 1.0), 0.2),
+        (1.5, (0.0, 1.0), -0.5),
+        (-0.5, (0.0, 1.0), -0.5),
+        (0.8, (0.5, None), 0.3),
+        (0.8, (None, 1.5), 0.7),
+    ],
+)
+def test_a_number_lies_as_far_inside_a_range_as_the_nearer_end_says(
+    number: float, bounds: tuple[float | None, float | None], inside: float
+) -> None:
+    assert margin(number, bounds) == pytest.approx(inside)
 
 
 def all_judged(settings: Settings) -> list[Judged]:

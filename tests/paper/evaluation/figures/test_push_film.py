@@ -183,3 +183,12 @@ def test_the_published_film_is_as_small_as_a_page_may_ask_for() -> None:
         assert film.size == (960, 540)
         assert sum(_durations(film)) == pytest.approx(10_000.0, abs=200.0)
     assert_begins_with_the_still(published)
+
+
+def test_a_story_begins_and_ends_with_its_recording(settings: Settings, made: Made) -> None:
+    story, runs, detections = made
+    longer = story.model_copy(update={"before_s": 9.0, "after_s": 9.0})
+    _, push = read_story(longer, settings.layout, runs, detections[story.level], COLLISION)
+    rows = len(swinging(settings.layout, 1))
+    assert (push.first, len(push.force)) == (0, rows)
+    assert (push.first + push.start, push.end - push.start) == (START, LENGTH)

@@ -4,8 +4,10 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
+from scipy.special import ndtri
 
-from experiments.evaluation.number.clusters import ClusterKey, mean_in, rate_in, share_in
+from experiments.evaluation.number.clusters import ClusterKey, mean_in, rate_in, share_in, wilson
+from experiments.evaluation.number.intervals import quantile_of
 from experiments.evaluation.number.number import Number
 from experiments.evaluation.number.single import rate_of
 from experiments.settings.runs import Statistics
@@ -149,3 +151,15 @@ def test_of_a_full_grid_the_mean_s_interval_is_that_of_intervals() -> None:
         apart = values.var(ddof=1) / values.size
         if values.mean(axis=1).var(ddof=1) / ROBOTS > apart:
             assert ours.with_ends == pytest.approx(grid.with_ends)
+
+
+def test_robots_that_happen_to_be_alike_make_no_interval_shorter_than_independent_values_would() -> None:
+    """Each robot has one walk with and one without an event, so that nothing differs over robots."""
+    values, places = [0.0, 2.0] * 3, [ClusterKey(f"robot_{k // 2}", k) for k in range(6)]
+    reach = quantile_of(2, 0.95) * (6 / 5 / 6) ** 0.5  # six values of variance 6/5
+    apart = mean_in([value - 1.0 for value in values], places, STATISTICS, "N")
+    assert apart.with_ends == pytest.approx((0.0, -reach, reach))
+    assert mean_in(values, places, STATISTICS, "N").low == 0.0  # no value is below zero
+    share = share_in([value > 0.0 for value in values], places, STATISTICS)
+    count = 6 * (float(ndtri(0.975)) / quantile_of(2, 0.95)) ** 2
+    assert share.with_ends == pytest.approx((0.5, *wilson(0.5, count, STATISTICS)))

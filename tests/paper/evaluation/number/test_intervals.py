@@ -9,7 +9,7 @@ import pytest
 from numpy.typing import NDArray
 from scipy.stats import t as student
 
-from experiments.evaluation.number.intervals import MEAN, RATIO, Formula, RunGrid, summarise
+from experiments.evaluation.number.intervals import MEAN, RATIO, Formula, RunGrid, slopes_of, summarise
 from experiments.evaluation.number.number import Number
 from experiments.evaluation.number.quantities import BELOW, CUT, GAP_RATIO
 from experiments.evaluation.number.single import share, trend
@@ -268,3 +268,9 @@ def test_walks_of_robots_vary_as_a_sum_written_by_hand() -> None:
     assert number.std_networks == pytest.approx(2.0 * sqrt(2.0))  # of the means 3 and 5
     alone = summarise([RunGrid(values[:, :1], ROBOTS, (101, 102))], STATISTICS, doubled)
     assert (alone.walks, alone.std_walks) == ((1,), None)
+
+
+def test_slopes_are_known_at_zero_and_at_large_numbers_too() -> None:
+    at = np.array([0.0, 1e-9, 2.0, 1e6])
+    made = slopes_of(lambda means: np.stack([3.0 * means[0], means[1] * means[3], means[2] ** 2]), at)
+    np.testing.assert_allclose(made, [[3.0, 0.0, 0.0, 0.0], [0.0, 1e6, 0.0, 1e-9], [0.0, 0.0, 4.0, 0.0]], rtol=1e-6)

@@ -10,7 +10,7 @@ from csv_files import check_golden, markdown_cells, read_table, write_rows
 from made_contacts import pushed
 from made_swings import GROUND, RATE_HZ, swinging, unseen
 
-from experiments.evaluation.measure.detection.contact_points import NAMED, NOTHING, ContactDeviation
+from experiments.evaluation.measure.detection.contact_points import NAMED, NOTHING, ContactDeviation, _compared
 from experiments.evaluation.measure.detection.results import CELLS
 from experiments.evaluation.tables.further.contact_points import write_contacts
 from experiments.plan.runs import Run
@@ -167,3 +167,13 @@ def test_a_hit_at_the_end_of_its_walk_is_told_by_its_last_row(
         table = make_table("contact_points", **given)
         numbers.append([row.value for row in read_table(table)])
     assert numbers[0] == numbers[1] == numbers[2]
+
+
+def test_a_force_along_the_true_one_has_no_angle_and_one_of_nothing_a_right_one() -> None:
+    """Rounding makes the cosine of equal directions more than 1."""
+    rng = np.random.default_rng(0)
+    for true in rng.normal(size=(200, 3)):
+        assert _compared(1.5 * true, true) == (pytest.approx(0.5), pytest.approx(0.0, abs=1e-5))
+        assert _compared(-true, true) == (pytest.approx(0.0), pytest.approx(180.0))
+    assert _compared(np.zeros(3), np.eye(3)[0]) == (-1.0, pytest.approx(90.0))
+    assert _compared(np.zeros(3), np.zeros(3)) == (-1.0, pytest.approx(90.0))
