@@ -202,6 +202,8 @@ class Run:
             self._interrupts.jobs_ended()
         record_end(self._begun)
         made = made_line(self._targets, list(self._workflow.rules), self.plan.folders)
+        if self._words and self._words.report:
+            made = f"{self._words.report} follows; {made}"
         _say(f"{made}, in {in_time(time.time() - self._started_s)}")
 
     def fail(self) -> None:

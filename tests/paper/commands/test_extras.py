@@ -10,8 +10,8 @@ import pytest
 import mobnet
 from mobnet import commands
 from mobnet.core import place
-from mobnet.core.code import DISTRIBUTIONS, SOURCE, lock_name, read
 from mobnet.core.errors import ConfigError
+from mobnet.core.source import DISTRIBUTIONS, SOURCE, lock_name, read
 from mobnet.learning.deployed import networks
 
 MOBNET = SOURCE / "mobnet"

@@ -14,7 +14,7 @@ from pathlib import Path
 
 import pytest
 
-from experiments.running.logs import read_account
+from experiments.running.accounts import read_account
 
 from .cluster import cluster_in
 from .conftest import copy_results
