@@ -28,7 +28,7 @@ KNOWN = read_known(ROOT / SOURCE)
 def plan():
     with pytest.MonkeyPatch.context() as patch:
         patch.chdir(ROOT)
-        yield make_plan(MAIN, with_pdf=True)
+        yield make_plan(MAIN, with_pdf=True, with_mp4=True)  # as the map has it, whatever this machine has
 
 
 @pytest.fixture(scope="module")

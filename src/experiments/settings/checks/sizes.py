@@ -49,18 +49,13 @@ def size_problems(catalogue: Catalogue) -> Iterator[Problem]:
 
 
 def _sweep_problems(settings: Settings) -> Iterator[Problem]:
-    """Yield values of a sweep that it does not have, or too few for Figure 20 or a claim."""
+    """Yield values of a sweep that it does not have, or too few for a claim."""
     place = ("scales", settings.scale, "sweeps")
     for key, values in settings.sizes.sweeps.items():
         row = settings.sweeps[key]
         for value in values:
             if value not in row.values:
                 yield (*place, key), not_accepted(f"value of sweep {key}", value, row.values)
-    sizes = settings.evaluation.figure_20
-    own = getattr(settings.networks[sizes.limb], sizes.parameters)
-    tried = settings.sizes.sweeps.get(sizes.parameters, (own,))
-    if own not in tried:
-        yield (*place, sizes.parameters), misfit(list(tried), f"values with {own}, that of Table 1")
     for name, claim in settings.with_own_sweeps().claims.items():
         least, step = TAKES[claim.quantity]
         more = len(claim.cells) - least
