@@ -48,6 +48,8 @@ from mobnet.core.errors import MobnetError
 from mobnet.core.files import check_room as check_folder
 from mobnet.core.machine import gpus_seen
 from mobnet.core.printed import end_where_full, watch_output
+from mobnet.learning.precision import Precision
+from mobnet.settings.reading import Problem
 
 WRITTEN = (".snakemake", ".cache")  # Snakemake and packages write there
 FOLLOWER_LOG = Path(".cache") / "wandb_live.log"
@@ -55,7 +57,7 @@ FIRST = {"collect": 0, "motion": 10, "observe": 30, "estimate": 30}  # rule -> p
 OTHERS = 20
 
 
-class Run:
+class WorkflowRun:
     """A call of Snakemake for this workflow.
 
     Attributes:
@@ -118,10 +120,11 @@ class Run:
         """Return the configuration, with what is decided once for the results of its scale."""
         settings = load_settings(self._root / "configs", config, self._others_problems)
         results = Path("results") / settings.scale
-        self._precision = auto_precision(settings, results, is_dry=bool(self._words and self._words.dryrun))
+        is_dry = bool(self._words and self._words.dryrun)
+        self._precision: Precision | None = auto_precision(settings, results, is_dry=is_dry)
         return with_stacks(with_precision(settings, self._precision), results, self.gpus)
 
-    def _others_problems(self, settings: Settings) -> Iterator[str]:
+    def _others_problems(self, settings: Settings) -> Iterator[Problem]:
         """Yield what kinds of methods, modules of measures and the paper's text do not accept."""
         yield from method_problems(settings)
         yield from measure_problems(settings)

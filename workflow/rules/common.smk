@@ -14,13 +14,13 @@ from experiments.plan.room import Sizes
 from experiments.running.environment import quieten
 from experiments.running.processes import PREFIX
 from experiments.running.words import one_of
-from experiments.whole_run import Run
+from experiments.whole_run import WorkflowRun
 from mobnet.core.code import code_hash
 from mobnet.core.detections import FILES
 
 ROOT = Path(workflow.current_basedir).parent.parent
 quieten(ROOT)
-RUN = Run(workflow, config, ROOT, INTERRUPTS)
+RUN = WorkflowRun(workflow, config, ROOT, INTERRUPTS)
 SETTINGS = RUN.settings
 PLAN = RUN.plan
 JOBS = PLAN.jobs

@@ -17,12 +17,12 @@ from mobnet.core.files import opened, taken
 
 LOCK = Path(".cache") / "run.lock"
 # Options with which Snakemake reads and runs no job; -n may stand among other letters, as in -np.
-LOOKS = {
-    "--dry-run", "--dryrun", "--summary", "-S", "--detailed-summary", "-D", "--list-changes", "--lc",
-    "--list-input-changes", "--li", "--list-params-changes", "--lp", "--list-untracked", "--lu", "--list-rules",
-    "--list", "-l", "--list-target-rules", "--lt", "--lint", "--dag", "--rulegraph", "--filegraph", "--d3dag",
-    "--print-compilation", "--version", "-v", "--help", "-h",
-}  # fmt: skip
+LOOKED = (
+    "--dry-run --dryrun --summary -S --detailed-summary -D --list-changes --lc --list-input-changes --li "
+    "--list-params-changes --lp --list-untracked --lu --list-rules --list -l --list-target-rules --lt --lint --dag "
+    "--rulegraph --filegraph --d3dag --print-compilation --version -v --help -h"
+)
+LOOKS = frozenset(LOOKED.split())
 DRY = re.compile(r"-[a-zA-Z]*n[a-zA-Z]*")
 
 

@@ -1,5 +1,6 @@
 """A command of a lab that needs an extra of pyproject.toml says so in one line, before it reads or writes anything."""
 
+import ast
 import re
 import sys
 import tomllib
@@ -11,7 +12,7 @@ import mobnet
 from mobnet import commands
 from mobnet.core import place
 from mobnet.core.errors import ConfigError
-from mobnet.core.source import DISTRIBUTIONS, SOURCE, lock_name, read
+from mobnet.core.source import DISTRIBUTIONS, SOURCE, lock_name
 from mobnet.learning.deployed import networks
 
 MOBNET = SOURCE / "mobnet"
@@ -56,10 +57,35 @@ def packages_of(module: str) -> set[str]:
         if path in seen:
             continue
         seen.add(path)
-        file = read(path)
-        found |= file.packages
-        waiting += set(file.files) - ASKED.get(path, set())
+        for name in imports_of(path):
+            files = files_of(name)
+            waiting += set(files) - ASKED.get(path, set())
+            if not files and name.partition(".")[0] not in sys.stdlib_module_names:
+                found |= distributions((name.partition(".")[0],))
     return found
+
+
+def imports_of(path: Path) -> set[str]:
+    """Return the full names of all that a file imports, but for type checkers alone."""
+    found: set[str] = set()
+    waiting: list[ast.AST] = [ast.parse(path.read_text(encoding="utf-8"))]
+    while waiting:
+        node = waiting.pop()
+        if isinstance(node, ast.Import):
+            found.update(alias.name for alias in node.names)
+        elif isinstance(node, ast.ImportFrom):
+            found.update(f"{node.module}.{alias.name}" for alias in node.names)
+        elif not (isinstance(node, ast.If) and isinstance(node.test, ast.Name) and node.test.id == "TYPE_CHECKING"):
+            waiting += ast.iter_child_nodes(node)
+    return found
+
+
+def files_of(name: str) -> list[Path]:
+    """Return the files of the project that importing a name runs: its packages, and itself where it is a module."""
+    parts = name.split(".")
+    places = [SOURCE.joinpath(*parts[: count + 1]) for count in range(len(parts))]
+    found = [place / "__init__.py" for place in places] + [place.with_suffix(".py") for place in places]
+    return [file for file in found if file.is_file()]
 
 
 @pytest.fixture

@@ -24,16 +24,17 @@ PUSHES = ((230, 280), (700, 1020), (1300, 1316))  # the second one is cut by the
 RUN = {"scenario": "knee_swing", "level": "all_uncertainty", "methods": ("MOB-Net",)}
 LINE_HZ = 4.0
 LEG = {**RUN, "limbs": ("LL",)}
+SECTIONS = (
+    Bode(**RUN, limb="LL", shown=("LL4",), bands_hz=(LINE_HZ,)),
+    Changed(window_s=1.0, lift_off_s=0.05, landing_s=0.05, least_share=0.4, tests={"a": LegRuns(**LEG)}),
+    Drift(limb="LL", steps=2, calm_s=0.2, tests={"a": HeldRuns(**RUN)}),
+    Peaks(turned_share=0.3, before_s=0.05, after_s=0.1, longest_s=0.5, tests=(PushedLimbRuns(**LEG),)),
+    Phases(touch_down_s=0.05, tests=(LimbRuns(**LEG),)),
+    Sigma(parts=2, lags_ms=(5, 50, 500), longest_s=1.0, tests={"a": LearnedRuns(**LEG)}, against={}),
+)
 ASKED = Scoring(
     window=PushWindow(before_s=0.05, after_s=0.1),
-    sections={
-        "bode": Bode(**RUN, limb="LL", shown=("LL4",), bands_hz=(LINE_HZ,)),
-        "changed": Changed(window_s=1.0, lift_off_s=0.05, landing_s=0.05, least_share=0.4, tests={"a": LegRuns(**LEG)}),
-        "drift": Drift(limb="LL", steps=2, calm_s=0.2, tests={"a": HeldRuns(**RUN)}),
-        "peaks": Peaks(turned_share=0.3, before_s=0.05, after_s=0.1, longest_s=0.5, tests=(PushedLimbRuns(**LEG),)),
-        "phases": Phases(touch_down_s=0.05, tests=(LimbRuns(**LEG),)),
-        "sigma": Sigma(parts=2, lags_ms=(5, 50, 500), longest_s=1.0, tests={"a": LearnedRuns(**LEG)}, against={}),
-    },
+    sections={type(section).__name__.lower(): section for section in SECTIONS},  # a module has its section's name
     touch_down_s=0.05,
     stuck_rad_s=0.05,
     cover_share=0.9,
