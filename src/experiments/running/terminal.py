@@ -41,6 +41,7 @@ class RunHandler(LogHandlerBase):
         self._shows = not (details or "all" in quiet or "progress" in quiet)
         self._said: list[str] | None = []  # by Snakemake, until it is known that there are jobs to run
         self.course = RunState()
+        self._begun: set[int] = set()  # numbers of jobs
         is_terminal = sys.stderr.isatty() and os.environ.get("TERM", "dumb") != "dumb"
         self._screen = Screen(self.course) if self._shows and is_terminal else None
         SHOWN_BY.append(self)
@@ -99,8 +100,11 @@ class RunHandler(LogHandlerBase):
         elif event == LogEvent.RUN_INFO:
             self.course.total = int(told["stats"]["total"])
         elif event == LogEvent.JOB_INFO:
-            job = self.course.begin(int(told["jobid"]), named(told), next(iter(told["log"]), None), record.created)
-            self._tell(f"begins: {job.name}")
+            number = int(told["jobid"])
+            again = " again" if number in self._begun else ""  # a queue lost it, or gave it too little
+            self._begun.add(number)
+            job = self.course.begin(number, named(told), next(iter(told["log"]), None), record.created)
+            self._tell(f"begins{again}: {job.name}")
         elif event == LogEvent.JOB_FINISHED:
             job = self.course.end(int(told["job_id"]), record.created)
             self._tell(f"done: {job.name}, {in_time(record.created - job.began_s)} ({how_far(self.course)})")

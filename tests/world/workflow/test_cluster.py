@@ -85,7 +85,7 @@ def test_a_cancelled_training_is_sent_again_and_ends_the_same(cluster, project, 
     run = start(cluster, project)
     cluster.ask("scancel", wait_for_training(cluster, project))
     assert_ends_the_same(run, cluster, project, trained)
-    assert "Trying to restart job" in told(project)
+    assert "begins again: train plant, MOB-Net-LA-s0" in told(project)
 
 
 def test_a_node_that_fails_and_returns_does_not_lose_its_job(cluster, project, trained):
