@@ -82,7 +82,7 @@ class RunHandler(LogHandlerBase):
         self._shows = False
         self.close()
         done, total = self.course.done, self.course.total
-        return f"{done} of {counted(total)} {'is' if total == 1 else 'are'} made" if total else ""
+        return f"{done} of {total} jobs are made" if total else ""
 
     def emit(self, record: logging.LogRecord) -> None:
         """Show a record of Snakemake."""
