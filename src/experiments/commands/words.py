@@ -6,6 +6,7 @@ import re
 import sys
 from collections.abc import Sequence
 from difflib import get_close_matches
+from itertools import pairwise
 from pathlib import Path
 from typing import NamedTuple
 
@@ -228,7 +229,7 @@ def in_order(words: Sequence[str]) -> list[str]:
         taking = word in CONFIG or (taking and not word.startswith("-"))
     if others and others[-1] in CONFIG:
         raise CommandError(f"{others[-1]}: {' '.join(targets) or 'nothing'} is not accepted; accepted: KEY=VALUE")
-    for word, behind in zip(others, [*others[1:], "--"], strict=True):
+    for word, behind in pairwise([*others, "--"]):
         if word in CORES and behind.startswith("-"):
             raise CommandError(f"{word}: its number is missing; accepted: {word} 2, or {word} {CORES[word]}")
     return joined([*targets, *others])

@@ -20,7 +20,7 @@ SCRIPTS = Path(".snakemake") / "scripts"  # what Snakemake runs in a job, remove
 ANY = "[a-z0-9_]" * 8  # what tempfile puts into the name of a file
 LONGEST_TEMPORARY = 70  # characters; the path of a Unix socket below it must not pass 108
 OLDEST = "9.25"  # Snakemake that reads the rules
-IN_VENV = "`./reproduce setup; . .venv/bin/activate`, then the same words"
+IN_VENV = "`./reproduce setup` and `. .venv/bin/activate`, then the same words"
 THREADED = ("OMP", "OPENBLAS", "MKL", "NUMEXPR", "NUMBA")
 CACHES = {
     "XDG_CACHE_HOME": "xdg",

@@ -23,7 +23,8 @@ BLOCK = re.compile(r"<!-- (\w+) -->.*?<!-- /\1 -->", re.DOTALL)
 # Numbers that the README's own sentences may have: no results. Years, versions and names are none either.
 SAID = {
     "100": "kg, the robot's mass", "3.11": "Python", "3.13": "Python", "12": "Debian", "95": "% of an interval",
-    "2024": "year", "2026": "year", "0.6.0": "version", "10.1177/02783649241260428": "DOI", "2402.11221v1": "preprint",
+    "2024": "year", "2026": "year", "0.5.0": "version", "0.6.0": "version", "10.1177/02783649241260428": "DOI",
+    "2402.11221v1": "preprint",
 }  # fmt: skip
 PARTS = {
     "abstract": (r"\begin{abstract}", r"\end{abstract}"),

@@ -63,7 +63,7 @@ def test_a_snakemake_without_the_packages_of_the_project_is_told_where_they_are(
     *before, line = done.stderr.splitlines()
     assert len(before) == (0 if words else 1), done.stderr
     assert line.startswith("snakemake 9.")
-    remedy = "accepted: `./reproduce setup; . .venv/bin/activate`, then the same words"
+    remedy = "accepted: `./reproduce setup` and `. .venv/bin/activate`, then the same words"
     assert line.endswith(f" runs this file without the packages of the project; {remedy}")
 
 
