@@ -9,7 +9,6 @@ import atexit
 import contextlib
 import os
 import signal
-import sys
 import threading
 from collections.abc import Callable
 from typing import Any
@@ -75,10 +74,9 @@ class Interrupts:
     def _tell(self) -> None:
         """Print the last line: what is printed by this process after it goes nowhere."""
         parts = ["stopped", *[handler.stop() for handler in SHOWN_BY], GO_ON]
+        line = f"{'; '.join(filter(None, parts))}\n"
         with contextlib.suppress(OSError):
-            sys.stdout.flush()
-            sys.stderr.write(f"{'; '.join(filter(None, parts))}\n")
-            sys.stderr.flush()
+            os.write(2, line.encode())  # the thread that was interrupted may hold the lock of Python's own streams
         nowhere = os.open(os.devnull, os.O_WRONLY)
         for stream in (1, 2):
             os.dup2(nowhere, stream)
