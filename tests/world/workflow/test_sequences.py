@@ -17,7 +17,7 @@ from pathlib import Path
 import pytest
 from patience import HANGS_S, wait_for
 
-from .conftest import copy_project
+from .conftest import ROOT, copy_project
 
 SEQUENCES = int(os.environ.get("MOBNET_SEQUENCES", "20"))
 FIRST_SEED = int(os.environ.get("MOBNET_FIRST_SEQUENCE", "0"))
@@ -114,7 +114,7 @@ class Course:
 def stood_in(tmp_path_factory):
     """A project whose jobs take a moment each."""
     folder = tmp_path_factory.mktemp("sequences")
-    copy_project(folder)
+    copy_project(ROOT, folder)
     for script in (folder / "workflow" / "scripts").glob("*.py"):
         shutil.copy(STAND_IN, script)
     (folder / "src/experiments/evaluation/report/wandb_live.py").write_text("")

@@ -70,7 +70,7 @@ def test_a_snakemake_without_the_packages_of_the_project_is_told_where_they_are(
 def test_a_snakemake_that_is_too_old_is_one_line(monkeypatch):
     assert fault_of_snakemake() is None
     monkeypatch.setattr(environment, "OLDEST", "99.1")
-    assert " is too old; accepted: 99.1 and later, or `./reproduce setup; " in str(fault_of_snakemake())
+    assert " is too old; accepted: 99.1 and later, or `./reproduce setup` and " in str(fault_of_snakemake())
 
 
 def test_the_profile_holds_no_word_that_another_snakemake_refuses():
