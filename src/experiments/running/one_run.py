@@ -67,6 +67,8 @@ def held_folder(root: Path, words: Sequence[str]) -> Iterator[None]:
 
 def goes_on(holder: str) -> str:
     """Return the one line that says which run holds the folder, from what it has written into its lock."""
+    if not holder:  # it has just begun, and has not written yet
+        return "a run has just begun in this folder; wait for it, or use a clone"
     since_s, process, words = holder.split(" ", 2)
     since = time.strftime("%H:%M", time.localtime(float(since_s)))
     return f"a run goes on in this folder since {since} ({words}, process {process}); wait for it, or use a clone"

@@ -101,15 +101,7 @@ def cost_parser() -> argparse.ArgumentParser:
         metavar="TARGET",
         help="`all`, or files: price what a run of them would start now (default: a run from nothing)",
     )
-    parser.add_argument(
-        "--config",
-        "-C",
-        nargs="+",
-        action="extend",
-        default=[],
-        metavar="KEY=VALUE",
-        help="keys of the configuration, such as scale=quick, as ./reproduce all takes them",
-    )
+    add_config(parser, "keys of the configuration, such as scale=quick, as ./reproduce all takes them")
     return parser
 
 
@@ -120,16 +112,13 @@ def results_parser(command: str) -> argparse.ArgumentParser:
         parser.add_argument(
             "--manifest", type=Path, help=f"list of files with their hashes (default: {MANIFEST}, or that of the scale)"
         )
-    parser.add_argument(
-        "--config",
-        "-C",
-        nargs="+",
-        action="extend",
-        default=[],
-        metavar="KEY=VALUE",
-        help="scale=smoke: that scale's run; docs/results is of the scale default",
-    )
+    add_config(parser, "scale=smoke: that scale's run; docs/results is of the scale default")
     return parser
+
+
+def add_config(parser: argparse.ArgumentParser, says: str) -> None:
+    """Add the option for keys of the configuration, which may be given several times."""
+    parser.add_argument("--config", "-C", nargs="+", action="extend", default=[], metavar="KEY=VALUE", help=says)
 
 
 def scale_given(words: Sequence[str]) -> str:

@@ -28,6 +28,13 @@ def test_a_second_run_is_refused_in_one_line_and_the_first_keeps_the_folder(tmp_
         assert (tmp_path / LOCK).read_text().endswith(f" {os.getpid()} docs")
 
 
+def test_a_run_that_has_not_yet_written_who_it_is_keeps_the_folder_too(tmp_path):
+    with held_folder(tmp_path, WORDS):
+        (tmp_path / LOCK).write_text("")
+        with pytest.raises(CommandError, match="a run has just begun in this folder"), held_folder(tmp_path, []):
+            pass
+
+
 def test_a_killed_run_leaves_the_folder_free(tmp_path):
     code = """
 import os, pathlib, signal, sys
