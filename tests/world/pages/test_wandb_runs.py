@@ -1,5 +1,6 @@
 """All trainings as offline wandb runs."""
 
+import contextlib
 import os
 import pty
 import select
@@ -8,13 +9,16 @@ import subprocess
 import sys
 import termios
 import time
+import unittest.mock
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 from patience import HANGS_S
 
+from experiments.evaluation.report import wandb_runs as module
 from experiments.evaluation.report.wandb_runs import wandb_runs
+from mobnet.core.errors import DataError
 
 EPOCHS = [",".join(map(str, (k, *(10.0 * k + i for i in range(1, 6))))) for k in (1, 2, 3)]
 
@@ -36,6 +40,33 @@ def test_runs_written_again_take_the_place_of_all(wandb_dir: Path) -> None:
     assert run.name.startswith("run-MOB-Net-LL-s0-")
     assert [path.name for path in run.iterdir()] == ["run-MOB-Net-LL-s0.wandb"]
     assert not list(wandb_dir.parent.glob(".partial.*"))
+
+
+def test_a_run_of_which_wandb_left_no_file_is_logged_again(tmp_path, write_run, monkeypatch, caplog):
+    logged = []
+
+    def begin(scratch, name, *words):
+        """Leave no file the first time."""
+        logged.append(name)
+        run = real(scratch, name, *words)
+        if len(logged) == 1:
+            for path in scratch.glob("wandb/offline-run-*/*.wandb"):
+                path.unlink()
+        return run
+
+    real = module.begin
+    monkeypatch.setattr(module, "begin", begin)
+    wandb_runs([write_run(tmp_path, "MOB-Net-LL-s0", EPOCHS)], tmp_path / "wandb")
+    assert logged == ["MOB-Net-LL-s0"] * 2
+    assert [path.name for path in (tmp_path / "wandb").glob("*/*")] == ["run-MOB-Net-LL-s0.wandb"]
+    assert "wandb made no file of the run MOB-Net-LL-s0" in caplog.text
+
+
+def test_a_run_of_which_wandb_never_makes_a_file_is_one_line(tmp_path, write_run, monkeypatch):
+    monkeypatch.setattr(module, "begin", lambda *words: contextlib.nullcontext(unittest.mock.MagicMock()))
+    with pytest.raises(DataError, match=r"wandb made no file of the run MOB-Net-LL-s0; accepted: the same call again"):
+        wandb_runs([write_run(tmp_path, "MOB-Net-LL-s0", EPOCHS)], tmp_path / "wandb")
+    assert not (tmp_path / "wandb").exists()
 
 
 def test_a_run_holds_settings_and_results(wandb_dir: Path) -> None:

@@ -100,7 +100,11 @@ class Follower:
         settings = {"name": name, "method": method, "limb": limb, "seed": int(seed[1:])}
         run = begin(self._scratch, name, method, limb, settings)
         runs = self._results / RUNS
-        put(self._scratch, name, runs)
+        try:
+            put(self._scratch, name, runs)
+        except DataError:
+            run.finish(exit_code=1)
+            raise
         os.utime(runs, (0, 0))  # or Snakemake would take the folder for what `wandb_runs` has made
         return Live(run)
 

@@ -4,6 +4,7 @@ They are written once more when the trainings are done, with settings and result
 `wandb_live` wrote while they went on.
 """
 
+import logging
 import os
 import shutil
 import tempfile
@@ -14,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 from experiments.evaluation.measure.learning.trainings import read_training
 from mobnet.core.columns import Epoch
+from mobnet.core.errors import DataError
 from mobnet.core.files import PARTIAL, RUN, check_room, read_json
 
 if TYPE_CHECKING:
@@ -25,27 +27,47 @@ SETTINGS = ("name", "method", "limb", "seed", "target", "settings", "fingerprint
 FOLDER = "run-{0}-run-00000000_000000-{0}"
 WANDB_PLACES = ("WANDB_CACHE_DIR", "WANDB_DATA_DIR", "WANDB_CONFIG_DIR")
 FLUSH_S = 1.0  # after which a viewer finds what was logged
+TRIALS = 3  # to log a run
+
+log = logging.getLogger(__name__)
 
 
 def wandb_runs(folders: Iterable[Path], out: Path) -> None:
     """Write one offline run for each network, a file in a folder; they replace the folder of runs together.
 
     Raises:
-        DataError: the disk is full.
+        DataError: the disk is full, or wandb leaves no file.
     """
     out.parent.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory(prefix=PARTIAL, suffix=f".{out.name}", dir=out.parent) as scratch:
         runs = Path(scratch) / "runs"
         runs.mkdir()
         for folder in folders:
-            try:
-                name = _log_run(Path(scratch), folder)
-            finally:
-                check_room(out.parent)
-            shutil.rmtree(put(Path(scratch), name, runs).parent)
+            _log_again(Path(scratch), folder, runs)
         if out.exists():
             os.replace(out, Path(scratch) / "old")
         os.replace(runs, out)
+
+
+def _log_again(scratch: Path, folder: Path, runs: Path) -> None:
+    """Log a training into a run among others, again where wandb left no file, which happens on a busy machine.
+
+    Raises:
+        DataError: the disk is full, or wandb leaves no file.
+    """
+    for trial in range(1, TRIALS + 1):
+        try:
+            name = _log_run(scratch, folder)
+        finally:
+            check_room(runs)
+        try:
+            shutil.rmtree(put(scratch, name, runs).parent)
+        except DataError as error:
+            if trial == TRIALS:
+                raise
+            log.warning("%s; once more", error)
+        else:
+            return
 
 
 def _log_run(scratch: Path, folder: Path) -> str:
@@ -105,8 +127,13 @@ def put(scratch: Path, name: str, runs: Path) -> Path:
     """Move the file of a run into a folder of its name among other runs, in place of an older one.
 
     A run that goes on still writes to it. Return where it stood.
+
+    Raises:
+        DataError: wandb has made no such file.
     """
-    (found,) = (scratch / "wandb").glob(f"offline-run-*/run-{name}.wandb")
+    found = next((scratch / "wandb").glob(f"offline-run-*/run-{name}.wandb"), None)
+    if found is None:
+        raise DataError(f"{runs}: wandb made no file of the run {name}; accepted: the same call again")
     place = runs / FOLDER.format(name)
     place.mkdir(parents=True, exist_ok=True)
     os.replace(found, place / found.name)
