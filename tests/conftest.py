@@ -27,7 +27,8 @@ RATE_HZ = 1000.0
 WAVES = 3  # sines per signal
 # Minutes each; while one worker compiles for the first of them, another checks what needs nothing compiled.
 LONGEST = ("world/workflow/test_smoke.py", "paper/workflow/test_static.py", "world/workflow/test_cluster.py")
-LAST = ("world/workflow/test_smoke_again.py",)  # which waits for the run of the first one
+# They wait for the run of the first one.
+LAST = ("world/workflow/test_smoke_again.py", "world/workflow/test_smoke_killed.py")
 Array = NDArray[np.float64]
 
 

@@ -12,7 +12,7 @@ from planned_jobs import COMPILED, ROOT, outputs, planned, snakemake
 
 from mobnet.core.compilation import cache_root
 
-from .smoke import MADE, reproduce, told
+from .smoke import LOST, MADE, reproduce, told
 
 __all__ = ["outputs", "planned", "snakemake"]
 PARTS = (
@@ -90,6 +90,15 @@ def copy_results(origin, folder):
     """Copy all that a run has made."""
     for part in MADE:
         shutil.copytree(origin / part, folder / part, symlinks=True, dirs_exist_ok=True)
+
+
+def with_losses(make_project, unbroken, name):
+    """Return a copy of a project with its results, of which some are lost."""
+    folder = make_project(name, unbroken)
+    copy_results(unbroken, folder)
+    for place in (folder / name for name in LOST):
+        shutil.rmtree(place) if place.is_dir() else place.unlink()
+    return folder
 
 
 def compiled_in(root, origin, folder):

@@ -4,6 +4,14 @@ import subprocess
 import sys
 
 SMOKE = ("--config", "scale=smoke")
+FIGURES = ("figures/smoke/drift.csv", "tables/smoke/coverage.csv", "tables/smoke/table_11.csv")
+LOST = (  # walks of a test and walks that a network learns from: jobs of most kinds run again
+    "results/smoke/plant/recordings/foot_hold",
+    "results/smoke/robot_1/recordings/robot_walk_plain",
+    "results/smoke/robot_1/networks/MOB-Net-plain-LL-s101",
+    "results/smoke/scores/foot_hold",
+    *FIGURES,
+)
 MADE = ("results", "tables", "figures", "paper", ".snakemake")
 
 

@@ -1,12 +1,10 @@
-"""The smoke scale goes on where a part of it is lost: on a cluster, after kills; and not from damaged files.
+"""The smoke scale goes on where a part of it is lost, on a cluster; and not from damaged files.
 
 What was made is compared with a copy of the unbroken run that no test changes.
 """
 
 import os
-import random
 import shutil
-import signal
 import subprocess
 import sys
 import time
@@ -17,19 +15,9 @@ import pytest
 from experiments.running.accounts import read_account
 
 from .cluster import cluster_in
-from .conftest import copy_results
-from .smoke import SMOKE, accounts, manifest_of, names, products, reproduce, told
+from .conftest import with_losses
+from .smoke import FIGURES, LOST, SMOKE, accounts, manifest_of, products, told
 
-KILLS = 5
-LONGEST_S = 20.0
-FIGURES = ("figures/smoke/drift.csv", "tables/smoke/coverage.csv", "tables/smoke/table_11.csv")
-LOST = (  # walks of a test and walks that a network learns from: jobs of most kinds run again
-    "results/smoke/plant/recordings/foot_hold",
-    "results/smoke/robot_1/recordings/robot_walk_plain",
-    "results/smoke/robot_1/networks/MOB-Net-plain-LL-s101",
-    "results/smoke/scores/foot_hold",
-    *FIGURES,
-)
 WHOLE_CLUSTER, LONGER = "MOBNET_WHOLE_CLUSTER", 1.5  # asks for the whole line on a cluster; its time by the local one
 
 pytestmark = [pytest.mark.slow, pytest.mark.sim]
@@ -73,15 +61,6 @@ def run_on_cluster(folder, place, *targets):
     return time.monotonic() - before
 
 
-def with_losses(make_project, unbroken, name):
-    """Return a copy of a project with its results, of which some are lost."""
-    folder = make_project(name, unbroken)
-    copy_results(unbroken, folder)
-    for place in (folder / name for name in LOST):
-        shutil.rmtree(place) if place.is_dir() else place.unlink()
-    return folder
-
-
 def numbers_below(place):
     """Return the content of a file, or of all files of a folder but notes, which tell when and where they were made."""
     found = place.rglob("*") if place.is_dir() else [place]
@@ -105,20 +84,3 @@ if WHOLE_CLUSTER in os.environ:  # it takes as long as all other tests together
         assert manifest_of(folder) == manifest_of(unbroken)
         jobs = [read_account(path) for path in accounts(unbroken)]
         assert took_s <= LONGER * (max(job.end_s for job in jobs) - min(job.start_s for job in jobs))
-
-
-def test_killed_at_random_moments_ends_with_the_same_tables(unbroken, make_project):
-    folder = with_losses(make_project, unbroken, "killed")
-    moments = random.Random(2023)
-    for kill in range(KILLS):
-        run = reproduce(folder, "--cores", "1")
-        time.sleep(moments.uniform(1.0, LONGEST_S))
-        if kill % 2:
-            os.killpg(run.pid, signal.SIGKILL)
-        else:
-            run.kill()  # its jobs live on until they end
-        run.wait()
-    assert reproduce(folder, "--cores", "3").wait() == 0, told(folder)  # whatever the number of cores is
-    assert products(folder) == products(unbroken)
-    assert manifest_of(folder) == manifest_of(unbroken)
-    assert names(folder) == names(unbroken)
