@@ -14,9 +14,17 @@ Texts = Annotated[tuple[base.Text, ...], AfterValidator(base.distinct)]
 
 
 class Statistics(Section):
-    """Intervals over networks and test recordings."""
+    """Intervals over networks and test recordings.
+
+    Attributes:
+        confidence: of every interval [-].
+        most_correlation: of whether something happens in two walks of a robot, or in two trials of a walk [-].
+        most_variation: standard deviation of a rate over robots, or walks, as a part of the rate [-].
+    """
 
     confidence: base.Real = Field(ge=0.5, lt=1)
+    most_correlation: base.Real = Field(gt=0, lt=1)
+    most_variation: base.Real = Field(gt=0, le=10)
 
 
 class PushWindow(Section):

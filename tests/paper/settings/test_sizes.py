@@ -9,8 +9,7 @@ from experiments.evaluation.number.clusters import ClusterKey, rate_in, share_in
 from experiments.plan.files import Files
 from experiments.plan.reactions import sizes_of
 from experiments.settings.catalogue import Catalogue
-from experiments.settings.checks.outcomes import independent_part, is_met_by_a_rate, wilson
-from experiments.settings.claims import Cell
+from experiments.settings.checks.outcomes import best_share, is_met_by_a_rate, is_met_by_a_share, wilson
 from experiments.settings.load import load_settings
 from experiments.settings.settings import Settings
 
@@ -53,20 +52,25 @@ def test_free_walks_can_show_a_small_rate_of_falls(paper: Settings) -> None:
 @pytest.mark.parametrize(("robots", "walks"), [(3, 6), (3, 57), (5, 12), (8, 7)])
 def test_what_no_outcome_can_reach_is_told_by_the_interval_that_the_tables_have(robots: int, walks: int) -> None:
     """`settings` computes the best outcome without the code of results: of robots that are alike."""
-    settings = load_settings()
-    statistics = settings.evaluation.statistics
-    fleet = settings.fleet.model_copy(update={"robots": tuple(f"robot_{k}" for k in range(robots))})
-    sizes = settings.sizes.model_copy(update={"fleet": None, "fleet_whole": None})
-    scaled = settings.model_copy(update={"fleet": fleet, "scales": {settings.scale: sizes}})
-    part = independent_part(scaled, Cell(table="safety"), statistics.confidence)
+    statistics = load_settings().evaluation.statistics
+    trials = robots * walks
     places = places_of(robots, walks)
-    found = share_in([False] * len(places), places, statistics)
-    assert wilson(0.0, part * len(places), statistics.confidence) == pytest.approx((found.low, found.high))
-    rate = rate_in([0] * len(places), [0.1] * len(places), places, statistics)
+    found = share_in([False] * trials, places, statistics)
+    assert best_share(0, trials, robots, statistics) == (found.low, found.high)
+    rate = rate_in([0] * trials, [0.1] * trials, places, statistics)
     assert rate.high is not None
     for factor, is_met in ((1.001, True), (0.999, False)):
         bounds = (None, factor * rate.high)
-        assert is_met_by_a_rate(bounds, part * 0.1 * len(places), statistics.confidence) == is_met
+        assert is_met_by_a_rate(bounds, 0.1 * trials, robots, statistics) == is_met
+
+
+@pytest.mark.parametrize(
+    ("bounds", "is_met"), [((None, 0.29), True), ((None, 0.28), False), ((0.2, 0.8), True), ((0.4, 0.6), False)]
+)
+def test_some_share_of_eighteen_walks_of_three_robots_lies_within_bounds(
+    bounds: tuple[float | None, float], is_met: bool
+) -> None:
+    assert is_met_by_a_share(bounds, 18, 3, load_settings().evaluation.statistics) == is_met
 
 
 @pytest.mark.parametrize("scale", ["default", "paper"])

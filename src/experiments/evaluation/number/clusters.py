@@ -7,10 +7,8 @@ robot it is that over its walks alone, and of a single walk there is no interval
 their variance is part of that over robots, which alone counts. Robots and walks need not have equally many values, and
 a value may be missing.
 
-Means of positive values have their interval on a log scale, so that no impulse is below zero. Shares have Wilson's
-interval (1927) and rates that of a Poisson count (Garwood 1936), both with the number of independent values that would
-have an interval as wide (Korn and Graubard 1998, Survey Methodology 24). Values that happen to differ less over robots
-than independent ones count as independent ones of few robots, so that a share of 0 or 1 and a count of 0 have ends.
+Means of positive values have their interval on a log scale, so that no impulse is below zero. Shares and rates have
+those of `experiments.settings.few_clusters`, whose clusters are the robots, or the walks of a single robot.
 """
 
 from collections.abc import Sequence
@@ -22,6 +20,7 @@ from numpy.typing import NDArray
 
 from experiments.evaluation.number.intervals import quantile_of
 from experiments.evaluation.number.number import Number
+from experiments.settings.few_clusters import rate_ends, share_ends
 from experiments.settings.runs import Statistics
 
 Array = NDArray[np.float64]
@@ -59,36 +58,36 @@ def share_in(flags: Sequence[bool], places: Sequence[ClusterKey], statistics: St
     """Return the share of flags that are set [-] at places, with its interval."""
     if not flags:
         return Number(None)
-    found = np.array(flags, dtype=np.float64)
-    value = float(found.mean())
-    n = len(found)
-    # Flags of one robot, or of walks of one seed, go together: only sums over each of them are independent.
-    effects = _effects((found - value) / n, places)
-    if not effects:
+    value = float(np.mean(flags))
+    index = clusters_of(places)
+    if not index.any():
         return Number(value)
-    count = _independent(effects, value * (1.0 - value), n, statistics)
-    low, high = wilson(value, count, statistics)
-    return Number(value, low, high)
+    found = np.bincount(index, weights=flags).astype(int).tolist()
+    return Number(value, *share_ends(found, np.bincount(index).tolist(), statistics))
 
 
 def rate_in(
     counts: Sequence[int], hours: Sequence[float], places: Sequence[ClusterKey], statistics: Statistics
 ) -> Number:
     """Return how many events there are in an hour [1/h] of the time at places [h], with its interval."""
-    events = np.array(counts, dtype=np.float64)
-    time = np.array(hours, dtype=np.float64)
-    total = float(events.sum())
-    whole = float(time.sum())
+    whole = sum(hours)
     if whole <= 0.0:
         return Number(None, unit="1/h")
-    # A long walk has more events than a short one of the same rate: only what its time does not explain is its effect.
-    effects = _effects(events - time * total / whole, places)
-    if not effects:
-        return Number(total / whole, unit="1/h")
-    # Of a Poisson count the variance is the count itself.
-    part = _independent(effects, total, 1, statistics)
-    low, high = garwood(total * part, statistics)
-    return Number(total / whole, low / (whole * part), high / (whole * part), unit="1/h")
+    value = sum(counts) / whole
+    # A place without time says nothing.
+    walked = [k for k, own in enumerate(hours) if own > 0.0]
+    index = clusters_of([places[k] for k in walked])
+    if not index.any():
+        return Number(value, unit="1/h")
+    events = np.bincount(index, weights=[counts[k] for k in walked]).astype(int).tolist()
+    time = np.bincount(index, weights=[hours[k] for k in walked]).tolist()
+    return Number(value, *rate_ends(events, time, statistics), unit="1/h")
+
+
+def clusters_of(places: Sequence[ClusterKey]) -> NDArray[np.intp]:
+    """Return the number of each place's cluster: of its robot, or of its walk where all are of one robot."""
+    robots = np.unique([place.robot for place in places], return_inverse=True)[1]
+    return robots if robots.any() else np.unique([place.seed for place in places], return_inverse=True)[1]
 
 
 def garwood(count: float, statistics: Statistics) -> tuple[float, float]:
@@ -114,38 +113,14 @@ def _effects(parts: Array, places: Sequence[ClusterKey]) -> list[tuple[int, floa
     return found
 
 
-def _independent(effects: Sequence[tuple[int, float]], unit: float, n: int, statistics: Statistics) -> float:
-    """Return the number of independent values whose mean has an interval as wide by the normal law.
-
-    Args:
-        effects: how many robots and walks there are, and the variance of the mean over each.
-        unit: variance of one value; 0 where all are alike.
-        n: number of values. The variance over the first of the effects counts as that of so many at least.
-        statistics: of the interval.
-    """
-    (first, variance), *others = effects
-    # Values that are all alike have no variance, and still come of few robots: a share of 0 or 1 needs its end, too.
-    if not unit:
-        return n * _normal(statistics) / _squared(first, statistics)
-    # Robots that happen to differ less than independent values would are no evidence for a shorter interval.
-    reach = _squared(first, statistics) * max(variance, unit / n)
-    reach += sum(_squared(count, statistics) * own for count, own in others)
-    return _normal(statistics) * unit / reach
-
-
 def _squared(count: int, statistics: Statistics) -> float:
     """Return the square of Student's quantile for so many robots or walks [-]."""
     return quantile_of(count - 1, statistics.confidence) ** 2
 
 
-def _normal(statistics: Statistics) -> float:
-    """Return the square of the normal law's quantile [-]."""
-    return float(scipy.special.ndtri((1.0 + statistics.confidence) / 2.0)) ** 2
-
-
 def wilson(value: float, count: float, statistics: Statistics) -> tuple[float, float]:
     """Return Wilson's interval of a share of so many independent values, which need not be a whole number."""
-    square = _normal(statistics)
+    square = float(scipy.special.ndtri((1.0 + statistics.confidence) / 2.0)) ** 2
     middle = (value + square / (2.0 * count)) / (1.0 + square / count)
     reach = (square * (value * (1.0 - value) / count + square / (4.0 * count**2))) ** 0.5 / (1.0 + square / count)
     return (middle - reach if value > 0.0 else 0.0), (middle + reach if value < 1.0 else 1.0)

@@ -1,8 +1,7 @@
 """What must hold for claims about counts: at a scale that decides them, some outcome of the run meets their bounds.
 
 A share of few walks, or of the walks of few robots, has a long interval, so that a bound may be out of reach whatever
-happens in them. The best outcome is that of alike robots: their walks then count as so many independent ones as have an
-interval as wide (`experiments.evaluation.number.clusters`, docs/notes/measures.md).
+happens in them. The best outcome is that of robots that are alike (docs/notes/measures.md).
 """
 
 from collections.abc import Iterator
@@ -13,6 +12,8 @@ from experiments.settings.catalogue import Catalogue
 from experiments.settings.claims import Cell, Claim
 from experiments.settings.counts import robots_of
 from experiments.settings.evaluation import PRODUCTS
+from experiments.settings.few_clusters import rate_ends, share_ends
+from experiments.settings.runs import Statistics
 from experiments.settings.settings import Settings
 from mobnet.core.claim_ranges import Bounds, ranges_of, within
 from mobnet.core.errors import misfit
@@ -32,12 +33,12 @@ def outcome_problems(catalogue: Catalogue) -> Iterator[Problem]:
         cell = next(iter(claim.cells))
         trials = trials_of(catalogue, cell)
         hours = hours_of(settings, cell)
-        confidence = settings.evaluation.statistics.confidence
-        part = independent_part(settings, cell, confidence)
-        if trials is not None and not is_met_by_a_share(bounds, trials, part, confidence):
+        statistics = settings.evaluation.statistics
+        clusters = clusters_of(settings, cell)
+        if trials is not None and not is_met_by_a_share(bounds, trials, clusters, statistics):
             text = f"a range that no share of {trials} reaches with its interval"
             yield _place(name, claim), misfit(text, f"a wider range, or more of them at scale {settings.scale}")
-        if hours is not None and not is_met_by_a_rate(bounds, part * hours, confidence):
+        if hours is not None and not is_met_by_a_rate(bounds, hours, clusters, statistics):
             text = f"a range that no count in {hours:.2f} h reaches with its interval"
             yield _place(name, claim), misfit(text, f"a wider range, or longer walks at scale {settings.scale}")
 
@@ -46,23 +47,31 @@ def _place(name: str, claim: Claim) -> tuple[str, ...]:
     return ("claims", name, "bar" if claim.bar else "rule")
 
 
-def independent_part(settings: Settings, cell: Cell, confidence: float) -> float:
-    """Return which part of the trials of a cell is independent at best [-]; 1 where they are no walks of robots."""
+def clusters_of(settings: Settings, cell: Cell) -> int:
+    """Return in how many robots the trials of a cell come; 1 where they are independent, or of one robot."""
     row = PRODUCTS.get(cell.table or "")
-    if row is None or not row.clustered:
-        return 1.0
-    robots = robots_of(settings)
-    if robots == 1:
-        return 1.0
-    from scipy.special import stdtrit  # pyright: ignore[reportMissingTypeStubs]  # here, as it takes a while to import
-
-    tail = (1.0 + confidence) / 2.0
-    return (NormalDist().inv_cdf(tail) / float(stdtrit(robots - 1, tail))) ** 2
+    return robots_of(settings) if row and row.clustered else 1
 
 
-def is_met_by_a_share(bounds: Bounds, trials: int, part: float, confidence: float) -> bool:
-    """Return whether some share of so many trials has its interval within bounds [-]; a part of them is independent."""
-    return any(within(wilson(count / trials, part * trials, confidence), bounds) for count in range(trials + 1))
+def is_met_by_a_share(bounds: Bounds, trials: int, clusters: int, statistics: Statistics) -> bool:
+    """Return whether some share of so many trials, in clusters that are alike, has its interval within bounds [-]."""
+    low, high = bounds
+    middle = ((low or 0.0) + (1.0 if high is None else high)) / 2.0
+    # Those in the middle of the bounds come first: mostly one of them meets these.
+    counts = sorted(range(trials + 1), key=lambda count: abs(count / trials - middle))
+    return any(within(best_share(count, trials, clusters, statistics), bounds) for count in counts)
+
+
+def best_share(count: int, trials: int, clusters: int, statistics: Statistics) -> tuple[float, float]:
+    """Return the ends of the interval of a share [-] of so many trials in clusters that are alike."""
+    if clusters == 1:
+        return wilson(count / trials, trials, statistics.confidence)
+    return share_ends(parts_of(count, clusters), parts_of(trials, clusters), statistics)
+
+
+def parts_of(count: int, clusters: int) -> list[int]:
+    """Return so many things in clusters that have as many each as can be."""
+    return [count // clusters + (k < count % clusters) for k in range(clusters)]
 
 
 def wilson(share: float, trials: float, confidence: float) -> tuple[float, float]:
@@ -76,12 +85,14 @@ def wilson(share: float, trials: float, confidence: float) -> tuple[float, float
     return low, high
 
 
-def is_met_by_a_rate(bounds: Bounds, hours: float, confidence: float) -> bool:
+def is_met_by_a_rate(bounds: Bounds, hours: float, clusters: int, statistics: Statistics) -> bool:
     """Return whether a count of events may have the interval of its rate within bounds [1/h], of which the lower is 0.
 
-    The best outcome is no event; its interval has a closed form (Garwood 1936).
+    The best outcome is no event; of independent ones its interval has a closed form (Garwood 1936).
     """
-    return within((0.0, -log((1.0 - confidence) / 2.0) / hours), bounds)
+    if clusters == 1:
+        return within((0.0, -log((1.0 - statistics.confidence) / 2.0) / hours), bounds)
+    return within(rate_ends([0] * clusters, [hours / clusters] * clusters, statistics), bounds)
 
 
 def trials_of(catalogue: Catalogue, cell: Cell) -> int | None:

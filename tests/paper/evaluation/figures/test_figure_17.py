@@ -20,7 +20,7 @@ from mobnet.core.errors import DataError
 
 Write = Callable[..., Path]
 MEASURES = ("training loss", "validation loss", "validation RMSE")
-STATISTICS = Statistics(confidence=0.95)
+STATISTICS = Statistics(confidence=0.95, most_correlation=0.6, most_variation=1.0)
 
 
 def test_the_end_is_the_last_epoch_in_training_and_the_kept_one_in_validation(write_training: Write) -> None:

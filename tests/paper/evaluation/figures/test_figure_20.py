@@ -13,7 +13,7 @@ from experiments.plan.runs import SweptSize
 from experiments.settings.runs import Statistics
 
 Write = Callable[..., Path]
-STATISTICS = Statistics(confidence=0.95)
+STATISTICS = Statistics(confidence=0.95, most_correlation=0.6, most_variation=1.0)
 
 
 def of_runs(mean: float, low: float, high: float, count: int) -> Number:

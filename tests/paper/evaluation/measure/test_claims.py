@@ -41,7 +41,7 @@ CAUSED: dict[str, Any] = {
     },
 }  # fmt: skip
 SHOWN = "Cold: 1.00 [0.90, 1.10] without it (named 2026-11-25, after results had been seen)."
-CONFIDENCE = Statistics(confidence=0.95)
+CONFIDENCE = Statistics(confidence=0.95, most_correlation=0.6, most_variation=1.0)
 Ends = tuple[str, str, str]
 
 

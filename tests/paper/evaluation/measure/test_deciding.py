@@ -24,7 +24,7 @@ from experiments.settings.runs import Statistics
 from experiments.settings.settings import Settings
 from mobnet.core.columns import NOT_MEASURED, NOT_REPRODUCED, OPEN, OURS, SIGN_AT_LEAST, SIGN_ONLY
 
-CONFIDENCE = Statistics(confidence=0.95)
+CONFIDENCE = Statistics(confidence=0.95, most_correlation=0.6, most_variation=1.0)
 SHARES = next(name for name, row in PRODUCTS.items() if row.trials)  # a table of shares
 RATES = next(name for name, row in PRODUCTS.items() if row.hours)  # a table of events in an hour
 CELL: dict[str, Any] = {"scenario": "walk_test", "level": "robots", "method": "MOB-Net", "joint": "LL"}

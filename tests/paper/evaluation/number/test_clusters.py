@@ -4,17 +4,18 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
-from scipy.special import ndtri
+from scipy.stats import beta
 
 from experiments.evaluation.number.clusters import ClusterKey, mean_in, rate_in, share_in, wilson
 from experiments.evaluation.number.intervals import quantile_of
 from experiments.evaluation.number.number import Number
 from experiments.evaluation.number.single import rate_of
+from experiments.settings.few_clusters import WIDEST, rate_ends, share_ends
 from experiments.settings.runs import Statistics
 
-STATISTICS = Statistics(confidence=0.95)
-ROBOTS, WALKS, DRAWS = 3, 6, 200
-LEAST = 0.91  # of 200 intervals, of which 95 % hold: three standard deviations below are .904
+STATISTICS = Statistics(confidence=0.95, most_correlation=0.6, most_variation=1.0)
+ROBOTS, WALKS, DRAWS = 3, 6, 400
+LEAST = 0.91  # of 400 intervals, of which 95 % hold: three standard deviations below are .917
 
 
 def places_of(each: int, robots: int = ROBOTS, shared: bool = False) -> list[ClusterKey]:
@@ -89,26 +90,60 @@ def test_walks_taken_as_independent_would_be_covered_half_of_the_time() -> None:
     rng, held = np.random.default_rng(7), 0
     for _ in range(DRAWS):
         chance = 1.0 / (1.0 + np.exp(-effects(rng, 6, 1.5, 0.0)))
-        flags, apart = list(rng.random(108) < chance), [ClusterKey(f"{k}", k) for k in range(108)]
-        found = share_in(flags, apart, STATISTICS)
-        assert found.low is not None
-        assert found.high is not None
-        held += found.low <= 0.5 <= found.high
+        low, high = wilson(float(np.mean(rng.random(108) < chance)), 108, STATISTICS)
+        held += low <= 0.5 <= high
     assert held / DRAWS < 0.7
 
 
-def test_nothing_found_in_all_walks_of_three_robots_leaves_half_open() -> None:
+def test_nothing_found_in_all_walks_of_three_robots_leaves_more_than_a_quarter_open() -> None:
     found = share_in([False] * 18, places_of(1), STATISTICS)
     assert found.value == found.low == 0.0
-    assert found.high == pytest.approx(0.507, abs=0.001)  # by Wilson alone .176
+    assert found.high == pytest.approx(0.284, abs=0.001)  # by Wilson alone .176
     all_found = share_in([True] * 18, places_of(1), STATISTICS)
-    assert all_found.low == pytest.approx(1.0 - 0.507, abs=0.001)
+    assert all_found.low == pytest.approx(1.0 - 0.284, abs=0.001)
 
 
-def test_no_event_in_an_hour_of_three_robots_ends_where_robots_are_few() -> None:
+def test_more_robots_narrow_a_share_more_than_more_walks_of_each() -> None:
+    def width(robots: int, walks: int) -> float:
+        low, high = share_ends([walks // 3] * robots, [walks] * robots, STATISTICS)
+        return high - low
+
+    assert width(12, 6) < 0.8 * width(3, 24)
+
+
+def test_independent_events_have_the_interval_of_a_uniform_prior() -> None:
+    """A closed form: each cluster has one event, so that no correlation shows; highest density of beta(8, 4)."""
+    low, high = share_ends([1] * 7 + [0] * 3, [1] * 10, STATISTICS)
+    law = beta(8, 4)
+    assert law.cdf(high) - law.cdf(low) == pytest.approx(0.95, abs=2e-3)
+    assert law.pdf(low) == pytest.approx(law.pdf(high), rel=0.02)
+
+
+def test_no_event_ends_where_a_count_of_robots_that_differ_does() -> None:
     found, apart = rate_in([0] * 18, [1 / 18] * 18, places_of(1), STATISTICS), rate_of(0, 1.0, STATISTICS)
     assert found.low == 0.0
-    assert found.high == pytest.approx((apart.high or 0.0) * (4.3027 / 1.96) ** 2, rel=1e-3)
+    assert found.high == pytest.approx(4.56, abs=0.05)
+    assert apart.high == pytest.approx(3.69, abs=0.01)
+
+
+@pytest.mark.parametrize("scale", [0.01, 100.0])
+def test_a_rate_is_that_of_its_unit_of_time(scale: float) -> None:
+    counts = [2, 1, 0]
+    ends = rate_ends(counts, [0.3, 0.4, 0.5], STATISTICS)
+    scaled = rate_ends(counts, [0.3 * scale, 0.4 * scale, 0.5 * scale], STATISTICS)
+    assert [end * scale for end in scaled] == pytest.approx(list(ends), rel=1e-6)
+
+
+def test_a_rate_looks_far_enough_up() -> None:
+    """The end of two robots that differ as much as can be lies within what is looked at."""
+    _, high = rate_ends([40, 0], [0.5, 0.5], STATISTICS)
+    assert high < 0.9 * WIDEST * (40 + 2 + 4 * 41**0.5)
+
+
+def test_a_robot_that_did_not_walk_says_nothing_about_a_rate() -> None:
+    places = places_of(1)[::WALKS]
+    walked = rate_in([2, 1], [0.5, 0.5], places[:2], STATISTICS)
+    assert rate_in([2, 1, 0], [0.5, 0.5, 0.0], places, STATISTICS) == walked
 
 
 def test_an_impulse_has_no_end_below_zero() -> None:
@@ -160,6 +195,7 @@ def test_robots_that_happen_to_be_alike_make_no_interval_shorter_than_independen
     apart = mean_in([value - 1.0 for value in values], places, STATISTICS, "N")
     assert apart.with_ends == pytest.approx((0.0, -reach, reach))
     assert mean_in(values, places, STATISTICS, "N").low == 0.0  # no value is below zero
-    share = share_in([value > 0.0 for value in values], places, STATISTICS)
-    count = 6 * (float(ndtri(0.975)) / quantile_of(2, 0.95)) ** 2
-    assert share.with_ends == pytest.approx((0.5, *wilson(0.5, count, STATISTICS)))
+    _, low, high = share_in([value > 0.0 for value in values], places, STATISTICS).with_ends
+    ends = wilson(0.5, 6, STATISTICS)
+    assert low < ends[0]
+    assert high > ends[1]

@@ -15,7 +15,7 @@ from experiments.evaluation.number.quantities import BELOW, CUT, GAP_RATIO
 from experiments.evaluation.number.single import share, trend
 from experiments.settings.runs import Statistics
 
-STATISTICS = Statistics(confidence=0.95)
+STATISTICS = Statistics(confidence=0.95, most_correlation=0.6, most_variation=1.0)
 DRAWS, LEAST = 200, 0.90
 ROBOTS = "robots"  # what the rows of grids are whose methods share them
 SPREADS = {

@@ -39,7 +39,7 @@ FIRST, LAST = 1000, 1080  # rows of a push
 SHOWN = 0.6  # share of it that an observer shows
 LEVELS = product((False, True), (False, True), ("random", "joystick"))
 CELLS = {f"cell_{k}": Factors(*levels) for k, levels in enumerate(LEVELS)}
-STATISTICS = Statistics(confidence=0.95)
+STATISTICS = Statistics(confidence=0.95, most_correlation=0.6, most_variation=1.0)
 TORQUE = 50.0
 # How the error of each robot changes with a level: without random torque, without pushes, with a joystick.
 CHANGES = {"random_torque": (1.1, 1.2, 1.3), "pushes": (1.6, 1.6, 1.6), "commands": (1.5, 1.4, 1.3)}

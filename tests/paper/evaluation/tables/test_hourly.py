@@ -14,7 +14,7 @@ from experiments.settings.tables import Hourly
 from mobnet.core.files import write_json
 
 COUNTS = {"rmse": (2.0, "N m"), "flags": (1.0, "-"), "watched": (0.5, "h")}
-STATISTICS = Statistics(confidence=0.95)
+STATISTICS = Statistics(confidence=0.95, most_correlation=0.6, most_variation=1.0)
 
 
 def walked(path: Path, hours: float, falls: int) -> Path:

@@ -1,0 +1,74 @@
+"""Intervals of shares and of rates of events that come in few clusters, such as the walks of three robots.
+
+What a robot does in one walk tells what it does in the next, so that a hundred collisions of three robots say less
+than a hundred of independent ones. Few clusters do not tell how alike the events of one of them are: anything from
+independent events to what the configuration allows is taken to be as likely.
+
+* A share: each cluster has one of its own, from a beta law about the common one (beta-binomial counts).
+* A rate: each cluster has one of its own, from a gamma law about the common one (negative binomial counts).
+
+Of the common share or rate nothing is known before. The interval is the shortest that holds the asked part of what the
+counts leave likely (highest posterior density); docs/notes/measures.md has how often it holds the truth in simulations.
+"""
+
+import functools
+from collections.abc import Sequence
+
+import numpy as np
+import scipy  # pyright: ignore[reportMissingTypeStubs]  # its parts are imported where they are used first
+from numpy.typing import NDArray
+
+from experiments.settings.runs import Statistics
+
+CELLS = 1000  # of a share or a rate
+STEPS = 12  # of how alike the events of a cluster are
+WIDEST = 4.0  # times the end of a count of independent events: up to there rates are looked at
+Array = NDArray[np.float64]
+Ends = tuple[float, float]
+
+
+def share_ends(found: Sequence[int], sizes: Sequence[int], statistics: Statistics) -> Ends:
+    """Return the interval of a share [-] of which each cluster has so many found of so many events."""
+    return _share_ends(tuple(sorted(zip(found, sizes, strict=True))), statistics)
+
+
+@functools.lru_cache(maxsize=4096)  # of small counts the same ones come again and again
+def _share_ends(clusters: tuple[tuple[int, int], ...], statistics: Statistics) -> Ends:
+    """Return the interval of a share [-] of clusters with so many found of so many events."""
+    correlation = statistics.most_correlation * _middles(STEPS)
+    certainty = 1.0 / correlation - 1.0
+    alpha = _middles(CELLS)[:, None] * certainty
+    beta = certainty - alpha
+    likelihood = -len(clusters) * scipy.special.betaln(alpha, beta)
+    for count, size in clusters:
+        likelihood += scipy.special.betaln(alpha + count, beta + size - count)
+    return _shortest(likelihood, 1.0 / CELLS, statistics.confidence)
+
+
+def rate_ends(counts: Sequence[int], hours: Sequence[float], statistics: Statistics) -> Ends:
+    """Return the interval of a rate [1/h] at which each cluster has so many events in so many hours."""
+    variation = statistics.most_variation * _middles(STEPS)
+    shape = 1.0 / variation**2
+    total = sum(counts)
+    highest = WIDEST * (total + 2.0 + 4.0 * (total + 1.0) ** 0.5) / sum(hours)
+    rates = highest * _middles(CELLS)[:, None]
+    likelihood = np.zeros((CELLS, STEPS))
+    for count, own in zip(counts, hours, strict=True):
+        expected = rates * own
+        likelihood += scipy.special.gammaln(shape + count) - scipy.special.gammaln(shape)
+        likelihood += shape * np.log(shape / (shape + expected)) + count * np.log(expected / (shape + expected))
+    return _shortest(likelihood, highest / CELLS, statistics.confidence)
+
+
+def _middles(count: int) -> Array:
+    """Return the middles of so many equal parts of 0 to 1."""
+    return (np.arange(count) + 0.5) / count
+
+
+def _shortest(likelihood: Array, cell: float, confidence: float) -> Ends:
+    """Return the ends of the likeliest cells that hold a part `confidence`, of logarithms (cells, steps)."""
+    weights = np.exp(likelihood - likelihood.max()).sum(axis=1)
+    order = np.argsort(-weights, kind="stable")
+    held = np.cumsum(weights[order]) / weights.sum()
+    kept = order[: int(np.searchsorted(held, confidence)) + 1]
+    return float(kept.min()) * cell, float(kept.max() + 1) * cell
