@@ -151,6 +151,15 @@ def test_duration_keeps_its_limits_and_rate(par, swinging, lateral):
         assert shortest <= swinging.total <= swinging.commanded + par.step_longer_max_s
 
 
+def test_a_long_step_is_shortened_by_a_bounded_time(par, swinging):
+    swinging.commanded = swinging.total = par.step_min_s + 2 * par.step_shorter_max_s
+    swinging.t = 0.2
+    swinging.dcm = swinging.dcm_reference - 0.3 * swinging.side * leftwards(swinging)
+    for _ in range(4000):
+        adapt_duration(par, swinging, double_support(par, swinging), TICK_S, np.zeros(3))
+    assert swinging.total == pytest.approx(par.step_min_s + par.step_shorter_max_s, abs=1e-9)
+
+
 def test_dcm_that_runs_ahead_shortens_the_step(par, swinging):
     """The lateral DCM nearer to the swing side than planned is sooner where the next foot wants it."""
     durations = []

@@ -25,6 +25,20 @@ def test_round_trip_through_forward_kinematics(walker, random_pose, seed, k):
     np.testing.assert_allclose(found, expected, atol=1e-12)
 
 
+@pytest.mark.parametrize("roll", [np.pi / 2, -np.pi / 2])
+def test_a_leg_straight_to_the_side_has_its_angle(walker, random_pose, roll):
+    """Its sine is 1 and a rounding more or less; hip yaw and pitch are not told apart there."""
+    span = slice(7 + walker.first[0], 13 + walker.first[0])
+    foot, pose, found = walker.feet[0], walker.pose, np.zeros(6)
+    for seed in range(50):
+        q, v = random_pose(seed)
+        q[span] = np.random.default_rng(seed).uniform(LOW, HIGH)
+        q[span][1] = roll
+        update(walker.tree, q, v, walker.gravity, pose)
+        leg_ik(walker.leg, SIDES[0], pose.rotation[0], q[:3], pose.rotation[foot], pose.position[foot], found)
+        assert found[1] == pytest.approx(roll, abs=1e-6)
+
+
 def test_mirrored_pose_gives_mirrored_angles(walker):
     left, right = np.zeros(6), np.zeros(6)
     ankle = np.array([0.15, 0.12, -0.75])

@@ -6,9 +6,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from mobnet.core.contract import BEYOND_SPEED
 from mobnet.robot.description import describe
 from mobnet.robot.dynamics import gravity
 from mobnet.robot.nominal import NominalModel
+from mobnet.robotlog.hints.fits import positive_fit
+from mobnet.robotlog.hints.motion import jump_hints
 from mobnet.robotlog.observe import observe_log
 from mobnet.settings.lab import load_section
 from mobnet.settings.robot import RobotTable
@@ -194,3 +197,21 @@ def test_a_delay_is_told_within_half_a_sample(rate_hz, late_ms, clean, hints):
 @pytest.mark.parametrize("rate_hz", [50.0, 100.0, 250.0, 500.0])
 def test_a_log_without_a_delay_has_no_hint_at_any_rate(rate_hz, clean, hints):
     assert hints(clean[:: round(RATE_HZ / rate_hz)]) == ()
+
+
+@pytest.mark.parametrize(("step", "jumps"), [(0.1, False), (0.99, False), (1.01, True)])
+def test_a_joint_at_rest_jumps_where_it_is_beyond_its_speed(arm, step, jumps):
+    """Its usual step is none, so that a count of its encoder is any number of times that."""
+    speed = arm.layout.limits["J1"].speed
+    q = np.zeros((1000, len(arm.layout.actuated)))
+    q[500:, 0] = step * BEYOND_SPEED * speed / RATE_HZ
+    found = list(jump_hints(q, [slice(0, len(q))], RATE_HZ, arm.layout))
+    assert [hint.startswith("q of J1: jumps 1 time,") for hint in found] == [True] * jumps
+
+
+def test_terms_that_nothing_tells_apart_explain_what_they_can():
+    """A joint at one speed all the time: its dry and viscous friction are alike, and its inertia takes no torque."""
+    terms = np.tile([1.0, 0.5, 0.0], (64, 1))
+    numbers = positive_fit(terms, np.full((64, 1), 3.0))
+    assert (numbers >= 0.0).all()
+    np.testing.assert_allclose(terms @ numbers, 3.0, rtol=1e-6)
