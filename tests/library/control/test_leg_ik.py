@@ -52,3 +52,10 @@ def test_pose_out_of_reach_is_met_with_a_finite_nearly_straight_leg(walker):
     leg_ik(walker.leg, 1.0, np.eye(3), np.zeros(3), np.eye(3), np.array([0.3, 0.1, -1.5]), found)
     assert np.isfinite(found).all()
     assert 0 < found[3] < np.deg2rad(5)
+
+
+def test_a_foot_too_near_is_met_with_a_knee_bent_as_far_as_it_goes(walker):
+    found = np.zeros(6)
+    leg_ik(walker.leg, 1.0, np.eye(3), np.zeros(3), np.eye(3), np.array([0.0, 0.1, -0.3]), found)
+    assert np.isfinite(found).all()
+    assert found[3] == pytest.approx(np.deg2rad(120))
