@@ -115,6 +115,14 @@ def test_rewinding_goes_back_on_the_footsteps():
         side = -side
 
 
+def test_a_foot_that_could_be_sent_further_goes_no_further_than_where_it_stood():
+    kept, now = walked()
+    near = stance(LEFT, now.foot, now.swing + [0.02, 0.0], 0.03, 0.4)
+    assert near.reach_m(FAR) > 0.05
+    rows = rewound_steps(kept, 1, 0.2, FAR, near, COMMAND, SPACING_M)
+    assert landing(near.foot, near.side, rows[0]) == pytest.approx(kept[-1])
+
+
 def test_rewinding_ends_with_the_footsteps_that_are_kept():
     kept, now = walked(3)
     assert len(rewound_steps(kept, 9, 0.2, FAR, now, COMMAND, SPACING_M)) == 2

@@ -181,6 +181,7 @@ def test_the_check_measures_what_is_held_out_and_says_whether_the_log_suffices(s
     found = made_check(settings, size)
     assert (found.seconds, found.zero[0]) == (pytest.approx(2.0), pytest.approx(0.2))
     assert (found.observer[0], found.network[0], found.seen[0]) == pytest.approx((size, size / 2, 0.5))
+    assert found.outside == (size > 1.0)  # every sample, on both sides
     text = "\n".join(lines_of(found, "free", settings.robotlog.learn, FALLS))
     assert all(line in text for line in told), text
 
