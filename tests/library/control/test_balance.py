@@ -151,6 +151,39 @@ def test_duration_keeps_its_limits_and_rate(par, swinging, lateral):
         assert shortest <= swinging.total <= swinging.commanded + par.step_longer_max_s
 
 
+def test_a_long_step_is_shortened_by_a_bounded_time(par, swinging):
+    swinging.commanded = swinging.total = par.step_min_s + 2 * par.step_shorter_max_s
+    swinging.t = 0.2
+    swinging.dcm = swinging.dcm_reference - 0.3 * swinging.side * leftwards(swinging)
+    for _ in range(4000):
+        adapt_duration(par, swinging, double_support(par, swinging), TICK_S, np.zeros(3))
+    assert swinging.total == pytest.approx(par.step_min_s + par.step_shorter_max_s, abs=1e-9)
+
+
+def test_a_step_that_should_have_ended_ends_as_soon_as_it_may(par, swinging):
+    swinging.t = 0.5
+    swinging.dcm = swinging.dcm_reference - 0.3 * swinging.side * leftwards(swinging)
+    for _ in range(4000):
+        adapt_duration(par, swinging, double_support(par, swinging), TICK_S, np.zeros(3))
+    frozen = max(par.timing_soonest_s, par.timing_freeze_s)
+    assert swinging.total == pytest.approx(swinging.t + frozen, abs=par.timing_rate * TICK_S)
+
+
+@pytest.mark.parametrize("error", [0.02, 0.035, 0.06])
+def test_the_ankle_takes_of_a_lateral_error_what_is_beyond_the_band_and_no_more_than_it_can(par, swinging, error):
+    """(W18), of what is left of the error."""
+    outwards, middle = -swinging.side * leftwards(swinging), 0.5 * double_support(par, swinging)
+    swinging.t = 0.2
+    reference(swinging, double_support(par, swinging))
+    swinging.dcm = swinging.dcm_reference + error * outwards
+    end, now = (outwards @ (dcm - swinging.plan[0, :2]) for dcm in (swinging.dcm_end, swinging.dcm))
+    ankle = min(par.timing_ankle_m, error - par.timing_band_m)
+    expected = swinging.t - middle + np.log((end - ankle) / (now - ankle)) / swinging.omega
+    for _ in range(4000):
+        adapt_duration(par, swinging, double_support(par, swinging), TICK_S, np.zeros(3))
+    assert swinging.total == pytest.approx(expected, abs=1e-9)
+
+
 def test_dcm_that_runs_ahead_shortens_the_step(par, swinging):
     """The lateral DCM nearer to the swing side than planned is sooner where the next foot wants it."""
     durations = []

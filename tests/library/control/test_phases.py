@@ -57,6 +57,16 @@ def test_reach_is_asked_where_the_pendulum_brings_the_hip(walker, standing):
     assert reached_height(walker, standing, 0) < wanted
 
 
+def test_a_late_foot_is_asked_for_its_reach_where_the_hip_is(walker, standing):
+    standing.swinging, standing.t, standing.velocity = 1, standing.total, [0.5, 0.0]
+    hip = walker.pose.position[walker.tree.body_of_joint[walker.first[1]], :2]
+    standing.target = hip + [0.27, 0.0]
+    in_time = reached_height(walker, standing, 0)
+    assert in_time < standing.sole_height + walker.par.pelvis_height_m
+    standing.t = standing.total + 0.1
+    assert reached_height(walker, standing, 0) == in_time
+
+
 def test_pelvis_sinks_by_a_bounded_depth_and_speed(walker, standing):
     par = walker.par
     standing.swinging, standing.t, standing.target = 1, 0.5, [3.0, 0.0]

@@ -58,9 +58,11 @@ def test_foot_leaves_as_it_stood_whatever_the_slope(par, swinging):
     np.testing.assert_array_equal(there, here)
 
 
-def test_apex_is_the_commanded_height_over_the_higher_foot(par, swinging):
-    height, rate = swing_height(par, swinging, GROUND, SPAN, par.swing_apex)
-    assert height == pytest.approx(max(swinging.lift[2], GROUND) + swinging.command[FOOT_HEIGHT], abs=1e-14)
+@pytest.mark.parametrize("rise_m", [-0.03, 0.0, 0.03])
+def test_apex_is_the_commanded_height_over_the_higher_foot(par, swinging, rise_m):
+    ground = swinging.lift[2] + rise_m
+    height, rate = swing_height(par, swinging, ground, SPAN, par.swing_apex)
+    assert height == pytest.approx(swinging.lift[2] + max(rise_m, 0.0) + swinging.command[FOOT_HEIGHT], abs=1e-14)
     assert rate == pytest.approx(0.0, abs=1e-12)
 
 

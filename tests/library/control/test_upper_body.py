@@ -50,6 +50,13 @@ def test_ends_are_held_still(upper, clock, row):
     np.testing.assert_array_equal(v, 0)
 
 
+@pytest.mark.parametrize(("clock", "knots"), [(-0.5 + 1e-9, slice(0, 2)), (0.5 - 1e-9, slice(-2, None))])
+def test_a_motion_begins_and_ends_with_half_the_speed_of_its_outer_intervals(upper, clock, knots):
+    """The joint rests on the other side of the first and the last knot."""
+    _, v = at(upper, clock)
+    np.testing.assert_allclose(v, np.diff(upper.knots[knots], axis=0)[0] * RATE_HZ / 2, atol=1e-5)
+
+
 def test_single_knot_is_a_posture():
     still = UpperBody(np.array([[0.1, 0.2, 0.3]]), 1.0, np.zeros(1))
     for clock in (-1.0, 0.0, 0.5, 1.0, 100.0):

@@ -61,6 +61,12 @@ def test_thresholds_follow_the_phase_of_the_swing():
     assert found[399] == pytest.approx(2.0, rel=1e-3)  # at the very end of the swing, which is in its last phase
 
 
+def test_the_end_of_a_swing_has_the_threshold_of_its_last_phase():
+    memory = np.array([[1.0], [2.0], [1e9]])  # what lies behind the thresholds is none
+    found = ratios(np.full((300, 1), 4.0), memory[:2], GateSignal(np.ones(300, dtype=bool), np.ones(300)))
+    assert found[-1] == pytest.approx(2.0, rel=1e-3)
+
+
 def test_the_norm_is_the_length_of_all_signals():
     found = ratios(np.tile([3.0, -4.0], (300, 1)), np.full((1, 1), 2.0), norm=True)
     assert found[-1] == pytest.approx(2.5, rel=1e-3)

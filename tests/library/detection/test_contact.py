@@ -7,7 +7,7 @@ import pytest
 from made_contacts import pushed
 
 from mobnet.core.errors import ConfigError, DataError
-from mobnet.detection.contact import ContactLocator
+from mobnet.detection.contact import LEAST, ContactLocator, explain
 from mobnet.detection.surface import carried_by, surface_of
 from mobnet.robot.wrench import feet_torque
 from mobnet.settings.parts import ShapeRow
@@ -58,6 +58,22 @@ def test_a_hit_is_found_where_and_how_hard_it_is(robot, finder, q, name):
     assert contact.force @ true == pytest.approx(FORCE_N, rel=0.1)
     axes, origin = finder.place(q, contact.body)
     np.testing.assert_allclose(contact.place, origin + axes @ contact.point, atol=1e-9)
+
+
+def test_a_point_is_weighed_by_what_is_known_of_a_force_and_by_the_torques(settings):
+    """A closed form, as the three directions do not mix: the cone is two standard deviations wide."""
+    numbers, told = settings.contact_point, 0.01  # what torques tell of each direction [1/N^2]
+    forces = np.array([[50.0, 10.0, -5.0], [-50.0, 0.0, 0.0]])
+    seen = told * np.concatenate([forces, np.zeros((2, 3))], axis=1)
+    wrenches, weight = np.broadcast_to(np.eye(3, 6), (2, 3, 6)), np.broadcast_to(told * np.eye(6), (2, 6, 6))
+    cost, found = explain(wrenches, weight, seen, numbers)
+    pressing = told * forces[:, 0] / (told + numbers.force_n**-2)
+    width = numbers.friction / 2.0 * np.array([pressing[0], LEAST])  # a force that pulls has a cone, too
+    known = np.stack([np.full(2, numbers.force_n), width, width], axis=1) ** -2
+    expected = told * forces / (told + known)
+    np.testing.assert_allclose(found, expected, rtol=1e-9)
+    weighed = np.log((told + known) / known).sum(axis=1) - told * (forces * expected).sum(axis=1)
+    np.testing.assert_allclose(cost, [weighed[0], np.inf], rtol=1e-9)
 
 
 def test_the_wrench_of_the_ground_on_the_other_foot_changes_nothing(robot, finder, q, nominal):

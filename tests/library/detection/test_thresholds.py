@@ -97,6 +97,11 @@ def test_what_gives_no_threshold_is_told(largest, rate, text, settings):
         calibrate(largest, range(len(largest)), 1000.0, rate, settings.detection.thresholds)
 
 
+def test_a_tail_of_which_every_second_value_differs_gives_a_threshold(settings):
+    largest = np.minimum(np.arange(1.0, 301.0), 285.0)  # 30 in the tail, the last 15 of them the same
+    assert calibrate(largest, range(300), 1000.0, 1.0, settings.detection.thresholds).factor > 270.0
+
+
 def test_a_walk_drawn_anew_without_its_rare_swings_expects_no_alarm(numbers):
     """All swings that exceed a value that many share may lie in one episode, which a walk drawn anew may miss."""
     episodes, rng = np.repeat(np.arange(15), 58), np.random.default_rng(0)

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from scipy.signal import lfilter
 
+from mobnet.estimation.first_order import decay
 from mobnet.estimation.low_pass import exact_pole, filter_in_place, low_pass
 
 GAIN_HZ, RATE_HZ = 100.0, 1000.0
@@ -23,6 +24,12 @@ def test_equal_to_scipy_to_the_bit(shape):
     x = 100 * np.random.default_rng(0).normal(size=shape)
     for pole in (exact_pole(GAIN_HZ, RATE_HZ), 0.5, 0.0):
         np.testing.assert_array_equal(filter_in_place(x.copy(), pole), lfilter([1 - pole], [1, -pole], x, axis=0))
+
+
+def test_no_samples_are_filtered_where_there_are_none():
+    memory = np.ones(3)
+    decay(memory[:0], np.zeros(2), 0.5)
+    np.testing.assert_array_equal(memory, 1.0)
 
 
 @pytest.mark.parametrize("order", ["C", "F"])

@@ -39,6 +39,17 @@ def test_products_are_those_of_the_rounded_factors(shape, paired):
     assert worst(shape, paired) < 2e-6
 
 
+@pytest.mark.parametrize("rows", [1, 3])
+def test_what_lies_behind_a_factor_is_not_read(rows):
+    """An odd row has no partner: what follows in memory may be no number, and zero times that is none either."""
+    memory = np.full((rows + 1, 16), np.nan, np.float32)
+    memory[:rows] = 1.0
+    right, out = room(rows, 16, paired=True), np.zeros((2, 16), np.float32)
+    lay_right(memory[:rows], right)
+    add_product(out, left_factor(np.ones((2, rows), np.float32), paired=True), right)
+    np.testing.assert_array_equal(out, rows)
+
+
 def test_a_processor_without_wide_vectors_and_pairs_multiplies_too():
     """The same products on code for AVX2, in a process whose compiler is told that there is nothing else."""
     told = subprocess.run(

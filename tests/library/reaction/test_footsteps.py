@@ -46,6 +46,14 @@ def test_a_foot_in_the_air_is_sent_back_by_its_height_and_by_the_time_that_is_le
     assert stance(landing_s=np.inf, height_m=0.0).reach_m(first) == np.inf
 
 
+def test_a_swing_foot_is_ahead_along_the_stance_foot():
+    yaw = 0.8
+    forwards, left = np.array([np.cos(yaw), np.sin(yaw)]), np.array([-np.sin(yaw), np.cos(yaw)])
+    foot = np.array([1.0, -2.0, yaw])
+    turned = stance(foot=foot, swing=foot[:2] + 0.07 * forwards - 0.2 * left)
+    assert turned.ahead_m == pytest.approx(0.07)
+
+
 def test_compliant_steps_go_along_the_direction(settings):
     numbers, back = settings.reaction.compliant, np.array([-1.0, 0.0])
     rows = compliant_steps(numbers, FAR, stance(height_m=0.02), back, COMMAND, SPACING_M)
@@ -105,6 +113,14 @@ def test_rewinding_goes_back_on_the_footsteps():
         foot = landing(foot, side, row)
         assert foot == pytest.approx(goal)
         side = -side
+
+
+def test_a_foot_that_could_be_sent_further_goes_no_further_than_where_it_stood():
+    kept, now = walked()
+    near = stance(LEFT, now.foot, now.swing + [0.02, 0.0], 0.03, 0.4)
+    assert near.reach_m(FAR) > 0.05
+    rows = rewound_steps(kept, 1, 0.2, FAR, near, COMMAND, SPACING_M)
+    assert landing(near.foot, near.side, rows[0]) == pytest.approx(kept[-1])
 
 
 def test_rewinding_ends_with_the_footsteps_that_are_kept():

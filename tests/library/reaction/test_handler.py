@@ -132,6 +132,18 @@ def test_rewinding_knows_where_feet_have_stood(robot, settings, layout, estimate
     assert np.abs(steps[:, 0]).max() < 1e-9
 
 
+@pytest.mark.parametrize(("gait", "swing"), [
+    ([(0, 0), (1, 0)], 0), ([(1, 0), (1, 0)], 0), ([(1, 0), (0, 0)], 1), ([(1, 0), (0, 0), (0, 1), (0, 1)], 1),
+    ([(0, 1), (0, 0), (0, 0)], 0),
+])  # fmt: skip
+def test_a_foot_in_the_air_swings_and_then_the_one_that_stood_longer(robot, settings, layout, estimate_of, gait, swing):
+    handler = handler_of(robot, settings, {"LL": Alarm(99)})
+    state = handler.init()
+    for feet in gait:
+        handler.step(state, sample_of(layout, *feet), estimate_of())
+    assert state.swing == swing
+
+
 def test_a_robot_that_is_hit_while_both_feet_stand_lets_the_next_foot_go(robot, settings, layout, estimate_of):
     handler = handler_of(robot, settings, {"LL": Alarm(4)})
     gait = [(0, 0), (1, 0), (0, 0), (0, 0), (0, 0)]

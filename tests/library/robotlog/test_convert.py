@@ -205,6 +205,8 @@ def test_a_row_that_comes_late_is_put_in_order_and_times_that_begin_anew_end_a_s
     assert episodes.recording.segments == ((0, 150), (150, ROWS))
     assert episodes.hints[0].startswith("clock: times begin anew in row 150, as those of episodes do")
     np.testing.assert_array_equal(episodes.recording.sensed.q[:, 1], plain["q2"])
+    short = made(columns_of(plain | {"time": np.r_[TIME[:-2], TIME[:2]]}))
+    assert short.recording.segments == ((0, ROWS - 2), (ROWS - 2, ROWS))
 
 
 def test_names_are_compared_with_the_first_ones_alone():

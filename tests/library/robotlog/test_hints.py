@@ -6,9 +6,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from mobnet.core.contract import BEYOND_SPEED
 from mobnet.robot.description import describe
 from mobnet.robot.dynamics import gravity
 from mobnet.robot.nominal import NominalModel
+from mobnet.robotlog.hints.base import _turning
+from mobnet.robotlog.hints.changes import _improves
+from mobnet.robotlog.hints.delay import EXACT, _unexplained
+from mobnet.robotlog.hints.fits import positive_fit
+from mobnet.robotlog.hints.motion import jump_hints
 from mobnet.robotlog.observe import observe_log
 from mobnet.settings.lab import load_section
 from mobnet.settings.robot import RobotTable
@@ -191,6 +197,49 @@ def test_a_delay_is_told_within_half_a_sample(rate_hz, late_ms, clean, hints):
     assert abs(told_ms - late_ms) < 500.0 / rate_hz
 
 
-@pytest.mark.parametrize("rate_hz", [50.0, 100.0, 250.0, 500.0])
+@pytest.mark.parametrize("rate_hz", [8.0, 50.0, 100.0, 250.0, 500.0])  # at the first a mean is of one sample
 def test_a_log_without_a_delay_has_no_hint_at_any_rate(rate_hz, clean, hints):
     assert hints(clean[:: round(RATE_HZ / rate_hz)]) == ()
+
+
+@pytest.mark.parametrize(("step", "jumps"), [(0.1, False), (0.99, False), (1.01, True)])
+def test_a_joint_at_rest_jumps_where_it_is_beyond_its_speed(arm, step, jumps):
+    """Its usual step is none, so that a count of its encoder is any number of times that."""
+    speed = arm.layout.limits["J1"].speed
+    q = np.zeros((1000, len(arm.layout.actuated)))
+    q[500:, 0] = step * BEYOND_SPEED * speed / RATE_HZ
+    found = list(jump_hints(q, [slice(0, len(q))], RATE_HZ, arm.layout))
+    assert [hint.startswith("q of J1: jumps 1 time,") for hint in found] == [True] * jumps
+
+
+def test_terms_that_nothing_tells_apart_explain_what_they_can():
+    """A joint at one speed all the time: its dry and viscous friction are alike, and its inertia takes no torque."""
+    terms = np.tile([1.0, 0.5, 0.0], (64, 1))
+    numbers = positive_fit(terms, np.full((64, 1), 3.0))
+    assert (numbers >= 0.0).all()
+    np.testing.assert_allclose(terms @ numbers, 3.0, rtol=1e-6)
+
+
+@pytest.mark.parametrize(("left", "before", "improves"), [(0.4, 1.0, False), (0.2, 1.0, True), (0.2, 0.5, False)])
+def test_a_change_leaves_little_and_much_less_than_before(settings, left, before, improves):
+    assert _improves(left, before, settings.robotlog) == improves
+
+
+@pytest.mark.parametrize("rate_hz", [2.0, 100.0])  # at the first a window is shorter than a sample
+def test_a_base_turns_as_its_rates_say(settings, rate_hz):
+    angle = 0.1 * np.arange(1000) / rate_hz
+    quat, omega = np.zeros((4, 1000)), np.zeros((3, 1000))
+    quat[0], quat[3], omega[2] = np.cos(angle / 2), np.sin(angle / 2), 0.1
+    found = _turning(quat, omega, [slice(0, 1000)], rate_hz, settings.robotlog)
+    assert found == pytest.approx(1.0, rel=1e-2)
+
+
+def test_a_base_that_never_turns_tells_nothing(settings):
+    quat = np.tile([[1.0], [0.0], [0.0], [0.0]], (1, 1000))
+    assert _turning(quat, np.zeros((3, 1000)), [slice(0, 1000)], RATE_HZ, settings.robotlog) is None
+
+
+def test_what_is_explained_in_full_leaves_a_share_whose_logarithm_is_known():
+    terms = np.random.default_rng(0).uniform(1.0, 2.0, (50, 1, 2))
+    given = (terms @ [1.0, 2.0])[:, None, :]
+    np.testing.assert_allclose(_unexplained(terms, given), EXACT)

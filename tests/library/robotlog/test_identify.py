@@ -18,6 +18,7 @@ from mobnet.robot.nominal import NominalModel
 from mobnet.robot.table_file import head_of, write_table
 from mobnet.robotlog.detect import main as detect
 from mobnet.robotlog.identify import TERMS, FreeLog, identify, main, with_payload
+from mobnet.robotlog.identifying.payload import LEAST_KG, parameters
 from mobnet.robotlog.observe import main as observe
 from mobnet.settings.checks.robot import robot_problems
 from mobnet.settings.lab import load_section
@@ -270,3 +271,10 @@ def test_a_table_that_is_written_is_the_table_that_was_read(name, tmp_path):
     write_table(tmp_path / "again.yaml", table, head_of(source))
     assert load_section(tmp_path / "again.yaml", RobotTable) == table
     assert (tmp_path / "again.yaml").read_text().splitlines()[0] == source.read_text().splitlines()[0]
+
+
+@pytest.mark.parametrize("mass", [-0.1, 0.0])
+def test_a_payload_without_a_mass_has_the_least_one(mass):
+    found = parameters(np.array([mass, 0.0, 0.0, 0.0]), 1000.0)
+    assert found[0] == LEAST_KG
+    assert np.isfinite(found).all()

@@ -140,6 +140,15 @@ def test_a_short_log_fills_its_batches(settings, arm_table):
     assert 1 <= filled(training, [(0, 2_000)], settings).learning.batch_size <= 2_000 // 100
 
 
+@pytest.mark.parametrize(("batches", "lanes"), [(0.5, 1), (1, 1), (7.9, 7), (1000, 64)])
+def test_an_epoch_has_its_updates_however_long_the_log_is(settings, arm_table, batches, lanes):
+    training = training_of(settings, arm_table, "A", "free", 250.0, 1)
+    samples = round(batches * training.network.horizon_steps * settings.robotlog.learn.updates)
+    short = training.model_copy(update={"epoch_samples": samples})
+    assert training.learning.batch_size == 64
+    assert filled(short, [(0, 10_000_000)], settings).learning.batch_size == lanes
+
+
 class Half:
     """A network that predicts half of the residual, which is its only input; its sigma holds a share of the errors."""
 
@@ -172,6 +181,7 @@ def test_the_check_measures_what_is_held_out_and_says_whether_the_log_suffices(s
     found = made_check(settings, size)
     assert (found.seconds, found.zero[0]) == (pytest.approx(2.0), pytest.approx(0.2))
     assert (found.observer[0], found.network[0], found.seen[0]) == pytest.approx((size, size / 2, 0.5))
+    assert found.outside == (size > 1.0)  # every sample, on both sides
     text = "\n".join(lines_of(found, "free", settings.robotlog.learn, FALLS))
     assert all(line in text for line in told), text
 

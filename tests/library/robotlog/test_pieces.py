@@ -43,6 +43,12 @@ def test_integrals_are_those_of_one_sum_to_the_bit(values):
     np.testing.assert_array_equal(integral, np.diff(travelled[::100], axis=0))
 
 
+def test_a_window_is_a_sample_at_least(values):
+    change, integral = turns(values, values, [slice(0, 50)], 2.0, 0.1)
+    np.testing.assert_array_equal(change, np.diff(values[:50], axis=0))
+    np.testing.assert_allclose(integral, (values[1:50] + values[:49]) / 4.0)
+
+
 def test_shares_count_every_sample(values):
     coarse = np.round(values.clip(-1.0, 1.0), 1)
     same, moves = coarse[1:] == coarse[:-1], coarse[1:] != 0.0

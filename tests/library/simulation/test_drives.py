@@ -75,6 +75,7 @@ def test_torque_constant_and_current_loop(made):
     assert link[0] == pytest.approx(10.5, rel=1e-3)
     assert reported[-1] == pytest.approx(10.0, rel=1e-6)
     # The torque that is desired at a step stands for all steps before the first, so the delay is one of later changes.
+    assert reported[0] == pytest.approx(10.0 * (1.0 - np.exp(-DT / 0.002)), rel=1e-6)
     drive(drives, np.array([0.0]), np.zeros(1), np.zeros(1), DT, link, told := np.zeros(1))
     assert told[0] == pytest.approx(10.0, rel=1e-6)
     decay = []

@@ -237,6 +237,21 @@ def test_random_torque_is_part_of_the_desired_torque_but_not_on_support(simulate
 
 
 @pytest.mark.sim
+def test_a_foot_has_the_time_that_is_left_and_none_once_it_is_late(simulate, run):
+    simulator = simulate("flat_place", "ideal")
+    state = simulator.state
+    while not (state.swinging and state.t > 0.5 * state.total):
+        log = run(simulator, 0.01)
+    side = int(np.flatnonzero(log["swing"][-1])[0])
+    assert log["landing"][-1, side] == pytest.approx(state.total - state.t, abs=1e-3)
+    assert log["landing"][-1, 1 - side] == 0.0
+    state.total = state.t
+    late = run(simulator, 0.02)
+    assert late["swing"][:, side].all()
+    np.testing.assert_array_equal(late["landing"], 0.0)
+
+
+@pytest.mark.sim
 def test_no_drive_is_asked_for_more_than_it_gives(simulate, run):
     """Random torque that is far beyond the limits is clipped before it is sent and logged."""
     simulator = simulate("random_walk", "all_uncertainty")

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from library_settings import library_settings, walk_settings
 
-from mobnet.simulation.obstacles import obstacle_force
+from mobnet.simulation.obstacles import obstacle_force, points_on
 from mobnet.simulation.simulator import Simulator
 
 SETTINGS = library_settings()
@@ -15,6 +15,13 @@ def started(scenario="knee_bar", seed=1):
     simulator = Simulator(walk_settings(SETTINGS, scenario, "ideal"), seed)
     simulator.start()
     return simulator
+
+
+def put_into(simulator, link):
+    """Put the bar, 0.47 m up and to the left in its body, into the middle of a link."""
+    model, data = simulator.world.model, simulator.world.data
+    model.body("obstacle_knee_bar").pos[:] = data.geom_xpos[model.geom(link).id] - model.geom("obstacle_knee_bar_0").pos
+    mujoco.mj_forward(model, data)
 
 
 def test_the_robot_faces_an_obstacle_at_a_distance_that_is_drawn():
@@ -45,17 +52,27 @@ def test_a_link_at_rest_in_a_pad_is_pushed_by_its_stiffness(link):
     """What the constraint asks of a link that rests and does not accelerate, over its depth in the pad."""
     simulator = started()
     model, data = simulator.world.model, simulator.world.data
-    pad, geom, bar = SETTINGS.obstacles["knee_bar"], model.geom(link).id, model.body("obstacle_knee_bar")
+    pad, geom = SETTINGS.obstacles["knee_bar"], model.geom(link).id
     data.qvel[:] = 0.0
     mujoco.mj_forward(model, data)
-    # the bar, 0.47 m up and to the left in its body, is put into the middle of the link
-    bar.pos[:] = data.geom_xpos[geom] - model.geom("obstacle_knee_bar_0").pos
-    mujoco.mj_forward(model, data)
+    put_into(simulator, link)
     touching = [c for c in data.contact if geom in (c.geom1, c.geom2) and c.dist < 0 and c.efc_address >= 0]
     assert touching
     for contact in touching:
         row = contact.efc_address
         assert data.efc_D[row] * data.efc_aref[row] == pytest.approx(-pad.stiffness_n_m * contact.dist, rel=0.02)
+
+
+def test_points_of_an_obstacle_are_not_those_of_the_ground():
+    simulator = started()
+    model, data = simulator.world.model, simulator.world.data
+    data.qpos[2] -= 0.01  # the soles press into the ground
+    mujoco.mj_forward(model, data)
+    put_into(simulator, "left_knee")
+    bar = model.geom("obstacle_knee_bar_0").id
+    own = [contact.pos for contact in data.contact if bar in (contact.geom1, contact.geom2)]
+    assert 0 < len(own) < data.ncon
+    np.testing.assert_array_equal(points_on(model, data), own)
 
 
 def test_every_part_of_an_obstacle_meets_every_link_but_the_soles_pictures():

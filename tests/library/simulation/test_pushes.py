@@ -173,6 +173,9 @@ def test_an_impactor_pushes_a_wall_as_hard_and_as_long_as_it_says(force, seconds
     assert max(felt) == pytest.approx(force, rel=0.02)
     assert len(felt) * dt == pytest.approx(seconds, rel=0.02)
     assert sum(felt) * dt == pytest.approx(2.0 / np.pi * force * seconds, rel=0.02)
+    away = float(p["speed"])
+    assert hit(p, 20.0, place, dt) < 0.0
+    assert p["speed"] == away  # once they have parted nothing holds it
 
 
 def test_an_impactor_pushes_less_a_point_that_gives_way():

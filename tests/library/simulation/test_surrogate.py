@@ -140,10 +140,10 @@ def test_inertial_readings_are_late_and_biased(simulate):
     faults.steps[0] = 0
     found = []
     for k in range(3 * faults.late):
-        plant.sensordata[acc : acc + 3] = k
+        plant.sensordata[acc : acc + 3] = 1 + k
         seen(simulator)
         found.append(faults.data[acc : acc + 3] - faults.acc)
-    wanted = np.maximum(np.arange(3 * faults.late) - faults.late, 0)
+    wanted = 1 + np.maximum(np.arange(3 * faults.late) - faults.late, 0)  # at first nothing but the first reading
     np.testing.assert_allclose(np.array(found), wanted[:, None] * np.ones(3), atol=1e-12)
 
 

@@ -34,3 +34,4 @@ def test_a_sample_has_an_upright_base(layout: JointLayout) -> None:
     sample = latency.random_sample(layout, 0)
     assert sample.q[3:7].tolist() == [1.0, 0.0, 0.0, 0.0]
     assert sample.v.shape == (layout.nv,)
+    assert sample.acc_base_in_base.shape == (3,)
