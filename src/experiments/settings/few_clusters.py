@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from experiments.settings.runs import Statistics
 
-CELLS = 1000  # of a share or a rate
+SHARES, RATES = 1000, 4000  # cells
 STEPS = 12  # of how alike the events of a cluster are
 WIDEST = 4.0  # times the end of a count of independent events: up to there rates are looked at
 Array = NDArray[np.float64]
@@ -29,20 +29,20 @@ Ends = tuple[float, float]
 
 def share_ends(found: Sequence[int], sizes: Sequence[int], statistics: Statistics) -> Ends:
     """Return the interval of a share [-] of which each cluster has so many found of so many events."""
-    return _share_ends(tuple(sorted(zip(found, sizes, strict=True))), statistics)
+    clusters = tuple(sorted(zip(found, sizes, strict=True)))
+    return _share_ends(clusters, statistics.most_correlation, statistics.confidence)
 
 
 @functools.lru_cache(maxsize=4096)  # of small counts the same ones come again and again
-def _share_ends(clusters: tuple[tuple[int, int], ...], statistics: Statistics) -> Ends:
+def _share_ends(clusters: tuple[tuple[int, int], ...], most_correlation: float, confidence: float) -> Ends:
     """Return the interval of a share [-] of clusters with so many found of so many events."""
-    correlation = statistics.most_correlation * _middles(STEPS)
-    certainty = 1.0 / correlation - 1.0
-    alpha = _middles(CELLS)[:, None] * certainty
+    certainty = 1.0 / (most_correlation * _middles(STEPS)) - 1.0
+    alpha = _middles(SHARES)[:, None] * certainty
     beta = certainty - alpha
     likelihood = -len(clusters) * scipy.special.betaln(alpha, beta)
     for count, size in clusters:
         likelihood += scipy.special.betaln(alpha + count, beta + size - count)
-    return _shortest(likelihood, 1.0 / CELLS, statistics.confidence)
+    return _shortest(likelihood, 1.0 / SHARES, confidence)
 
 
 def rate_ends(counts: Sequence[int], hours: Sequence[float], statistics: Statistics) -> Ends:
@@ -51,13 +51,13 @@ def rate_ends(counts: Sequence[int], hours: Sequence[float], statistics: Statist
     shape = 1.0 / variation**2
     total = sum(counts)
     highest = WIDEST * (total + 2.0 + 4.0 * (total + 1.0) ** 0.5) / sum(hours)
-    rates = highest * _middles(CELLS)[:, None]
-    likelihood = np.zeros((CELLS, STEPS))
+    rates = highest * _middles(RATES)[:, None]
+    likelihood = np.zeros((RATES, STEPS))
     for count, own in zip(counts, hours, strict=True):
         expected = rates * own
         likelihood += scipy.special.gammaln(shape + count) - scipy.special.gammaln(shape)
         likelihood += shape * np.log(shape / (shape + expected)) + count * np.log(expected / (shape + expected))
-    return _shortest(likelihood, highest / CELLS, statistics.confidence)
+    return _shortest(likelihood, highest / RATES, statistics.confidence)
 
 
 def _middles(count: int) -> Array:

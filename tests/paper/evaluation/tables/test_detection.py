@@ -70,7 +70,7 @@ def test_a_plant_stands_for_itself_and_robots_together(make_table: Make, tmp_pat
     assert rows["all_uncertainty", "MOB", "all", "found"].count == 24
     robots = rows["robots", "MOB-Net-OR", "all", "found"]
     assert (robots.value, robots.count, robots.high) == (1.0, 48, 1.0)
-    assert robots.low < 0.5  # of two robots; Wilson's of 48 independent collisions ends at .926
+    assert robots.low == pytest.approx(0.707)  # of two robots; Wilson's of 48 independent collisions ends at .926
 
 
 def test_only_detectors_that_were_tried_are_shown(made: Make, settings: Settings) -> None:
