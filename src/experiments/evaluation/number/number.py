@@ -36,6 +36,11 @@ class Number:
     std_walks: float | None = None
 
     @property
+    def runs(self) -> int:
+        """How many runs it is made of: of the method with the most networks, where there are several."""
+        return max(self.networks, default=0) * max(self.walks, default=0)
+
+    @property
     def spread(self) -> tuple[str, str, float | None, float | None]:
         """The columns `SPREAD` of a file: counts, a plus between those of several, and standard deviations [unit]."""
         networks, walks = ("+".join(map(str, each)) for each in (self.networks, self.walks))

@@ -155,7 +155,7 @@ def test_interval_contains_the_mean_and_is_the_same_every_time(
     low, value, high = ends(number)
     assert value == pytest.approx(runs.mean)
     assert low <= value <= high
-    assert (number.networks, number.walks) == (shape[:1], shape[1:])
+    assert (number.networks, number.walks, number.runs) == (shape[:1], shape[1:], runs.values.size)
     assert number == summarise([runs], STATISTICS)
 
 
