@@ -8,8 +8,11 @@ from library_settings import recipes
 from experiments.plan.plan import with_precision
 from experiments.settings.catalogue import Catalogue
 from experiments.settings.load import load_settings
+from experiments.settings.runs import Statistics
 from experiments.settings.settings import Settings
 from mobnet.learning.precision import of_processor
+
+STATISTICS = Statistics(confidence=0.95, most_correlation=0.6, most_variation=1.0)
 
 
 @cache

@@ -9,18 +9,17 @@ from pathlib import Path
 import numpy as np
 import pytest
 from csv_files import check_golden, read_table
+from paper_settings import STATISTICS
 
 from experiments.evaluation.figures.paper.figure_17 import draw_losses, figure_17
 from experiments.evaluation.measure.learning.losses import Loss, losses_of
 from experiments.evaluation.measure.learning.trainings import read_trainings
 from experiments.evaluation.number.number import Number
 from experiments.settings.evaluation import Evaluation
-from experiments.settings.runs import Statistics
 from mobnet.core.errors import DataError
 
 Write = Callable[..., Path]
 MEASURES = ("training loss", "validation loss", "validation RMSE")
-STATISTICS = Statistics(confidence=0.95, most_correlation=0.6, most_variation=1.0)
 
 
 def test_the_end_is_the_last_epoch_in_training_and_the_kept_one_in_validation(write_training: Write) -> None:

@@ -5,15 +5,14 @@ from pathlib import Path
 
 import pytest
 from csv_files import check_golden, read_table
+from paper_settings import STATISTICS
 
 from experiments.evaluation.figures.paper.figure_20 import figure_20, growth_line, printed_place
 from experiments.evaluation.measure.learning.sizes import sizes_of
 from experiments.evaluation.number.number import Number
 from experiments.plan.runs import SweptSize
-from experiments.settings.runs import Statistics
 
 Write = Callable[..., Path]
-STATISTICS = Statistics(confidence=0.95, most_correlation=0.6, most_variation=1.0)
 
 
 def of_runs(mean: float, low: float, high: float, count: int) -> Number:

@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from paper_settings import STATISTICS
 
 from experiments.evaluation.measure.claims.cells import Evidence
 from experiments.evaluation.measure.claims.verdicts import (
@@ -24,7 +25,6 @@ from experiments.evaluation.number.number import Number
 from experiments.evaluation.number.quantities import QUANTITIES, difference_of
 from experiments.settings.checks.outcomes import wilson
 from experiments.settings.claims import Claim
-from experiments.settings.runs import Statistics
 from experiments.settings.settings import Settings
 from mobnet.core.claim_ranges import Ranges
 from mobnet.core.columns import NOT_PRINTED, OURS, SCORED, VERDICTS
@@ -41,7 +41,7 @@ CAUSED: dict[str, Any] = {
     },
 }  # fmt: skip
 SHOWN = "Cold: 1.00 [0.90, 1.10] without it (named 2026-11-25, after results had been seen)."
-CONFIDENCE = Statistics(confidence=0.95, most_correlation=0.6, most_variation=1.0)
+CONFIDENCE = STATISTICS
 Ends = tuple[str, str, str]
 
 

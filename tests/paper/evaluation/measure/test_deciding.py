@@ -3,6 +3,7 @@
 from typing import Any
 
 import pytest
+from paper_settings import STATISTICS
 
 from experiments.evaluation.measure.claims.deciding import AFFORDABLE, Effort, effort_of, text_of
 from experiments.evaluation.measure.claims.verdicts import (
@@ -20,11 +21,10 @@ from experiments.evaluation.number.number import Number
 from experiments.settings.checks.outcomes import wilson
 from experiments.settings.claims import Claim, MadeNumber
 from experiments.settings.evaluation import PRODUCTS
-from experiments.settings.runs import Statistics
 from experiments.settings.settings import Settings
 from mobnet.core.columns import NOT_MEASURED, NOT_REPRODUCED, OPEN, OURS, SIGN_AT_LEAST, SIGN_ONLY
 
-CONFIDENCE = Statistics(confidence=0.95, most_correlation=0.6, most_variation=1.0)
+CONFIDENCE = STATISTICS
 SHARES = next(name for name, row in PRODUCTS.items() if row.trials)  # a table of shares
 RATES = next(name for name, row in PRODUCTS.items() if row.hours)  # a table of events in an hour
 CELL: dict[str, Any] = {"scenario": "walk_test", "level": "robots", "method": "MOB-Net", "joint": "LL"}

@@ -4,6 +4,7 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
+from paper_settings import STATISTICS
 from scipy.stats import beta
 
 from experiments.evaluation.number.clusters import ClusterKey, mean_in, rate_in, share_in, wilson
@@ -11,9 +12,7 @@ from experiments.evaluation.number.intervals import quantile_of
 from experiments.evaluation.number.number import Number
 from experiments.evaluation.number.single import rate_of
 from experiments.settings.few_clusters import WIDEST, rate_ends, share_ends
-from experiments.settings.runs import Statistics
 
-STATISTICS = Statistics(confidence=0.95, most_correlation=0.6, most_variation=1.0)
 ROBOTS, WALKS, DRAWS = 3, 6, 400
 LEAST = 0.91  # of 400 intervals, of which 95 % hold: three standard deviations below are .917
 

@@ -7,15 +7,14 @@ from math import sqrt
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from paper_settings import STATISTICS
 from scipy.stats import t as student
 
 from experiments.evaluation.number.intervals import MEAN, RATIO, Formula, RunGrid, slopes_of, summarise
 from experiments.evaluation.number.number import Number
 from experiments.evaluation.number.quantities import BELOW, CUT, GAP_RATIO
 from experiments.evaluation.number.single import share, trend
-from experiments.settings.runs import Statistics
 
-STATISTICS = Statistics(confidence=0.95, most_correlation=0.6, most_variation=1.0)
 DRAWS, LEAST = 200, 0.90
 ROBOTS = "robots"  # what the rows of grids are whose methods share them
 SPREADS = {

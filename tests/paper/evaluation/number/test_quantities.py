@@ -2,13 +2,12 @@
 
 import numpy as np
 import pytest
+from paper_settings import STATISTICS
 
 from experiments.evaluation.number.intervals import RunGrid
 from experiments.evaluation.number.quantities import QUANTITIES, Cell
 from experiments.settings.claims import TAKES
-from experiments.settings.runs import Statistics
 
-STATISTICS = Statistics(confidence=0.95, most_correlation=0.6, most_variation=1.0)
 EXAMPLES = {
     "value": ([3.0], 3.0),
     "ratio": ([3.0, 2.0], 1.5),

@@ -7,12 +7,12 @@ from pathlib import Path
 
 import pytest
 from browser import Browser, with_browser
+from paper_settings import STATISTICS
 
 from experiments.evaluation.report.pages import pages, table_page, titled
 from experiments.evaluation.report.readme import COLUMNS
 from experiments.evaluation.tables.layout import markdown_table
 from experiments.plan.products import HEADLINE, TEMPLATES
-from experiments.settings.runs import Statistics
 from mobnet.core.errors import DataError
 from mobnet.core.rows import csv_text
 
@@ -21,7 +21,6 @@ PARTS = {name: REPO / TEMPLATES / f"{name}.html" for name in ("table", "claims",
 CAPTION = "Table 5: errors\n\nRMSE [N m], rule ``table_05``. *Simulated counterpart*.\n"
 GOLDEN = REPO / "tests" / "golden" / "claims.csv"
 PICTURE = REPO / "docs" / "results" / "figure_05.png"
-STATISTICS = Statistics(confidence=0.95, most_correlation=0.6, most_variation=1.0)
 
 
 def test_cells_stand_in_their_rows_below_the_caption_numbers_flush_right() -> None:

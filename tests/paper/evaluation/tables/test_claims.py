@@ -9,6 +9,7 @@ import pytest
 import yaml
 from csv_files import GOLDEN, check_golden, read_table
 from made_detections import write_detections
+from paper_settings import STATISTICS
 
 from experiments.evaluation.measure.claims.cells import listed
 from experiments.evaluation.measure.claims.verdicts import rows_of
@@ -21,7 +22,6 @@ from experiments.evaluation.tables.further.hourly import ALL, FLAG
 from experiments.evaluation.tables.further.latency import MET
 from experiments.settings.claims import Cause, Cell, Claim, MadeNumber
 from experiments.settings.published import Published, PublishedTable
-from experiments.settings.runs import Statistics
 from experiments.settings.settings import Settings
 from mobnet.core.columns import COVERAGE, HOURLY, LATENCY, VERDICTS
 
@@ -59,9 +59,7 @@ def test_numbers_of_the_paper_are_those_that_it_prints(settings: Settings) -> No
             on_robot = row.name.startswith(ON_ROBOT)
             means = [printed(cell, settings.published, on_robot) for cell in claim.cells]
             cells = [[RunGrid(np.array([[mean]]))] for mean in means]
-            value = QUANTITIES[claim.quantity](
-                cells, Statistics(confidence=0.95, most_correlation=0.6, most_variation=1.0), "-"
-            ).value
+            value = QUANTITIES[claim.quantity](cells, STATISTICS, "-").value
             assert value == pytest.approx(claim.published, abs=0.006), row.name
 
 

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 import scipy.stats
+from paper_settings import STATISTICS
 
 from experiments.evaluation.measure.learning.trials import Known, read_walks
 from experiments.evaluation.tables.further.factorial import (
@@ -25,7 +26,6 @@ from experiments.evaluation.tables.layout import write_table
 from experiments.plan.jobs import scoring
 from experiments.plan.runs import TaughtRobot, Tried, TriedTask
 from experiments.settings.catalogue import Catalogue
-from experiments.settings.runs import Statistics
 from experiments.settings.settings import Settings
 from experiments.settings.trials import Factors
 from mobnet.core.columns import residual_columns
@@ -39,7 +39,6 @@ FIRST, LAST = 1000, 1080  # rows of a push
 SHOWN = 0.6  # share of it that an observer shows
 LEVELS = product((False, True), (False, True), ("random", "joystick"))
 CELLS = {f"cell_{k}": Factors(*levels) for k, levels in enumerate(LEVELS)}
-STATISTICS = Statistics(confidence=0.95, most_correlation=0.6, most_variation=1.0)
 TORQUE = 50.0
 # How the error of each robot changes with a level: without random torque, without pushes, with a joystick.
 CHANGES = {"random_torque": (1.1, 1.2, 1.3), "pushes": (1.6, 1.6, 1.6), "commands": (1.5, 1.4, 1.3)}

@@ -5,12 +5,12 @@ from dataclasses import astuple
 from pathlib import Path
 
 import pytest
+from paper_settings import STATISTICS
 
 from experiments.evaluation.measure.data.random_torque import count_falls
 from experiments.evaluation.number.rows import write_csv
 from experiments.evaluation.tables.further.falls import ALL, falls
 from experiments.plan.jobs import walk_settings
-from experiments.settings.runs import Statistics
 from experiments.settings.settings import Settings
 from mobnet.core.columns import FALLS, Falls
 from mobnet.core.rows import read_rows, read_texts
@@ -29,7 +29,7 @@ def test_the_torque_is_raised_until_a_robot_falls_and_the_median_robot_chooses(
     for path, own in zip(paths, counts, strict=True):
         rows = [Falls(path.stem, 50.0 * k, 900.0, fallen) for k, fallen in enumerate(own, start=1)]
         write_csv(path, FALLS, [astuple(row) for row in rows])
-    falls(paths, Statistics(confidence=0.95, most_correlation=0.6, most_variation=1.0), tmp_path / "out")
+    falls(paths, STATISTICS, tmp_path / "out")
     rows = read_texts(tmp_path / "out.csv")
     robots = dict.fromkeys(row["robot"] for row in rows)
     marked = {row["robot"]: int(row["amplitude_nm"]) for row in rows if row["chosen"] == "1"}
@@ -46,7 +46,7 @@ def test_the_torque_is_raised_until_a_robot_falls_and_the_median_robot_chooses(
 def test_nothing_is_promised_about_an_hour_in_which_nothing_fell(tmp_path: Path) -> None:
     """By Poisson's law, no fall in half an hour allows 7.4 an hour."""
     write_csv(tmp_path / "r.csv", FALLS, [("robot_1", 50.0, 1800.0, 0)])
-    falls([tmp_path / "r.csv"], Statistics(confidence=0.95, most_correlation=0.6, most_variation=1.0), tmp_path / "out")
+    falls([tmp_path / "r.csv"], STATISTICS, tmp_path / "out")
     assert float(read_texts(tmp_path / "out.csv")[-1]["high"]) == pytest.approx(7.38, abs=0.01)
 
 

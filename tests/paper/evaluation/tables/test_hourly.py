@@ -5,16 +5,16 @@ from pathlib import Path
 
 import pytest
 from csv_files import check_golden, read_table
+from paper_settings import STATISTICS
 
 from experiments.evaluation.number.single import rate_of
 from experiments.evaluation.tables.further.hourly import ALL, FALL, FLAG
 from experiments.settings.evaluation import Evaluation
-from experiments.settings.runs import LegRuns, Statistics
+from experiments.settings.runs import LegRuns
 from experiments.settings.tables import Hourly
 from mobnet.core.files import write_json
 
 COUNTS = {"rmse": (2.0, "N m"), "flags": (1.0, "-"), "watched": (0.5, "h")}
-STATISTICS = Statistics(confidence=0.95, most_correlation=0.6, most_variation=1.0)
 
 
 def walked(path: Path, hours: float, falls: int) -> Path:
