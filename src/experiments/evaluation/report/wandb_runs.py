@@ -50,7 +50,7 @@ def wandb_runs(folders: Iterable[Path], out: Path) -> None:
 
 
 def _log_again(scratch: Path, folder: Path, runs: Path) -> None:
-    """Log a training into a run among others, again where wandb left no file, which happens on a busy machine.
+    """Log a training into a run among others, again where wandb left no file: seen once, on a busy machine.
 
     Raises:
         DataError: the disk is full, or wandb leaves no file.
@@ -133,7 +133,7 @@ def put(scratch: Path, name: str, runs: Path) -> Path:
     """
     found = next((scratch / "wandb").glob(f"offline-run-*/run-{name}.wandb"), None)
     if found is None:
-        raise DataError(f"{runs}: wandb made no file of the run {name}; accepted: the same call again")
+        raise DataError(f"wandb made no file of the run {name}; accepted: the same call again")
     place = runs / FOLDER.format(name)
     place.mkdir(parents=True, exist_ok=True)
     os.replace(found, place / found.name)

@@ -127,7 +127,7 @@ def _mean(nodes: Array) -> Array:
 def known_joints(
     nominal: NominalModel, windows: MotionWindows, asked: MotorDemand, bounds: RobotLog
 ) -> NDArray[np.bool_]:
-    """Return which joints tell of themselves (nu,): with a torque, and on no leg whose contact nobody measures."""
+    """Return of which joints a log tells (nu,): those with a torque, but on no leg whose contact is not measured."""
     robot = nominal.robot
     felt = [foot.limb for side, foot in robot.feet.items() if side not in windows.loads]
     blind = set(robot.layout.limbs(felt))
