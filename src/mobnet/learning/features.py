@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import chain
 from typing import Any
 
 import numpy as np
@@ -11,12 +12,17 @@ from mobnet.core.errors import ConfigError, not_accepted
 from mobnet.core.joints import N_VIRTUAL, NQ_BASE, JointLayout
 from mobnet.core.recording import Sensed
 from mobnet.robot.frames import QUATERNION, rotation
-from mobnet.settings.networks import Limb
+from mobnet.settings.networks import Inertial, Limb
 
 OMEGA = slice(3, N_VIRTUAL)  # of the generalized velocity, base axes
 ROTATION_NAMES: tuple[str, ...] = ("R.11", "R.21", "R.31", "R.12", "R.22", "R.32")
-# as columns of a recording, of which all but the rotation are read as they are
-BASE_NAMES = (*ROTATION_NAMES, *(f"v.omega_{axis}" for axis in "xyz"), *(f"acc.{axis}" for axis in "xyz"))
+# Readings of the inertial sensor as columns of a recording, of which all but the rotation are read as they are.
+IMU_NAMES: dict[Inertial, tuple[str, ...]] = {
+    "rotation": ROTATION_NAMES,
+    "angular_velocity": tuple(f"v.omega_{axis}" for axis in "xyz"),
+    "acceleration": tuple(f"acc.{axis}" for axis in "xyz"),
+}
+BASE_NAMES = tuple(chain.from_iterable(IMU_NAMES.values()))
 QUATERNION_NAMES = tuple(f"q.quat_{axis}" for axis in "wxyz")
 
 
@@ -26,8 +32,8 @@ class LimbInputs:
 
     Attributes:
         names: name of each input, (n_in,): q^g [rad] and v^g [rad/s] of each limb in `Q`, tau_d^g [N m] of each limb
-            in `T`, then U^V where the base floats: two columns of the pelvis rotation, its angular velocity [rad/s]
-            and its linear acceleration as the IMU reads it [m/s^2], both in pelvis axes.
+            in `T`, then of U^V where the base floats what `imu` names: two columns of the pelvis rotation, its angular
+            velocity [rad/s] and its linear acceleration as the IMU reads it [m/s^2], both in pelvis axes.
         columns: where they stand in `signals`, (n_in,).
     """
 
@@ -93,7 +99,7 @@ def signal_names(layout: JointLayout) -> tuple[str, ...]:
 
 
 def limb_inputs(layout: JointLayout, limb: Limb) -> LimbInputs:
-    """Build the inputs of a network of Table 1 from its limbs `Q` and `T`; the width of x^g is (n_in,).
+    """Build the inputs of a network of Table 1 from its limbs `Q` and `T` and its `imu`; the width of x^g is (n_in,).
 
     Raises:
         ConfigError: a limb is unknown, or is the virtual one, which has no encoders or motors.
@@ -105,7 +111,8 @@ def limb_inputs(layout: JointLayout, limb: Limb) -> LimbInputs:
         names += [f"v.{joint}" for joint in joints]
     for name in limb.T:
         names += [f"tau_des.{joint}" for joint in _actuated(layout, name)]
-    names += BASE_NAMES if layout.virtual else ()
+    if layout.virtual:
+        names += chain.from_iterable(own for reading, own in IMU_NAMES.items() if reading in limb.imu)
     where = {name: i for i, name in enumerate(signal_names(layout))}
     return LimbInputs(tuple(names), np.array([where[name] for name in names], dtype=np.intp))
 

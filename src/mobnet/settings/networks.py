@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from pydantic import Field, model_validator
+from pydantic import AfterValidator, Field, model_validator
 
 from mobnet.settings import base
 from mobnet.settings.base import Section
@@ -15,6 +15,8 @@ Steps = Annotated[base.Count, Field(le=10_000)]
 Precision = Literal["auto", "float32", "bfloat16"]
 Optimizer = Literal["adam", "soap"]
 Loss = Literal["likelihood", "beta_likelihood", "squared"]
+Inertial = Literal["rotation", "angular_velocity", "acceleration"]
+INERTIAL: tuple[Inertial, ...] = ("rotation", "angular_velocity", "acceleration")  # all that U^V has
 SIZES: dict[CellKind, tuple[str, ...]] = {  # what a kind of cell needs to be told
     "GRU": ("hidden",),
     "LSTM": ("hidden",),
@@ -86,11 +88,16 @@ class NetworkRow(NetworkCell):
 
 
 class Limb(Section):
-    """Limbs whose torques a network predicts, and whose motion (`Q`) and desired torques (`T`) it sees."""
+    """Limbs whose torques a network predicts, and whose motion (`Q`) and desired torques (`T`) it sees.
+
+    `imu` names the readings of the base's inertial sensor that it sees, U^V of eq. (17) where that is all of them. A
+    robot whose base is fixed has none.
+    """
 
     joints: base.Distinct[base.LimbName]
     Q: base.LimbNames
     T: base.LimbNames
+    imu: Annotated[tuple[Inertial, ...], AfterValidator(base.distinct)] = INERTIAL
 
 
 class Network(NetworkRow, Limb):

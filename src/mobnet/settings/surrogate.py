@@ -1,11 +1,13 @@
 """Uncertainty levels (section 5.1), and surrogate robots: hidden drives, masses and errors of sensors (5.2 to 7)."""
 
-from typing import Annotated, Literal
+from collections.abc import Mapping
+from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, Field
 
 from mobnet.settings.base import (
     BodyName,
+    Change,
     Distinct,
     Flag,
     Index,
@@ -36,8 +38,12 @@ Reading = Literal["none", "std", "swapped", "variance"]  # of Table 3
 
 
 class Drive(Section):
-    """Ranges from which every joint draws; `spread` is that of the numbers in `LimbDrives`."""
+    """Ranges from which every joint draws; `spread` is that of the numbers in `LimbDrives`.
 
+    The dry friction of all joints is that of `LimbDrives` times `dry_scale`.
+    """
+
+    dry_scale: Real = Field(ge=0.05, le=10)
     torque_constant: Range[Ratio]
     lag_s: Range[Annotated[Real, Field(ge=0.0001, le=0.05)]]
     delay_s: Range[Time]
@@ -78,12 +84,17 @@ class Body(Section):
 
 
 class SensorErrors(Section):
-    """Errors of sensors that last; standard deviations, where they are no ranges."""
+    """Errors of sensors that last; standard deviations, where they are no ranges.
+
+    The noise of the inertial sensor, white at each sample, takes the place of that of Table 3.
+    """
 
     encoder_zero_rad: NotNegative = Field(le=0.1)
     imu_late_s: Range[Time]
     acceleration_m_s2: NotNegative = Field(le=5)
     angular_velocity_rad_s: NotNegative = Field(le=0.5)
+    acceleration_noise_m_s2: NotNegative = Field(le=5)
+    angular_velocity_noise_rad_s: NotNegative = Field(le=0.5)
     mounting_rad: NotNegative = Field(le=0.1)
     foot_gain_share: NotNegative = Field(le=0.2)
     foot_force_n: NotNegative = Field(le=200)
@@ -99,6 +110,24 @@ class Surrogate(Section):
     body: Body
     sensors: SensorErrors
 
+    def changed(self, numbers: Change) -> "Surrogate":
+        """Return the same with other numbers, nested as the sections are; what is not named stays.
+
+        Raises:
+            ValidationError: a section or a number is unknown, or is not accepted.
+        """
+        return Surrogate.model_validate(_laid_over(self.model_dump(), numbers))
+
+
+def _laid_over(numbers: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
+    """Return numbers, nested at any depth, with changes in their places."""
+    found = dict(numbers)
+    for name, value in changes.items():
+        inside = found.get(name)
+        nested = isinstance(inside, dict) and isinstance(value, dict)
+        found[name] = _laid_over(inside, value) if nested else value
+    return found
+
 
 class SurrogateRobot(Section):
     """One surrogate robot: the seed it is drawn from, its hidden parts, and how long it has been running [s].
@@ -107,7 +136,7 @@ class SurrogateRobot(Section):
     section 5.1. `running_s` is the range of the time since its gears were cold, at the start of a recording. Friction
     and torque constants of its drives are those drawn, times a ratio, and so are the gains of its legs' joints. Its
     `gait` replaces ranges of the commands, and `payload_kg` comes on top of the payload drawn. On another `day` than 0
-    its sensors have other errors, as they were mounted and zeroed anew.
+    its sensors have other errors, as they were mounted and zeroed anew. `numbers` replaces numbers of `Surrogate`.
     """
 
     seed: Index
@@ -119,6 +148,7 @@ class SurrogateRobot(Section):
     gait: CommandRanges = CommandRanges()
     payload_kg: Payload = 0.0
     day: Index = 0
+    numbers: Change = {}
 
 
 class Level(Section):
@@ -151,6 +181,7 @@ class Variant(Section):
     gait: CommandRanges = CommandRanges()
     payload_kg: Payload = 0.0
     day: Index = 0
+    numbers: Change = {}
 
 
 class Fleet(Section):

@@ -100,7 +100,7 @@ def draw_drives(
             "rotor": rotor,
             "stiffness": row["stiffness_nm_rad"],
             "damping": 2 * drive.damping_ratio * np.sqrt(row["stiffness_nm_rad"] * shared),
-            "coulomb": row["coulomb_nm"],
+            "coulomb": drive.dry_scale * row["coulomb_nm"],
             "viscous": row["viscous_nms"],
             "load": row["load_share"],
             "back": rng.uniform(*drive.back_ratio),

@@ -13,7 +13,7 @@ from mobnet.core.arrays import Array
 from mobnet.core.compilation import compiled, vector3
 from mobnet.robot.description import SIDES
 from mobnet.settings.plant import Noise, Plant
-from mobnet.settings.surrogate import Level
+from mobnet.settings.surrogate import Level, SensorErrors
 
 
 class Sensors(NamedTuple):
@@ -42,9 +42,17 @@ class Sensors(NamedTuple):
     told: Array  # estimated wrenches, as `wrenches` (2, 6) [N, N m]; written by who runs the loop
 
 
-def make_sensors(plant: Plant, level: Level, model: mujoco.MjModel, estimated: bool = False) -> Sensors:
-    """Build the sensors of a plant at an uncertainty level (section 5.1); see `Sensors.estimated`."""
+def make_sensors(
+    plant: Plant, level: Level, model: mujoco.MjModel, estimated: bool = False, errors: SensorErrors | None = None
+) -> Sensors:
+    """Build the sensors of a plant at an uncertainty level (section 5.1), with the errors of a surrogate robot.
+
+    Without errors, all noise is that of Table 3; see `Sensors.estimated`.
+    """
     q_std, v_std, acc_std, omega_std = read_table_03(plant.noise, level)
+    if errors is not None:
+        acc_std = errors.acceleration_noise_m_s2
+        omega_std = errors.angular_velocity_noise_rad_s
     own = plant.own_noise
     noisy = level.noise != "none"
     return Sensors(

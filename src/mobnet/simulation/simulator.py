@@ -100,7 +100,11 @@ class Simulator:
         limits = np.maximum(self.robot.torque_limits, plant.motor_limit_min_nm)
         native = bind(world.model, world.data)
         fall_height = settings.recording.fall_height_m
-        sensors = make_sensors(plant, settings.level, world.model, settings.scenario.wrench == "estimated")
+        chosen = settings.level.surrogate
+        hidden = settings.surrogate is not None and chosen is not None and "sensors" in chosen.parts
+        errors = settings.surrogate.sensors if hidden else None
+        estimated = settings.scenario.wrench == "estimated"
+        sensors = make_sensors(plant, settings.level, world.model, estimated, errors)
         pushes = make_pushes(settings.pushes, world.model, self.robot)
         plant = make_plant(world, native, friction, drives, faults, limits, fall_height, every)
         self.setting = Setting(terrain, world, plant, sensors, pushes)
