@@ -169,7 +169,7 @@ def test_only_a_claim_that_fails_shows_its_cause(judge: Judge, tmp_path: Path, s
 def test_a_test_too_short_for_its_push_is_not_measured_and_fails_nothing(judge: Judge) -> None:
     judged = judge(pushes=False)
     assert (judged["step-mob"].value, judged["step-mob"].verdict) == (None, "not measured")
-    assert judged["walk-mob"].verdict == "reproduced"
+    assert judged["walk-mob-fric"].verdict == "reproduced"
 
 
 def test_claims_are_the_golden_ones(
