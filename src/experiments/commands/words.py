@@ -59,10 +59,11 @@ GROUPS = {  # heading of the help -> command -> what it does, in a line
         "lengths": "train for longer and longer",
         "random_torque": "count falls by the size of random torques",
         "factorial": "train from walks with and without torques, pushes, variety",
+        "why": "train with other inputs, robots and recipes: why is a hit hidden?",
     },
 }
 # Tables of trials, which `all` does not ask for.
-TRIALS = ("tuning", "recipes", "lengths", "random_torque", "factorial")
+TRIALS = ("tuning", "recipes", "lengths", "random_torque", "factorial", "why")
 COMMANDS = {name: says for group in GROUPS.values() for name, says in group.items()}
 MORE = {  # command -> what its own --help adds to that line
     "all": "The rule `all` of snakemake, on 2 cores unless --cores says another number.",
@@ -72,7 +73,9 @@ MORE = {  # command -> what its own --help adds to that line
     "test": "The workflow at a small scale is among them.",
     **dict.fromkeys(TRIALS, "The table is written to results/default/trials."),
 }
-APART = "`all` makes neither docs and films nor the tables of tuning, recipes, lengths, random_torque and factorial."
+APART = (
+    "`all` makes neither docs and films nor the tables of tuning, recipes, lengths, random_torque, factorial and why."
+)
 EXAMPLES = {
     "all -n": "show what would run",
     "all --config scale=smoke": "the same in minutes; its numbers mean nothing",

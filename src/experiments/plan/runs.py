@@ -73,6 +73,21 @@ class TaughtRobot:
 
 
 @dataclass(frozen=True)
+class ExplainedRobot:
+    """A robot on which it is asked why a hit is hidden, as the walks of a training set have it.
+
+    `twins` are the recordings of the walks with hits, without the hits, and `paths` what is tried of which it is asked
+    by which inputs a hit comes in; both are empty where that is not asked.
+    """
+
+    robot: str
+    data: str
+    taught: TaughtRobot
+    twins: tuple[Path, ...]
+    paths: tuple[Tried, ...]
+
+
+@dataclass(frozen=True)
 class SweptSize:
     """Networks of one size, or of one amount of data, of the `base` method that a sweep varies (Figure 20)."""
 

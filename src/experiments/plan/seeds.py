@@ -116,6 +116,10 @@ class Seeds:
         trial = self.settings.trials.factorial
         developed = [(walk.scenario, walk.level) for walk in walks]
         developed += [(walk, self.robot) for walk in (trial.walk, trial.hits)]
+        why = self.settings.trials.why
+        developed += [(why.twin, self.robot)]
+        for row in self.settings.training_sets.values():
+            developed += [(walk, row.level) for walk in (why.walk, why.hits)]
         if (scenario, level) in developed:
             return list(self.development_seeds)
         found: list[int] = []

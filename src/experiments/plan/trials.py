@@ -8,8 +8,18 @@ from experiments.plan.call import Call
 from experiments.plan.files import Files, made_by_jobs
 from experiments.plan.jobs import KINDS, scoring
 from experiments.plan.products import TABLE, Product
-from experiments.plan.runs import TaughtRobot, Tried, TriedTask
-from experiments.settings.trials import MethodVariant, compared, factors_of, references, sets_of, taught, tuned
+from experiments.plan.runs import ExplainedRobot, TaughtRobot, Tried, TriedTask
+from experiments.settings.trials import (
+    WAY,
+    MethodVariant,
+    compared,
+    explained,
+    factors_of,
+    references,
+    sets_of,
+    taught,
+    tuned,
+)
 
 
 def trial_products(files: Files) -> Iterator[Product]:
@@ -34,6 +44,7 @@ def trial_products(files: Files) -> Iterator[Product]:
     call = Call("experiments.evaluation.tables.further.falls:falls", arguments)
     yield _table(out, call, made_by_jobs(counted))
     yield _factorial(files, files.shared / "trials" / "factorial")
+    yield _why(files, files.shared / "trials" / "why")
 
 
 def _factorial(files: Files, out: Path) -> Product:
@@ -72,16 +83,71 @@ def _taught(own: Files) -> TaughtRobot:
     tried: list[Tried] = []
     for variant in (*taught(settings.trials, settings.methods), *beside):
         tried += _tried(own, variant)
-    joints = tuple(settings.layout.limbs(settings.robot.networks[trial.limb].joints))
-    level = settings.levels[own.robot]
+    return _judged_on(own, trial.limb, own.robot, (trial.walk, trial.hits), trial.as_in, tried)
+
+
+def _why(files: Files, out: Path) -> Product:
+    """Return the table of why a hit is hidden, on the robots of the trial; at a scale that has none of them, on all."""
+    settings = files.settings
+    trial = settings.trials.why
+    asked: list[ExplainedRobot] = []
+    for name, own in files.robots.items():
+        sets: dict[str, None] = {}
+        for row in trial.rows:
+            if name in row.robots or not set(row.robots) & set(files.robots):
+                sets |= dict.fromkeys(row.sets)
+        asked += [_explained(own, name, data) for data in sets]
+    arguments = {
+        "robot": settings.robot,
+        "gravity_m_s2": settings.plant.gravity_m_s2,
+        "observer": settings.observer,
+        "rate_hz": settings.rates.data_hz,
+        "settings": trial,
+        "robots": tuple(asked),
+        "peaks": settings.evaluation.peaks,
+        "statistics": settings.evaluation.statistics,
+        "out": out,
+    }
+    kinds: dict[str, None] = {}
+    for one in asked:
+        for tried in one.taught.walk.tried:
+            kinds |= dict.fromkeys(f"{KINDS}.{row.kind}" for row in tried.methods.values())
+    call = Call("experiments.evaluation.tables.further.why:why", arguments)
+    return _table(out, call, made_by_jobs(tuple(asked)), kinds)
+
+
+def _explained(own: Files, robot: str, data: str) -> ExplainedRobot:
+    """Return what is tried on a robot as the walks of a training set have it."""
+    settings = own.settings
+    trial = settings.trials.why
+    beside = [MethodVariant(name, name, {}, settings.methods[name], "") for name in trial.references]
+    tried: list[Tried] = []
+    for variant in (*explained(settings.trials, settings.methods, robot, data), *beside):
+        tried += _tried(own, variant)
+    level = settings.training_sets[data].level
+    taught_robot = _judged_on(own, trial.limb, level, (trial.walk, trial.hits), trial.as_in, tried)
+    if data != trial.path_set or robot not in trial.path_robots:
+        return ExplainedRobot(robot, data, taught_robot, (), ())
+    twins = tuple(own.array("recordings", trial.twin, level, seed) for seed in own.development_seeds)
+    ways = next(iter(trial.ways))
+    paths = [one for one in tried if one.base in trial.paths and one.changes.get(WAY) == ways]
+    return ExplainedRobot(robot, data, taught_robot, twins, tuple(paths))
+
+
+def _judged_on(
+    own: Files, limb: str, level: str, walks: tuple[str, str], as_in: str, tried: Sequence[Tried]
+) -> TaughtRobot:
+    """Return variants with the walks of a robot at a level on which they are judged: one, and one with hits."""
+    settings = own.settings
+    joints = tuple(settings.layout.limbs(settings.robot.networks[limb].joints))
     tasks: list[TriedTask] = []
-    for scenario in (trial.walk, trial.hits):
-        recordings = tuple(own.array("recordings", scenario, own.robot, seed) for seed in own.development_seeds)
-        residuals = tuple(own.array("residuals", scenario, own.robot, seed) for seed in own.development_seeds)
-        tasks.append(TriedTask(level, joints, tuple(tried), recordings, residuals))
+    for scenario in walks:
+        recordings = tuple(own.array("recordings", scenario, level, seed) for seed in own.development_seeds)
+        residuals = tuple(own.array("residuals", scenario, level, seed) for seed in own.development_seeds)
+        tasks.append(TriedTask(settings.levels[level], joints, tuple(tried), recordings, residuals))
     walk, hits = tasks
-    asked = scoring(settings, trial.hits, own.robot)
-    window = settings.evaluation.windows[trial.as_in]
+    asked = scoring(settings, walks[1], own.robot)
+    window = settings.evaluation.windows[as_in]
     return TaughtRobot(walk, hits, asked.model_copy(update={"window": window}))
 
 

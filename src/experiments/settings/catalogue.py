@@ -9,7 +9,7 @@ from itertools import product
 from experiments.settings.asked import RunRequest, asked_by
 from experiments.settings.scales import Experiment
 from experiments.settings.settings import Settings
-from experiments.settings.trials import MethodVariant, compared, taught, tuned
+from experiments.settings.trials import MethodVariant, compared, explained, taught, tuned
 from mobnet.core.errors import ConfigError, not_accepted
 from mobnet.core.joints import JointLayout
 from mobnet.settings.methods import Method, Sweep, swept_name
@@ -108,7 +108,7 @@ class Catalogue:
     def trials(self) -> tuple[MethodVariant, ...]:
         """Every variant that is tried."""
         given = self.settings.trials, self.settings.methods, self.settings.development
-        return (*tuned(*given), *compared(*given), *taught(*given[:2]))
+        return (*tuned(*given), *compared(*given), *taught(*given[:2]), *explained(*given[:2]))
 
     @cached_property
     def tried(self) -> dict[str, Method]:

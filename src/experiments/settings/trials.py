@@ -15,7 +15,7 @@ from mobnet.settings.methods import Method
 
 Value = bool | int | float | str
 EXPERIMENT, RECIPE = "experiment", "recipe"  # what a comparison changes
-DATA = "data"  # what the factorial changes
+DATA, WAY = "data", "way"  # what the factorial changes, and the trial `why`
 
 
 class Grid(Section):
@@ -81,14 +81,57 @@ class Factorial(Section):
     joint: base.JointName
 
 
+class Way(Section):
+    """How networks learn: keys of their sections `network` and `learning` over those of a method."""
+
+    network: base.Change = {}
+    learning: base.Change = {}
+
+
+class WhyRow(Section):
+    """Methods whose networks learn from each of some training sets, in each of some ways, on each of some robots.
+
+    A set is named as on the plant, and is that of the robot; the robot is judged at the level of the set.
+    """
+
+    robots: base.Distinct[base.SurrogateLevelName]
+    sets: base.Distinct[base.TrainingSetName]
+    methods: base.Distinct[base.LearnedName]
+    ways: base.Distinct[base.LowerName]
+    experiment: base.ExperimentName
+
+
+class Why(Section):
+    """Why a hit is hidden: networks of a limb that differ in inputs, robot and learning.
+
+    Each robot walks `walk`, where errors are means over the limb's joints, `hits`, where they are those of a `joint` in
+    the time around pushes that test `as_in` has, and `twin`, the same walks without the hits. Which input carries a hit
+    is asked of the methods `paths` that learn from the set `path_set`, on the `path_robots`.
+    """
+
+    limb: base.NetworkName
+    ways: dict[base.LowerName, Way]
+    rows: base.Some[WhyRow]
+    references: base.MethodNames
+    walk: base.ScenarioName
+    hits: base.PushedName
+    twin: base.PushedName
+    as_in: base.PushedTestName
+    joint: base.JointName
+    paths: base.Distinct[base.LearnedName]
+    path_set: base.TrainingSetName
+    path_robots: base.Distinct[base.SurrogateLevelName]
+
+
 class Trials(Section):
-    """The trials: recipes (keys of `learning` over those of a method), comparisons, random torques, a factorial."""
+    """The trials: recipes (keys of `learning` over those of a method), comparisons, random torques, factorial, why."""
 
     recipes: dict[str, base.Change]
     tuning: Tuning
     compared: dict[base.LowerName, tuple[Comparison, ...]]
     random_torque: Explored
     factorial: Factorial
+    why: Why
 
 
 class MethodVariant(NamedTuple):
@@ -176,9 +219,37 @@ def taught(trials: Trials, methods: Mapping[str, Method]) -> Iterator[MethodVari
         yield MethodVariant(trial.fitted, trial_name(trial.fitted, changes), changes, own, "")
 
 
+def explained(
+    trials: Trials, methods: Mapping[str, Method], robot: str | None = None, named: str | None = None
+) -> Iterator[MethodVariant]:
+    """Yield the networks of the trial `why`, of one robot and of one training set, or of all."""
+    trial = trials.why
+    for row in trial.rows:
+        sets = [name for name in row.sets if named in (name, None)]
+        known = [name for name in row.methods if name in methods]
+        for data, base_name, way in product(sets, known, row.ways if robot in (*row.robots, None) else ()):
+            method = methods[base_name]
+            changes: dict[str, Value] = {DATA: data, WAY: way}
+            chosen = trial.ways[way]
+            own = method.model_copy(
+                update={
+                    "limbs": (trial.limb,),
+                    "networks_of": {},
+                    "network": {**method.network, "experiment": row.experiment, DATA: data, **chosen.network},
+                    "learning": {**method.learning, **chosen.learning},
+                }
+            )
+            yield MethodVariant(base_name, trial_name(base_name, changes), changes, own, "")
+
+
 def experiments_of(trials: Trials) -> set[str]:
     """Return the names of the lengths that are tried."""
     found = {trials.tuning.experiment}
+    for row in trials.why.rows:
+        found.add(row.experiment)
+    for way in trials.why.ways.values():
+        if EXPERIMENT in way.network:
+            found.add(str(way.network[EXPERIMENT]))
     for row in _rows(trials, None):
         found.update(row.experiments)
     return found

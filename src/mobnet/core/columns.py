@@ -265,6 +265,19 @@ TABLE_01 = (
     "horizon_published",
 )
 FALLEN = (*FALLS, "per_hour", "low", "high", "chosen")  # of each robot, and of all of them
+WHY = (
+    "data",
+    "method",
+    "way",
+    "measure",
+    "inputs",
+    "robot",
+    "networks",
+    "value",
+    "low",
+    "high",
+    "unit",
+)  # of a network by its training set and way of learning, of each robot and of all; inputs: those that bring in a hit
 FACTORIAL = (
     "part",
     "name",

@@ -48,10 +48,36 @@ def _trial_problems(catalogue: Catalogue) -> Iterator[Problem]:
     developed: dict[Place, str] = {("development", t, "scenario"): w.scenario for t, w in settings.development.items()}
     trial = settings.trials.factorial
     developed |= {("trials", "factorial", "walk"): trial.walk, ("trials", "factorial", "hits"): trial.hits}
+    why = settings.trials.why
+    for key in ("walk", "hits", "twin"):
+        developed["trials", "why", key] = getattr(why, key)
     for place, scenario in developed.items():
         if scenario in taken:
             yield place, not_accepted("scenario apart from tests and training", scenario, accepted)
     yield from _factorial_problems(catalogue)
+    yield from _why_problems(settings)
+
+
+def _why_problems(settings: Settings) -> Iterator[Problem]:
+    """Yield names of the trial `why` that do not belong there."""
+    trial = settings.trials.why
+    place = ("trials", "why")
+    joints = settings.layout.limbs(settings.robot.networks[trial.limb].joints)
+    if trial.joint not in joints:
+        yield (*place, "joint"), not_accepted("joint of the network", trial.joint, joints)
+    recorded = settings.fleet.sets
+    if trial.path_set not in recorded:
+        yield (*place, "path_set"), not_accepted("set of `fleet.sets`", trial.path_set, recorded)
+    for k, row in enumerate(trial.rows):
+        for index, name in enumerate(row.sets):
+            if name not in recorded:
+                yield (*place, "rows", k, "sets", index), not_accepted("set of `fleet.sets`", name, recorded)
+        for index, name in enumerate(row.ways):
+            if name not in trial.ways:
+                yield (*place, "rows", k, "ways", index), not_accepted("way", name, trial.ways)
+        for index, name in enumerate(row.methods):
+            if name in settings.methods and trial.limb not in settings.methods[name].limbs:
+                yield (*place, "rows", k, "methods", index), misfit(name, f"a method with {trial.limb} in its `limbs`")
 
 
 def _factorial_problems(catalogue: Catalogue) -> Iterator[Problem]:

@@ -11,17 +11,9 @@ import pytest
 import scipy.stats
 from paper_settings import STATISTICS
 
+from experiments.evaluation.measure.learning.taught import HITS, ROUGHNESS, SHARE_OF_HIT, WALKING, judged
 from experiments.evaluation.measure.learning.trials import Known, read_walks
-from experiments.evaluation.tables.further.factorial import (
-    ALL,
-    EFFECTS,
-    HITS,
-    SHARE_OF_HIT,
-    WALKING,
-    effects_of,
-    judged,
-    table_of,
-)
+from experiments.evaluation.tables.further.factorial import ALL, EFFECTS, effects_of, table_of
 from experiments.evaluation.tables.layout import write_table
 from experiments.plan.jobs import scoring
 from experiments.plan.runs import TaughtRobot, Tried, TriedTask
@@ -167,9 +159,12 @@ def test_hits_are_judged_at_their_joint_around_them_alone(robot_with_hits: Taugh
     whole = [float(np.sqrt(np.mean(truth[:, place] ** 2))) for truth in walks.truths]
     hit = [float(np.sqrt(np.mean(truth[around, place] ** 2))) for truth in walks.truths]
     missed = {"zero": 1.0, "MOB": 1.0 - SHOWN}
+    peaks = settings.evaluation.peaks
     for tried in robot_with_hits.hits.tried:
-        numbers = judged(trial, known, robot_with_hits, tried, (walks, walks), settings.evaluation.peaks)
+        numbers = judged(trial.hits, trial.joint, known, robot_with_hits, tried, (walks, walks), peaks)
         share = missed[tried.name]
         assert numbers[WALKING] == pytest.approx(share * np.array(whole) / len(walks.joints), rel=1e-4)
         assert numbers[HITS] == pytest.approx(share * np.array(hit), rel=1e-3)
         assert numbers[SHARE_OF_HIT] == pytest.approx([1.0 - share] * 2, abs=1e-4)
+        # nothing is as smooth as zero, and the observer's estimate is its residual
+        assert numbers[ROUGHNESS] == pytest.approx([1.0 if tried.name == "MOB" else 0.0] * 2, abs=1e-6)

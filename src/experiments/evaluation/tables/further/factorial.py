@@ -13,28 +13,21 @@ from pathlib import Path
 
 import numpy as np
 
-from experiments.evaluation.compare.pair import Pair
-from experiments.evaluation.compare.rmse import rmse
-from experiments.evaluation.compare.scene import Scene
-from experiments.evaluation.compare.windows import push_windows
-from experiments.evaluation.measure.estimates.peaks import SHARE
-from experiments.evaluation.measure.estimates.peaks import measure as measure_peaks
-from experiments.evaluation.measure.learning.trials import Known, ObservedWalks, estimates_of, outcome_of, read_walks
+from experiments.evaluation.measure.learning.taught import HITS, SHARE_OF_HIT, WALKING, judged
+from experiments.evaluation.measure.learning.trials import Known, read_walks
 from experiments.evaluation.number.intervals import Formula, RunGrid, summarise
 from experiments.evaluation.number.number import Number
 from experiments.evaluation.number.rows import Field
 from experiments.evaluation.tables.layout import Line, Table, in_blocks, write_table
-from experiments.plan.runs import Run, TaughtRobot, Tried
+from experiments.plan.runs import TaughtRobot, Tried
 from experiments.settings.measures import Peaks
 from experiments.settings.runs import Statistics
 from experiments.settings.trials import DATA, Factorial, Factors
 from mobnet.core.arrays import Array
 from mobnet.core.columns import FACTORIAL
-from mobnet.robot.description import describe
 from mobnet.settings.methods import ObserverSettings
 from mobnet.settings.robot import RobotTable
 
-WALKING, HITS, SHARE_OF_HIT = "walking", "hits", "share"
 UNITS = {WALKING: "N m", HITS: "N m", SHARE_OF_HIT: "-"}  # of the measures
 ERRORS = (WALKING, HITS)  # measures of which effects are ratios
 ALL = "all"  # robots
@@ -89,7 +82,8 @@ def factorial(
     for name, own in robots.items():
         walk, hits = (read_walks(known, task, rate_hz) for task in (own.walk, own.hits))
         for tried in own.walk.tried:
-            numbers = judged(settings, known, own, tried, (walk, hits), peaks)
+            every = judged(settings.hits, settings.joint, known, own, tried, (walk, hits), peaks)
+            numbers = {key: every[key] for key in UNITS}
             log.info("%s, %s: %s", name, tried.name, {key: round(float(row.mean()), 3) for key, row in numbers.items()})
             for key, row in numbers.items():
                 found.setdefault(_label(tried), {}).setdefault(key, []).append(row)
@@ -97,36 +91,6 @@ def factorial(
     effects = [*effects_of(by_robot, cells, torque_nm, statistics)]
     effects.append(_ratio(ANOTHER_DAY, by_robot, [(settings.another_day, settings.same_day)], statistics))
     write_table(out, table_of(settings, list(robots), by_robot, cells, torque_nm, effects, statistics))
-
-
-def judged(
-    settings: Factorial,
-    known: Known,
-    own: TaughtRobot,
-    tried: Tried,
-    walks: tuple[ObservedWalks, ObservedWalks],
-    peaks: Peaks,
-) -> dict[str, Array]:
-    """Return of a variant, measure -> its number of each walk (w,): RMSE [N m] and share of a hit [-] of a robot."""
-    walk, hits = walks
-    layout = describe(known.robot).layout
-    place = hits.joints.index(settings.joint)
-    errors: list[float] = []
-    shares: list[float] = []
-    estimates = estimates_of(tried, known, hits)
-    for k, (estimate, truth) in enumerate(zip(estimates, hits.truths, strict=True)):
-        recording = own.hits.recordings[k]
-        segments = hits.read[k].recording.segments
-        window = own.asked.window
-        assert window is not None  # the plan gives one
-        around = push_windows(recording, len(truth), window.before_s, window.after_s)
-        errors.append(float(rmse(estimate, truth, around)[place]))
-        run = Run(settings.hits, "", tried.name, 0, k, recording, own.hits.residuals[k], recording)
-        pair = Pair(run, tuple(hits.joints), estimate, truth, segments, hits.read[k].recording.rate_hz)
-        measured = {one.metric: one.values for one in measure_peaks(pair, Scene(recording, layout, own.asked), peaks)}
-        shares.append(float(measured[SHARE][place]))
-    walking = outcome_of(tried, known, walk).errors.mean(axis=1)
-    return {WALKING: walking, HITS: np.array(errors), SHARE_OF_HIT: np.array(shares)}
 
 
 def effects_of(

@@ -1,0 +1,111 @@
+"""By which inputs a hit enters a network's prediction: walks with and without the hit, with their inputs exchanged.
+
+A walk and its twin, the same without hits, are equal up to the first hit, to the bit. A network runs on the twin with some
+of its inputs taken from the walk with the hit; by how much its prediction changes then is what these inputs bring in.
+"""
+
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from experiments.evaluation.compare.rmse import Spans
+from experiments.evaluation.compare.windows import push_windows
+from experiments.evaluation.measure.learning.trials import Known, ObservedWalks
+from experiments.plan.runs import Tried
+from mobnet.core.arrays import Array
+from mobnet.core.errors import DataError
+from mobnet.core.joints import N_VIRTUAL, NQ_BASE
+from mobnet.core.recording import Sensed, SensedRecording, read_sensed
+from mobnet.estimation.estimate import ObservedRecording, rate_of, run_segments
+from mobnet.estimation.recipe import Recipe, build_estimator
+from mobnet.robot.description import describe
+
+EVERY = "all inputs"
+INPUTS = ("positions", "velocities", "desired torque", "inertial sensor")
+GROUPS: dict[str, tuple[str, ...]] = {EVERY: INPUTS, **{name: (name,) for name in INPUTS}}
+
+
+def taken_by_inputs(
+    tried: Tried,
+    known: Known,
+    hits: ObservedWalks,
+    walks: Sequence[tuple[Path, Path]],
+    after_s: float,
+    joint: str,
+) -> dict[str, float]:
+    """Return the share of the first hit of each walk [-] that a network's prediction takes at a joint, by inputs.
+
+    It is the slope of the change of the prediction on the hit behind the observer's low-pass, from the hit's beginning
+    until some time [s] after its end, by least squares over all walks. `walks` are the recordings with hits and their
+    twins, without endings; `hits` has the former.
+
+    Raises:
+        DataError: a walk and its twin differ before the first hit.
+    """
+    layout = describe(known.robot).layout
+    place = hits.joints.index(joint)
+    spans = [
+        push_windows(stem, len(truth), 0.0, after_s)[0] for (stem, _), truth in zip(walks, hits.truths, strict=True)
+    ]
+    twins: list[Sensed] = []
+    for (stem, other), one, (start, _) in zip(walks, hits.read, spans, strict=True):
+        twin = read_sensed(other, layout).sensed
+        if not np.array_equal(twin.q[:start], one.recording.sensed.q[:start]):
+            raise DataError(f"{other}: differs from {stem} before the first hit; accepted: the same walk without hits")
+        twins.append(twin)
+    without = _predictions(tried, known, hits, twins, spans, joint)
+    found: dict[str, float] = {}
+    for name, inputs in GROUPS.items():
+        mixed = [mix(twin, one.recording.sensed, inputs) for twin, one in zip(twins, hits.read, strict=True)]
+        predictions = _predictions(tried, known, hits, mixed, spans, joint)
+        products = squares = 0.0
+        for own, base, truth, (start, end) in zip(predictions, without, hits.truths, spans, strict=True):
+            push = truth[start:end, place]
+            products += float(push @ (own - base)[start:end])
+            squares += float(push @ push)
+        found[name] = products / squares
+    return found
+
+
+def mix(twin: Sensed, hit: Sensed, inputs: Sequence[str]) -> Sensed:
+    """Return what was sensed in a walk without a hit, with some of `INPUTS` as they are in the same walk with it."""
+    n = min(len(twin), len(hit))
+    twin, hit = twin[:n], hit[:n]
+    q, v = twin.q.copy(), twin.v.copy()
+    if "positions" in inputs:
+        q[:, NQ_BASE:] = hit.q[:, NQ_BASE:]
+    if "velocities" in inputs:
+        v[:, N_VIRTUAL:] = hit.v[:, N_VIRTUAL:]
+    if "inertial sensor" in inputs:
+        q[:, :NQ_BASE] = hit.q[:, :NQ_BASE]
+        v[:, :N_VIRTUAL] = hit.v[:, :N_VIRTUAL]
+    return replace(
+        twin,
+        q=q,
+        v=v,
+        tau_des=hit.tau_des if "desired torque" in inputs else twin.tau_des,
+        acc_base_in_base=hit.acc_base_in_base if "inertial sensor" in inputs else twin.acc_base_in_base,
+    )
+
+
+def _predictions(
+    tried: Tried, known: Known, hits: ObservedWalks, sensed: Sequence[Sensed], spans: Spans, joint: str
+) -> list[Array]:
+    """Return what a network predicts of a joint from what was sensed, up to the end of the first hit (T_i,) [N m]."""
+    read: list[ObservedRecording] = []
+    for own, one, (_, end) in zip(sensed, hits.read, spans, strict=True):
+        assert one.residual is not None
+        recording = SensedRecording(own[:end], ((0, end),), one.recording.rate_hz, one.recording.meta)
+        read.append(ObservedRecording(recording, one.residual[:end]))
+    given = known.robot, hits.level.nominal_mass_ratio, known.gravity_m_s2, known.observer
+    estimator = build_estimator(Recipe(tried.name, tried.methods, *given, rate_of(read), tried.networks, tried.fitted))
+    column = estimator.joints.index(joint)
+    whole = describe(known.robot).layout.columns([joint])[0]
+    estimates = run_segments(estimator, read)
+    found: list[Array] = []
+    for estimate, one in zip(estimates, read, strict=True):
+        assert one.residual is not None
+        found.append(one.residual[:, whole] - estimate.tau_ext[:, column])
+    return found
