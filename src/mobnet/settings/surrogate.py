@@ -121,7 +121,7 @@ class Surrogate(Section):
 
 def _laid_over(numbers: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
     """Return numbers, nested at any depth, with changes in their places."""
-    found = dict(numbers)
+    found: dict[str, Any] = dict(numbers)
     for name, value in changes.items():
         inside = found.get(name)
         nested = isinstance(inside, dict) and isinstance(value, dict)

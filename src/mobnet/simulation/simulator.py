@@ -101,8 +101,9 @@ class Simulator:
         native = bind(world.model, world.data)
         fall_height = settings.recording.fall_height_m
         chosen = settings.level.surrogate
-        hidden = settings.surrogate is not None and chosen is not None and "sensors" in chosen.parts
-        errors = settings.surrogate.sensors if hidden else None
+        errors = None
+        if settings.surrogate is not None and chosen is not None and "sensors" in chosen.parts:
+            errors = settings.surrogate.sensors
         estimated = settings.scenario.wrench == "estimated"
         sensors = make_sensors(plant, settings.level, world.model, estimated, errors)
         pushes = make_pushes(settings.pushes, world.model, self.robot)

@@ -45,6 +45,16 @@ def test_arm_sees_the_waist_and_no_torque(settings, layout):
     assert not any(name.startswith("tau_des") for name in names)
 
 
+@pytest.mark.parametrize(("imu", "left_out"), [((), "R. v.omega acc."), (("rotation", "angular_velocity"), "acc.")])
+def test_a_network_may_see_less_of_the_inertial_sensor(imu, left_out, settings, layout, made_up, tmp_path):
+    limb = settings.robot.networks["LL"]
+    every, inputs = limb_inputs(layout, limb), limb_inputs(layout, limb.model_copy(update={"imu": imu}))
+    assert inputs.names == tuple(name for name in every.names if not name.startswith(tuple(left_out.split())))
+    write_recording(tmp_path / "walk", made_up(), layout)
+    few, _ = read_array(tmp_path / "walk", inputs.recorded)
+    np.testing.assert_array_equal(inputs.from_recorded(few), inputs(read_sensed(tmp_path / "walk", layout).sensed))
+
+
 @pytest.mark.parametrize("limb", ["LL", "V"])
 def test_few_columns_give_the_inputs_of_the_whole_recording(limb, settings, layout, made_up, tmp_path):
     recording, inputs = made_up(), limb_inputs(layout, settings.robot.networks[limb])

@@ -40,6 +40,15 @@ def test_measured_noise_is_that_of_table_3(simulate, level, order, power):
     assert np.abs(correlation).max() < 0.1
 
 
+def test_the_inertial_sensor_of_a_robot_has_the_noise_of_its_unit(simulate):
+    simulator = simulate("flat_place", "robot_1", standing=True)
+    _, _, omega, rates, acc, _ = np.split(readings(simulator), np.cumsum([4, 33, 3, 33, 3]), axis=1)
+    errors = simulator.settings.surrogate.sensors
+    assert omega.std(axis=0).mean() == pytest.approx(errors.angular_velocity_noise_rad_s, rel=0.05)
+    assert acc.std(axis=0).mean() == pytest.approx(errors.acceleration_noise_m_s2, rel=0.05)
+    assert rates.std(axis=0).mean() == pytest.approx(simulator.settings.plant.noise.joint_velocity_rad_s, rel=0.02)
+
+
 def test_encoders_orientation_and_feet_have_noise_of_our_own(simulate):
     """The orientation's error has a constant part, drawn for each episode, and a white one."""
     simulator = simulate("flat_place", "sensor_noise", standing=True)

@@ -1,7 +1,7 @@
 """By which inputs a hit enters a network's prediction: walks with and without the hit, with their inputs exchanged.
 
-A walk and its twin, the same without hits, are equal up to the first hit, to the bit. A network runs on the twin with some
-of its inputs taken from the walk with the hit; by how much its prediction changes then is what these inputs bring in.
+A walk and its twin, the same without hits, are equal up to the first hit, to the bit. A network runs on the twin with
+some of its inputs taken from the walk with the hit; by how much its prediction changes is what these inputs bring in.
 """
 
 from collections.abc import Sequence

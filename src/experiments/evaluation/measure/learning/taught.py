@@ -1,7 +1,6 @@
 """What a variant of a method makes of a robot's walks: errors in walking and under hits, and what it shows of a hit."""
 
 from collections.abc import Sequence
-from pathlib import Path
 
 import numpy as np
 
@@ -45,7 +44,8 @@ def judged(
         segments = read.recording.segments
         walking.append(float(rmse(estimate, truth, segments).mean()))
         assert read.residual is not None
-        rough.append(float((_change(estimate, segments) / _change(read.residual[:, columns], segments)).mean()))
+        residual = read.residual[:, columns].astype(np.float64)
+        rough.append(_change(estimate, segments) / _change(residual, segments))
     errors: list[float] = []
     shares: list[float] = []
     estimates = estimates_of(tried, known, hits)
@@ -68,7 +68,7 @@ def judged(
     }
 
 
-def _change(signal: Array, segments: Sequence[tuple[int, int]]) -> Array:
-    """Return the root mean square of a signal's change from sample to sample (T, n) in segments, (n,) [N m]."""
-    steps = [np.diff(np.asarray(signal[first:last], dtype=np.float64), axis=0) for first, last in segments]
-    return np.sqrt((np.concatenate(steps) ** 2).mean(axis=0))
+def _change(signal: Array, segments: Sequence[tuple[int, int]]) -> float:
+    """Return the root mean square of a signal's change from sample to sample (T, n) in segments [N m], over n joints."""
+    steps = [np.diff(signal[first:last], axis=0) for first, last in segments]
+    return float(np.sqrt((np.concatenate(steps) ** 2).mean(axis=0)).mean())

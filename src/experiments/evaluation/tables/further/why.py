@@ -1,4 +1,4 @@
-"""Table of why a hit is hidden: what networks show of it that differ in inputs, robot and learning, and by which inputs."""
+"""Table of why a hit is hidden: what networks show that differ in inputs, robot or learning, and how it enters."""
 
 import logging
 from collections.abc import Mapping, Sequence
@@ -77,7 +77,7 @@ def table_of(
         data, _, way = cell
         texts: list[str] = []
         for measure, unit in UNITS.items():
-            number = _number({name: np.mean(own) for name, own in measures[measure].items()}, statistics, unit)
+            number = _number({name: float(np.mean(own)) for name, own in measures[measure].items()}, statistics, unit)
             for name, own in measures[measure].items():
                 rows.append((*cell, measure, "", name, len(own), float(np.mean(own)), None, None, unit))
             rows.append((*cell, measure, "", ALL, None, *number.with_ends, unit))
@@ -85,11 +85,11 @@ def table_of(
         count = len(measures[WALKING])
         blocks.setdefault(f"{data} {way}", []).append([*cell, str(count), *texts])
     lines: list[Line] = in_blocks(([], own) for own in blocks.values())
-    note = []
+    note: list[str] = []
     for method, groups in paths.items():
         parts: list[str] = []
         for group in GROUPS:
-            number = _number({name: np.mean(own) for name, own in groups[group].items()}, statistics, "-")
+            number = _number({name: float(np.mean(own)) for name, own in groups[group].items()}, statistics, "-")
             for name, own in groups[group].items():
                 value = float(np.mean(own))
                 rows.append((settings.path_set, method, "", PATH, group, name, len(own), value, None, None, "-"))
@@ -104,5 +104,5 @@ def table_of(
 
 def _number(by_robot: Mapping[str, float], statistics: Statistics, unit: str) -> Number:
     """Return the mean over robots [unit], with its interval over them."""
-    values = np.array([float(value) for value in by_robot.values()])[:, None]
+    values = np.array(list(by_robot.values()))[:, None]
     return summarise([RunGrid(values, robots=tuple(range(len(values))))], statistics, unit=unit)
