@@ -187,6 +187,10 @@ def test_products_can_show_the_fleet(plan: Plan) -> None:
     ({"fleet": {"sets": {"walk": "walk"}}}, "sets.walk: walk is not accepted; accepted: a set at one of the levels"),
     ({"fleet": {"variants": {"robot_1": {"other": True}}}}, "fleet.variants.robot_1: robot_1 is not accepted"),
     ({"fleet": {"variants": {"odd": {"friction": ["load"], "parts": ["drives"]}}}}, "odd.friction: ['load'] is not"),
+    (
+        {"fleet": {"variants": {"robots_late": {"numbers": {"sensors": {"imu_late": [0.0, 0.1]}}}}}},
+        "fleet.variants.robots_late.numbers.sensors.imu_late",
+    ),
     ({"levels": {"robot_1": {"friction": ["load"]}}}, "levels.robot_1.friction: ['load'] is not accepted"),
     ({"surrogate": {"limbs": {"N": {"coulomb_nm": [1.0]}}}}, "1 numbers is not accepted; accepted: 2"),
     ({"training_sets": {"walk": {"level": "robots"}}}, "training_sets.walk.level: robots is not accepted"),

@@ -3,10 +3,14 @@
 from collections.abc import Iterator
 from itertools import chain
 
+from pydantic import ValidationError
+
 from experiments.settings.settings import Settings
 from mobnet.core.errors import misfit
-from mobnet.settings.faults import as_many
-from mobnet.settings.reading import Problem
+from mobnet.settings.base import Change
+from mobnet.settings.faults import as_many, problems
+from mobnet.settings.reading import Place, Problem
+from mobnet.settings.surrogate import Surrogate
 
 
 def surrogate_problems(settings: Settings) -> Iterator[Problem]:
@@ -14,6 +18,22 @@ def surrogate_problems(settings: Settings) -> Iterator[Problem]:
     yield from _drive_problems(settings)
     yield from _level_problems(settings)
     yield from _fleet_problems(settings)
+    yield from _number_problems(settings)
+
+
+def _number_problems(settings: Settings) -> Iterator[Problem]:
+    """Yield numbers with which a level or a variant is no surrogate robot."""
+    changed: dict[Place, Change] = {}
+    for name, row in settings.fleet.variants.items():
+        changed["fleet", "variants", name, "numbers"] = row.numbers
+    for name, level in settings.levels.items():
+        changed["levels", name, "surrogate", "numbers"] = level.surrogate.numbers if level.surrogate else {}
+    for place, numbers in changed.items():
+        try:
+            settings.surrogate.changed(numbers)
+        except ValidationError as error:
+            for inner, text in problems(error, Surrogate, numbers):
+                yield (*place, *inner), text
 
 
 def _drive_problems(settings: Settings) -> Iterator[Problem]:

@@ -1,0 +1,73 @@
+"""Why a hit is hidden: what networks show of it, robot by robot, and by which inputs it comes in."""
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from paper_settings import STATISTICS
+
+from experiments.evaluation.measure.learning.paths import EVERY, GROUPS
+from experiments.evaluation.tables.further.why import ALL, PATH, UNITS, table_of
+from experiments.evaluation.tables.layout import write_table
+from experiments.plan.plan import make_plan
+from experiments.settings.load import load_settings
+from experiments.settings.settings import Settings
+from experiments.settings.trials import explained
+from mobnet.core.errors import ConfigError
+from mobnet.core.rows import read_texts
+
+SEEN = ("why_walk", "MOB-Net", "soap")
+
+
+def test_a_number_is_a_mean_over_robots_and_each_robot_one_over_its_networks(
+    settings: Settings, tmp_path: Path
+) -> None:
+    walks = {"robot_1": [np.array([1.0, 3.0]), np.array([2.0, 4.0])], "robot_2": [np.array([4.0, 4.0])]}
+    found: Any = {SEEN: dict.fromkeys(UNITS, walks)}
+    taken: Any = {"MOB-Net": {name: {"robot_1": [0.2, 0.4], "robot_2": [0.5]} for name in GROUPS}}
+    write_table(tmp_path / "why", table_of(settings.trials.why, found, taken, STATISTICS))
+    rows = read_texts(tmp_path / "why.csv")
+    for measure in UNITS:
+        own = {row["robot"]: row for row in rows if row["measure"] == measure}
+        assert {name: float(row["value"]) for name, row in own.items()} == {"robot_1": 2.5, "robot_2": 4.0, ALL: 3.25}
+        assert float(own[ALL]["low"]) < 2.5 < 4.0 < float(own[ALL]["high"])
+        assert own["robot_1"]["networks"] == "2"
+    (every,) = [row for row in rows if row["measure"] == PATH and row["inputs"] == EVERY and row["robot"] == ALL]
+    assert float(every["value"]) == pytest.approx(0.4)
+    assert "Share of a hit that the prediction of MOB-Net takes, by inputs: all inputs 0.40" in (
+        (tmp_path / "why.md").read_text()
+    )
+
+
+def test_each_robot_has_the_networks_of_its_rows(settings: Settings) -> None:
+    trial = settings.trials.why
+    given = settings.trials, settings.methods
+    alone = {one.name for one in explained(*given, "robot_6")}
+    every = {one.name for one in explained(*given, "robot_1")}
+    assert alone < every
+    late = list(explained(*given, "robot_1", "why_late"))
+    assert {one.base for one in late} == set(trial.rows[2].methods)
+    assert all(one.method.network["data"] == "why_late" for one in late)
+
+
+def test_the_trial_judges_a_robot_on_the_level_of_its_set(settings: Settings) -> None:
+    plan = make_plan(settings, with_pdf=False)
+    product = next(one for one in plan.trials if one.name == "why")
+    robots: Any = product.call.arguments["robots"]
+    for own in robots:
+        walked = {recording.parent.name for recording in own.taught.hits.recordings}
+        name = own.data.removeprefix("why_")
+        assert walked == {own.robot if name in ("walk", "plain") else f"{own.robot}_robots_{name}"}
+        assert bool(own.twins) == (own.data == "why_walk")
+
+
+@pytest.mark.parametrize(("sections", "text"), [
+    ({"joint": "RL3"}, "trials.why.joint: joint of the network: 'RL3' is not accepted"),
+    ({"path_set": "walk_test"}, "trials.why.path_set"),
+    ({"walk": "walk_test"}, "trials.why.walk: scenario apart from tests and training: 'walk_test' is not accepted"),
+])  # fmt: skip
+def test_what_does_not_fit_is_told(sections: dict[str, Any], text: str) -> None:
+    with pytest.raises(ConfigError) as told:
+        load_settings(overrides={"trials": {"why": sections}})
+    assert text in str(told.value)
