@@ -322,7 +322,7 @@ def walk_settings(settings: Settings, scenario: str, level: str) -> WalkSettings
         "walking": walking,
         "level_name": level,
         "level": settings.levels[level],
-        "surrogate": settings.surrogate.changed(chosen.numbers) if chosen else None,
+        "surrogate": settings.surrogate.with_numbers(chosen.numbers) if chosen else None,
         "terrain": Terrain(**{name: getattr(settings.terrain, name) for name in row.terrain}),
         "pushes": {name: settings.pushes[name] for name in row.pushes},
         "obstacles": {name: settings.obstacles[name] for name in row.obstacles},

@@ -8,9 +8,10 @@ from pathlib import Path
 from typing import NamedTuple
 
 from experiments.plan.files import Files, NetworkName
-from mobnet.settings.networks import IN_A_STACK, SIZES, Network, Training
+from mobnet.settings.networks import IN_A_STACK, SIZES, Inertial, Network, Training
 
-INPUTS_PER_JOINT, BASE_INPUTS = 2, 12  # of a network: position and velocity; rotation, turn and acceleration
+INPUTS_PER_JOINT = 2  # of a network: position and velocity
+IMU_INPUTS: dict[Inertial, int] = {"rotation": 6, "angular_velocity": 3, "acceleration": 3}
 
 
 class Stacked(NamedTuple):
@@ -96,4 +97,6 @@ def shape_of(files: Files, name: NetworkName, training: Training) -> str:
 def inputs_of(files: Files, network: Network) -> int:
     """Return the number of inputs of a network."""
     limbs = files.settings.layout.limbs
-    return INPUTS_PER_JOINT * len(limbs(network.Q)) + len(limbs(network.T)) + BASE_INPUTS
+    return (
+        INPUTS_PER_JOINT * len(limbs(network.Q)) + len(limbs(network.T)) + sum(map(IMU_INPUTS.__getitem__, network.imu))
+    )

@@ -110,7 +110,7 @@ class Surrogate(Section):
     body: Body
     sensors: SensorErrors
 
-    def changed(self, numbers: Change) -> "Surrogate":
+    def with_numbers(self, numbers: Change) -> "Surrogate":
         """Return the same with other numbers, nested as the sections are; what is not named stays.
 
         Raises:

@@ -49,21 +49,21 @@ def test_on_another_day_a_robot_has_other_errors_of_its_sensors_alone(draw):
 
 def test_a_robot_may_have_other_numbers_and_keeps_all_others(settings):
     numbers = {"drive": {"dry_scale": 0.5}, "limbs": {"LL": {"stiffness_nm_rad": (1e4,) * 6}}}
-    other = settings.surrogate.changed(numbers)
+    other = settings.surrogate.with_numbers(numbers)
     assert other.drive == settings.surrogate.drive.model_copy(update={"dry_scale": 0.5})
     assert other.limbs["LL"].stiffness_nm_rad == (1e4,) * 6
     assert other.limbs["LL"].coulomb_nm == settings.surrogate.limbs["LL"].coulomb_nm
     assert other.limbs["RL"] == settings.surrogate.limbs["RL"]
     assert other.sensors == settings.surrogate.sensors
     with pytest.raises(ValueError, match="dry_scal"):
-        settings.surrogate.changed({"drive": {"dry_scal": 0.5}})
+        settings.surrogate.with_numbers({"drive": {"dry_scal": 0.5}})
 
 
 def test_one_scale_multiplies_the_dry_friction_of_every_joint_alone(settings, robot):
     chosen = SurrogateRobot.model_validate({"seed": 1, "parts": ["drives"], "running_s": (0.0, 0.0)})
     drawn = []
     for scale in (1.0, 2.0):
-        surrogate = settings.surrogate.changed({"drive": {"dry_scale": scale}})
+        surrogate = settings.surrogate.with_numbers({"drive": {"dry_scale": scale}})
         drawn.append(draw_hidden(robot, settings.plant, RATE_HZ, surrogate, chosen, settings.seed).drives.law)
     one, two = drawn
     np.testing.assert_allclose(two["coulomb"], 2.0 * one["coulomb"])

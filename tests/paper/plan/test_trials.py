@@ -64,6 +64,7 @@ def test_a_trial_changes_what_it_says_and_its_length(plan: Plan) -> None:
 def test_trials_read_development_walks_and_no_test(plan: Plan, products: dict[str, Product]) -> None:
     trial = plan.settings.trials.factorial
     walks = {walk.scenario for walk in plan.settings.development.values()} | {trial.walk, trial.hits}
+    walks.add(plan.settings.trials.why.twin)
     for product in (product for name, product in products.items() if name != "random_torque"):
         recorded = [Path(name) for name in product.inputs if "/recordings/" in name or "/residuals/" in name]
         assert recorded

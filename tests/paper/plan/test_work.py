@@ -55,11 +55,11 @@ def test_a_motion_has_its_length(plan: Plan) -> None:
 
 
 def test_an_estimate_runs_the_networks_of_the_test_s_limbs(plan: Plan) -> None:
-    """The left leg's of MOB-Net, of its other trainings, the gray box and FTS-e2e, and the right one; MOB has none."""
+    """The left leg's of MOB-Net, its other trainings and inputs, the gray box and FTS-e2e, and the right; MOB has none."""
     place = {"robot": "robot_2", "scenario": "walk_test", "level": "robot_2"}
     found = work(plan, "estimate/robot_2/walk_test-robot_2", "estimate", **place)
-    assert found.amounts["residual s"] == 4 * 4 * 30.0
-    assert found.amounts["residual step"] == 30_000.0 * (2 + 1 + 1)
+    assert found.amounts["residual s"] == 7 * 4 * 30.0
+    assert found.amounts["residual step"] == 30_000.0 * (2 + 1 + 1 + 3)
     assert found.held == 4 * 30.0
 
 

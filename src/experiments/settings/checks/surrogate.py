@@ -30,7 +30,7 @@ def _number_problems(settings: Settings) -> Iterator[Problem]:
         changed["levels", name, "surrogate", "numbers"] = level.surrogate.numbers if level.surrogate else {}
     for place, numbers in changed.items():
         try:
-            settings.surrogate.changed(numbers)
+            settings.surrogate.with_numbers(numbers)
         except ValidationError as error:
             for inner, text in problems(error, Surrogate, numbers):
                 yield (*place, *inner), text

@@ -25,7 +25,7 @@ BROUGHT = {"desired torque": 0.4, "inertial sensor": 0.3, "positions": 0.0, "vel
 FELT = ("v", "acc_base_in_base", "tau_des")  # signals that feel a hit in all their columns
 
 
-def changed(sensed: Sensed, by: np.ndarray) -> Sensed:
+def struck(sensed: Sensed, by: np.ndarray) -> Sensed:
     """Return a walk in which a hit (T,) is felt by every signal; an orientation of any other length is none."""
     q = sensed.q.copy()
     q[:, NQ_BASE:] += by[:, None]
@@ -43,7 +43,7 @@ def walks(
     monkeypatch.setattr(paths, "read_sensed", lambda *_: twin)
     monkeypatch.setattr(paths, "push_windows", lambda *_: ((FIRST, LAST + 50),))
     residual = np.zeros((ROWS, len(layout.names)), dtype=np.float32)
-    read = ObservedRecording(replace(twin, sensed=changed(twin.sensed, hit)), residual)
+    read = ObservedRecording(replace(twin, sensed=struck(twin.sensed, hit)), residual)
     level: Any = type("AsItIs", (), {"nominal_mass_ratio": 1.0})
     return ObservedWalks(level, [JOINT], [read], [hit[:, None]]), [(Path("hit"), Path("twin"))]
 
@@ -111,7 +111,7 @@ def test_walks_that_differ_before_the_hit_are_refused(
 
 def test_only_the_named_inputs_are_exchanged(made_up: Any) -> None:
     twin: Sensed = made_up(seconds=0.01).sensed
-    hit = changed(twin, np.ones(10, dtype=np.float32))
+    hit = struck(twin, np.ones(10, dtype=np.float32))
     mixed = mix(twin, hit, ["desired torque"])
     np.testing.assert_array_equal(mixed.tau_des, hit.tau_des)
     for name in ("q", "v", "acc_base_in_base", "tau_motor"):

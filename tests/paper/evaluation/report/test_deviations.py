@@ -10,7 +10,6 @@ from mobnet.core.errors import DataError
 
 REPO = Path(__file__).parents[4]
 DOC, MAIN = REPO / "docs/deviations.md", REPO / "paper/main.tex"
-PUBLISHED_LOAD_SHARE = 0.166  # friction over the transmitted torque of a harmonic drive (docs/notes/surrogate.md)
 CHOICES = {  # that a reader of the paper's text would not expect
     "Robot of sections 5.2 to 7", "What the surrogate robots are not", "Results on the robot", "Learning for the robot",
     "Self-collision, section 4.3",
@@ -71,7 +70,7 @@ def test_numbers_of_sentences_are_those_of_the_configuration(settings: Settings)
     assert rf"forces of {low:g} to {high:g}\,N with a moment of {least:g} to {most:g}\,N\,m, act on the right" in text
     assert f"a force of {low:g} to {high:g} N, the load" in DOC.read_text()
     assert f"a moment of {least:g} to {most:g} N m" in DOC.read_text()
-    limbs, spread = settings.surrogate.limbs.values(), settings.surrogate.drive.spread
-    largest = (1.0 + spread) * max(share for limb in limbs for share in limb.load_share)
-    assert f"up to {largest / PUBLISHED_LOAD_SHARE:.1f}~times the published one" in text
-    assert f"up to {largest / PUBLISHED_LOAD_SHARE:.1f} times a published one" in DOC.read_text()
+    drive, sensors = settings.surrogate.drive, settings.surrogate.sensors
+    assert f"that of the public model times {drive.dry_scale:g}, which one number sets" in DOC.read_text()
+    least_ms, most_ms = (1000.0 * late for late in sensors.imu_late_s)
+    assert f"the inertial sensor is {least_ms:g} to {most_ms:g} ms late" in DOC.read_text()

@@ -25,7 +25,8 @@ from experiments.settings.published import Published, PublishedTable
 from experiments.settings.settings import Settings
 from mobnet.core.columns import COVERAGE, HOURLY, LATENCY, VERDICTS
 
-BRANCHES = {"MOB": 19.0, "MOB-fric": 15.0, "MOB-fric-load": 3.0, "MOB-Net": 1.5, "FTS-e2e": 2.0, "MOB-Net-plain": 2.5}
+BRANCHES = {"MOB": 19.0, "MOB-fric": 15.0, "MOB-fric-load": 3.0, "MOB-Net": 1.5, "FTS-e2e": 2.0, "MOB-Net-plain": 2.5,
+            "MOB-Net-noimu": 1.6, "MOB-Net-noimu-plain": 1.7, "MOB-Net-noacc": 1.5, "FTS-e2e-noimu": 2.1}  # fmt: skip
 MEANS = BRANCHES | {
     "MOB-fric-dahl": 2.8,
     "MOB-Kalman": 3.2,

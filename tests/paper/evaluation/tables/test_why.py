@@ -47,7 +47,7 @@ def test_each_robot_has_the_networks_of_its_rows(settings: Settings) -> None:
     every = {one.name for one in explained(*given, "robot_1")}
     assert alone < every
     late = list(explained(*given, "robot_1", "why_late"))
-    assert {one.base for one in late} == set(trial.rows[2].methods)
+    assert {one.base for one in late} == set(trial.rows[3].methods)
     assert all(one.method.network["data"] == "why_late" for one in late)
 
 

@@ -69,6 +69,6 @@ def judged(
 
 
 def _change(signal: Array, segments: Sequence[tuple[int, int]]) -> float:
-    """Return the root mean square of a signal's change from sample to sample (T, n) in segments [N m], over n joints."""
+    """Return the root mean square of a signal's change from sample to sample (T, n) [N m], a mean over joints."""
     steps = [np.diff(signal[first:last], axis=0) for first, last in segments]
     return float(np.sqrt((np.concatenate(steps) ** 2).mean(axis=0)).mean())
