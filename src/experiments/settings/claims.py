@@ -56,7 +56,7 @@ TAKES: Mapping[Quantity, tuple[int, int]] = {  # how many cells: at least, and i
     "trend": (3, 1),
     "share": (1, 0),
 }
-Rule = Literal["about", "at most", "larger", "similar", "little", "share", "bar", "sign"]
+Rule = Literal["about", "known", "at most", "larger", "similar", "little", "share", "bar", "sign"]
 WITHOUT_NUMBER: tuple[Rule, ...] = ("similar", "bar", "sign")  # rules of claims for which the paper prints no number
 TrainingMetric = Literal[
     "validation loss",

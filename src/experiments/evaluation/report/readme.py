@@ -9,6 +9,7 @@ from experiments.plan.prices import RATES, RatesNote
 from mobnet.core.columns import (
     CLAIMED,
     HELD,
+    JUDGED_WITH,
     NEAR,
     NOT_MEASURED,
     NOT_REPRODUCED,
@@ -16,6 +17,7 @@ from mobnet.core.columns import (
     OURS,
     PAPER,
     PRINTED,
+    SHUFFLED,
     SIGN_ONLY,
     UNEXPLAINED,
     VERDICTS,
@@ -49,8 +51,15 @@ FOUND = (
     "friction formula {best}.**\n"
 )
 TESTED = (
-    "Of {n[all]} statements of the original, tested with intervals, {n[reproduced]} are reproduced and "
-    "{n[not reproduced]} are not; the others hold in sign or are open.\n"
+    "Of {n[all]} statements of the original, tested with intervals, {n[reproduced]} are reproduced (a size within a "
+    "factor of two, an effect within half of it) and {n[not reproduced]} are not; the others hold in sign, are open or "
+    "tell too little to be counted.{control}\n"
+)
+# Of a run that judged methods which know nothing as if they were MOB-Net; runs before 0.7.0 did not.
+CONTROL = (
+    " As if it were the network, estimating nothing reproduces {n[reproduced with zero]} of the {n[judged with zero]} "
+    "statements that it can be judged on, the observer {n[reproduced with MOB]} of {n[judged with MOB]}, and MOB-Net's "
+    "own estimate half a walk late {n[reproduced with MOB-Net-shuffled]} of {n[judged with MOB-Net-shuffled]}."
 )
 # What each scale takes: scale, what it is, time on two cores, core-hours, memory, disk. The published run says what its
 # own took.
@@ -122,7 +131,9 @@ def tested(results: Path) -> str:
     """Return a sentence with how many statements of the original are reproduced, and how many are not."""
     rows = read_texts(results / "claims_summary.csv", CLAIMED)
     counts = {row["outcome"]: row["statements"] for row in rows if row["score"] == PAPER}
-    return _told(TESTED, results, n=counts)
+    is_controlled = int(counts[JUDGED_WITH.format(SHUFFLED)]) > 0
+    control = _told(CONTROL, results, n=counts) if is_controlled else ""
+    return _told(TESTED, results, n=counts, control=control)
 
 
 def _told(text: str, results: Path, **numbers: object) -> str:
