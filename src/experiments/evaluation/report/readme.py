@@ -35,7 +35,7 @@ UNDER_HITS = {"scenario": "knee_swing", "joint": "avg", "metric": "+".join(f"rms
 COLUMNS = (
     ("friction by the original's law", ("table_05",), FORWARD),
     ("robots with unknown gears", ("table_07", "table_10"), WALK),
-    ("the same, their swinging knee hit", ("table_11",), UNDER_HITS),
+    ("robots, their swinging knee hit", ("table_11",), UNDER_HITS),
 )
 ROBOTS, HITS = COLUMNS[1:]
 FILMED = "MOB-Net-pushed"  # the network of the film of the first screen, of which its first sentence tells
@@ -44,7 +44,6 @@ FORMULAS = {"MOB-fric-load": "friction that grows with the load", "MOB-fric-dahl
 METHODS = {  # what a row is called -> its method, or those of which it shows the best one in each column
     "estimate nothing": ("zero",),
     "momentum observer": ("MOB",),
-    "with the original's friction formula": ("MOB-fric",),
     BEST: tuple(FORMULAS),
     "MOB-Net": ("MOB-Net",),
     f"{FILMED}, trained with a push in nearly every swing": (FILMED,),
@@ -53,20 +52,17 @@ METHODS = {  # what a row is called -> its method, or those of which it shows th
 # there, and counts of verdicts of statements of the original (n).
 FOUND = (
     "**A walking humanoid feels a push on any joint without a force sensor there: in simulation, with gears that no "
-    "method knows, the network of the film below ({filmed}) errs on a leg by {e[filmed]} N m in walking and by "
-    "{h[filmed]} while the swinging knee is hit, our best friction formula by {best_walk} and {best_hit}, and no "
-    "estimate by {e[zero]} and {h[zero]}.**\n"
+    "method knows, {filmed}'s error on a leg is {e[filmed]} N m in walking and {h[filmed]} under a hit, that of our "
+    "best friction formula {best_walk} and {best_hit}, of no estimate {e[zero]} and {h[zero]}.**\n"
 )
 TESTED = (
-    "Of {n[all]} statements of the original, tested with intervals, {n[reproduced]} are reproduced (a size within a "
-    "factor of two, an effect within half of it) and {n[not reproduced]} are not; the others hold in sign, are open or "
-    "tell too little to be counted.{control}\n"
+    "Of {n[all]} statements of the original {n[reproduced]} are reproduced (sizes within a factor of two) and "
+    "{n[not reproduced]} are not; others hold in sign, are open or too weak to count.{control}\n"
 )
 # Of a run that judged methods which know nothing as if they were MOB-Net; runs before 0.7.0 did not.
 CONTROL = (
-    " As if it were the network, estimating nothing reproduces {n[reproduced with zero]} of the {n[judged with zero]} "
-    "statements that it can be judged on, the observer {n[reproduced with MOB]} of {n[judged with MOB]}, and MOB-Net's "
-    "own estimate half a walk late {n[reproduced with MOB-Net-shuffled]} of {n[judged with MOB-Net-shuffled]}."
+    " In a network's place no estimate reproduces {n[reproduced with zero]}, the observer "
+    "{n[reproduced with MOB]}, MOB-Net half a walk late {n[reproduced with MOB-Net-shuffled]}."
 )
 # What each scale takes: scale, what it is, time on two cores, core-hours, memory, disk. The published run says what its
 # own took.
@@ -86,9 +82,9 @@ FINDINGS = (
     "{c[model-walk].value:.1f} times MOB-Net's error on a leg and {c[model-waist].value:.1f} times on the waist; on "
     "the right arm {c[model-right-arm].value:.1f} times leaves open which is better. A network that "
     "learns the torque itself (FTS-e2e) has {e[FTS-e2e]} N m on that leg. Of a hit on the swinging knee MOB-Net shows "
-    "{t[share MOB-Net]:.0%} and rises to half of its peak late or not at all; the formula with a memory shows "
-    "{t[share MOB-fric-dahl]:.0%} and is at half of it {t[late MOB-fric-dahl]:.0f} ms late, MOB-Net-pushed, trained "
-    "with a push in nearly every swing, {t[share MOB-Net-pushed]:.0%} and {t[late MOB-Net-pushed]:.0f} ms.",
+    "{t[share MOB-Net]:.0%}, the formula with a memory {t[share MOB-fric-dahl]:.0%}, half of it "
+    "{t[late MOB-fric-dahl]:.0f} ms late, MOB-Net-pushed {t[share MOB-Net-pushed]:.0%} and "
+    "{t[late MOB-Net-pushed]:.0f} ms.",
     "**False alarms.** With thresholds for one false alarm an hour, the ratio of MOB-Net-pushed's torque to its "
     "standard deviation finds {t[found MOB-Net-ratio]:.0%} of the collisions of a swinging leg at "
     "{t[false MOB-Net-ratio]:.1f} false alarms an hour, counted in other walks; a friction formula finds "
@@ -194,9 +190,8 @@ def verdicts(results: Path) -> str:
     unexplained = counts[PAPER, UNEXPLAINED]["statements"]
     printed, held, near = (counts[PAPER, name]["claims"] for name in (PRINTED, HELD, NEAR))
     said = (
-        f"Of the {failed} statements of the original whose size or sign is refuted, {unexplained} have a refuted\n"
-        f"claim without a cause. Of {printed} claims with a printed number it lies in our interval in {held},\n"
-        f"and ours within a factor of 1.5 of it in {near}.\n"
+        f"Of {failed} statements of the original that fail in size or sign, {unexplained} do so without a cause.\n"
+        f"Of {printed} printed numbers {held} lie in our interval, {near} within a factor of 1.5 of ours.\n"
     )
     return "".join([*lines, "\n", said])
 
@@ -216,7 +211,8 @@ def headline(results: Path) -> str:
                 named.append(FORMULAS[best["method"]])
         lines.append([shown, *cells])
     table = "".join(f"| {' | '.join(line)} |\n" for line in lines)
-    told = f"Our best formula, chosen when results had been seen, from left to right: {', '.join(named)}."
+    formulas = ", then ".join(dict.fromkeys(named))
+    told = f"Our best formula, chosen when results had been seen: {formulas}."
     return f"{table}\n{told}\n"
 
 

@@ -39,10 +39,9 @@ def measure(pair: Pair, scene: Scene, settings: Peaks) -> Measures:
     for suffix, signal in (("", shown.estimate), (OBSERVER, shown.behind)):
         found = [delays(shown.push[rise], signal[rise], own) for (_, rise), own in zip(windows, turned, strict=True)]
         yield Measured(DELAY + suffix, medians(found, len(pair.joints)) * MS / pair.rate_hz)
-    never = [
-        never_half(shown.push[rise], shown.estimate[rise], own)
-        for (_, rise), own in zip(windows, turned, strict=True)
-    ]  # fmt: skip
+    never: list[Array] = []
+    for (_, rise), own in zip(windows, turned, strict=True):
+        never.append(never_half(shown.push[rise], shown.estimate[rise], own))
     yield Measured(BOUND, np.ceil(medians(never, len(pair.joints))))
 
 

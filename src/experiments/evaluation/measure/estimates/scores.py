@@ -99,7 +99,7 @@ def late_errors(pair: Pair, scene: Scene) -> tuple[Pair, Measures]:
 
 def score_rows(
     run: Run, method: str, measured_parts: Iterable[tuple[Pair, Measures]], layout: JointLayout
-) -> list[Score]:  # fmt: skip
+) -> list[Score]:
     """Return the rows of what was measured of a run, under the name of a method."""
     names = run.scenario, run.level, method, run.network_seed, run.test_seed
     rows: list[Score] = []
