@@ -51,6 +51,8 @@ def test_a_claim_is_judged_with_methods_in_the_place_of_its_network(configured: 
     }
     alone = stand_ins_of(configured.claims["fts-e2e-error"], known)
     assert [cell.method for cell in alone["zero"].cells] == ["zero"]
+    spoken_for = stand_ins_of(configured.claims["gray-walk-net"], known)  # it says that another one beats MOB-Net
+    assert [cell.method for cell in spoken_for["MOB"].cells] == ["MOB", "MOB-Net"]
 
 
 def test_no_method_is_compared_with_itself_and_nothing_stands_in_for_a_training(

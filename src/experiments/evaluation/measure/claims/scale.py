@@ -50,7 +50,9 @@ class KnownMethods:
         return is_training(cell) or (method is not None and bool(method.limbs))
 
     def network_of(self, claim: Claim) -> str:
-        """Return the network or detector that a claim is about: MOB-Net, or else the first; empty where none is."""
+        """Return the network or detector that a claim speaks for; empty where it names none."""
+        if claim.about:
+            return claim.about
         names = [name_of(cell) for cell in claim.cells if self.is_network(cell)]
         return MOB_NET if MOB_NET in names else next(iter(names), "")
 
