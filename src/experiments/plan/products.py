@@ -31,6 +31,7 @@ EXPLORE = tuple(
     )
 )  # fmt: skip
 TABLE, FIGURE = ("csv", "tex", "md"), ("pdf", "svg", "png", "csv")  # endings of a table's and of a figure's files
+COUNTED = ("claims_summary", "claims_tolerance")  # tables of what the table of claims holds
 STILL = "push"  # the picture beside the film
 FILM, DRAWN = ("webp", "gif", "png", "csv"), ("method", "robot")  # endings of the film's files; drawings
 TESTS = (  # scenario and level of those whose errors the page of trainings shows, the first that has a network
@@ -228,7 +229,7 @@ class Products:
     def _tables_of(self, name: str) -> Mapping[str, object]:
         """Return the tables from which another table or figure is made."""
         folder = self.folders.tables
-        if name == "claims_summary":
+        if name in COUNTED:
             return {"claims_csv": folder / "claims.csv"}
         if name != "claims":
             return {}

@@ -56,7 +56,7 @@ TAKES: Mapping[Quantity, tuple[int, int]] = {  # how many cells: at least, and i
     "trend": (3, 1),
     "share": (1, 0),
 }
-Rule = Literal["about", "at most", "larger", "similar", "little", "share", "bar", "sign"]
+Rule = Literal["about", "known", "at most", "larger", "similar", "little", "share", "bar", "sign"]
 WITHOUT_NUMBER: tuple[Rule, ...] = ("similar", "bar", "sign")  # rules of claims for which the paper prints no number
 TrainingMetric = Literal[
     "validation loss",
@@ -203,10 +203,12 @@ class Claim(MadeNumber):
     Claims of one `statement`, which has the name of its first claim, count once. `by_joint` makes a claim of each
     joint: its cells have this joint, and the paper prints this number. `sign` is the range of the claimed sign, where
     the rule does not make it, and `sign_of` the number that has it, where that is not the claim's own. `decided_at` are
-    the scales whose walks decide it, where not all do that decide claims; elsewhere it stays open.
+    the scales whose walks decide it, where not all do that decide claims; elsewhere it stays open. `about` is the method
+    that it speaks for, where that is not MOB-Net or else the first network that it names.
     """
 
     statement: ClaimName | None = None
+    about: MethodName | None = None
     printed: Text
     says: Text
     unit: Literal["N m", "N", "N s", "%", "ms", "-"]

@@ -400,12 +400,14 @@ CLAIMED: Mapping[str, MadeBy] = {  # products made from the claims, which are no
     "claims": MadeBy(
         "report.claims:claims",
         needs={"scores": "claimed_scores", "folders": "claimed_networks"},
+        published="methods",
         table=True,
         figure=True,
         further=("claims_own",),
         pictured=True,
     ),
     "claims_summary": MadeBy("tables.further.claims_summary:claims_summary", table=True),
+    "claims_tolerance": MadeBy("tables.further.claims_tolerance:claims_tolerance", table=True),
 }
 ENTRIES = ("tables", "figures")  # fields whose entries are products, each by its own name
 PRODUCTS: Mapping[str, MadeBy] = {**rows_of(Evaluation), **CLAIMED}

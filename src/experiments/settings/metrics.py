@@ -47,6 +47,7 @@ METRICS = (
     Metric("held_(swing|stance)(_[1-9][0-9]*)?", "-", low=None, section="drift"),
     Metric("push_share", "-", low=None, section="peaks"),
     Metric("rise_delay(_observer)?", "ms", low=None, section="peaks"),
+    Metric("rise_bound", "-", high=1.0, section="peaks"),
     Metric("rmse_(swing|touch_down|stance|stuck|moving)", section="phases"),
     Metric("rmse(_raw|_label)?"),
     Metric("r_rmse", "%"),

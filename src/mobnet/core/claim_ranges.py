@@ -10,6 +10,7 @@ from typing import Protocol
 Bounds = tuple[float | None, float | None]  # closed, lower end first; None is no bound
 ANY: Bounds = (None, None)
 TWICE = 2.0
+KNOWN = 1.25
 LEAST_ALIKE = 1.1
 ALIKE = 1.5
 LEAST_EFFECT, MOST_EFFECT = 0.5, 1.5  # shares of an effect
@@ -63,6 +64,8 @@ def _ruled(claim: Claimed) -> tuple[Bounds, Bounds | None]:
     if claim.rule == "about":
         factor = ALIKE if claim.quantity == "ratio" else TWICE
         return (x / factor, x * factor), None
+    if claim.rule == "known":
+        return (x / KNOWN, x * KNOWN), None
     if claim.rule == "at most":
         return (None, x * TWICE), None
     if claim.rule == "share":

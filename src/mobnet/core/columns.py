@@ -225,9 +225,13 @@ CLAIMS = (
     "cause",
     "remark",
     "beyond_reach",
+    "with_zero",
+    "with_mob",
+    "with_shuffled",
 )
 HOURLY = ("event", "walks", "method", "hours", "count", "value", "low", "high", "unit")
 CLAIMED = ("score", "outcome", "statements", "firsts", "claims")  # `firsts`: statements by their first claim alone
+TOLERANCE = ("tolerance", *CLAIMED[1:])  # `tolerance`: a factor, or the rules of the claims
 # `outcome` of a count: a verdict, on both or on one of size and sign, all of them, or one of the next line, of what
 # fails and of what the paper prints a number of
 UNEXPLAINED = "without a cause"
@@ -235,14 +239,22 @@ BEYOND = "beyond reach"
 PRINTED = "printed"
 HELD = "in our interval"
 NEAR = "within a factor of 1.5"
+# Methods that know nothing of what they are judged on, each in the place of the network of a claim, and the columns of
+# `CLAIMS` with the verdicts that they would have: the last one is MOB-Net's own estimate, half a walk late.
+MOB_NET = "MOB-Net"
+SHUFFLED = f"{MOB_NET}-shuffled"
+STAND_INS = {"zero": "with_zero", "MOB": "with_mob", SHUFFLED: "with_shuffled"}
+# Outcomes of them: statements that a method could be judged on, and those that would be reproduced
+JUDGED_WITH, REPRODUCED_WITH = "judged with {}", "reproduced with {}"
 # Verdicts on the size and on the sign of a claim; both together, in the order in which they are shown: what counts
-# against us first
+# against us first. A description would be reproduced, but its number tells too little to be counted as that.
 INSIDE, OUTSIDE, OPEN = SIZE_VERDICTS = ("inside", "outside", "open")
 SAME, OPPOSITE, _ = SIGN_VERDICTS = ("same", "opposite", OPEN)
-NOT_REPRODUCED, SIGN_ONLY, OPEN, SIGN_AT_LEAST, REPRODUCED, NOT_MEASURED = VERDICTS = (
+NOT_REPRODUCED, SIGN_ONLY, OPEN, DESCRIPTION, SIGN_AT_LEAST, REPRODUCED, NOT_MEASURED = VERDICTS = (
     "not reproduced",
     "sign only",
     "open",
+    "description",
     "sign at least",
     "reproduced",
     "not measured",

@@ -43,8 +43,8 @@ LINK = re.compile(r"\]\(([^)#:\s]+)(?:#[^)]*)?\)")
 BESIDE = re.compile(r"^```.*?^```$|^(?: {4}|\|)[^\n]*$", re.MULTILINE | re.DOTALL)  # what is no prose: code and tables
 TOLD_BOUNDS = ("README.md", "configs/claims.yaml", "paper/main.tex", "workflow/report/start/index.rst")
 BOUNDS = (
-    "Bounds follow one rule for each kind of claim. Rules and some bounds were changed after the results of 0.5.0 had "
-    "been seen and before those of 0.6.0, on walks that no earlier run had walked; CHANGELOG lists every verdict that "
+    "Bounds follow one rule for each kind of claim. Rules and some bounds were changed after results had been seen, of "
+    "0.5.0 and of 0.6.0, each time before walks that no earlier run had walked; CHANGELOG lists every verdict that "
     "moved."
 )
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())

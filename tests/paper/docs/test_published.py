@@ -12,7 +12,7 @@ from experiments.evaluation.report.judge_again import judged_again
 from experiments.evaluation.tables.further.claims_table import record_of
 from experiments.settings.load import load_settings
 from mobnet.core.claim_ranges import apart, within
-from mobnet.core.columns import NOT_MEASURED, NOT_PRINTED, NOT_REPRODUCED, OPEN, OURS, SIGN_ONLY
+from mobnet.core.columns import DESCRIPTION, NOT_MEASURED, NOT_PRINTED, NOT_REPRODUCED, OPEN, OURS, SIGN_ONLY
 from mobnet.core.rows import read_texts
 
 ROOT = Path(__file__).parents[3]
@@ -61,6 +61,8 @@ def test_no_published_claim_is_open_or_refuted_without_a_remark(row: dict[str, s
     elif OPEN in (row["size"], row["sign"]):
         assert row["remark"].startswith("Open: ")
         assert "decide" in row["remark"]
+    elif row["verdict"] == DESCRIPTION:
+        assert row["remark"].startswith("Not counted as reproduced: ")
     else:
         assert bool(row["remark"]) == (row["verdict"] == NOT_MEASURED)
     text = (RESULTS / "claims.md").read_text()

@@ -92,7 +92,9 @@ def make_table(tmp_path: Path, settings: Settings, evaluation: Evaluation) -> Ca
 
     def make(name: str, folder: Path = tmp_path, **changes: Any) -> Path:
         function = function_of(evaluation, name)
-        printed = settings.published.tables.get(name) or getattr(settings.published, name, None)
+        row = PRODUCTS.get(name)
+        printed = settings.published.tables.get(name)
+        printed = printed or getattr(settings.published, (row and row.published) or name, None)
         section = evaluation.tables.get(name) or getattr(evaluation, name, None)
         own = {"name": name, "settings": section, "published": printed, "layout": settings.layout, "table_dir": folder}
         own |= {"figure_dir": folder / "figures", "tables": {}}

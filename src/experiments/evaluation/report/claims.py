@@ -6,11 +6,13 @@ from pathlib import Path
 
 from experiments.evaluation.figures.further.forest import forest
 from experiments.evaluation.measure.claims.cells import read_results
-from experiments.evaluation.measure.claims.verdicts import judge, rows_of
+from experiments.evaluation.measure.claims.scale import KnownMethods, control_of, scaled, stand_ins_of
+from experiments.evaluation.measure.claims.verdicts import Judged, judge, rows_of
 from experiments.evaluation.tables.further.claims_table import claim_table
 from experiments.settings.claims import Cell, Claim, numbers_of
 from experiments.settings.runs import Statistics
 from mobnet.core.joints import JointLayout
+from mobnet.settings.detection import Detection
 from mobnet.settings.methods import Method
 
 log = logging.getLogger(__name__)
@@ -20,6 +22,8 @@ def claims(
     claims: Mapping[str, Claim],
     statistics: Statistics,
     methods: Mapping[str, Method],
+    detection: Detection,
+    published: Mapping[str, str],
     layout: JointLayout,
     scores: Sequence[Path],
     folders: Sequence[Path],
@@ -29,17 +33,24 @@ def claims(
 ) -> None:
     """Judge every claim; write claims.csv, .tex and .md and the figure. A claim that fails is a result, not an error.
 
+    `published` are the methods of the paper, with their places in it.
+
     Raises:
         ConfigError: a cell of a claim is not well formed.
         DataError: a run that a claim needs is missing.
     """
     rows = list(rows_of(claims))
+    known = KnownMethods(methods, detection.detectors, published)
     cells: list[Cell] = []
     for row in rows:
-        for made in numbers_of(row.claim):
-            cells += made.cells
+        for claim in (row.claim, *stand_ins_of(row.claim, known).values()):
+            for made in numbers_of(claim):
+                cells += made.cells
     results = read_results(layout, scores, folders, cells, tables)
-    judged = [judge(row, results, statistics, methods) for row in rows]
+    judged: list[Judged] = []
+    for row in rows:
+        control = control_of(row.claim, results, statistics, known)
+        judged.append(scaled(judge(row, results, statistics, methods), control, known))
     claim_table(judged, statistics.confidence, table_dir)
     forest(judged, statistics.confidence, figure_dir)
     for each in judged:

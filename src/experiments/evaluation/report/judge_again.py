@@ -14,6 +14,7 @@ from pathlib import Path
 
 from experiments.evaluation.figures.further.forest import STEMS, forest
 from experiments.evaluation.measure.claims.cells import Evidence
+from experiments.evaluation.measure.claims.scale import KnownMethods, control_of, scaled
 from experiments.evaluation.measure.claims.verdicts import (
     ClaimNumbers,
     Judged,
@@ -34,10 +35,11 @@ from experiments.evaluation.report.snapshot import (
 )
 from experiments.evaluation.tables.further.claims_summary import claims_summary
 from experiments.evaluation.tables.further.claims_table import claim_table
+from experiments.evaluation.tables.further.claims_tolerance import claims_tolerance
 from experiments.settings.claims import Cell, Claim, numbers_of
 from experiments.settings.load import load_settings
 from experiments.settings.settings import Settings
-from mobnet.core.columns import SPREAD
+from mobnet.core.columns import SPREAD, STAND_INS
 from mobnet.core.rows import read_texts
 
 log = logging.getLogger(__name__)
@@ -68,7 +70,16 @@ def judged_again(settings: Settings, published: Path) -> list[Judged]:
     found = [_found(row, before.get(row.name, {}), evidence, settings) for row in rows]
     scores = [score_of(row.claim, settings.methods) for row in rows]
     statistics = settings.evaluation.statistics
-    return [judged(*each, statistics) for each in zip(rows, found, scores, strict=True)]
+    known = KnownMethods(settings.methods, settings.detection.detectors, settings.published.methods)
+    again: list[Judged] = []
+    for row, numbers, score in zip(rows, found, scores, strict=True):
+        # What stands in for a network in the scores was judged in the run; a run before 0.7.0 did not do so.
+        held = before.get(row.name, {})
+        control = {name: held[column] for name, column in STAND_INS.items() if held.get(column)}
+        if is_of_tables(row.claim):
+            control = control_of(row.claim, evidence, statistics, known)
+        again.append(scaled(judged(row, numbers, score, statistics), control, known))
+    return again
 
 
 def _found(row: Row, before: Text, evidence: Evidence, settings: Settings) -> ClaimNumbers:
@@ -123,6 +134,7 @@ def write_again(settings: Settings, published: Path) -> None:
         folder = Path(name)
         claim_table(again, confidence, folder)
         claims_summary(folder / "claims.csv", folder)
+        claims_tolerance(folder / "claims.csv", folder)
         for path in sorted(folder.iterdir()):
             if path.suffix in TABLE:
                 path.replace(published / path.name)

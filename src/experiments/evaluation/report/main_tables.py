@@ -19,6 +19,7 @@ COLUMNS = ("row", "quantity", "value", "low", "high", "unit", "published")
 NONE = Number(None)
 ZERO, ABOVE = "zero", "*"  # the method that estimates nothing, and what stands behind an error larger than its
 PUSHED = ("push_share", "rise_delay")  # metrics of a push
+BOUND = "rise_bound"  # metric: share of the walks whose delay is a lower bound
 DETECTED = {  # quantity -> its cell, of a detector of a leg; both rules of thresholds
     "threshold": "table_13@{}@largest@mean.LL3 1@threshold",
     "found": "table_09@{}@largest@all@found",
@@ -60,7 +61,7 @@ def cells_of(path: Path) -> dict[str, Number]:
         name = "@".join([path.stem, *(row[column] for column in before if column not in COUNTS)])
         numbers = {
             column: parse_field(row[column], float | None, f"{path}:{line}: {column}", faults)
-            for column in ("value", "low", "high", "published", "std_networks")
+            for column in ("value", "low", "high", "published")
             if column in row
         }
         found[name] = Number(**numbers, unit=row["unit"])
@@ -110,7 +111,8 @@ def legs_table(settings: LegsTable, cells: Cells) -> Table:
             error = cells.get(f"methods@{plant.walk}@{method}@LL@avg@rmse", NONE)
             paper = Number(cells.get(f"{plant.printed}@{plant.walk}@{method}@avg@rmse", NONE).published)
             share, delay = (cells.get(f"peaks@{plant.push}@{method}@LL@avg@{name}", NONE) for name in PUSHED)
-            line += [error.text(), error.interval(), paper.text(), share.text(), delay_text(delay)]
+            late = delay_text(delay, cells.get(f"peaks@{plant.push}@{method}@LL@avg@{BOUND}", NONE))
+            line += [error.text(), error.interval(), paper.text(), share.text(), late]
             rows.append((method, f"{plant.walk}@rmse", *error.with_ends, error.unit, paper.value))
             of_push = zip(PUSHED, (share, delay), strict=True)
             rows += [(method, f"{plant.push}@{name}", *one.with_ends, one.unit, None) for name, one in of_push]
@@ -118,12 +120,16 @@ def legs_table(settings: LegsTable, cells: Cells) -> Table:
     return Table(COLUMNS, rows, header, lines)
 
 
-def delay_text(delay: Number) -> str:
-    """Return the delay of a push, which is a lower bound where it ends with the window.
+def delay_text(delay: Number, bound: Number) -> str:
+    """Return the delay of a push, a lower bound where that of any walk ends with the window: a share of them [-]."""
+    return f">{cell_text(delay)}" if bound.value else cell_text(delay)
 
-    There networks that differ have one delay: no estimate of theirs rises to half of the push.
-    """
-    return f">{cell_text(delay)}" if delay.std_networks == 0.0 else cell_text(delay)
+
+def bound_of(cells: Cells, name: str) -> Number:
+    """Return the share of the walks [-] in which a delay of some name is a lower bound; no number if it is none."""
+    if not name.endswith(f"@{PUSHED[1]}"):
+        return NONE
+    return cells.get(name.removesuffix(PUSHED[1]) + BOUND, NONE)
 
 
 def limbs_table(settings: LimbsTable, cells: Cells) -> Table:

@@ -7,7 +7,7 @@ from experiments.evaluation.compare.rmse import RAW
 from experiments.evaluation.number.number import Number, interval_text, number_text
 from experiments.evaluation.number.rows import read_numbers
 from experiments.evaluation.report.captions import MACROS, captions_tex, fill_captions, named
-from experiments.evaluation.report.main_tables import cell_text, cells_of, main_tables
+from experiments.evaluation.report.main_tables import bound_of, cell_text, cells_of, main_tables
 from experiments.evaluation.tables.layout import tex_escape
 from experiments.settings.scales import Scale
 from experiments.settings.tables import MainTables
@@ -113,8 +113,9 @@ def texts_of(
         for of, number in read_numbers(path):
             values |= cell_texts(of, number)
     for path in further_csvs:
-        for name, number in cells_of(path).items():
-            values |= further_texts(name, number)
+        cells = cells_of(path)
+        for name, number in cells.items():
+            values |= further_texts(name, number, is_bound=bool(bound_of(cells, name).value))
     for of, number in read_numbers(claims_csv):
         values |= claim_texts(of, number)
     for row in read_texts(summary_csv, CLAIMED):
@@ -145,9 +146,15 @@ def cell_texts(of: Mapping[str, str], number: Number) -> dict[str, str]:
     return {f"ours@{where}": number.text(), f"published@{where}": number_text(number.published)}
 
 
-def further_texts(name: str, number: Number) -> dict[str, str]:
-    """Return the names and texts of a number of any table, in which a name says table, row and column."""
-    texts = {f"cell@{name}": cell_text(number), f"cellspan@{name}": cell_text(number, "interval")}
+def further_texts(name: str, number: Number, is_bound: bool = False) -> dict[str, str]:
+    """Return the names and texts of a number of any table, in which a name says table, row and column.
+
+    A lower bound is marked as one.
+    """
+    texts = {
+        f"cell@{name}": f">{cell_text(number)}" if is_bound else cell_text(number),
+        f"cellspan@{name}": cell_text(number, "interval"),
+    }
     if number.unit == "-":
         texts |= {f"cellshare@{name}": share_text(number.value), f"cellsharespan@{name}": share_span(number)}
     if number.value is not None:

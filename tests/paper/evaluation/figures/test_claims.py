@@ -39,7 +39,7 @@ def judged(settings: Settings, name: str, ours: Number) -> Judged:
 def test_a_number_is_over_that_of_the_paper(settings: Settings) -> None:
     place = over_paper(judged(settings, "noise-floor", Number(2.44, 1.22, 4.88)))
     assert (place.axis, place.values) == (OVER_PAPER, pytest.approx((2.0, 1.0, 4.0)))
-    assert place.band == pytest.approx((0.5, 2.0))
+    assert place.band == pytest.approx((0.8, 1.25))
 
 
 def test_of_a_cut_what_remains_is_over_what_remains_in_the_paper(settings: Settings) -> None:

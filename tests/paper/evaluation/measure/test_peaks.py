@@ -10,12 +10,14 @@ from made_swings import unseen
 from experiments.evaluation.compare.pair import Pair
 from experiments.evaluation.compare.scene import Scene, ShownPushes
 from experiments.evaluation.measure.estimates.peaks import (
+    BOUND,
     DELAY,
     OBSERVER,
     delays,
     first_above,
     measure,
     medians,
+    never_half,
     push_rows,
     slopes,
     turned_joints,
@@ -91,6 +93,9 @@ def test_a_rise_that_never_comes_ends_with_the_window() -> None:
     found = delays(push, 0.3 * push, np.array([True, False]))
     assert found[0] == pytest.approx(199 - first_above(push[:, :1], 20.0)[0], abs=0.05)
     assert np.isnan(found[1])
+    turned = np.array([True, False])
+    np.testing.assert_array_equal(never_half(push, 0.3 * push, turned), [1.0, np.nan])
+    np.testing.assert_array_equal(never_half(push, 0.6 * push, turned), [0.0, np.nan])
 
 
 def test_windows_begin_before_the_push_and_end_after_it_or_at_the_longest_time() -> None:
@@ -137,3 +142,6 @@ def test_an_estimate_that_is_some_rows_late_is_late_by_their_time(
     pair = Pair(run, (joint,), np.roll(behind, LATE, axis=0), behind, ((0, SPAN),), rate_hz)
     found = {one.metric: one.values for one in measure(pair, scene, SETTINGS)}
     assert found[DELAY] - found[DELAY + OBSERVER] == pytest.approx([LATE * 1000.0 / rate_hz], abs=1e-3)
+    assert found[BOUND].tolist() == [0.0]
+    weak = replace(pair, estimate=0.3 * pair.estimate)
+    assert {one.metric: one.values for one in measure(weak, scene, SETTINGS)}[BOUND].tolist() == [1.0]

@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 from asked_numbers import asked_names
 
+from experiments.evaluation.number.number import Number
 from experiments.evaluation.number.rows import read_numbers
 from experiments.evaluation.report.main_tables import cells_of
 from experiments.evaluation.report.numbers import cell_texts, further_texts, numbers, size_texts
@@ -93,6 +94,10 @@ def test_a_number_of_any_table_is_named_by_table_row_and_column(texts: dict[str,
     assert (texts[f"cellshare@{where}@push_share"], texts[f"cellsharespan@{where}@push_share"]) == ("80", "[42, 151]")
     assert (texts[f"cell@{where}@rise_delay"], texts[f"value@{where}@rise_delay"]) == ("$-$10.0", "-10.0000")
     assert f"cellshare@{where}@rise_delay" not in texts
+    assert (
+        further_texts(f"{where}@rise_delay", Number(165.0, unit="ms"), is_bound=True)[f"cell@{where}@rise_delay"]
+        == ">165"
+    )
     assert texts["cell@kinds@LSTM-adam@order"] == "1.00"
 
 

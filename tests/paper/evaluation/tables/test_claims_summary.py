@@ -13,7 +13,7 @@ Counted = dict[tuple[str, str], tuple[float, float, float]]
 Made = Callable[..., Counted]
 COLUMNS = (
     *("statement", "score", "verdict", "published", "value", "low", "high", "cause", "quantity", "size", "sign"),
-    "beyond_reach",
+    *("beyond_reach", "with_zero", "with_mob", "with_shuffled"),
 )
 
 
@@ -56,7 +56,23 @@ def test_what_counts_against_us_stands_first(made: Made, tmp_path: Path) -> None
     assert header.strip("| ").split(" | ")[-2:] == ["the original's, all", "our own"]
     titles = [line.split(" | ")[0].strip("| ") for line in lines]
     assert titles[:3] == ["not reproduced", "sign only", "open"]
-    assert lines[4] == "| reproduced | 1 (1) | 0 (0) | 0 (0) | 1 (1) | 0 (0) |"
+    assert lines[5] == "| reproduced | 1 (1) | 0 (0) | 0 (0) | 1 (1) | 0 (0) |"
+
+
+def test_a_method_that_knows_nothing_has_to_pass_all_claims_of_a_statement(made: Made, tmp_path: Path) -> None:
+    rest = [""] * 9
+    counts = made(
+        ("a", "networks", "description", *rest, "reproduced", "open"),
+        ("a", "networks", "reproduced", *rest, "not reproduced", "open"),
+        ("b", "networks", "description", *rest, "reproduced", ""),
+        ("c", "observer", "reproduced"),
+    )  # fmt: skip
+    assert counts["networks", "reproduced with zero"] == (1, 2, 2)
+    assert counts["networks", "judged with zero"] == (2, 2, 3)
+    assert (counts["paper", "judged with MOB"][0], counts["paper", "reproduced with MOB"][0]) == (1, 0)
+    lines = (tmp_path / "claims_summary.md").read_text().splitlines()
+    assert "| reproduced with zero | - | 1 of 2 | - | 1 of 2 | - |" in lines
+    assert "| reproduced with MOB-Net-shuffled | - | - | - | - | - |" in lines
 
 
 def test_a_statement_is_beyond_reach_if_one_of_its_open_claims_is_and_nothing_worse_decides_it(made: Made) -> None:

@@ -87,6 +87,15 @@ def test_the_low_pass_alone_stands_above_the_methods(table: Path) -> None:
     assert [lines[2][3], lines[2][5], lines[4][3], lines[4][5]] == ["1", "9.0", "0.88", "-11.0"]
 
 
+def test_a_delay_is_a_lower_bound_where_that_of_a_walk_is(
+    make_table: Make, evaluation: Evaluation, write_measured: Write
+) -> None:
+    settings = evaluation.peaks.model_copy(update={"tests": (PUSHED,)})
+    for share, text in ((0.0, "-11.0"), (0.25, ">-11.0")):
+        scores = write_measured([PUSHED], {**RISES, "rise_bound": (share, "-")})
+        assert markdown_cells(make_table("peaks", settings=settings, scores=scores))[4][5] == text
+
+
 def test_a_test_that_is_too_short_for_a_push_has_dashes(
     make_table: Make, evaluation: Evaluation, write_measured: Write
 ) -> None:

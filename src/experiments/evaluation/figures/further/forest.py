@@ -26,6 +26,7 @@ from experiments.evaluation.measure.claims.verdicts import Judged
 from experiments.evaluation.number.number import Number
 from mobnet.core.claim_ranges import range_text
 from mobnet.core.columns import (
+    DESCRIPTION,
     FOREST,
     NETWORKS,
     NO_NUMBER,
@@ -58,6 +59,7 @@ LOOKS: Mapping[str, tuple[str, str, str]] = {
     NOT_REPRODUCED: ("#D55E00", "X", "\N{BALLOT X}"),
     SIGN_ONLY: ("#9A6700", "v", "\N{SOUTH EAST ARROW}"),
     OPEN: ("0.35", "s", "?"),
+    DESCRIPTION: ("#6A4C93", "D", "="),
     SIGN_AT_LEAST: ("#0072B2", "^", "\N{NORTH EAST ARROW}"),
     REPRODUCED: ("#00795A", "o", "\N{CHECK MARK}"),
     NOT_MEASURED: ("0.45", "", "\N{EN DASH}"),

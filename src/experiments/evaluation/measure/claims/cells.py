@@ -103,6 +103,21 @@ class Evidence:
         value, low, high = (float(text) if (text := row.get(name)) else None for name in (column, *ends))
         return Number(value, low, high)
 
+    def holds(self, cell: Cell) -> bool:
+        """Return whether there is a run, or a row of a table, of what a cell asks for."""
+        if cell.table:
+            return bool(self._rows(cell))
+        method = str(cell.method)
+        run = (str(cell.scenario), str(cell.level), method)
+        limbs = self.layout.limb_of
+        for name in listed(cell.joint or ()):
+            for joint in members(self.layout, name):
+                for metric in listed(cell.metric or METRIC):
+                    wanted = Wanted(run[0], limbs[joint], run[1], method, joint, metric)
+                    if not self.scores.get(wanted):
+                        return False
+        return run in self.metrics
+
     def is_one(self, cell: Cell) -> bool:
         """Return whether one row of a table has what a cell asks for."""
         return len(self._rows(cell)) == 1

@@ -7,7 +7,7 @@ a number without an interval always is. `verdict_of` joins them to one word.
 
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import get_args
 
 from experiments.evaluation.measure.claims.cells import Evidence, listed
@@ -18,6 +18,7 @@ from experiments.settings.claims import Claim, MadeNumber, TrainingMetric
 from experiments.settings.runs import Statistics
 from mobnet.core.claim_ranges import Bounds, Ranges, apart, ranges_of, within
 from mobnet.core.columns import (
+    DESCRIPTION,
     INSIDE,
     NETWORKS,
     NO_NUMBER,
@@ -39,7 +40,8 @@ from mobnet.settings.methods import Method
 DETECTOR = re.compile("-(OR|mean|sigma)$")  # what the name of a detector has behind that of its method
 NO_CAUSE = "No cause found."
 TO_MEASURE = "Not measured: the run lacks a test or training for it, or defined the number otherwise."
-WORST_FIRST = (NOT_REPRODUCED, SIGN_ONLY, NOT_MEASURED, OPEN, SIGN_AT_LEAST, REPRODUCED)
+NOT_COUNTED = "Not counted as reproduced: {}."
+WORST_FIRST = (NOT_REPRODUCED, SIGN_ONLY, NOT_MEASURED, OPEN, DESCRIPTION, SIGN_AT_LEAST, REPRODUCED)
 
 
 @dataclass(frozen=True)
@@ -78,6 +80,9 @@ class Judged:
         verdict: both together, one of `VERDICTS`.
         is_explained: whether the claim fails and would not without its cause.
         efforts: what decides the size and the sign, of those that are open.
+        control: the verdict that it would have with each method of `STAND_INS` in its network's place, of those that
+            could be judged.
+        weaknesses: why a description is not counted as reproduced.
     """
 
     row: Row
@@ -89,6 +94,8 @@ class Judged:
     verdict: str
     is_explained: bool
     efforts: tuple[Effort, ...] = ()
+    control: Mapping[str, str] = field(default_factory=dict[str, str])
+    weaknesses: tuple[str, ...] = ()
 
     @property
     def ours(self) -> Number:
@@ -110,10 +117,12 @@ class Judged:
     def remark(self) -> str:
         """What stands below the claim: the cause of one that fails, or that none is found, or what decides an open one.
 
-        It is empty where nothing is open and nothing fails.
+        Below a description stands why it is not counted. It is empty where nothing is open and nothing fails.
         """
         if self.verdict == NOT_MEASURED:
             return TO_MEASURE
+        if self.verdict == DESCRIPTION:
+            return NOT_COUNTED.format("; ".join(self.weaknesses))
         if self.verdict in (NOT_REPRODUCED, SIGN_ONLY):
             return f"Cause: {self.cause}" if self.cause else NO_CAUSE
         return text_of(self.efforts, self.row.claim.decided_at)
@@ -144,7 +153,7 @@ def of_joint(made: MadeNumber, joint: str) -> tuple[object, ...]:
 
 
 def judge(row: Row, results: Evidence, statistics: Statistics, methods: Mapping[str, Method]) -> Judged:
-    """Return our numbers for a claim with their intervals, and the verdicts."""
+    """Return our numbers for a claim with their intervals, and the verdicts that follow from them alone."""
     return judged(row, found_of(row.claim, results, statistics), score_of(row.claim, methods), statistics)
 
 

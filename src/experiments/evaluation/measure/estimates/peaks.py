@@ -15,6 +15,7 @@ from mobnet.core.arrays import Array
 
 SHARE = "push_share"
 DELAY = "rise_delay"
+BOUND = "rise_bound"  # 1 of a walk whose delay is a lower bound, else 0
 OBSERVER = "_observer"  # the delay of the push behind the observer's low-pass: what a perfect residual would show
 HALF = 0.5  # of the true peak, where the rise is timed
 MS = 1000.0
@@ -24,9 +25,9 @@ def measure(pair: Pair, scene: Scene, settings: Peaks) -> Measures:
     """Yield of the pushes of a recording `push_share` [-], and `rise_delay` [ms] with that of the observer.
 
     The share is that of `slopes`. The delay is the median over the pushes of the time in which what the estimate shows
-    of a push rises to half of its largest torque, less the time that the push needs; it ends with the window, a lower
-    bound, where the estimate never gets there. A joint counts in a push that turns it with a share of the largest
-    torque of all joints.
+    of a push rises to half of its largest torque, less the time that the push needs. Where the estimate never gets
+    there it ends with the window, so that the median is a lower bound if half of the pushes or more end so: then
+    `rise_bound` [-] is 1. A joint counts in a push that turns it with a share of the largest torque of all joints.
     """
     shown = shown_pushes(pair, scene)
     motors = np.isin(pair.joints, scene.layout.actuated)
@@ -38,6 +39,10 @@ def measure(pair: Pair, scene: Scene, settings: Peaks) -> Measures:
     for suffix, signal in (("", shown.estimate), (OBSERVER, shown.behind)):
         found = [delays(shown.push[rise], signal[rise], own) for (_, rise), own in zip(windows, turned, strict=True)]
         yield Measured(DELAY + suffix, medians(found, len(pair.joints)) * MS / pair.rate_hz)
+    never: list[Array] = []
+    for (_, rise), own in zip(windows, turned, strict=True):
+        never.append(never_half(shown.push[rise], shown.estimate[rise], own))
+    yield Measured(BOUND, np.ceil(medians(never, len(pair.joints))))
 
 
 def push_rows(
@@ -83,11 +88,20 @@ def delays(push: NDArray[np.float64], shown: NDArray[np.float64], turned: NDArra
 
     Push and shown (T, n) [N m] begin one row before the push; what is shown then is its zero.
     """
-    peak = push[np.abs(push).argmax(axis=0), np.arange(push.shape[1])]
-    scaled, true = (
-        np.divide(signal - signal[0], peak, out=np.zeros(push.shape), where=turned) for signal in (shown, push)
-    )
+    scaled, true = (over_peak(push, signal, turned) for signal in (shown, push))
     return np.where(turned, first_above(scaled, HALF) - first_above(true, HALF), np.nan)
+
+
+def never_half(push: NDArray[np.float64], shown: NDArray[np.float64], turned: NDArray[np.bool_]) -> Array:
+    """Return whether what is shown of a push, as of `delays`, never rises to half of it: 1 or 0, nan if not turned."""
+    highest = over_peak(push, shown, turned).max(axis=0)
+    return np.where(turned, (highest < HALF).astype(float), np.nan)
+
+
+def over_peak(push: NDArray[np.float64], signal: NDArray[np.float64], turned: NDArray[np.bool_]) -> Array:
+    """Return a signal from its first row on over the largest torque of a push, (T, n) [-]; 0 of joints not turned."""
+    peak = push[np.abs(push).argmax(axis=0), np.arange(push.shape[1])]
+    return np.divide(signal - signal[0], peak, out=np.zeros(push.shape), where=turned)
 
 
 def first_above(signal: NDArray[np.float64], level: float) -> Array:

@@ -2,8 +2,8 @@
 
 import importlib
 import logging
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import astuple
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import astuple, replace
 from itertools import groupby
 from math import isnan
 from pathlib import Path
@@ -20,7 +20,7 @@ from experiments.plan.runs import Run
 from experiments.settings.measures import Measure, Scoring
 from experiments.settings.metrics import SECTIONS, unit_of_metric
 from experiments.settings.settings import Settings
-from mobnet.core.columns import SCORES, Score
+from mobnet.core.columns import MOB_NET, SCORES, SHUFFLED, Score
 from mobnet.core.errors import not_accepted
 from mobnet.core.joints import JointLayout
 from mobnet.settings.base import Section
@@ -80,13 +80,30 @@ def score_run(run: Run, scene: Scene) -> list[Score]:
     """Return the rows of one run: each joint, then the average of each limb, for each metric.
 
     A metric has no row of a joint for which it is not defined, and none of a push that the run is too short for. A limb
-    whose network has run under an earlier seed has no row: it counts once.
+    whose network has run under an earlier seed has no row: it counts once. Of MOB-Net follow the errors of the same
+    estimate half a walk late, as `SHUFFLED`: right in size and wrong in time, it is a control of verdicts.
     """
-    layout = scene.layout
     pair = read_pair(run, scene.layout)
-    names = run.scenario, run.level, run.method, run.network_seed, run.test_seed
+    rows = score_rows(run, run.method, measured(pair, scene), scene.layout)
+    if run.method == MOB_NET:
+        rows += score_rows(run, SHUFFLED, [late_errors(pair, scene)], scene.layout)
+    return rows
+
+
+def late_errors(pair: Pair, scene: Scene) -> tuple[Pair, Measures]:
+    """Return a run with its estimate half a walk late, and its errors; what is no error knows nothing of time."""
+    late = replace(pair, estimate=np.roll(pair.estimate, len(pair.estimate) // 2, axis=0))
+    errors = (one for one in run_errors.measure(late, scene) if one.metric.startswith(run_errors.ERROR))
+    return late, errors
+
+
+def score_rows(
+    run: Run, method: str, measured_parts: Iterable[tuple[Pair, Measures]], layout: JointLayout
+) -> list[Score]:
+    """Return the rows of what was measured of a run, under the name of a method."""
+    names = run.scenario, run.level, method, run.network_seed, run.test_seed
     rows: list[Score] = []
-    for part, measures in measured(pair, scene):
+    for part, measures in measured_parts:
         for metric, numbers, average_only in measures:
             values = dict(zip(part.joints, numbers.tolist(), strict=True))
             defined = {joint: value for joint, value in values.items() if not isnan(value)}

@@ -14,16 +14,20 @@ from mobnet.core.columns import (
     BEYOND,
     CLAIMED,
     HELD,
+    JUDGED_WITH,
     NEAR,
     NOT_REPRODUCED,
     OPEN,
     OURS,
     PAPER,
     PRINTED,
+    REPRODUCED,
+    REPRODUCED_WITH,
     SCORED,
     SIGN_ONLY,
     SIGN_VERDICTS,
     SIZE_VERDICTS,
+    STAND_INS,
     UNEXPLAINED,
     VERDICTS,
 )
@@ -34,6 +38,7 @@ NEAR_FACTOR = 1.5
 USED = (
     *("statement", "score", "quantity", "size", "sign", "verdict"),
     *("published", "value", "low", "high", "cause", "beyond_reach"),
+    *STAND_INS.values(),
 )
 SHOWN = {
     "observer": "observer",
@@ -50,8 +55,9 @@ def claims_summary(claims_csv: Path, table_dir: Path) -> None:
     """Write claims_summary.csv, .tex and .md: statements, and in the CSV file also claims, by score and verdict.
 
     A statement is one or several claims; its verdict is the worst of theirs. Beside the verdicts stands how many
-    statements fail without a cause, how many open ones no affordable number of runs decides, and in how many claims the
-    paper's number lies in our interval or near ours.
+    statements would be reproduced with methods that know nothing in the place of their networks, how many fail without
+    a cause, how many open ones no affordable number of runs decides, and in how many claims the paper's number lies in
+    our interval or near ours.
     """
     rows = read_texts(claims_csv, USED)
     counts: dict[tuple[str, str], tuple[int, int, int]] = {}
@@ -65,6 +71,7 @@ def claims_summary(claims_csv: Path, table_dir: Path) -> None:
     lines += [
         RULE,
         [ALL, *(str(counts[score, ALL][0]) for score in SHOWN)],
+        *([REPRODUCED_WITH.format(name), *(_control(counts, score, name) for score in SHOWN)] for name in STAND_INS),
         [f"fail {UNEXPLAINED}", *(str(counts[score, UNEXPLAINED][0]) for score in SHOWN)],
         [f"{OPEN}, {BEYOND}", *(str(counts[score, BEYOND][0]) for score in SHOWN)],
         [f"claims {HELD}", *(_share(counts, score, HELD) for score in SHOWN)],
@@ -80,6 +87,12 @@ def _begun(count: tuple[int, int, int]) -> str:
     return f"{statements} ({firsts})"
 
 
+def _control(counts: Counts, score: str, name: str) -> str:
+    """Return how many statements a method in the place of their networks reproduces, of those that it is judged on."""
+    judged = counts[score, JUDGED_WITH.format(name)][0]
+    return f"{counts[score, REPRODUCED_WITH.format(name)][0]} of {judged}" if judged else "-"
+
+
 def _share(counts: Counts, score: str, name: str) -> str:
     """Return how many claims with a printed number have an outcome; a dash where the paper prints none."""
     printed = counts[score, PRINTED][2]
@@ -90,9 +103,10 @@ def outcomes_of(rows: Sequence[Row], score: str) -> dict[str, tuple[int, int, in
     """Return outcome -> how many statements of a score have it, how many by their first claim, and how many claims.
 
     `rows` have columns `CLAIMS`. The outcomes are the verdicts, those on the size and on the sign ("size inside"), all
-    of them, the claims that fail without a cause, those of open statements that no affordable number of runs decides,
-    those that the paper prints a number of beside an interval of ours, and those whose interval holds this number or
-    whose own number is near it. A statement fails with a cause if each of its claims that fail has one.
+    of them, those that a method in the place of the network is judged on and those that it reproduces, the claims that
+    fail without a cause, those of open statements that no affordable number of runs decides, those that the paper
+    prints a number of beside an interval of ours, and those whose interval holds this number or whose own number is
+    near it. A statement fails with a cause if each of its claims that fail has one.
     """
     own = [row for row in rows if is_of(row, score)]
     by_statement: dict[str, list[Row]] = {}
@@ -122,9 +136,17 @@ def outcomes_of(rows: Sequence[Row], score: str) -> dict[str, tuple[int, int, in
         for word in words:
             selected[f"{kind} {word}"] = [row for row in own if row[kind] == word]
     first = {claims[0]["statement"]: claims[0] for claims in held}
+    for name, column in STAND_INS.items():
+        selected[JUDGED_WITH.format(name)] = [row for row in own if row[column]]
+        selected[REPRODUCED_WITH.format(name)] = [row for row in own if row[column] == REPRODUCED]
     for name, some in selected.items():
         begun = [row for row in some if first[row["statement"]] is row]
         found[name] = (len({row["statement"] for row in some}), len(begun), len(some))
+    for name, column in STAND_INS.items():
+        # As for a network, all claims of a statement have to be reproduced.
+        whole = sum(all(row[column] == REPRODUCED for row in claims) for claims in held)
+        _, firsts, single = found[REPRODUCED_WITH.format(name)]
+        found[REPRODUCED_WITH.format(name)] = (whole, firsts, single)
     return found
 
 

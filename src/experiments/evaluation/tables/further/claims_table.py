@@ -8,7 +8,7 @@ from experiments.evaluation.number.number import number_text
 from experiments.evaluation.number.rows import Field
 from experiments.evaluation.tables.layout import GAP, Line, Table, long_table, tex_escape, write_table
 from mobnet.core.claim_ranges import ANY, range_text
-from mobnet.core.columns import CLAIMS
+from mobnet.core.columns import CLAIMS, STAND_INS
 
 HEADER = ("Claim", "Printed in", "Paper", "Ours", "{:.0%}", "Claimed", "Size", "Sign", "Verdict")
 REMARK = "Cause, or what would decide"  # column of the Markdown table; in TeX it is a line below the claim
@@ -57,6 +57,7 @@ def record_of(each: Judged) -> tuple[Field, ...]:
         each.cause,
         each.remark,
         "yes" if each.is_beyond_reach else "",
+        *(each.control.get(name, "") for name in STAND_INS),
     )
 
 

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from pathlib import Path
 
-from experiments.evaluation.measure.estimates.peaks import DELAY, OBSERVER, SHARE
+from experiments.evaluation.measure.estimates.peaks import BOUND, DELAY, OBSERVER, SHARE
 from experiments.evaluation.number.grid import Lookup, read_lookup
 from experiments.evaluation.number.number import Number
 from experiments.evaluation.tables.layout import Table, in_blocks, write_table
@@ -22,13 +22,13 @@ def peaks(
     """Write peaks.csv, with every joint, and peaks.tex and .md: share [-] and delay [ms] of pushes by method.
 
     A number is the mean over walks and networks of that of a walk; in the texts also the mean over the joints of a limb
-    that the pushes turn.
+    that the pushes turn. A delay is a lower bound, ">", where any of them ends with its window.
     """
     lookup = read_lookup(scores, statistics)
     tests = [(test.scenario.replace("_", " "), test) for test in settings.tests]
     confidence = f"{statistics.confidence:.0%}"
     header = ["Push", "Limb", "Method", "Share", confidence, "Delay [ms]", confidence]
-    rows = measured(lookup, layout, tests, [SHARE, DELAY, DELAY + OBSERVER])
+    rows = measured(lookup, layout, tests, [SHARE, DELAY, DELAY + OBSERVER, BOUND])
     blocks: list[tuple[list[str], list[list[str]]]] = []
     for title, test in tests:
         blocks += [([title, limb], lines_of(lookup, test, limb)) for limb in test.limbs]
@@ -39,8 +39,9 @@ def lines_of(lookup: Lookup, test: LimbRuns, limb: str) -> list[list[str]]:
     """Return a line of texts for each method, below one of the observer's low-pass alone, which has all of a push."""
     lines = [[REFERENCE, "1", "", *texts_of(lookup.average(test, test.methods[0], limb, DELAY + OBSERVER), 1)]]
     for method in test.methods:
-        share, delay = (lookup.average(test, method, limb, name) for name in (SHARE, DELAY))
-        lines.append([method, *texts_of(share, 2), *texts_of(delay, 1)])
+        share, delay, bound = (lookup.average(test, method, limb, name) for name in (SHARE, DELAY, BOUND))
+        late, ends = texts_of(delay, 1)
+        lines.append([method, *texts_of(share, 2), f">{late}" if bound.value else late, ends])
     return lines
 
 
