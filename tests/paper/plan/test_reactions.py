@@ -3,8 +3,10 @@
 from pathlib import Path
 
 import pytest
+from jobs_of import arguments
 
 from experiments.plan.files import Files
+from experiments.plan.plan import make_plan
 from experiments.plan.reactions import sizes_of, walks_in
 from experiments.settings.catalogue import Catalogue
 from experiments.settings.load import load_settings
@@ -28,3 +30,13 @@ def test_other_detectors_walk_as_often_as_asked_and_no_more_often_than_ours(
     assert sizes_of(files, CASE).runs == runs
     assert others > 1
     assert walks_in(files, CASE) == runs + of_others * others
+
+
+def test_a_walk_on_some_limbs_reads_their_networks_alone() -> None:
+    plan = make_plan(load_settings(overrides={"scale": "smoke"}), with_pdf=False)
+    limbs = {}
+    for case in ("free", "free_all"):
+        runs = arguments(plan, "react", "robot_1", case=case)["runs"]
+        limbs[case] = set(runs[plan.settings.reaction.estimator].networks)
+    assert limbs["free"] == {"LL", "RL"}
+    assert {"LL", "RL", "V", "W", "LA", "RA"} <= limbs["free_all"]

@@ -9,6 +9,8 @@ from mobnet.core.errors import ConfigError
 @pytest.mark.parametrize(("changes", "text"), [
     ({"scenarios": {"foot_block": {"obstacles": ["wall"]}}}, "obstacle: 'wall' is not"),
     ({"reaction": {"cases": {"foot": {"scenario": "forward_walk"}}}}, "'foot' is not accepted; accepted: .*knee"),
+    ({"reaction": {"cases": {"free": {"limbs": ["LL", "LA"]}}}}, "and all legs: LL, RL"),
+    ({"reaction": {"cases": {"foot": {"limbs": ["LL", "RL"]}}}}, "all limbs, where something is in the way"),
     ({"evaluation": {"sensorless": {"cases": ["foot"]}}}, "'foot' is not accepted; accepted: .*free"),
     ({"reaction": {"ours": {"detector": "MOB-Net-norm"}}}, "detector that reacts: 'MOB-Net-norm' is not"),
     ({"reaction": {"estimator": "FTS-e2e"}}, "networks of V"),
