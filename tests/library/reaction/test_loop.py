@@ -87,11 +87,13 @@ def test_a_robot_whose_hand_is_held_back_steps_back_and_stands(into, limb_watche
     assert simulator.state.standing == 1
 
 
-def test_a_loose_plate_is_walked_over(into, leg_watchers):
-    course, _ = into("loose_plate", 1, leg_watchers)
+def test_a_plate_is_walked_over_as_the_ground_is(into, leg_watchers):
+    course, _ = into("low_plate", 1, leg_watchers)
     assert not course.fallen
     assert course.reacted is None
-    assert 300.0 < course.force[:, 2].max() < 3000.0  # it carries the robot
+    assert 900.0 < course.force[:, 2].max() < 1600.0  # it carries the robot, and no sole jams at its edge
+    # Friction does not change its sign from step to step: that would be a force of 500 N to and fro.
+    assert np.percentile(np.abs(np.diff(course.force[:, :2], axis=0)), 99.0) < 100.0
     first = first_contact(course.force)
     assert course.base[-1, 0] > course.base[first.start, 0] + 0.6
     assert np.abs(course.point[first, 2]).max() < 0.05

@@ -51,7 +51,7 @@ def _number_problems(results: Results) -> Iterator[Problem]:
 
 
 def reaction_problems(results: Results) -> Iterator[Problem]:
-    """Yield cases of sizes that there are not, loops without all legs, and scenarios that no loop walks but must."""
+    """Yield what does not fit of cases, obstacles and loops, and scenarios that no loop walks but must."""
     settings = results.settings
     reaction = results.settings.reaction
     walked = {row.scenario for row in reaction.cases.values()}
@@ -75,6 +75,11 @@ def reaction_problems(results: Results) -> Iterator[Problem]:
     if not {"V", *legs} <= {*limbs}:
         text = misfit(reaction.estimator, f"a method with networks of V, {', '.join(legs)}: the base and all legs")
         yield (*REACTION, "estimator"), text
+    for name, obstacle in settings.obstacles.items():
+        for number, part in enumerate(obstacle.parts):
+            if part.bevel_m is not None and (part.type != "box" or part.bevel_m >= min(part.size[:2])):
+                text = misfit(part.bevel_m, "less than half of the length and width of a box")
+                yield ("obstacles", name, "parts", number, "bevel_m"), text
     for name, row in settings.scenarios.items():
         if row.wrench == "estimated" and name not in walked:
             yield ("scenarios", name, "wrench"), misfit(row.wrench, "`sensed` where reaction.cases does not walk it")

@@ -25,7 +25,7 @@ ROWS = [
 
 @pytest.fixture
 def cells(tmp_path):
-    """The rows of the table of ROWS by wrench, share of feed-forward and event, those of all limbs by their case, too."""
+    """The rows of the table of ROWS by wrench, fed share and event; of walks with all limbs by case, too."""
     reactions = write_trials(tmp_path, ROWS)
     reactions["robot_1"]["foot"] = tmp_path / "not_asked_for.csv"
     sensorless(SETTINGS.evaluation.sensorless, SETTINGS.evaluation.statistics, reactions, tmp_path)
