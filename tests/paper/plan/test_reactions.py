@@ -7,7 +7,7 @@ from jobs_of import arguments
 
 from experiments.plan.files import Files
 from experiments.plan.plan import make_plan
-from experiments.plan.reactions import sizes_of, walks_in
+from experiments.plan.reactions import LEGS_SHARE, sizes_of, walks_in
 from experiments.settings.catalogue import Catalogue
 from experiments.settings.load import load_settings
 from experiments.settings.scales import ReactionSizes
@@ -40,3 +40,12 @@ def test_a_walk_on_some_limbs_reads_their_networks_alone() -> None:
         limbs[case] = set(runs[plan.settings.reaction.estimator].networks)
     assert limbs["free"] == {"LL", "RL"}
     assert {"LL", "RL", "V", "W", "LA", "RA"} <= limbs["free_all"]
+
+
+def test_a_walk_on_legs_alone_is_priced_below_one_with_all_networks() -> None:
+    files = Files(Catalogue(load_settings(overrides={"scale": "quick"})), Path("results"))
+    # Both of the size `free`, one compared with two more watches.
+    alone = sizes_of(files, "free")
+    usual_s = files.settings.sizes.reactions.pushed.longest_s
+    assert walks_in(files, "free") == (alone.runs + 2 * alone.compared) * alone.longest_s / usual_s * LEGS_SHARE
+    assert walks_in(files, "free_all") == alone.runs * alone.longest_s / usual_s
