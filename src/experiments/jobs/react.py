@@ -94,8 +94,8 @@ class CaseWalker:
         told = settings.scenario.model_copy(update={"wrench": watch.wrench})
         simulator = Simulator(settings.model_copy(update={"scenario": told}), seed)
         simulator.start()
-        watchers = self.watchers(watch, simulator.sensors.wrenches)
         row = numbers.cases[one.case]
+        watchers = self.watchers(watch, simulator.sensors.wrenches, row.limbs)
         times_s = watch.wait_s, settings.recording.settle_s, one.sizes.longest_s, numbers.after_s
         wait, settle, longest, after = (round(time_s * robot.rate_hz) for time_s in times_s)
         spacing_m = settings.walking.foot_spacing_m
@@ -129,10 +129,11 @@ class CaseWalker:
             self.estimators[method] = once(self.robot.estimator(method, limbs))  # both legs ask for it
         return self.estimators[method]
 
-    def watchers(self, watch: Watch, wrenches: Array) -> dict[str, Watcher]:
+    def watchers(self, watch: Watch, wrenches: Array, limbs: Sequence[str] = ()) -> dict[str, Watcher]:
         """Return what watches each limb; `wrenches` (2, 6) are the readings of the feet's sensors.
 
-        Nothing watches a robot that does not react. Limbs that are no legs are watched by the method in the loop alone.
+        Nothing watches a robot that does not react. Limbs that are no legs are watched by the method in the loop alone,
+        and where `limbs` are named, those among them.
         """
         if watch.detector == NONE:
             return {}
@@ -142,7 +143,8 @@ class CaseWalker:
         row = self.robot.detection.detectors.get(watch.detector)
         if row is None or row.method != estimator:
             return legs
-        return legs | {limb: self._limb(limb) for limb in self.robot.reaction.watched}
+        watched = [limb for limb in self.robot.reaction.watched if not limbs or limb in limbs]
+        return legs | {limb: self._limb(limb) for limb in watched}
 
     def _limb(self, limb: str) -> Watcher:
         """Return what watches a limb all the time; the base is watched by the unexpected force on it."""

@@ -4,7 +4,7 @@ Nothing is worked out before Snakemake asks for it. A network is named by its fo
 `experiments.plan.files.made_by_jobs` says which outputs of other rules stand behind them.
 """
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -205,7 +205,7 @@ class Jobs:
             is_pushed=is_pushed(files, w.case),
         )
         return {
-            **self._in_the_loop(files, methods_of(files, [w.case])),
+            **self._in_the_loop(files, methods_of(files, [w.case]), settings.reaction.cases[w.case].limbs),
             "thresholds": [detection_files(files)["thresholds"], watch_file(files)],
             "walks": walks,
         }
@@ -254,14 +254,18 @@ class Jobs:
             joints=files.catalogue.estimated(method, scenario, level),
         )
 
-    def _in_the_loop(self, files: Files, methods: Iterable[str]) -> Arguments:
-        """Return what runs in a loop with a robot: methods with all of their trained networks, the first of a limb."""
+    def _in_the_loop(self, files: Files, methods: Iterable[str], limbs: Sequence[str] = ()) -> Arguments:
+        """Return what runs in a loop with a robot: methods with their trained networks, the first of a limb.
+
+        They are those of some limbs, or of all if none are named.
+        """
         runs: dict[str, MethodRun] = {}
         for method in methods:
             source = files.catalogue.network_source_of(method)
             networks: dict[str, Path] = {}
             for limb in files.catalogue.method(source).limbs:
-                if (files.catalogue.owner_of(source, limb), limb) in files.learned:
+                is_asked = not limbs or limb in limbs
+                if is_asked and (files.catalogue.owner_of(source, limb), limb) in files.learned:
                     networks[limb] = files.network(source, limb, files.network_seeds(source, limb)[0])
             fitted = next(iter(files.fit(method)), None)
             runs[method] = MethodRun(method, _with_source(files, method), networks, fitted, 0)

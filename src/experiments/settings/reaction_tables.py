@@ -15,15 +15,20 @@ if TYPE_CHECKING:  # which knows all sections
 
 
 class Safety(Checked):
-    """What reactions are worth; a direction is right within an angle, an impulse is heavy above a bound."""
+    """What reactions are worth; a direction is right within an angle, an impulse is heavy above a bound.
+
+    In the cases `stood_on` the obstacle carries the robot: its impulse is none of a collision.
+    """
 
     cases: base.Distinct[base.CaseName]
+    stood_on: base.Distinct[base.CaseName] = ()
     within_deg: Annotated[base.Positive, Field(le=180)]
     heavy_ns: Annotated[base.Positive, Field(le=1000)]
 
     def problems(self, results: "Results", place: Place) -> Iterator[Problem]:
         """Yield cases in which nothing is pushed or stands in the way."""
         yield from results.not_cases((*place, "cases"), self.cases, pushed=True)
+        yield from results.not_cases((*place, "stood_on"), self.stood_on, pushed=True)
 
 
 class Sensorless(Checked):

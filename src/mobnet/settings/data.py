@@ -69,12 +69,16 @@ class Terrain(Section):
 
 
 class ObstaclePart(Section):
-    """A solid of an obstacle: half lengths of a box, radius and half length of a capsule or cylinder along its axis."""
+    """A solid of an obstacle: half lengths of a box, radius and half length of a capsule or cylinder along its axis.
+
+    With `bevel_m` the sides of a box slope: its top is so much smaller all around, and it lies flat.
+    """
 
     type: Literal["box", "capsule", "cylinder"]
     size: base.Some[base.Length]
     pos: tuple[Offset3, Offset3, Offset3]
     axis: Literal["x", "y", "z"] = "z"
+    bevel_m: base.Length | None = None
 
 
 class Obstacle(Section):

@@ -11,13 +11,17 @@ import numpy as np
 from mobnet.core.arrays import Array
 from mobnet.robot.description import SIDES, RobotDescription
 from mobnet.robot.plant import GEOM, SLIDING, sole_name
-from mobnet.settings.data import Obstacle
+from mobnet.settings.data import Obstacle, ObstaclePart
+from mobnet.simulation.terrain import frustum
 
 OBSTACLE_GROUP = 0  # geom group, that of the ground
 PAD_RGBA = (0.80, 0.35, 0.25, 1.0)
 QUATERNIONS = {"x": [0.5**0.5, 0.0, 0.5**0.5, 0.0], "y": [0.5**0.5, 0.5**0.5, 0.0, 0.0], "z": [1.0, 0.0, 0.0, 0.0]}
 PREFIX = "obstacle_"  # of the names of obstacles and of their solids
 IMPEDANCE = 0.01  # d of every contact: so small that a contact is a spring and a damper without a mass of its own
+# Of the speed of sliding, friction may take away at most this share in a step: where it took away twice the speed, its
+# sign would change at each step.
+SLIDING_SHARE = 0.5
 
 
 def add_obstacles(
@@ -37,7 +41,6 @@ def add_obstacles(
         for number, part in enumerate(obstacle.parts):
             geom = body.add_geom(
                 name=f"{PREFIX}{name}_{number}",
-                type=GEOM[part.type],
                 pos=part.pos,
                 rgba=PAD_RGBA,
                 group=OBSTACLE_GROUP,
@@ -45,11 +48,26 @@ def add_obstacles(
                 conaffinity=0,
                 mass=0,
             )
-            geom.size[: len(part.size)] = part.size
-            geom.quat = QUATERNIONS[part.axis]
+            _shape(spec, geom, part)
             for link in _links(robot):
                 pair = spec.add_pair(geomname1=geom.name, geomname2=link, condim=SLIDING)
                 pair.friction[:2] = obstacle.friction
+
+
+def _shape(spec: mujoco.MjSpec, geom: mujoco.MjsGeom, part: ObstaclePart) -> None:
+    """Give a solid its shape; a tilted sole jams at a vertical side, so that what is stepped on is a frustum."""
+    if part.bevel_m is None:
+        geom.type = GEOM[part.type]
+        geom.size[: len(part.size)] = part.size
+        geom.quat = QUATERNIONS[part.axis]
+        return
+    bottom = np.array(part.size[:2])
+    height = 2.0 * part.size[2]
+    corners = frustum(bottom, bottom - part.bevel_m, height)
+    corners[:, 2] -= part.size[2]  # about its middle, as a box
+    spec.add_mesh(name=geom.name, uservert=corners.ravel())
+    geom.type = mujoco.mjtGeom.mjGEOM_MESH
+    geom.meshname = geom.name
 
 
 def _links(robot: RobotDescription) -> Iterator[str]:
@@ -69,7 +87,13 @@ def set_obstacles(model: mujoco.MjModel, obstacles: Mapping[str, Obstacle]) -> N
         names = [model.body(body).name for body in bodies]
         pad = next(pads[name] for name in names if name in pads)
         corner = (1.0 - IMPEDANCE) * sum(float(model.body_invweight0[body, 0]) for body in bodies)
-        model.pair_solref[k] = [-pad.stiffness_n_m * corner, -pad.damping_ns_m * corner]
+        stiffness = pad.stiffness_n_m * corner
+        damping = pad.damping_ns_m * corner
+        # MuJoCo takes (damping / impedance) x step of the speed in a step where friction is as stiff as `contact_grip`
+        # makes it.
+        sliding = min(damping, SLIDING_SHARE * IMPEDANCE / model.opt.timestep)
+        model.pair_solref[k] = [-stiffness, -damping]
+        model.pair_solreffriction[k] = [-stiffness, -sliding]
         model.pair_solimp[k, :2] = IMPEDANCE
 
 

@@ -87,11 +87,13 @@ def test_a_robot_whose_hand_is_held_back_steps_back_and_stands(into, limb_watche
     assert simulator.state.standing == 1
 
 
-def test_a_loose_plate_is_walked_over(into, leg_watchers):
-    course, _ = into("loose_plate", 1, leg_watchers)
+def test_a_plate_is_walked_over_as_the_ground_is(into, leg_watchers):
+    course, _ = into("low_plate", 1, leg_watchers)
     assert not course.fallen
     assert course.reacted is None
-    assert 300.0 < course.force[:, 2].max() < 3000.0  # it carries the robot
+    assert 900.0 < course.force[:, 2].max() < 1600.0  # it carries the robot, and no sole jams at its edge
+    # Friction does not change its sign from step to step: that would be a force of 500 N to and fro.
+    assert np.percentile(np.abs(np.diff(course.force[:, :2], axis=0)), 99.0) < 100.0
     first = first_contact(course.force)
     assert course.base[-1, 0] > course.base[first.start, 0] + 0.6
     assert np.abs(course.point[first, 2]).max() < 0.05
@@ -177,14 +179,42 @@ class OneByOne:
         return after, Prediction(np.concatenate(means), np.concatenate(stds))
 
 
-def test_networks_in_one_call_change_no_bit_of_a_walk(robot, layout, leg_watchers, recipe_of):
-    settings = library_settings()
+def networks_of(layout, scale=1.0):
+    """Return networks of base and legs with random weights, whose outputs are scaled."""
     networks = []
     for seed, limb in enumerate(("V", "LL", "RL")):
         inputs = limb_inputs(layout, Limb(joints=(limb,), Q=("LL", "RL"), T=("LL", "RL"))).names
         tensors, note = weights(NetworkCell(cell="GRU", hidden=50 + seed), len(inputs), 6, seed)
+        tensors |= {name: scale * tensors[name] for name in ("target.mean", "target.std")}
         changes = {"inputs": inputs, "joints": layout.limb(limb)}
         networks.append(deployed(tensors, note.model_copy(update=changes)))
+    return networks
+
+
+def test_a_walk_on_legs_alone_is_that_with_the_base_s_network_to_the_bit(robot, layout, leg_watchers, recipe_of):
+    """Without force sensors the controller gets the feet's wrenches, which follow from the legs' torques alone."""
+    settings = library_settings()
+    base, *legs = networks_of(layout, scale=0.2)
+    walked = []
+    for networks in ([base, *legs], legs):
+        simulator = Simulator(walk_settings(settings, "sensorless_walk", "sensor_noise"), 3)
+        simulator.start()
+        observer = recipe_of("MOB", "sensor_noise").observer()
+        estimator = ResidualEstimator(observer, layout, LimbNetworks(networks, layout))
+        handler = Handler(robot, settings.reaction, settings.walking.foot_spacing_m, leg_watchers, "compliant", 0, 2000)
+        walked.append(walk_with(simulator, estimator, handler, 3000, 3000, 1.0, 0.03))
+    whole, alone = walked
+    assert len(whole.rows) > 2000
+    assert whole.tau[:, :6].any()
+    assert not alone.tau[:, :6].any()
+    np.testing.assert_array_equal(alone.rows, whole.rows)
+    np.testing.assert_array_equal(alone.tau[:, 6:], whole.tau[:, 6:])
+    assert (alone.fallen, alone.reacted is None) == (whole.fallen, whole.reacted is None)
+
+
+def test_networks_in_one_call_change_no_bit_of_a_walk(robot, layout, leg_watchers, recipe_of):
+    settings = library_settings()
+    networks = networks_of(layout)
     walked = []
     for model in (OneByOne(networks, layout), LimbNetworks(networks, layout)):
         simulator = Simulator(walk_settings(settings, "walk_test", "sensor_noise"), 3)

@@ -88,3 +88,20 @@ def test_an_obstacle_that_nothing_touches_has_no_force():
     simulator = started()
     simulator.run(np.zeros((5, simulator.width), np.float32))
     assert not obstacle_force(simulator.world.model, simulator.world.data, "knee_bar").any()
+
+
+def test_friction_takes_at_most_half_of_the_speed_of_a_sliding_sole_in_a_step():
+    """What the constraint asks of a sole that slides on the plate: with twice its speed, the force would alternate."""
+    simulator = started("low_plate")
+    model, data = simulator.world.model, simulator.world.data
+    sole, speed = model.geom("left_sole").id, 0.1
+    model.body("obstacle_low_plate").pos[:2] = data.geom_xpos[sole][:2] - model.geom("obstacle_low_plate_0").pos[:2]
+    data.qvel[:] = 0.0
+    data.qvel[1] = speed
+    mujoco.mj_forward(model, data)
+    plate = model.geom("obstacle_low_plate_0").id
+    touching = [c for c in data.contact if {sole, plate} == {c.geom1, c.geom2} and c.efc_address >= 0]
+    assert touching
+    for contact in touching:
+        along = data.efc_aref[contact.efc_address + 1 : contact.efc_address + 3]
+        assert 0.1 < np.hypot(*along) * model.opt.timestep / speed < 0.55

@@ -82,6 +82,21 @@ def test_in_a_tick_the_observer_runs_once_and_each_estimator_once(walker, steps,
     assert not any(ratio for _, ratio in ratios)
 
 
+def test_where_limbs_are_named_no_other_one_is_watched(walker, layout):
+    watch = Watch(detector="MOB", rule="reaction")
+    rows = list(walker.thresholds)
+    ours = walker.robot.reaction.ours
+    for limb in walker.robot.reaction.watched:
+        for joint in walker.robot.joints_of(limb):
+            rows.append(Threshold(ours.detector, limb, ours.rule, f"ratio.{joint}", 1, 5.0, "-"))
+    in_loop = walker.robot.reaction.model_copy(update={"estimator": "MOB"})
+    whole = CaseWalker(replace(walker.robot, reaction=in_loop), rows)
+    wrenches = np.zeros((2, 6))
+    assert set(whole.watchers(watch, wrenches)) == {"LL", "RL", *in_loop.watched}
+    assert set(whole.watchers(watch, wrenches, ["LL", "RL"])) == {"LL", "RL"}
+    assert set(whole.watchers(watch, wrenches, ["LL", "RL", "V"])) == {"LL", "RL", "V"}
+
+
 def test_mid_swing_is_where_the_gate_is_open_by_the_plan(walker, settings, layout):
     places = columns_of(layout)
     rows = np.zeros((1000, max(span.stop for span in places.values())), np.float32)

@@ -5,10 +5,15 @@ import pytest
 from experiments.settings.load import load_settings
 from mobnet.core.errors import ConfigError
 
+SLOPING_CAPSULE = {"type": "capsule", "size": [0.1, 0.3], "pos": [0.0, 0.0, 1.0], "bevel_m": 0.01}
+
 
 @pytest.mark.parametrize(("changes", "text"), [
     ({"scenarios": {"foot_block": {"obstacles": ["wall"]}}}, "obstacle: 'wall' is not"),
+    ({"obstacles": {"cart": {"parts": [SLOPING_CAPSULE]}}}, "of a box"),
     ({"reaction": {"cases": {"foot": {"scenario": "forward_walk"}}}}, "'foot' is not accepted; accepted: .*knee"),
+    ({"reaction": {"cases": {"free": {"limbs": ["LL", "LA"]}}}}, "and all legs: LL, RL"),
+    ({"reaction": {"cases": {"foot": {"limbs": ["LL", "RL"]}}}}, "all limbs, where something is in the way"),
     ({"evaluation": {"sensorless": {"cases": ["foot"]}}}, "'foot' is not accepted; accepted: .*free"),
     ({"reaction": {"ours": {"detector": "MOB-Net-norm"}}}, "detector that reacts: 'MOB-Net-norm' is not"),
     ({"reaction": {"estimator": "FTS-e2e"}}, "networks of V"),

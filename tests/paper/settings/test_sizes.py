@@ -39,12 +39,17 @@ def test_robots_that_never_fall_can_show_a_small_share_of_falls(paper: Settings)
         assert high < FALLS_SHARE, f"{case}: {len(places)} walks"
 
 
-def test_free_walks_can_show_a_small_rate_of_falls(paper: Settings) -> None:
-    files = Files(Catalogue(paper), Path("results"))
+@pytest.mark.parametrize("scale", ["default", "paper"])
+@pytest.mark.parametrize("falls", [0, 2])
+def test_free_walks_can_show_a_small_rate_of_falls(scale: str, falls: int) -> None:
+    """Also where there are two, one robot's both."""
+    settings = load_settings(overrides={"scale": scale})
+    files = Files(Catalogue(settings), Path("results"))
     sizes = sizes_of(files, "free")
     places = places_of(len(files.whole_robots), sizes.runs)
     hours = [sizes.longest_s / HOUR_S] * len(places)
-    high = rate_in([0] * len(places), hours, places, paper.evaluation.statistics).high
+    counts = [1] * falls + [0] * (len(places) - falls)
+    high = rate_in(counts, hours, places, settings.evaluation.statistics).high
     assert high is not None
     assert high < FALLS_PER_H
 

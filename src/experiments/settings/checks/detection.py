@@ -51,7 +51,7 @@ def _number_problems(results: Results) -> Iterator[Problem]:
 
 
 def reaction_problems(results: Results) -> Iterator[Problem]:
-    """Yield cases of sizes that there are not, loops without all legs, and scenarios that no loop walks but must."""
+    """Yield what does not fit of cases, obstacles and loops, and scenarios that no loop walks but must."""
     settings = results.settings
     reaction = results.settings.reaction
     walked = {row.scenario for row in reaction.cases.values()}
@@ -59,14 +59,27 @@ def reaction_problems(results: Results) -> Iterator[Problem]:
         for name in sizes.reactions.cases:
             if name not in reaction.cases:
                 yield ("scales", scale, "reactions", "cases", name), not_accepted("case", name, reaction.cases)
-    for name, case in reaction.cases.items():
-        if case.leg is not None and case.leg not in settings.detection.legs:
-            yield (*REACTION, "cases", name, "leg"), not_accepted("leg", case.leg, settings.detection.legs)
     limbs = settings.methods[reaction.estimator].limbs
     legs = settings.detection.legs
+    for name, case in reaction.cases.items():
+        if case.leg is not None and case.leg not in legs:
+            yield (*REACTION, "cases", name, "leg"), not_accepted("leg", case.leg, legs)
+        # The controller walks on the wrenches of both feet, which follow from the torques of the legs.
+        if case.limbs and not {*legs} <= {*case.limbs} <= {*limbs}:
+            text = misfit(", ".join(case.limbs), f"some of {', '.join(limbs)}, and all legs: {', '.join(legs)}")
+            yield (*REACTION, "cases", name, "limbs"), text
+        row = settings.scenarios[case.scenario]
+        if case.limbs and (row.obstacles or row.pushes):
+            text = misfit(", ".join(case.limbs), "all limbs, where something is in the way or pushes")
+            yield (*REACTION, "cases", name, "limbs"), text
     if not {"V", *legs} <= {*limbs}:
         text = misfit(reaction.estimator, f"a method with networks of V, {', '.join(legs)}: the base and all legs")
         yield (*REACTION, "estimator"), text
+    for name, obstacle in settings.obstacles.items():
+        for number, part in enumerate(obstacle.parts):
+            if part.bevel_m is not None and (part.type != "box" or part.bevel_m >= min(part.size[:2])):
+                text = misfit(part.bevel_m, "less than half of the length and width of a box")
+                yield ("obstacles", name, "parts", number, "bevel_m"), text
     for name, row in settings.scenarios.items():
         if row.wrench == "estimated" and name not in walked:
             yield ("scenarios", name, "wrench"), misfit(row.wrench, "`sensed` where reaction.cases does not walk it")

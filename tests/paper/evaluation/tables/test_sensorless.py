@@ -19,16 +19,21 @@ ROWS = [
     replace(FREE, seed=242, walked_s=90.0, fell_s=90.0, level="robot_2"),
     replace(FREE, detector=NONE, rule="", wrench="sensed", velocity_rmse_m_s=0.002),
     replace(FREE, detector=NONE, rule="", wrench="sensed", feed_forward=0.5, tracking_rmse_rad=0.008, power_w=210.0),
+    replace(FREE, case="free_all", walked_s=20.0, alarm_s=20.0, reacted_s=20.0, limb="V"),
 ]
 
 
 @pytest.fixture
 def cells(tmp_path):
-    """The rows of the table of ROWS by wrench, share of feed-forward and event."""
+    """The rows of the table of ROWS by wrench, fed share and event; of walks with all limbs by case, too."""
     reactions = write_trials(tmp_path, ROWS)
     reactions["robot_1"]["foot"] = tmp_path / "not_asked_for.csv"
     sensorless(SETTINGS.evaluation.sensorless, SETTINGS.evaluation.statistics, reactions, tmp_path)
-    return {(row["wrench"], row["feed_forward"], row["event"]): row for row in read_texts(tmp_path / "sensorless.csv")}
+    found = {}
+    for row in read_texts(tmp_path / "sensorless.csv"):
+        own = () if row["case"] == "free" else (row["case"],)
+        found[*own, row["wrench"], row["feed_forward"], row["event"]] = row
+    return found
 
 
 def test_events_are_counted_over_the_time_that_robots_walk_as_told(cells):
@@ -38,6 +43,12 @@ def test_events_are_counted_over_the_time_that_robots_walk_as_told(cells):
     assert float(falls["value"]) == pytest.approx(20.0)
     assert float(falls["low"]) < 0.0253 / 0.05  # of one event in independent walks, Garwood 1936; here of two robots
     assert float(falls["high"]) > 5.572 / 0.05
+
+
+def test_walks_with_all_limbs_are_counted_by_themselves(cells):
+    row = cells["free_all", "estimated", "0", "false reactions"]
+    assert (row["events"], row["walks"]) == ("1", "1")
+    assert float(row["hours"]) == pytest.approx(20.0 / 3600.0, rel=1e-5)
 
 
 def test_the_table_is_the_golden_one(cells, tmp_path):

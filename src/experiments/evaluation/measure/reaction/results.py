@@ -23,6 +23,7 @@ FIRST = "first_impulse"
 IMPULSE = "impulse"
 MEDIAN = "median_impulse"
 HEAVY = "heavy"
+NOTICED = "noticed"
 ALARM = "alarm"
 WITHIN = "within"
 BASE_WITHIN = "base_within"
@@ -136,20 +137,23 @@ def outcome_of(trials: Sequence[Trial], settings: Safety, statistics: Statistics
 
     Impulses lie around two values, those of short contacts and those of a robot that leans on the obstacle, so that
     their mean has the median and the share of large ones beside it. The median has no interval: a few walks of three
-    robots do not bound it.
+    robots do not bound it. What carries a robot has no impulse of a collision.
     """
     # A robot that reacts before it touches anything says nothing about a collision.
     struck = [row for row in trials if row.contact_s is not None and not is_early(row)]
     asked = [row for row in trials if row.detector != NONE]
-    impulses = [row.impulse_ns for row in struck if row.impulse_ns is not None]
+    watched = [row for row in struck if row.detector != NONE]
+    met = [row for row in struck if row.case not in settings.stood_on]
+    impulses = [row.impulse_ns for row in met if row.impulse_ns is not None]
     median = statistics_of.median(impulses) if impulses else None
     numbers = {
         FALLS: _share(trials, lambda row: row.fell_s is not None, statistics),
         PEAK: _mean(struck, lambda row: row.first_peak_n, statistics, "N"),
-        FIRST: _mean(struck, lambda row: row.first_impulse_ns, statistics, "N s"),
-        IMPULSE: _mean(struck, lambda row: row.impulse_ns, statistics, "N s"),
+        FIRST: _mean(met, lambda row: row.first_impulse_ns, statistics, "N s"),
+        IMPULSE: _mean(met, lambda row: row.impulse_ns, statistics, "N s"),
         MEDIAN: Number(median, unit="N s"),
-        HEAVY: _share(struck, lambda row: _is_over(row.impulse_ns, settings.heavy_ns), statistics),
+        HEAVY: _share(met, lambda row: _is_over(row.impulse_ns, settings.heavy_ns), statistics),
+        NOTICED: _share(watched, lambda row: row.alarm_s is not None, statistics),
         ALARM: _mean(struck, _delay_ms, statistics, "ms"),
         WITHIN: _share(struck, lambda row: _is_within(row.angle_deg, settings.within_deg), statistics),
         BASE_WITHIN: _share(struck, lambda row: _is_within(row.base_angle_deg, settings.within_deg), statistics),

@@ -55,8 +55,14 @@ def sensorless(settings: Sensorless, statistics: Statistics, reactions: Reaction
         ViewColumn("swing leg [mrad]", {"event": TRACKING}, 1),
         ViewColumn("power [W]", {"event": POWER}, 1),
     ]
-    labels = {"wrench": "Feet's wrench", "detector": "Detector", "thresholds": "thresholds", "feed_forward": "fed"}
-    rows.write(table_dir / "sensorless", View(labels, columns, left=3))
+    labels = {
+        "case": "Case",
+        "wrench": "feet's wrench",
+        "detector": "detector",
+        "thresholds": "thresholds",
+        "feed_forward": "fed",
+    }
+    rows.write(table_dir / "sensorless", View(labels, columns, left=4))
 
 
 def _minutes(row: NumberRow) -> str:
