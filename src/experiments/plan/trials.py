@@ -93,6 +93,7 @@ def _why(files: Files, out: Path) -> Product:
     asked: list[ExplainedRobot] = []
     for name, own in files.robots.items():
         sets: dict[str, None] = {}
+        # A small scale has few robots; rows of others would leave the table without these lines.
         for row in trial.rows:
             if name in row.robots or not set(row.robots) & set(files.robots):
                 sets |= dict.fromkeys(row.sets)
@@ -129,6 +130,7 @@ def _explained(own: Files, robot: str, data: str) -> ExplainedRobot:
     if data != trial.path_set or robot not in trial.path_robots:
         return ExplainedRobot(robot, data, taught_robot, (), ())
     twins = tuple(own.array("recordings", trial.twin, level, seed) for seed in own.development_seeds)
+    # What inputs bring in is asked of networks that learned in the first way alone: the others only differ in size.
     ways = next(iter(trial.ways))
     paths = [one for one in tried if one.base in trial.paths and one.changes.get(WAY) == ways]
     return ExplainedRobot(robot, data, taught_robot, twins, tuple(paths))

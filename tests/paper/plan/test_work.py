@@ -55,7 +55,7 @@ def test_a_motion_has_its_length(plan: Plan) -> None:
 
 
 def test_an_estimate_runs_the_networks_of_the_test_s_limbs(plan: Plan) -> None:
-    """The left leg's of MOB-Net, its other trainings and inputs, the gray box and FTS-e2e, and the right; MOB has none."""
+    """The left leg's of MOB-Net, its other trainings and inputs, the gray box, FTS-e2e; the right one."""
     place = {"robot": "robot_2", "scenario": "walk_test", "level": "robot_2"}
     found = work(plan, "estimate/robot_2/walk_test-robot_2", "estimate", **place)
     assert found.amounts["residual s"] == 7 * 4 * 30.0

@@ -56,7 +56,7 @@ def test_every_scale_is_accepted(scale: str) -> None:
         ("learning.precision", "half", "precision: 'half' is not accepted; .* 'auto', 'float32', 'bfloat16'"),
         ("methods.MOB-Net.target", "all", "MOB-Net.target: 'all' is not .* 'uncertainty', 'external' or null"),
         ("methods.TCN.network.head", None, "methods.TCN.network: sizes hidden, .* accepted: hidden, .*, head"),
-        ("methods.GRU.network.foo", 1, "methods.GRU.network.foo: key: 'foo' is not accepted; accepted: Q, T, cell, "),
+        ("methods.GRU.network.foo", 1, "methods.GRU.network.foo: key: 'foo' is not accepted; accepted: dropout, "),
         ("methods.LSTM.learning.foo", 1, "methods.LSTM.learning.foo: key: 'foo' is not accepted; accepted: loss, "),
         ("methods.LSTM.network.spectral", True, "methods.LSTM.network: spectral: true is not accepted for a cell LSTM"),
         ("methods.MOB.limbs", ["LL"], "methods.MOB: `target` or `limbs` alone is not accepted"),
