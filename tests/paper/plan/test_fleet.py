@@ -142,7 +142,6 @@ def test_a_robot_of_a_leg_walks_the_tests_of_a_leg_alone() -> None:
     assert not own.is_whole
     assert {(scenario, level) for scenario, level, _ in own.recorded()} == {
         ("robot_walk", "robot_2"),
-        ("robot_walk_plain", "robot_2"),
         *((scenario, "robot_2") for scenario in fleet.leg_tests),
     }
     trained = {(name.method, name.limb) for name in own.own_networks}
