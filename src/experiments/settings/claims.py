@@ -203,8 +203,8 @@ class Claim(MadeNumber):
     Claims of one `statement`, which has the name of its first claim, count once. `by_joint` makes a claim of each
     joint: its cells have this joint, and the paper prints this number. `sign` is the range of the claimed sign, where
     the rule does not make it, and `sign_of` the number that has it, where that is not the claim's own. `decided_at` are
-    the scales whose walks decide it, where not all do that decide claims; elsewhere it stays open. `about` is the method
-    that it speaks for, where that is not MOB-Net or else the first network that it names.
+    the scales whose walks decide it, where not all do that decide claims; elsewhere it stays open. `about` is the
+    method that it speaks for, where that is not MOB-Net or else the first network that it names.
     """
 
     statement: ClaimName | None = None

@@ -3,6 +3,7 @@
 import re
 from collections.abc import Callable
 from html import escape
+from itertools import chain
 from pathlib import Path
 
 import pytest
@@ -47,7 +48,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     (folder / "claims.csv").write_bytes(GOLDEN.read_bytes())
     for name in HEADLINE:
         columns = ("scenario", "level", "metric", "joint", "method", "value", "published")
-        places = [place for _, table, place in COLUMNS if table == name]
+        places = [place for _, tables, place in COLUMNS if name in tables]
         rows = [{**place, "method": "MOB-Net", "value": 1.25, "published": 1.5} for place in places]
         (folder / f"{name}.csv").write_text(csv_text(columns, [[row.get(key) for key in columns] for row in rows]))
     for name in ("one", "two", "claims", "index", "picture"):
@@ -79,7 +80,7 @@ def test_every_table_gets_its_page_and_one_without_a_caption_is_named(folder: Pa
 
 
 def test_the_tables_of_the_headline_are_those_that_the_plan_waits_for() -> None:
-    assert [table for _, table, *_ in COLUMNS] == list(HEADLINE)
+    assert list(chain.from_iterable(tables for _, tables, _ in COLUMNS)) == list(HEADLINE)
 
 
 def test_docutils_takes_the_first_page_as_the_report_gives_it(folder: Path) -> None:
