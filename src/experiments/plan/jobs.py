@@ -264,6 +264,7 @@ class Jobs:
             source = files.catalogue.network_source_of(method)
             networks: dict[str, Path] = {}
             for limb in files.catalogue.method(source).limbs:
+                # A walk on some limbs waits for their networks alone.
                 is_asked = not limbs or limb in limbs
                 if is_asked and (files.catalogue.owner_of(source, limb), limb) in files.learned:
                     networks[limb] = files.network(source, limb, files.network_seeds(source, limb)[0])
