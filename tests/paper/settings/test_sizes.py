@@ -39,17 +39,15 @@ def test_robots_that_never_fall_can_show_a_small_share_of_falls(paper: Settings)
         assert high < FALLS_SHARE, f"{case}: {len(places)} walks"
 
 
-@pytest.mark.parametrize("scale", ["default", "paper"])
 @pytest.mark.parametrize("falls", [0, 2])
-def test_free_walks_can_show_a_small_rate_of_falls(scale: str, falls: int) -> None:
+def test_free_walks_can_show_a_small_rate_of_falls(paper: Settings, falls: int) -> None:
     """Also where there are two, one robot's both."""
-    settings = load_settings(overrides={"scale": scale})
-    files = Files(Catalogue(settings), Path("results"))
+    files = Files(Catalogue(paper), Path("results"))
     sizes = sizes_of(files, "free")
     places = places_of(len(files.whole_robots), sizes.runs)
     hours = [sizes.longest_s / HOUR_S] * len(places)
     counts = [1] * falls + [0] * (len(places) - falls)
-    high = rate_in(counts, hours, places, settings.evaluation.statistics).high
+    high = rate_in(counts, hours, places, paper.evaluation.statistics).high
     assert high is not None
     assert high < FALLS_PER_H
 
