@@ -400,7 +400,7 @@ CLAIMED: Mapping[str, MadeBy] = {  # products made from the claims, which are no
     "claims": MadeBy(
         "report.claims:claims",
         needs={"scores": "claimed_scores", "folders": "claimed_networks"},
-        published="methods",
+        published="original_methods",
         table=True,
         figure=True,
         further=("claims_own",),

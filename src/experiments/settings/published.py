@@ -116,11 +116,11 @@ class PublishedContacts(Section):
 class Published(Section):
     """All numbers of the paper that ours stand beside, and the methods that it has.
 
-    `methods` are its methods, with those that a sweep of its own stands for, and its detectors, each by where it
-    describes them. All others are ours.
+    `original_methods` are its methods, with those that a sweep of its own stands for, and its detectors, each by where
+    it describes them. All others are ours.
     """
 
-    methods: dict[RowName, Text]
+    original_methods: dict[RowName, Text]
     table_01: PublishedNetworks
     tables: Annotated[dict[LowerName, PublishedTable], Field(min_length=1)]
     data: PublishedData

@@ -70,7 +70,7 @@ def judged_again(settings: Settings, published: Path) -> list[Judged]:
     found = [_found(row, before.get(row.name, {}), evidence, settings) for row in rows]
     scores = [score_of(row.claim, settings.methods) for row in rows]
     statistics = settings.evaluation.statistics
-    known = KnownMethods(settings.methods, settings.detection.detectors, settings.published.methods)
+    known = KnownMethods(settings.methods, settings.detection.detectors, settings.published.original_methods)
     again: list[Judged] = []
     for row, numbers, score in zip(rows, found, scores, strict=True):
         # What stands in for a network in the scores was judged in the run; a run before 0.7.0 did not do so.

@@ -64,6 +64,7 @@ KEYS = (  # columns that name a row; the others are results
     "joint",
     "metric",
     "claim",
+    "tolerance",
     "set",
     "quantity",
     "part",
@@ -92,7 +93,7 @@ KEYS = (  # columns that name a row; the others are results
     "phase",
     "row",
 )
-KEYS_OF = {"hourly": ("walks",), "claims_tolerance": ("tolerance",)}  # numbers in other tables
+KEYS_OF = {"hourly": ("walks",)}  # a number in other tables
 Rows = dict[tuple[str, ...], dict[str, str]]
 
 

@@ -30,7 +30,7 @@ def configured() -> Settings:
 
 @pytest.fixture(scope="module")
 def known(configured: Settings) -> KnownMethods:
-    return KnownMethods(configured.methods, configured.detection.detectors, configured.published.methods)
+    return KnownMethods(configured.methods, configured.detection.detectors, configured.published.original_methods)
 
 
 def on(known: KnownMethods, row: Row, ours: Number, control: dict[str, str]) -> Judged:
