@@ -10,7 +10,7 @@ from mobnet.core.errors import ConfigError
     ({"scenarios": {"foot_block": {"obstacles": ["wall"]}}}, "obstacle: 'wall' is not"),
     ({"reaction": {"cases": {"foot": {"scenario": "forward_walk"}}}}, "'foot' is not accepted; accepted: .*knee"),
     ({"evaluation": {"sensorless": {"cases": ["foot"]}}}, "'foot' is not accepted; accepted: .*free"),
-    ({"reaction": {"ours": {"detector": "MOB-Net-norm"}}}, "detector that reacts: 'MOB-Net-norm' is not"),
+    ({"reaction": {"ours": {"detector": "MOB-command"}}}, "detector that reacts: 'MOB-command' is not"),
     ({"reaction": {"estimator": "FTS-e2e"}}, "networks of V"),
     ({"scenarios": {"forward_walk": {"wrench": "estimated"}}}, "`sensed` where reaction.cases does not walk it"),
 ])  # fmt: skip

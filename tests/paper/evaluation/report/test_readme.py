@@ -41,7 +41,11 @@ def results(tmp_path: Path) -> Path:
     falls = [
         (case, detector, wait_s, "falls", share, 20)
         for case in ("foot", "knee", "door")
-        for detector, wait_s, share in (("MOB-Net-ratio", 0.0, 0.05), ("MOB-Net-ratio", 0.4, 0.9), ("none", 0.0, 1.0))
+        for detector, wait_s, share in (
+            ("MOB-Net-pushed-ratio", 0.0, 0.05),
+            ("MOB-Net-pushed-ratio", 0.4, 0.9),
+            ("none", 0.0, 1.0),
+        )
     ]
     write_csv(tmp_path / "safety.csv", ("case", "detector", "wait_s", "measure", "value", "walks"), falls)
     outcomes = [*VERDICTS, "all", UNEXPLAINED, PRINTED, HELD, NEAR]

@@ -36,7 +36,7 @@ from mobnet.core.columns import (
 )
 from mobnet.settings.methods import Method
 
-DETECTOR = re.compile("-(OR|mean|sigma)$")  # what the name of a detector has behind that of its method
+DETECTOR = re.compile("-(OR|mean|sigma|ratio)$")  # what the name of a detector has behind that of its method
 NO_CAUSE = "No cause found."
 TO_MEASURE = "Not measured: the run lacks a test or training for it, or defined the number otherwise."
 WORST_FIRST = (NOT_REPRODUCED, SIGN_ONLY, NOT_MEASURED, OPEN, SIGN_AT_LEAST, REPRODUCED)

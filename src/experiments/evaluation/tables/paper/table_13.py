@@ -25,7 +25,7 @@ def table_13(
 ) -> None:
     """Write table_13.csv, .tex and .md: thresholds, means over the robots of a level with the least and the most.
 
-    They are torques [N m], those of MOB-Net-ratio without unit [-]. Below those of one detector is their ratio to the
+    They are torques [N m], those of MOB-Net-pushed-ratio without unit [-]. Below those of one detector is their ratio to the
     paper's. The CSV has the thresholds of all detectors of both legs
     and by all rules.
     """
