@@ -224,6 +224,7 @@ CLAIMS = (
     "without_high",
     "cause",
     "remark",
+    "other_reading",
     "beyond_reach",
 )
 HOURLY = ("event", "walks", "method", "hours", "count", "value", "low", "high", "unit")
