@@ -22,7 +22,7 @@ class DemoPush:
     """What the robot sensed, and the estimators and the detector that the stored network has in its leg."""
 
     folder = DATA
-    detector = "MOB-Net-ratio"
+    detector = "MOB-Net-pushed-ratio"
 
     def __init__(self, settings, recipe_of):
         self.settings, self._recipe_of = settings, recipe_of

@@ -15,6 +15,7 @@ from mobnet.core.detections import (
     HELD_OUT,
     LARGEST,
     UNPUSHED,
+    WALKING,
     Collision,
     CurvePoint,
     Detected,
@@ -27,6 +28,8 @@ from mobnet.core.detections import (
 LEVELS = ("all_uncertainty", "robot_1")
 FOUND = {"MOB-Net-OR": 1.0, "MOB-Net-sigma": 0.5, "MOB": 0.0}  # detector -> share of the collisions it finds
 DELAY_S = {"MOB-Net-OR": 0.020, "MOB-Net-sigma": 0.030, "MOB": 0.040}
+# Rule of thresholds -> signal of a collision that is found, over the threshold.
+RATIOS = {WALKING: 2.8, LARGEST: 3.0, "contact": 2.5, "bump": 2.2, COLLISION: 2.0, "reaction": 1.8}
 EACH, SWINGS = 4, 100  # collisions of a cell, and swings of each part
 HOURS, SEED = 0.1, 101
 TERRAINS = ("checks", "flat")
@@ -84,7 +87,7 @@ def detected(scenario: str) -> list[Detected]:
             delay, perfect = (DELAY_S[name] + 0.001 * turn, 0.015) if is_found else (None, None)
             link = one.link if name == "MOB-Net-OR" else "foot"
             named = (f"mean.{'LL3'}", link, one.direction, one.force_n) if is_found else ("", "", "", None)
-            for kind, ratio in ((LARGEST, 3.0), ("contact", 2.5), ("bump", 2.2), (COLLISION, 2.0), ("reaction", 1.8)):
+            for kind, ratio in RATIOS.items():
                 size = ratio if is_found else 0.5
                 rows.append(Detected(scenario, SEED, "LL", one.number, name, kind, size, delay, perfect, *named))
     return rows
@@ -94,7 +97,7 @@ def thresholds() -> list[Threshold]:
     return [
         Threshold(name, "LL", kind, f"{'std' if name.endswith('sigma') else 'mean'}.LL{j}", 1, size * j, "N m")
         for name in FOUND
-        for kind, size in ((LARGEST, 1.5), ("contact", 2.0), (COLLISION, 4.0))
+        for kind, size in ((LARGEST, 1.5), (WALKING, 3.0), ("contact", 2.0), (COLLISION, 4.0))
         for j in range(1, 7)
     ]
 
@@ -111,7 +114,7 @@ def swings() -> list[FreeSwing]:
     """Return swings: 0.0102, 0.0204, ... of the threshold for one false alarm an hour; in place below the paper's."""
     parts = (("long_walk", CALIBRATION), ("long_walk", HELD_OUT), ("place_walk", HELD_OUT), ("collisions", UNPUSHED))
     return [
-        FreeSwing(name, "LL", scenario, part, TERRAINS[k % 2], SEED, k + 1, 0.0102 * k, paper)
+        FreeSwing(name, "LL", scenario, part, TERRAINS[k % 2], SEED, k + 1, 0.0102 * k, paper, 0.9)
         for name in FOUND
         for scenario, part in parts
         for paper in [0.5 if scenario == "place_walk" else 1.5]

@@ -13,10 +13,10 @@ from mobnet.core.reactions import NONE, TRIALS, Trial
 from mobnet.core.store import write_array
 
 HIT = Trial(
-    case="foot", level="robot_1", seed=240, detector="MOB-Net-ratio", rule="reaction", wait_s=0.0, wrench="estimated",
-    feed_forward=0.0, walked_s=4.0, velocity_rmse_m_s=0.003, tracking_rmse_rad=0.01, power_w=200.0, contact_s=4.0,
-    in_swing=1, alarm_s=4.01, limb="LL", reacted_s=4.01, angle_deg=10.0, base_angle_deg=40.0, first_peak_n=200.0,
-    first_impulse_ns=8.0, peak_n=220.0, impulse_ns=9.0, contacts=2, fell_s=None, stopped=1,
+    case="foot", level="robot_1", seed=240, detector="MOB-Net-pushed-ratio", rule="reaction", wait_s=0.0,
+    wrench="estimated", feed_forward=0.0, walked_s=4.0, velocity_rmse_m_s=0.003, tracking_rmse_rad=0.01, power_w=200.0,
+    contact_s=4.0, in_swing=1, alarm_s=4.01, limb="LL", reacted_s=4.01, angle_deg=10.0, base_angle_deg=40.0,
+    first_peak_n=200.0, first_impulse_ns=8.0, peak_n=220.0, impulse_ns=9.0, contacts=2, fell_s=None, stopped=1,
 )  # fmt: skip
 EARLY = replace(
     HIT, contact_s=None, in_swing=None, alarm_s=2.0, reacted_s=2.0, angle_deg=None, base_angle_deg=None,

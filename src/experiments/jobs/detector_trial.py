@@ -10,7 +10,7 @@ from experiments.jobs.collisions import Hit, hits_of
 from experiments.plan.detection import Walk
 from mobnet.core.arrays import Array
 from mobnet.core.columns import EXTERNAL_LP, named
-from mobnet.core.detections import COLLISION, LARGEST, UNPUSHED, Collision, CurvePoint, Detected, FreeSwing
+from mobnet.core.detections import COLLISION, LARGEST, UNPUSHED, WALKING, Collision, CurvePoint, Detected, FreeSwing
 from mobnet.core.estimator import Estimate
 from mobnet.core.recording import read_sensed
 from mobnet.core.store import read_array
@@ -167,12 +167,12 @@ def unpushed_rows(
     for one, estimate in zip(walk, estimates, strict=True):
         legs = [one.leg]
         signals = [calibrated.watched.of(estimate, one.leg.command)]
-        ratios, others = (swing_ratios(legs, calibrated.chains[kind], signals) for kind in (COLLISION, LARGEST))
+        ratios = [swing_ratios(legs, calibrated.chains[kind], signals) for kind in (COLLISION, LARGEST, WALKING)]
         for k, (start, end) in enumerate(one.leg.swings):
             # A hit of the other leg shakes this one, so that it spoils the swing too.
             if not any(hit.rows.start < end and start < hit.rows.stop for hit in one.every):
                 place = (one.leg.terrains[k], one.leg.seed, k + 1)
-                numbers = (float(ratios[k]), float(others[k]))
+                numbers = [float(own[k]) for own in ratios]
                 yield FreeSwing(calibrated.name, setup.limb, scenario, UNPUSHED, *place, *numbers)
 
 

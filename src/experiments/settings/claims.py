@@ -197,6 +197,13 @@ class Cause(Section):
     without: MadeNumber
 
 
+class OtherReading(Section):
+    """What else the paper may mean: cells of tables with these texts in `where`. It is shown, and not judged."""
+
+    says: Text
+    where: Annotated[dict[LowerName, Text], Field(min_length=1)]
+
+
 class Claim(MadeNumber):
     """What the paper says, where it is printed, and what must hold here.
 
@@ -220,6 +227,7 @@ class Claim(MadeNumber):
     sign_of: MadeNumber | None = None
     decided_at: tuple[ScaleName, ...] = ()
     cause: Cause | None = None
+    other: OtherReading | None = None
 
     @model_validator(mode="after")
     def _has_what_its_rule_needs(self) -> Claim:
@@ -243,6 +251,25 @@ class Claim(MadeNumber):
         if self.cause and self.cause.without.quantity != self.quantity:
             raise ValueError(not_accepted("quantity of a cause", self.cause.without.quantity, [self.quantity]))
         return self
+
+
+def by_other_reading(claim: Claim) -> Claim | None:
+    """Return a claim with the cells of the other reading; None where the paper has no second one."""
+    if claim.other is None:
+        return None
+    cells = of_reading(claim, claim.other)
+    sign_of = claim.sign_of
+    if sign_of is not None:
+        sign_of = sign_of.model_copy(update={"cells": of_reading(sign_of, claim.other)})
+    return claim.model_copy(update={"cells": cells, "sign_of": sign_of, "cause": None, "other": None})
+
+
+def of_reading(made: MadeNumber, other: OtherReading) -> tuple[Cell, ...]:
+    """Return the cells of a number by another reading."""
+    found: list[Cell] = []
+    for cell in made.cells:
+        found.append(cell.model_copy(update={"where": {**cell.where, **other.where}}))
+    return tuple(found)
 
 
 def numbers_of(claim: Claim) -> list[MadeNumber]:

@@ -26,15 +26,31 @@ class DetectorTable(AlarmTable):
     kind: base.ThresholdsName
 
 
+class ReadingTable(AlarmTable):
+    """Detectors by several rules of thresholds, such as readings of the paper's; the first one judges its claims."""
+
+    kinds: base.Distinct[base.ThresholdsName]
+
+
 class FoundByRate(AlarmTable):
-    """Collisions that detectors find at each wanted rate of false alarms, the best of them beside another one."""
+    """Collisions that detectors find at each wanted rate of false alarms, the best of them beside another one.
+
+    The same collisions are compared pair by pair with what `reference` finds of them, and found shares at a rate of
+    false alarms that is counted, `counted_per_h`.
+    """
 
     beside: base.DetectorName
+    reference: base.DetectorName
+    counted_per_h: base.Positive
 
 
-class ThresholdTable(DetectorTable):
-    """Thresholds; those of the detector `sized` over the paper's say how large errors are; `ratio` is accepted."""
+class ThresholdTable(ReadingTable):
+    """Thresholds; those of the detector `sized` over the paper's say how large errors are; `ratio` is accepted.
 
+    Robots were sized by its thresholds of the rule `sized_kind`.
+    """
+
+    sized_kind: base.ThresholdsName
     sized: base.DetectorName
     ratio: base.Span[base.Positive]
 

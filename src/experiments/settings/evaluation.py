@@ -13,12 +13,12 @@ from experiments.settings.detection_tables import (
     AlarmTable,
     ContactPoints,
     DetectionCurves,
-    DetectorTable,
     Figure13,
     Figure14,
     Figure15,
     FoundByRate,
     Links,
+    ReadingTable,
     SmallestForce,
     ThresholdTable,
 )
@@ -231,7 +231,7 @@ class Evaluation(Section):
         ),
     ] = {}
     table_09: Annotated[
-        DetectorTable,
+        ReadingTable,
         MadeBy(
             "tables.paper.table_09:table_09",
             needs=DETECTIONS,

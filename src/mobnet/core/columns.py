@@ -224,6 +224,7 @@ CLAIMS = (
     "without_high",
     "cause",
     "remark",
+    "other_reading",
     "beyond_reach",
     "with_zero",
     "with_mob",

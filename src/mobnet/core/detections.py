@@ -87,7 +87,8 @@ class Detected:
 class FreeSwing:
     """A swing that nothing pushes: the largest signal over the threshold for one false alarm an hour, and the paper's.
 
-    `part` says whether it calibrated the detector, was held out, or lies between the collisions of a walk.
+    `ratio_largest` is over those of walking in place, `ratio_walking` over those of random walking. `part` says whether
+    it calibrated the detector, was held out, or lies between the collisions of a walk.
     """
 
     detector: str
@@ -99,6 +100,7 @@ class FreeSwing:
     number: int
     ratio: float
     ratio_largest: float
+    ratio_walking: float
 
 
 @dataclass(frozen=True)
@@ -115,7 +117,9 @@ class CurvePoint:
 
 UNNAMED = ("signal", "link", "direction")  # texts that are empty where a detector finds nothing
 CALIBRATION, HELD_OUT, UNPUSHED = PARTS = ("calibration", "held out", "unpushed")  # values of `part`
-LARGEST, COLLISION = "largest", "collision"  # values of `kind`: by the paper's rule, and for one false alarm an hour
+# Values of `kind`: by the paper's rule from walking in place and from random walking, and for one false alarm an hour.
+LARGEST, WALKING, COLLISION = "largest", "walking", "collision"
+READINGS = {WALKING: "random walking", LARGEST: "in place"}  # what the paper's "normal walking" may be -> as text
 FILES: Mapping[str, type[Any]] = {  # name of a file of detectors -> its rows
     "collisions": Collision,
     "thresholds": Threshold,

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array
-from mobnet.core.detections import CALIBRATION, COLLISION, HELD_OUT, LARGEST, FreeSwing, Promise, Threshold
+from mobnet.core.detections import CALIBRATION, COLLISION, HELD_OUT, LARGEST, WALKING, FreeSwing, Promise, Threshold
 from mobnet.core.errors import DataError
 from mobnet.core.estimator import Estimate
 from mobnet.detection.chain import Chain
@@ -47,6 +47,11 @@ class QuietWalk:
         first = int(np.ceil(share * count))
         walked = sum(one.samples for one in legs) / setup.rate_hz / HOUR_S
         return cls(scenario, tuple(legs), tuple(estimates), first, walked * first / max(count, 1))
+
+    def swings_in(self, seconds: float) -> int:
+        """Return how many swings a time has [s], one or more."""
+        swing_s = self.hours * HOUR_S / max(self.first, 1)
+        return max(round(seconds / swing_s), 1)
 
     def signals(self, watched: Watched) -> list[Array]:
         """Return what is watched of each recording, (T, m)."""
@@ -89,7 +94,9 @@ class CalibratedDetector:
 def calibrate_detector(
     setup: LegSetup, name: str, detector: DetectorSettings, place: QuietWalk, random: QuietWalk
 ) -> CalibratedDetector:
-    """Calibrate a detector on the first swings of quiet walks: in place by the paper's rule [5.3], else for rates.
+    """Calibrate a detector on the first swings of quiet walks, by the paper's rule [5.3] and for rates.
+
+    The paper's rule is read in two ways, with walking in place as its "normal walking" and with random walking.
 
     Raises:
         DataError: there are too few swings, or a signal never changes.
@@ -102,18 +109,39 @@ def calibrate_detector(
         watched = replace(watched, slopes=_slopes(setup, watched, random))
     if detector.norm:
         watched = replace(watched, whitening=_whitening(setup, random, random.signals(watched)))
-    scales, promises = rate_scales(setup, watched, random)
-    # (D13), the paper's rule. Its collisions were made in walking in place, so that is its normal walking.
-    highest = _over_swings(_heights(setup, watched, place), np.max)
-    thresholds = {LARGEST: setup.detection.thresholds.margin * highest}
+    numbers = setup.detection.thresholds
+    heights = swing_heights(setup, watched, random)
+    scales, promises = rate_scales(setup, watched, random, heights)
+    # (D13), the paper's rule.
+    in_place = _over_swings(swing_heights(setup, watched, place), np.max)
+    walking = usual_largest(heights, random.swings_in(numbers.normal_walk_s))
+    thresholds = {LARGEST: numbers.margin * in_place, WALKING: numbers.margin * walking}
     thresholds |= {kind: found.factor * scales for kind, found in promises.items()}
     chains = {kind: setup.chain(own, norm=detector.norm) for kind, own in thresholds.items()}
     torques = [estimate.tau_ext.astype(np.float64) for estimate in random.estimates]
     return CalibratedDetector(name, watched, _whitening(setup, random, torques), chains, promises)
 
 
-def rate_scales(setup: LimbSetup, watched: Watched, walk: QuietWalk) -> tuple[Array, dict[str, Calibrated]]:
+def usual_largest(heights: Array, count: int) -> Array:
+    """Return the largest heights (phases, c) in so many swings one after the other: the median over all such parts.
+
+    Heights are (swings, phases, c). Of a longer walk the largest height is larger, so that all parts are as long; a
+    last one that is shorter is left out where there are others.
+
+    Raises:
+        NotWatchedError: no swing is watched.
+    """
+    last = max(len(heights) - count, 0)
+    parts = [_over_swings(heights[first : first + count], np.max) for first in range(0, last + 1, count)]
+    return np.median(parts, axis=0)
+
+
+def rate_scales(
+    setup: LimbSetup, watched: Watched, walk: QuietWalk, heights: Array
+) -> tuple[Array, dict[str, Calibrated]]:
     """Return the scales of a detector's signals (phases, c), and by rule the multiple of them for its rate.
+
+    Heights are those of `swing_heights`.
 
     Raises:
         DataError: there are too few swings, or a rate is more than the tail of the swings holds.
@@ -122,7 +150,6 @@ def rate_scales(setup: LimbSetup, watched: Watched, walk: QuietWalk) -> tuple[Ar
     numbers = setup.detection.thresholds
     # (D14): with one scale for each signal, one number is left to choose, and all signals raise alarms alike. The
     # largest value itself would be a scale that one odd swing decides.
-    heights = _heights(setup, watched, walk)
     scales = _over_swings(heights, lambda own: float(np.quantile(own, numbers.scale_quantile)))
     chain = setup.chain(scales, norm=watched.detector.norm)
     seen = swing_ratios(walk.legs, chain, walk.signals(watched))[: walk.first]
@@ -161,14 +188,14 @@ def promise_rows(setup: LegSetup, calibrated: CalibratedDetector, random: QuietW
 def quiet_rows(setup: LegSetup, calibrated: CalibratedDetector, walk: QuietWalk) -> Iterator[FreeSwing]:
     """Yield the swings of a walk that nothing pushes: those that calibrated the detector, and those held out."""
     signals = walk.signals(calibrated.watched)
-    ratios, others = (swing_ratios(walk.legs, calibrated.chains[kind], signals) for kind in (COLLISION, LARGEST))
+    ratios = [swing_ratios(walk.legs, calibrated.chains[kind], signals) for kind in (COLLISION, LARGEST, WALKING)]
     places = list[tuple[int, int, str]]()
     for one in walk.legs:
         places += [(one.seed, number, terrain) for number, terrain in enumerate(one.terrains, start=1)]
     for k, (seed, number, terrain) in enumerate(places):
         # Thresholds fit the swings that made them, so that a count of false alarms is honest on the others alone.
         part = CALIBRATION if k < walk.first else HELD_OUT
-        numbers = float(ratios[k]), float(others[k])
+        numbers = [float(own[k]) for own in ratios]
         yield FreeSwing(calibrated.name, setup.limb, walk.scenario, part, terrain, seed, number, *numbers)
 
 
@@ -184,7 +211,7 @@ def check_signals(setup: LimbSetup, detector: DetectorSettings, walk: QuietWalk)
 
 def _slopes(setup: LegSetup, watched: Watched, walk: QuietWalk) -> Array:
     """Return by which share signals grow with each part of the command in calibrating swings, (m, 3)."""
-    heights = _heights(setup, watched, walk).max(axis=1)
+    heights = swing_heights(setup, watched, walk).max(axis=1)
     commands = list[Array]()
     for one in walk.legs:
         starts = [start for start, _ in one.swings]
@@ -216,7 +243,7 @@ def _cut(segments: Spans, end: int) -> Spans:
     return tuple((start, min(stop, end)) for start, stop in segments if start < end)
 
 
-def _heights(setup: LimbSetup, watched: Watched, walk: QuietWalk) -> Array:
+def swing_heights(setup: LimbSetup, watched: Watched, walk: QuietWalk) -> Array:
     """Return the largest held signal in each phase of each calibrating swing, (swings, phases, c).
 
     It is minus infinity where a swing is not watched.

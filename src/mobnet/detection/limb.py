@@ -14,7 +14,7 @@ from mobnet.core.notes import pair_differences, read_array_note
 from mobnet.core.recording import SensedRecording, read_sensed
 from mobnet.core.store import NOTE, check_finite, file_of
 from mobnet.detection.always import AlwaysWatched, always_watched, setup_of
-from mobnet.detection.calibration import QuietWalk, check_signals, rate_scales
+from mobnet.detection.calibration import QuietWalk, check_signals, rate_scales, swing_heights
 from mobnet.detection.points import axis_forces, found_forces
 from mobnet.detection.signals import RATIO, STD, Watched
 from mobnet.detection.thresholds import Calibrated
@@ -114,7 +114,8 @@ def calibrate_limb(
     """
     _check_rates(own, settings.detection.sensitivity.contact_s)
     walks = limb in robot.layout.legs.values() and _walks(own)
-    detection = _with_thresholds(settings.detection, rates_per_h={WANTED: rate_per_h})
+    own_way = {"scale_quantile": settings.robotlog.scale_quantile, "on_average": settings.robotlog.on_average}
+    detection = _with_thresholds(settings.detection, rates_per_h={WANTED: rate_per_h}, **own_way)
     setup = setup_of(detection, robot, limb, own[0].read.rate_hz, walks=walks)
     watched = watched_signal(signal, settings)
     if isinstance(setup, LegSetup):
@@ -172,7 +173,7 @@ def _calibrated(
     # Nothing is tried here on what is held out, so that all swings calibrate.
     walk = QuietWalk.of(setup, "", legs, [one.estimate for one in own], share=1.0)
     check_signals(setup, watched.detector, walk)
-    scales, promises = rate_scales(setup, watched, walk)
+    scales, promises = rate_scales(setup, watched, walk, swing_heights(setup, watched, walk))
     thresholds = promises[WANTED].factor * scales[0]
     pairs = [(one, leg.gate.watched) for one, leg in zip(own, legs, strict=True)]
     poses = np.concatenate([one.read.sensed.q[rows] for one, rows in pairs])

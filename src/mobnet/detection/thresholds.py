@@ -2,12 +2,13 @@
 
 In each swing a detector's signals have a largest value, over their scale. A rate of one false alarm in an hour is one
 in some thousands of swings, more than a lab records, so that a generalised Pareto law is fitted to the tail of these
-values (docs/notes/detection.md, section 7). The interval of the expected rate widens where the fit goes beyond what was
-seen.
+values (docs/notes/detection.md, section 7). A law that is fitted to few values gives a threshold that is too low about
+as often as one that is too high, but the former costs far more alarms. So the fitted law is asked for fewer alarms than
+are wanted: for so few that thresholds of walks like this one have the wanted rate on the average.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import astuple, dataclass
 
 import numpy as np
 
@@ -17,8 +18,11 @@ from mobnet.settings.detection import Thresholds
 
 HOUR_S = 3600.0
 SHAPES = (-0.5, 0.5)  # of the law, between which its moments can be trusted
+STRAIGHT = 1e-6  # the shape that stands for that of the exponential law, zero
 DIFFER = 0.5  # of the swings in the tail, which have to have largest values of their own
 SEED = 0  # of the resampled walks
+RARER = 1e-4  # least share of swings that the law is asked for, over the wanted one
+HALVINGS = 40  # of the range of these shares on a log scale, down to a part in 1e11
 
 
 @dataclass(frozen=True)
@@ -32,23 +36,37 @@ class Tail:
 
     def above(self, size: float) -> float:
         """Return the share of swings whose largest value lies above a size, not below the level [-]."""
-        # (D16). A shape of zero is the exponential law, the limit that the formula itself cannot give.
-        over = max(size - self.level, 0.0) / self.scale
-        if abs(self.shape) < 1e-6:
-            return self.share * float(np.exp(-over))
-        return self.share * max(1.0 + self.shape * over, 0.0) ** (-1.0 / self.shape)
+        return float(_above(np.array(size), np.array(astuple(self))))
 
     def size(self, share: float) -> float:
         """Return the size above which the largest values of a share of swings [-] lie."""
-        # (D17), the inverse of (D16).
-        rarer = share / self.share
-        grown = -np.log(rarer) if abs(self.shape) < 1e-6 else (rarer**-self.shape - 1.0) / self.shape
-        return self.level + self.scale * float(max(grown, 0.0))
+        return float(_size(share, np.array(astuple(self))))
+
+
+def _above(size: Array, tails: Array) -> Array:
+    """Return the shares of swings above sizes [-], by laws (..., 4): their levels, shares, scales and shapes."""
+    level, share, scale, shape = np.moveaxis(tails, -1, 0)
+    # (D16), whose limit for a shape of zero, the exponential law, the formula itself cannot give.
+    curved = np.where(np.abs(shape) < STRAIGHT, STRAIGHT, shape)
+    over = np.maximum(size - level, 0.0) / scale
+    return share * np.maximum(1.0 + curved * over, 0.0) ** (-1.0 / curved)
+
+
+def _size(share: float, tails: Array) -> Array:
+    """Return the sizes above which the largest values of a share of swings [-] lie, by laws (..., 4) as above."""
+    level, seen, scale, shape = np.moveaxis(tails, -1, 0)
+    # (D17), the inverse of (D16). Of a law without a swing above its level it is that level.
+    curved = np.where(np.abs(shape) < STRAIGHT, STRAIGHT, shape)
+    rarer = np.minimum(share / np.where(seen > 0.0, seen, share), 1.0)
+    return level + scale * (rarer**-curved - 1.0) / curved
 
 
 @dataclass(frozen=True)
 class Calibrated:
-    """A multiple of the scales for a wanted rate, and the rate that is to be expected, with its interval [1/h]."""
+    """A multiple of the scales for a wanted rate, and the rate that such multiples have, with its interval [1/h].
+
+    Of thresholds that have the rate on the average, `rate_per_h` is the mean over walks like the one that calibrated.
+    """
 
     factor: float
     rate_per_h: float
@@ -107,14 +125,43 @@ def calibrate(
         raise DataError(not_accepted("rate", f"{rate_per_h:g} per hour", [f"below {most:.0f}, the tail of the swings"]))
     tail = fit_tail(largest, settings.tail_share)
     _check_tail(largest[largest > tail.level], tail.level)
-    factor = tail.size(share)
     # (D19), with the same random numbers for every detector and rate: intervals differ by the swings, not by chance.
     rng = np.random.default_rng(SEED)
     numbers = np.asarray(episodes)
     groups = [largest[numbers == number] for number in np.unique(numbers)]
-    rates = [_resampled(groups, tail, factor, settings, rng) * per_h for _ in range(settings.resamples)]
+    others = np.array([astuple(_drawn_anew(groups, tail, settings, rng)) for _ in range(settings.resamples)])
+    if settings.on_average:
+        asked = _asked_share(share, tail, others)
+        rates = _exceeded(asked, tail, others) * per_h
+        expected = float(rates.mean())
+    else:
+        asked = share
+        rates = _above(np.array(tail.size(asked)), others) * per_h
+        expected = tail.above(tail.size(asked)) * per_h
     low, high = np.quantile(rates, [(1.0 - settings.confidence) / 2.0, (1.0 + settings.confidence) / 2.0])
-    return Calibrated(factor, tail.above(factor) * per_h, float(low), float(high))
+    return Calibrated(tail.size(asked), expected, float(low), float(high))
+
+
+def _asked_share(share: float, tail: Tail, others: Array) -> float:
+    """Return the share of swings [-] for which a fitted law is asked, so that a wanted one is exceeded on the average.
+
+    It is that of the walk with the law `tail` for which thresholds of the laws `others`, of walks drawn anew from it,
+    have the wanted share; not below `RARER` of that, where few swings in the tail give no such number.
+    """
+    low = share * RARER
+    high = share
+    for _ in range(HALVINGS):
+        middle = float(np.sqrt(low * high))
+        if _exceeded(middle, tail, others).mean() > share:
+            high = middle
+        else:
+            low = middle
+    return low
+
+
+def _exceeded(share: float, tail: Tail, others: Array) -> Array:
+    """Return the shares of the swings of a law above the thresholds that laws (n, 4) have for a share (n,) [-]."""
+    return _above(_size(share, others), np.array(astuple(tail)))
 
 
 def _check_tail(above: Array, level: float) -> None:
@@ -131,22 +178,16 @@ def _check_tail(above: Array, level: float) -> None:
         raise DataError(f"{what}; {needed}")
 
 
-def _resampled(
-    groups: Sequence[Array],
-    tail: Tail,
-    factor: float,
-    settings: Thresholds,
-    rng: np.random.Generator,
-) -> float:
-    """Return the share of swings above a factor that a walk like this one, drawn anew, would make one expect."""
+def _drawn_anew(groups: Sequence[Array], tail: Tail, settings: Thresholds, rng: np.random.Generator) -> Tail:
+    """Return the law that is fitted to a walk like that of the groups of swings, drawn anew."""
     # Whole episodes: their ground and commands make swings alike, and single swings would look like more than they are.
     drawn = np.concatenate([groups[k] for k in rng.integers(0, len(groups), len(groups))])
     above = np.flatnonzero(drawn > tail.level)
     # The rarest swing decides the fit, and would often be drawn twice or not at all: the law draws another one.
     uniform = rng.uniform(size=len(above))
-    shape = tail.shape if abs(tail.shape) > 1e-6 else 1e-6
+    shape = tail.shape if abs(tail.shape) > STRAIGHT else STRAIGHT
     drawn[above] = tail.level + tail.scale * (uniform**-shape - 1.0) / shape
-    return fit_tail(drawn, settings.tail_share).above(factor)
+    return fit_tail(drawn, settings.tail_share)
 
 
 def expected_counts(calibrated: Calibrated, hours: float, confidence: float) -> tuple[int, int]:

@@ -27,9 +27,11 @@ class Thresholds(Section):
     """How thresholds follow from walks that nothing pushes: by the paper's rule, and for rates of false alarms."""
 
     margin: base.Real = Field(ge=1, le=10)
+    normal_walk_s: base.Real = Field(ge=10, le=3600)
     scale_quantile: base.InnerShare
     command_quantile: base.InnerShare
     tail_share: base.Real = Field(ge=0.01, le=0.5)
+    on_average: base.Flag
     least_swings: base.Whole = Field(ge=20, le=100_000)
     resamples: base.Whole = Field(ge=50, le=100_000)
     confidence: base.Real = Field(ge=0.5, lt=1)

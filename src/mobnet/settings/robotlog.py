@@ -6,6 +6,7 @@ from pydantic import AfterValidator, Field
 
 from mobnet.settings.base import (
     Count,
+    Flag,
     InnerShare,
     NetworkName,
     Positive,
@@ -261,6 +262,8 @@ class RobotLog(Section):
         flag_gap_s: two stretches above a threshold that are closer are one flag [s].
         percentiles: share of the rates of false alarms of recordings drawn anew that the interval of a limb that is
             watched all the time holds.
+        scale_quantile: as that of section `detection`, for `./reproduce calibrate`.
+        on_average: the same.
     """
 
     gap_intervals: Annotated[Positive, Field(ge=1.5, le=1000)]
@@ -291,5 +294,7 @@ class RobotLog(Section):
     wrench: WrenchEstimate
     planted: Count
     percentiles: InnerShare
+    scale_quantile: InnerShare
+    on_average: Flag
     settle_s: Seconds
     flag_gap_s: Seconds

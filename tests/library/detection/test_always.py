@@ -8,7 +8,7 @@ from mobnet.core.errors import ConfigError, DataError
 from mobnet.core.estimator import Estimate
 from mobnet.core.recording import Sensed, SensedRecording
 from mobnet.detection.always import alike, always_on, always_watched, setup_of, windows_of
-from mobnet.detection.calibration import QuietWalk, rate_scales
+from mobnet.detection.calibration import QuietWalk, rate_scales, swing_heights
 from mobnet.detection.signals import Watched
 from mobnet.detection.watch import LegSetup
 from mobnet.settings.detection import DetectorSettings
@@ -110,7 +110,7 @@ def test_the_interval_holds_the_rate_as_often_as_it_says(lasts_s, recorded, arm_
         read, estimate = recorded(slow(np.random.default_rng(seed), round(SECONDS * RATE_HZ), lasts_s))
         always = always_watched(arm_setup, WATCHED, [None], [read], [estimate], 1.0, 0.5)
         walk = QuietWalk.of(arm_setup, "", always.limbs, [estimate], share=1.0)
-        scales, promises = rate_scales(arm_setup, WATCHED, walk)
+        scales, promises = rate_scales(arm_setup, WATCHED, walk, swing_heights(arm_setup, WATCHED, walk))
         above = (np.abs(low) / (promises["own"].factor * scales[0])).max(axis=1)
         length = round(always.window_s * RATE_HZ)
         alarms = (above[: len(above) // length * length].reshape(-1, length).max(axis=1) > 1.0).sum()

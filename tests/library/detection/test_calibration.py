@@ -10,9 +10,10 @@ from mobnet.detection.calibration import (
     NotWatchedError,
     QuietWalk,
     _cut,
-    _heights,
     _over_swings,
     _whitening,
+    swing_heights,
+    usual_largest,
 )
 from mobnet.detection.detector import GateSignal
 from mobnet.detection.signals import Watched, whitening_of
@@ -47,11 +48,18 @@ def test_a_phase_of_zeros_alone_takes_the_largest_other_number():
         _over_swings(heights[:, 1:2], np.max)
 
 
+def test_the_usual_largest_is_the_median_over_parts_of_equal_length():
+    heights = np.arange(1.0, 8.0)[:, None, None] * [[[1.0, 10.0]]]
+    # parts of two swings have 2, 4 and 6, the seventh swing is left over
+    assert usual_largest(heights, 2).tolist() == [[4.0, 40.0]]
+    assert usual_largest(heights, 100).tolist() == [[7.0, 70.0]]  # a walk that is shorter is one part
+
+
 def test_the_end_of_a_swing_is_in_its_last_phase(setup):
     """A phase of exactly 1 lies in none of the parts that are cut half-open."""
     walk = QuietWalk.of(setup, "", [recorded(((100, 900),), phase=1.0)], [Estimate(np.ones((ROWS, 6)))], share=1.0)
     watched = Watched(DetectorSettings(method="MOB", signals=("mean",), phases=4))
-    heights = _heights(setup, watched, walk)
+    heights = swing_heights(setup, watched, walk)
     assert heights.shape == (1, 4, 6)
     assert np.isneginf(heights[0, :3]).all()
     assert heights[0, 3] == pytest.approx(1.0, rel=1e-3)

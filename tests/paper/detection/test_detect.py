@@ -10,7 +10,7 @@ from made_swings import AIR, GROUND, RATE_HZ, swinging, unseen
 from experiments.jobs.detect import detect
 from experiments.plan.detection import Walk
 from mobnet.core.columns import residual_columns, torque_columns
-from mobnet.core.detections import FILES
+from mobnet.core.detections import FILES, READINGS
 from mobnet.core.errors import DataError
 from mobnet.core.recording import Recording, write_recording
 from mobnet.core.store import write_array
@@ -115,7 +115,7 @@ def test_an_estimate_that_sees_finds_and_names_every_collision(made, name):
 
 def test_one_that_sees_nothing_finds_nothing(made, section):
     rows = [row for row in read_table(made / "detected.csv") if row.detector == "blind"]
-    assert len(rows) == (1 + len(section.thresholds.rates_per_h)) * len(POINTS)
+    assert len(rows) == (len(READINGS) + len(section.thresholds.rates_per_h)) * len(POINTS)
     found = [row for row in rows if row.delay_s is not None]
     assert [row for row in found if row.kind == "collision"] == []
     assert all(row.perfect_s is not None for row in rows)  # at its thresholds the truth would be found

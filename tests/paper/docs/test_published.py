@@ -116,15 +116,15 @@ def test_the_walks_that_figure_22_shows_falling_are_counted() -> None:
     """It shows a fall of each case that has one; caption and text quote the share of falls."""
     shares = {row["case"]: float(row["value"]) for row in read_texts(RESULTS / "safety.csv")
               if (row["detector"], row["thresholds"], row["wait_s"], row["measure"])
-              == ("MOB-Net-ratio", "reaction", "0", "falls")}  # fmt: skip
+              == ("MOB-Net-pushed-ratio", "reaction", "0", "falls")}  # fmt: skip
     text = gzip.decompress((RESULTS / "figures/figure_22.csv.gz").read_bytes()).decode()
     rows = list(csv.DictReader(text.splitlines()))
     drawn = {row["case"] for row in rows}
     assert drawn == {"cart", "door"}
     assert {row["case"] for row in rows if row["fell"] == "1"} == {case for case in drawn if shares[case] > 0.0}
-    assert r"\cellshare{safety@door@MOB-Net-ratio@reaction@0@falls}" in MAIN
+    assert r"\cellshare{safety@door@MOB-Net-pushed-ratio@reaction@0@falls}" in MAIN
     caption = (ROOT / "workflow/report/figures/figure_22.rst").read_text()
-    assert "{cellshare:safety@door@MOB-Net-ratio@reaction@0@falls}" in caption
+    assert "{cellshare:safety@door@MOB-Net-pushed-ratio@reaction@0@falls}" in caption
     assert "the title counts all walks of the case" in " ".join(caption.split())
 
 

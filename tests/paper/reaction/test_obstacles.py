@@ -15,7 +15,7 @@ SLOPING_CAPSULE = {"type": "capsule", "size": [0.1, 0.3], "pos": [0.0, 0.0, 1.0]
     ({"reaction": {"cases": {"free": {"limbs": ["LL", "LA"]}}}}, "and all legs: LL, RL"),
     ({"reaction": {"cases": {"foot": {"limbs": ["LL", "RL"]}}}}, "all limbs, where something is in the way"),
     ({"evaluation": {"sensorless": {"cases": ["foot"]}}}, "'foot' is not accepted; accepted: .*free"),
-    ({"reaction": {"ours": {"detector": "MOB-Net-norm"}}}, "detector that reacts: 'MOB-Net-norm' is not"),
+    ({"reaction": {"ours": {"detector": "MOB-command"}}}, "detector that reacts: 'MOB-command' is not"),
     ({"reaction": {"estimator": "FTS-e2e"}}, "networks of V"),
     ({"scenarios": {"forward_walk": {"wrench": "estimated"}}}, "`sensed` where reaction.cases does not walk it"),
 ])  # fmt: skip

@@ -20,7 +20,7 @@ from mobnet.estimation.low_pass import exact_pole, low_pass
 from mobnet.robot.plant import robot_spec
 
 REPO = Path(__file__).parents[3]
-ALARM = {"detector": "MOB-Net-ratio", "at": START + 24, "named": "left knee, front"}
+ALARM = {"detector": "MOB-Net-pushed-ratio", "at": START + 24, "named": "left knee, front"}
 READY = "document.querySelector('#still').hidden && document.querySelector('#result').textContent.length > 0"
 SLOWER = 4.0  # is a slow processor
 SINES, SINES_MS = "let sum = 0; for (let i = 0; i < 20000; i++) sum += Math.sin(i)", 0.3  # on the processor of the bars

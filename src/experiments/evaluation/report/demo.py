@@ -8,6 +8,7 @@ from experiments.evaluation.measure.push_scene import PushScene
 from experiments.evaluation.measure.story import StoredPush
 
 MS = 1000.0
+NAME_WIDTH = 20  # of names in the lines, those of detectors included
 
 
 def title_of(stored: StoredPush) -> str:
@@ -21,9 +22,9 @@ def title_of(stored: StoredPush) -> str:
 def lines_of(stored: StoredPush, push: PushScene) -> Iterator[str]:
     """Yield a line for each method, and one for the detector."""
     for method, (shown, error) in _notes(stored, push).items():
-        yield f"{method:<14} {shown}; {error}"
+        yield f"{method:<{NAME_WIDTH}} {shown}; {error}"
     said = "no alarm" if push.alarm is None else f"alarm {MS * push.alarm.delay_s:.0f} ms after the push begins"
-    yield f"{stored.story.detector:<14} {said}"
+    yield f"{stored.story.detector:<{NAME_WIDTH}} {said}"
 
 
 def draw(stored: StoredPush, push: PushScene, out: Path) -> None:

@@ -20,29 +20,36 @@ NONE = Number(None)
 ZERO, ABOVE = "zero", "*"  # the method that estimates nothing, and what stands behind an error larger than its
 PUSHED = ("push_share", "rise_delay")  # metrics of a push
 BOUND = "rise_bound"  # metric: share of the walks whose delay is a lower bound
-DETECTED = {  # quantity -> its cell, of a detector of a leg; both rules of thresholds
-    "threshold": "table_13@{}@largest@mean.LL3 1@threshold",
-    "found": "table_09@{}@largest@all@found",
-    "delay": "table_09@{}@largest@all@delay",
-    "alarms": "false_alarms@{}@largest@random@measured",
+DETECTED = {  # quantity -> its cell, of a detector of a leg; both readings of the paper's rule, and that for a rate
+    "threshold": "table_13@{}@walking@mean.LL3 1@threshold",
+    "found": "table_09@{}@walking@all@found",
+    "delay": "table_09@{}@walking@all@delay",
+    "alarms": "false_alarms@{}@walking@random@measured",
+    "found in place": "table_09@{}@largest@all@found",
+    "alarms in place": "false_alarms@{}@largest@random@measured",
     "found at rate": "found_by_rate@{}@collision@all@found",
     "delay at rate": "found_by_rate@{}@collision@all@delay",
     "alarms at rate": "false_alarms@{}@collision@held out@measured",
 }
-RULE_HEADS = {  # head -> quantity of a column, with thresholds by the paper's rule
+RULE_HEADS = {  # head -> quantity of a column, with thresholds by the paper's rule from random walking
     "LL3 [N m]": "threshold",
     "found": "found",
     "original": "original",
     "delay [ms]": "delay",
     "false alarms [1/h]": "alarms",
 }
+PLACE_HEADS = {"found": "found in place", "false alarms [1/h]": "alarms in place"}  # from walking in place
 RATE_HEADS = {  # the same, for one false alarm an hour
     "found": "found at rate",
     "95 %": "interval",
     "delay [ms]": "delay at rate",
     "false alarms [1/h]": "alarms at rate",
 }
-RULES = {"threshold by the original's rule": RULE_HEADS, "threshold for one false alarm an hour": RATE_HEADS}
+RULES = {
+    "original's rule, random walking": RULE_HEADS,
+    "the same, in place": PLACE_HEADS,
+    "threshold for one false alarm an hour": RATE_HEADS,
+}
 LEG_HEADS = ("error [N m]", "95 %", "original", "push share", "delay [ms]")
 Cells = Mapping[str, Number]
 Fields = Sequence[str | float | None]
@@ -150,7 +157,10 @@ def limbs_table(settings: LimbsTable, cells: Cells) -> Table:
 
 
 def detectors_table(settings: AlarmTable, cells: Cells) -> Table:
-    """Return what detectors find by the paper's rule and at one false alarm an hour, and how often they are wrong."""
+    """Return what detectors find by the paper's rule and for one false alarm an hour, and how often they are wrong.
+
+    The paper's rule has two readings.
+    """
     rows = list[Fields]()
     lines = list[Line]()
     for level, detector in product(settings.levels, settings.detectors):

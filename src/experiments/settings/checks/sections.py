@@ -11,7 +11,7 @@ from experiments.settings.asked import RunRequest
 from experiments.settings.catalogue import Catalogue
 from experiments.settings.checks.claims import claim_problems
 from experiments.settings.checks.data import data_problems
-from experiments.settings.checks.detection import LARGEST, detection_problems, reaction_problems
+from experiments.settings.checks.detection import detection_problems, reaction_problems
 from experiments.settings.checks.learning import learning_problems
 from experiments.settings.checks.outcomes import outcome_problems
 from experiments.settings.checks.results import Results
@@ -20,6 +20,7 @@ from experiments.settings.checks.surrogate import surrogate_problems
 from experiments.settings.checks.walking import walking_problems
 from experiments.settings.products import problems_in
 from experiments.settings.settings import Settings
+from mobnet.core.detections import READINGS
 from mobnet.core.errors import misfit
 from mobnet.core.reactions import FORCE_SENSORS, NONE
 from mobnet.settings.methods import swept_names
@@ -99,7 +100,7 @@ def accepted_names(catalogue: Catalogue) -> dict[str, Collection[str]]:
         "method with networks": learned,
         "method that runs on its own": [name for name, row in settings.methods.items() if row.of is None],
         "detector that reacts": (*reacts, FORCE_SENSORS, NONE), "case of reactions": settings.reaction.cases,
-        "detector": detection.detectors, "rule of thresholds": (LARGEST, *detection.thresholds.rates_per_h),
+        "detector": detection.detectors, "rule of thresholds": (*READINGS, *detection.thresholds.rates_per_h),
         "level with detectors": (*detection.levels, *settings.fleet.robots), "leg with detectors": detection.legs,
         "cell of collisions": [" ".join(point.split("_")[1:]) for point in points],
         **settings.robot.accepted_names,

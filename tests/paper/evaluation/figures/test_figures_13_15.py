@@ -94,9 +94,9 @@ def test_histograms_count_every_collision(settings: Settings, tmp_path: Path) ->
 def test_standard_deviations_stand_beside_force_and_threshold(settings: Settings, made: Made, tmp_path: Path) -> None:
     stem, detections, estimate = made
     section = settings.evaluation.figure_15.model_copy(update={"cells": CELLS})
-    estimates = {"MOB-Net-pushed": [estimate], "FTS-e2e-pushed": [estimate]}
+    estimates = {"MOB-Net": [estimate], "FTS-e2e": [estimate]}
     figure_15(section, settings.detection, settings.layout, detections, [stem], estimates, tmp_path)
-    rows = [row for row in read_table(tmp_path / "figure_15.csv") if row.method == "MOB-Net-pushed"]
+    rows = [row for row in read_table(tmp_path / "figure_15.csv") if row.method == "MOB-Net"]
     assert (rows[0].time_s, rows[0].threshold_nm) == (pytest.approx(-0.2), 3.0)
     assert max(row.force_n for row in rows) == pytest.approx(PEAK, rel=0.01)
     assert {row.force_n > 0 for row in rows if row.time_s < 0} == {False}

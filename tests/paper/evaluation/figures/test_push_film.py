@@ -93,7 +93,7 @@ def test_a_run_without_the_push_is_refused(settings: Settings, made: Made) -> No
 
 def test_a_push_of_which_nothing_is_said_is_refused(settings: Settings, made: Made) -> None:
     story, runs, detections = made
-    with pytest.raises(DataError, match=r"detected\.csv: MOB-Net-ratio says nothing of push 1 of s"):
+    with pytest.raises(DataError, match=r"detected\.csv: MOB-Net-pushed-ratio says nothing of push 1 of s"):
         read_story(story, settings.layout, runs, detections[story.level], "other")
 
 

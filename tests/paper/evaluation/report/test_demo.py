@@ -179,7 +179,7 @@ def test_the_command_runs_without_torch_and_needs_nothing_but_the_stored_push(tm
     words = [sys.executable, "-c", code, "--data", str(data), "--out", "push.png"]
     done = subprocess.run(words, cwd=tmp_path, capture_output=True, text=True, check=True, env={**os.environ})
     lines = [line for line in done.stdout.splitlines() if not line.startswith("compiling")]
-    assert [line.split()[0] for line in lines] == ["robot_1", *METHODS, "MOB-Net-ratio", "push.png"]
+    assert [line.split()[0] for line in lines] == ["robot_1", *METHODS, "MOB-Net-pushed-ratio", "push.png"]
     assert (tmp_path / "push.png").read_bytes().startswith(b"\x89PNG")
 
 

@@ -89,7 +89,7 @@ def test_equal_files_make_an_equal_push_and_another_one_replaces_it(cut: Cut) ->
 def test_thresholds_of_other_detectors_and_rows_of_other_pushes_are_left_out(cut: Cut, tmp_path: Path) -> None:
     run = tmp_path / "run"
     for name, old, new in (
-        ("collisions", "_knee_front", "_foot_front"), ("thresholds", "MOB-Net-ratio", "MOB"),
+        ("collisions", "_knee_front", "_foot_front"), ("thresholds", "MOB-Net-pushed-ratio", "MOB"),
         ("thresholds", "collision", "bump"), ("detected", "LL,5", "LL,4"),
     ):  # fmt: skip
         path = run / f"{name}.csv"

@@ -90,7 +90,7 @@ def test_what_does_not_fit_is_refused():
 
 def page(robot, settings, **scenes):
     evaluation = settings.evaluation
-    alarm = {"detector": "MOB-Net-ratio", "at": START + 24, "named": "left knee, front"}
+    alarm = {"detector": "MOB-Net-pushed-ratio", "at": START + 24, "named": "left knee, front"}
     shown = scenes or {"story": pushed_scene(robot)}
     return page_of(shown, alarm, evaluation.explore, evaluation.story, settings.detection, evaluation.peaks, robot,
                    REPO / TEMPLATES / "explore.html")  # fmt: skip

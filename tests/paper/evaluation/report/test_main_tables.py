@@ -92,3 +92,5 @@ def test_detectors_have_both_rules_of_thresholds(made: Path) -> None:
     (row,) = rows(made / "detectors.csv", row="MOB", quantity="found at rate")
     assert row["value"] == found
     assert cells(made / "detectors.md", "MOB-Net-sigma")[1] == "-"  # a standard deviation has no threshold of a mean
+    placed = rows(PUBLISHED / "table_09.csv", detector="MOB", kind="largest", cell="all", quantity="found")[0]["value"]
+    assert rows(made / "detectors.csv", row="MOB", quantity="found in place")[0]["value"] == placed

@@ -42,7 +42,7 @@ def table(tmp_path):
 
 def test_falls_are_of_all_walks_and_forces_of_those_that_were_hit(table):
     cells, _ = table(ROWS)
-    ours, none = ("foot", "MOB-Net-ratio"), ("foot", "none")
+    ours, none = ("foot", "MOB-Net-pushed-ratio"), ("foot", "none")
     assert (cells[*ours, "falls"]["value"], cells[*ours, "falls"]["walks"], cells[*ours, "falls"]["touched"]) == (
         "0", "3", "2",
     )  # fmt: skip
@@ -62,9 +62,9 @@ def test_the_table_is_the_golden_one(table, tmp_path):
 
 def test_the_paper_s_numbers_stand_beside_force_and_impulse(table):
     cells, _ = table(ROWS)
-    assert cells["foot", "MOB-Net-ratio", "first_peak"]["published"] == "197.7"
-    assert cells["knee", "MOB-Net-ratio", "impulse"]["published"] == "19.5"
-    assert cells["foot", "MOB-Net-ratio", "falls"]["published"] == ""
+    assert cells["foot", "MOB-Net-pushed-ratio", "first_peak"]["published"] == "197.7"
+    assert cells["knee", "MOB-Net-pushed-ratio", "impulse"]["published"] == "19.5"
+    assert cells["foot", "MOB-Net-pushed-ratio", "falls"]["published"] == ""
 
 
 def test_a_case_is_named_once_and_has_a_line_for_each_detector(table):
@@ -79,7 +79,10 @@ def test_contacts_that_begin_in_mid_swing_have_a_row_of_their_own(table):
     stance = replace(HIT, seed=241, in_swing=0, impulse_ns=99.0)
     late = replace(HIT, seed=242, wait_s=0.2, impulse_ns=50.0)
     cells, _ = table([HIT, stance, late, replace(LEANS, seed=243)])
-    every, swing = cells["foot", "MOB-Net-ratio", "median_impulse"], cells["foot, in swing", "MOB-Net-ratio", "impulse"]
+    every, swing = (
+        cells["foot", "MOB-Net-pushed-ratio", "median_impulse"],
+        cells["foot, in swing", "MOB-Net-pushed-ratio", "impulse"],
+    )
     assert (swing["walks"], float(swing["value"]), swing["published"]) == ("1", HIT.impulse_ns, "7.7")
     assert (
         every["wait_s"] == "0.2"
@@ -94,14 +97,14 @@ def test_a_case_in_front_of_no_leg_has_one_row(table):
 
 def test_nothing_that_happened_is_a_table_too(table):
     cells, _ = table([EARLY])
-    assert cells["foot", "MOB-Net-ratio", "first_peak"]["value"] == ""
+    assert cells["foot", "MOB-Net-pushed-ratio", "first_peak"]["value"] == ""
 
 
 def test_groups_keep_the_order_of_the_files():
     assert [key[:2] for key in groups_of(ROWS)] == [
-        ("foot", "MOB-Net-ratio"),
+        ("foot", "MOB-Net-pushed-ratio"),
         ("foot", "none"),
-        ("knee", "MOB-Net-ratio"),
+        ("knee", "MOB-Net-pushed-ratio"),
     ]
 
 

@@ -14,7 +14,7 @@ from experiments.evaluation.measure.claims.cells import Evidence, listed
 from experiments.evaluation.measure.claims.deciding import Effort, effort_of, text_of
 from experiments.evaluation.number.number import Number
 from experiments.evaluation.number.quantities import QUANTITIES, difference_of
-from experiments.settings.claims import Claim, MadeNumber, TrainingMetric
+from experiments.settings.claims import Claim, MadeNumber, TrainingMetric, by_other_reading
 from experiments.settings.runs import Statistics
 from mobnet.core.claim_ranges import Bounds, Ranges, apart, ranges_of, within
 from mobnet.core.columns import (
@@ -37,7 +37,7 @@ from mobnet.core.columns import (
 )
 from mobnet.settings.methods import Method
 
-DETECTOR = re.compile("-(OR|mean|sigma)$")  # what the name of a detector has behind that of its method
+DETECTOR = re.compile("-(OR|mean|sigma|ratio)$")  # what the name of a detector has behind that of its method
 NO_CAUSE = "No cause found."
 TO_MEASURE = "Not measured: the run lacks a test or training for it, or defined the number otherwise."
 NOT_COUNTED = "Not counted as reproduced: {}."
@@ -61,11 +61,15 @@ class Row:
 
 @dataclass(frozen=True)
 class ClaimNumbers:
-    """The numbers of a claim: our own, the one whose sign is claimed, and the one without the claim's cause, if any."""
+    """The numbers of a claim: our own, the one whose sign is claimed, and the one without the claim's cause, if any.
+
+    `other` has them by another reading of the paper, where it can be read in two ways.
+    """
 
     ours: Number
     signed: Number
     without: Number | None = None
+    other: "ClaimNumbers | None" = None
 
 
 @dataclass(frozen=True)
@@ -112,6 +116,17 @@ class Judged:
         without = " ".join(self.found.without.texts()) + unit
         seen = "after" if cause.seen else "before"
         return f"{cause.says}: {without} without it (named {cause.since}, {seen} results had been seen)."
+
+    @property
+    def other(self) -> str:
+        """Our number by the other reading of the paper and what its verdict would be; it counts nowhere."""
+        reading = self.row.claim.other
+        if reading is None or self.found.other is None or self.found.other.ours.value is None:
+            return ""
+        _, _, verdict = verdicts_of(self.found.other, self.ranges)
+        unit = "" if self.ours.unit == "-" else f" {self.ours.unit}"
+        number = " ".join(self.found.other.ours.texts()).strip()
+        return f"With {reading.says}: {number}{unit}, {verdict}."
 
     @property
     def remark(self) -> str:
@@ -162,7 +177,9 @@ def found_of(claim: Claim, results: Evidence, statistics: Statistics) -> ClaimNu
     ours = made_number(claim, results, statistics, claim.unit)
     signed = made_number(claim.sign_of, results, statistics, claim.unit) if claim.sign_of else ours
     without = made_number(claim.cause.without, results, statistics, claim.unit) if claim.cause else None
-    return ClaimNumbers(replace(ours, published=claim.published), signed, without)
+    other = by_other_reading(claim)
+    found = found_of(other, results, statistics) if other else None
+    return ClaimNumbers(replace(ours, published=claim.published), signed, without, found)
 
 
 def judged(row: Row, found: ClaimNumbers, score: str, statistics: Statistics) -> Judged:

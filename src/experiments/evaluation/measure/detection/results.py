@@ -1,6 +1,6 @@
 """What detectors found, read from the files of robots: the robots of a level are taken together."""
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import product
 from typing import TypeVar
@@ -13,7 +13,7 @@ from experiments.plan.detection import Detections
 from experiments.settings.detection_tables import AlarmTable, SmallestForce
 from experiments.settings.runs import Statistics
 from mobnet.core.arrays import Array
-from mobnet.core.detections import Collision, Detected, FreeSwing, Promise
+from mobnet.core.detections import Collision, CurvePoint, Detected, FreeSwing, Promise
 from mobnet.core.errors import DataError, not_accepted
 from mobnet.core.rows import read_rows
 
@@ -140,6 +140,43 @@ def hours_per_swing(promises: Sequence[Promise]) -> float:
 def alarms_in(swings: Sequence[FreeSwing], over: float = 1.0) -> int:
     """Return in how many swings a signal lies above a multiple of the threshold for one false alarm an hour."""
     return sum(row.ratio > over for row in swings)
+
+
+def only_one(first: Sequence[Try], second: Sequence[Try]) -> dict[str, tuple[int, int]]:
+    """Return robot -> how many collisions the first detector alone finds, and the second one alone."""
+    found = {(one.place, one.collision.number): one.is_found for one in second}
+    pairs: dict[str, tuple[int, int]] = {}
+    for one in first:
+        alone, other = pairs.get(one.robot, (0, 0))
+        by_second = found[one.place, one.collision.number]
+        pairs[one.robot] = alone + (one.is_found and not by_second), other + (by_second and not one.is_found)
+    return pairs
+
+
+def sign_test(first: int, second: int) -> float:
+    """Return the exact two-sided probability of counts of discordant pairs, or of less equal ones, by chance [-].
+
+    It takes collisions as independent of each other, as McNemar's test (1947, Psychometrika 12) does.
+    """
+    if not first + second:
+        return 1.0
+    from scipy.stats import binomtest  # here, as it takes a second to import
+
+    return float(binomtest(first, first + second).pvalue)
+
+
+def at_counted_rate(
+    points: Mapping[str, Sequence[CurvePoint]], quiet: Sequence[FreeSwing], hours: float, rate_per_h: float
+) -> dict[str, CurvePoint]:
+    """Return robot -> what a detector finds at the lowest thresholds with at most a counted rate of false alarms [1/h].
+
+    Points are those of each robot at multiples of its thresholds, and false alarms are counted in swings of all of
+    them, which took so many hours. It is empty where all thresholds have more.
+    """
+    for factor in sorted({row.factor for rows in points.values() for row in rows}):
+        if alarms_in(quiet, factor) <= rate_per_h * hours:
+            return {robot: row for robot, rows in points.items() for row in rows if row.factor == factor}
+    return {}
 
 
 # The found share is a logistic function of the logarithm of the force. Of many such laws, with forces for one half and

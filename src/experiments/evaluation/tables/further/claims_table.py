@@ -11,7 +11,8 @@ from mobnet.core.claim_ranges import ANY, range_text
 from mobnet.core.columns import CLAIMS, STAND_INS
 
 HEADER = ("Claim", "Printed in", "Paper", "Ours", "{:.0%}", "Claimed", "Size", "Sign", "Verdict")
-REMARK = "Cause, or what would decide"  # column of the Markdown table; in TeX it is a line below the claim
+# Columns of the Markdown table; in TeX they are lines below the claim.
+REMARK, OTHER = "Cause, or what would decide", "By the other reading"
 CAPTION = r"\claimscaption"  # the paper's
 COLUMNS = r">{\raggedright\arraybackslash}p{.36\linewidth}>{\raggedright\arraybackslash}p{.13\linewidth}rrrllll"
 
@@ -22,9 +23,9 @@ def claim_table(judged: Sequence[Judged], confidence: float, table_dir: Path) ->
     `confidence` is that of the intervals, a share [-].
     """
     header = [text.format(confidence) for text in HEADER]
-    lines = [[*line_of(each), each.remark] for each in judged]
+    lines = [[*line_of(each), each.remark, each.other] for each in judged]
     records = [record_of(each) for each in judged]
-    table = Table(CLAIMS, records, [*header, REMARK], lines, left=len(header) + 1)
+    table = Table(CLAIMS, records, [*header, REMARK, OTHER], lines, left=len(header) + 2)
     shown = [each for each in judged if not each.row.joint]
     write_table(table_dir / "claims", table, long_table(COLUMNS, CAPTION, header, list(with_remarks(shown))))
 
@@ -56,6 +57,7 @@ def record_of(each: Judged) -> tuple[Field, ...]:
         *without,
         each.cause,
         each.remark,
+        each.other,
         "yes" if each.is_beyond_reach else "",
         *(each.control.get(name, "") for name in STAND_INS),
     )
@@ -76,7 +78,7 @@ def line_of(each: Judged) -> list[str]:
 
 
 def with_remarks(judged: Sequence[Judged]) -> Iterator[Line]:
-    """Yield the lines of claims, a gap between statements, each followed by a line with its remark, if it has one."""
+    """Yield the lines of claims, a gap between statements, each followed by lines with what is remarked on it."""
     across = rf"\multicolumn{{{len(HEADER)}}}{{@{{\quad}}p{{.96\linewidth}}}}"
     before = ""
     for each in judged:
@@ -84,5 +86,5 @@ def with_remarks(judged: Sequence[Judged]) -> Iterator[Line]:
             yield GAP
         before = each.row.statement
         yield line_of(each)
-        if each.remark:
-            yield rf"{across}{{\emph{{{tex_escape(each.remark)}}}}} \\"
+        for text in filter(None, (each.remark, each.other)):
+            yield rf"{across}{{\emph{{{tex_escape(text)}}}}} \\"

@@ -1,6 +1,7 @@
 """Table 9: collisions of a leg that detectors find, and how late."""
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from itertools import product
 from pathlib import Path
 
 from experiments.evaluation.measure.detection.results import (
@@ -19,10 +20,11 @@ from experiments.evaluation.measure.detection.results import (
 from experiments.evaluation.number.number import Number, number_text, published_row
 from experiments.evaluation.number.rows import Field
 from experiments.evaluation.tables.layout import PART, RULE, Line, Table, text_table, write_table
-from experiments.settings.detection_tables import DetectorTable, SmallestForce
+from experiments.settings.detection_tables import ReadingTable, SmallestForce
 from experiments.settings.published import PublishedTable
 from experiments.settings.runs import Statistics
 from mobnet.core.columns import DETECTION
+from mobnet.core.detections import READINGS
 from mobnet.settings.detection import Detection
 
 FOUND = "found"
@@ -32,10 +34,11 @@ PERFECT = "perfect_delay"
 HALF_FORCE = "half_force"  # quantity of the pushes of all sizes
 DETECTED, DELAY_MS = "detected", "delay_ms"  # places of the paper's numbers
 TRIED = 10  # collisions of each cell in the paper
+Tries = Mapping[str, Sequence[Try]]  # by detector
 
 
 def table_09(
-    settings: DetectorTable,
+    settings: ReadingTable,
     smallest_force: SmallestForce,
     detection: Detection,
     statistics: Statistics,
@@ -48,30 +51,35 @@ def table_09(
     A delay is the mean of a cell over the collisions that are found; of all together it is that of the cells, as the
     paper's, and beside it that over all found collisions. `perfect` is the delay of an estimate without error at the
     same thresholds, on the same collisions. Totals near all collisions rank no detectors: beside them is the force of
-    which one half is found, from pushes of all sizes.
+    which one half is found, from pushes of all sizes. Rows of a level are by each rule of thresholds.
     """
     rows: list[Sequence[Field]] = []
     lines: list[Line] = []
     taus: list[str] = []
     force_taus: list[str] = []
-    swept = dict(shown_tries(settings, detections, detection.sweep, settings.kind))
-    for level, shown in shown_tries(settings, detections, detection.collisions, settings.kind):
+    tried: dict[tuple[str, str], tuple[Tries, Tries]] = {}  # level, rule -> collisions, and pushes of all sizes
+    for kind in settings.kinds:
+        swept = dict(shown_tries(settings, detections, detection.sweep, kind))
+        for level, shown in shown_tries(settings, detections, detection.collisions, kind):
+            tried[level, kind] = shown, swept[level]
+    for level, kind in product(settings.levels, settings.kinds):
+        shown, swept_here = tried[level, kind]
+        title = f"{level.replace('_', ' ')}, {READINGS.get(kind, kind)}"
         lines += [RULE] if lines else []
         halves: dict[str, Number] = {}
         for name, own in shown.items():
-            tried = swept[level].get(name, [])
-            halves[name] = half_force(tried, smallest_force, statistics)
-            rows += _rows(level, name, settings, own, statistics, published)
-            place = level, name, settings.leg, settings.kind, ALL
-            rows.append((*place, HALF_FORCE, *halves[name].with_ends, len(tried), "N", None))
-            lines += _lines(level, name, own, halves[name], statistics, published)
+            of_all_sizes = swept_here.get(name, [])
+            halves[name] = half_force(of_all_sizes, smallest_force, statistics)
+            place = level, name, settings.leg, kind
+            rows += _rows(place, own, statistics, published)
+            rows.append((*place, ALL, HALF_FORCE, *halves[name].with_ends, len(of_all_sizes), "N", None))
+            lines += _lines(title, name, own, halves[name], statistics, published)
         shares = {name: len([one for one in own if one.is_found]) / len(own) for name, own in shown.items()}
-        weakness = {name: -_rank(number) for name, number in halves.items() if swept[level].get(name)}
-        at_level = f"({level.replace('_', ' ')})"
-        taus.append(f"{order_text(shares, published)} {at_level}")
-        force_taus.append(f"{order_text(weakness, published)} {at_level}")
+        weakness = {name: -_rank(number) for name, number in halves.items() if swept_here.get(name)}
+        taus.append(f"{order_text(shares, published)} ({title})")
+        force_taus.append(f"{order_text(weakness, published)} ({title})")
     cells = list(map(_initials, CELLS))
-    leading = ["Level", "Detector", ""]
+    leading = ["Level, normal walking", "Detector", ""]
     found = [*cells, "all", f"{statistics.confidence:.0%}", "half [N]"]
     delays = [*(f"{cell} [ms]" for cell in cells), "cells", "found", "perfect", "from onset"]
     note = (
@@ -137,16 +145,12 @@ def _delays(tries: Sequence[Try], quantity: str = DELAY) -> list[float]:
 
 
 def _rows(
-    level: str,
-    name: str,
-    settings: DetectorTable,
-    tries: Sequence[Try],
-    statistics: Statistics,
-    published: PublishedTable,
+    detector: tuple[str, str, str, str], tries: Sequence[Try], statistics: Statistics, published: PublishedTable
 ) -> Iterator[Sequence[Field]]:
-    printed = {place: published_row(published, place, name) for place in (DETECTED, DELAY_MS)}
+    """Yield the rows of a detector, which is told by level, name, leg and rule of thresholds."""
+    printed = {place: published_row(published, place, detector[1]) for place in (DETECTED, DELAY_MS)}
     for cell, own in {**_in_cells(tries), ALL: list(tries)}.items():
-        place = level, name, settings.leg, settings.kind, cell
+        place = *detector, cell
         count = TRIED * (len(CELLS) if cell == ALL else 1)
         of_paper = printed[DETECTED].get(cell)
         found = found_share(own, statistics)
@@ -160,24 +164,11 @@ def _rows(
     # The paper's average is that of its four cells, however many collisions each of them found.
     cells = [mean for own in _in_cells(tries).values() if (mean := _mean(_delays(own)))]
     average = sum(cells) / len(cells) if cells else None
-    yield (
-        level,
-        name,
-        settings.leg,
-        settings.kind,
-        "cells",
-        DELAY,
-        average,
-        None,
-        None,
-        len(cells),
-        "ms",
-        printed[DELAY_MS].get(ALL),
-    )
+    yield (*detector, "cells", DELAY, average, None, None, len(cells), "ms", printed[DELAY_MS].get(ALL))
 
 
 def _lines(
-    level: str, name: str, tries: Sequence[Try], half: Number, statistics: Statistics, published: PublishedTable
+    title: str, name: str, tries: Sequence[Try], half: Number, statistics: Statistics, published: PublishedTable
 ) -> Iterator[Line]:
     """Yield what a detector finds in each cell, half of which forces, and how late; below it what the paper prints."""
     in_cells = _in_cells(tries)
@@ -188,7 +179,7 @@ def _lines(
     known = [mean for mean in means if mean is not None]
     further = [_mean(known), *(_mean(_delays(tries, quantity)) for quantity in (DELAY, PERFECT, ONSET))]
     delays = [number_text(mean, 1) for mean in (*means, *further)]
-    yield [level.replace("_", " "), name, "ours", *counts, all_found, total.interval(), force_text(half), *delays]
+    yield [title, name, "ours", *counts, all_found, total.interval(), force_text(half), *delays]
     printed, late = (published_row(published, place, name) for place in (DETECTED, DELAY_MS))
     if printed and late:
         weighted = [(printed[cell] or 0.0, late[cell]) for cell in CELLS]

@@ -4,6 +4,7 @@ from collections import defaultdict
 from collections.abc import Sequence
 from itertools import product
 from pathlib import Path
+from statistics import geometric_mean
 
 from experiments.evaluation.measure.detection.results import Detections, owners, rows_of
 from experiments.evaluation.number.number import number_text, published_row
@@ -12,7 +13,7 @@ from experiments.evaluation.tables.layout import OUTSIDE, Table, in_blocks, writ
 from experiments.settings.detection_tables import ThresholdTable
 from experiments.settings.published import PublishedTable
 from mobnet.core.columns import DETECTION
-from mobnet.core.detections import Threshold
+from mobnet.core.detections import READINGS, Threshold
 from mobnet.core.joints import JointLayout
 from mobnet.detection.signals import MEAN, RATIO, STD
 
@@ -25,9 +26,9 @@ def table_13(
 ) -> None:
     """Write table_13.csv, .tex and .md: thresholds, means over the robots of a level with the least and the most.
 
-    They are torques [N m], those of MOB-Net-ratio without unit [-]. Below those of one detector is their ratio to the
-    paper's. The CSV has the thresholds of all detectors of both legs
-    and by all rules.
+    They are torques [N m], those of a ratio without unit [-], by each reading of the paper's rule; the last column is
+    their geometric mean over the paper's. Below those of one detector is its ratio by joint, by the reading that sized
+    the robots. The CSV has the thresholds of all detectors of both legs and by all rules.
     """
     rows: list[tuple[Field, ...]] = []
     blocks: list[tuple[list[str], list[list[str]]]] = []
@@ -42,25 +43,36 @@ def table_13(
             values = [row.value for row in own]
             means[key] = sum(values) / len(values)
             paper = published_row(published, THRESHOLD, key[0]).get(own[0].signal.partition(".")[2])
-            is_shown = key[1:3] == (settings.leg, settings.kind)
+            is_shown = key[1] == settings.leg and key[2] in settings.kinds
             ends = min(values), max(values), len(values)
             rows.append((level, *key, QUANTITY, means[key], *ends, own[0].unit, paper if is_shown else None))
         lines: list[list[str]] = []
         for name in settings.detectors:
-            own = []
-            for joint, kind in product(joints, (MEAN, STD, RATIO)):
-                key = name, settings.leg, settings.kind, f"{kind}.{joint} 1"
-                if key in means:
-                    own.append(means[key])
-            lines.append([name, "ours", *(number_text(value) for value in own)])
-            if printed := published_row(published, THRESHOLD, name):
-                lines.append(["", "original", *(number_text(printed[joint]) for joint in joints)])
-            if printed and name == settings.sized:
-                sizes = [ours / theirs for ours, joint in zip(own, joints, strict=True) if (theirs := printed[joint])]
-                lines.append(["", "ratio", *(ratio_text(size, settings.ratio) for size in sizes)])
+            printed = published_row(published, THRESHOLD, name)
+            for place, rule in enumerate(settings.kinds):
+                values: list[float] = []
+                for joint, kind in product(joints, (MEAN, STD, RATIO)):
+                    key = name, settings.leg, rule, f"{kind}.{joint} 1"
+                    if key in means:
+                        values.append(means[key])
+                sizes: list[float] = []
+                for ours, joint in zip(values, joints if printed else (), strict=False):
+                    if theirs := printed[joint]:
+                        sizes.append(ours / theirs)
+                texts = [number_text(value) for value in values]
+                lines.append([name if place == 0 else "", READINGS.get(rule, rule), *texts, mean_text(sizes)])
+                if sizes and (name, rule) == (settings.sized, settings.sized_kind):
+                    lines.append(["", "ratio", *(ratio_text(size, settings.ratio) for size in sizes), ""])
+            if printed:
+                lines.append(["", "original", *(number_text(printed[joint]) for joint in joints), ""])
         blocks.append(([level.replace("_", " ")], lines))
-    header = ["Level", "Detector", "", *(f"{joint} [N m]" for joint in joints)]
+    header = ["Level", "Detector", "", *(f"{joint} [N m]" for joint in joints), "over original"]
     write_table(table_dir / "table_13", Table(DETECTION, rows, header, in_blocks(blocks), left=3))
+
+
+def mean_text(ratios: Sequence[float]) -> str:
+    """Return the geometric mean of ratios [-] as text; a dash where there are none."""
+    return number_text(geometric_mean(ratios) if ratios else None)
 
 
 def ratio_text(ratio: float, bounds: Sequence[float]) -> str:
