@@ -238,7 +238,8 @@ def scales(results: Path) -> str:
 
 def _best(rows: Sequence[Row], place: Row, methods: Sequence[str]) -> Row | None:
     """Return the row of the smallest error of some methods in a place; None where none of them ran."""
-    placed = [row for row in rows if place.items() <= row.items() and row["method"] in methods]
+    known = [row for row in rows if row["method"] in methods and row["value"]]
+    placed = [row for row in known if place.items() <= row.items()]
     return min(placed, key=lambda row: float(row["value"]), default=None)
 
 

@@ -93,7 +93,7 @@ def test_histograms_count_every_collision(settings: Settings, tmp_path: Path) ->
 
 def test_standard_deviations_stand_beside_force_and_threshold(settings: Settings, made: Made, tmp_path: Path) -> None:
     stem, detections, estimate = made
-    section = settings.evaluation.figure_15.model_copy(update={"cells": CELLS})
+    section = settings.evaluation.figure_15.model_copy(update={"cells": CELLS, "kind": "largest"})
     estimates = {"MOB-Net": [estimate], "FTS-e2e": [estimate]}
     figure_15(section, settings.detection, settings.layout, detections, [stem], estimates, tmp_path)
     rows = [row for row in read_table(tmp_path / "figure_15.csv") if row.method == "MOB-Net"]

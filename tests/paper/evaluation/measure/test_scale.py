@@ -58,7 +58,7 @@ def test_a_claim_is_judged_with_methods_in_the_place_of_its_network(configured: 
 def test_no_method_is_compared_with_itself_and_nothing_stands_in_for_a_training(
     configured: Settings, known: KnownMethods
 ) -> None:
-    assert list(stand_ins_of(configured.claims["walk-mob"], known)) == ["zero", "MOB-Net-shuffled"]
+    assert list(stand_ins_of(configured.claims["walk-mob-fric"], known)) == ["zero", "MOB-Net-shuffled"]
     assert "zero" not in stand_ins_of(configured.claims["zero-walk"], known)
     assert stand_ins_of(configured.claims["gru-validation"], known) == {}
     assert stand_ins_of(configured.claims["noise-floor"], known) == {}
@@ -88,7 +88,7 @@ def test_what_a_method_that_knows_nothing_passes_is_a_description(
 
 def test_the_control_has_the_verdicts_of_other_methods(configured: Settings, known: KnownMethods) -> None:
     """Made-up: MOB finds as many as a detector must, and the table has no row of `zero`."""
-    columns = {"level": "robots", "leg": "LL", "kind": "largest", "cell": "all", "quantity": "found"}
+    columns = {"level": "robots", "leg": "LL", "kind": "walking", "cell": "all", "quantity": "found"}
     rows = [{**columns, "detector": name, "value": "0.95", "low": low, "high": "1.0"}
             for name, low in (("MOB", "0.9"), ("MOB-Net-OR", "0.99"))]  # fmt: skip
     claim = configured.claims["found-or"]

@@ -131,9 +131,9 @@ def test_what_carries_a_robot_has_no_impulse_and_who_did_not_notice_is_counted(t
     plate = replace(HIT, case="plate")
     unnoticed = replace(plate, seed=241, alarm_s=None, limb="", reacted_s=None, angle_deg=None, base_angle_deg=None)
     cells, _ = table([plate, unnoticed, HIT])
-    ours = ("plate", "MOB-Net-ratio")
+    ours = ("plate", "MOB-Net-pushed-ratio")
     for measure in ("impulse", "first_impulse", "median_impulse", "heavy"):
         assert cells[*ours, measure]["value"] == ""
-        assert cells["foot", "MOB-Net-ratio", measure]["value"] != ""
+        assert cells["foot", "MOB-Net-pushed-ratio", measure]["value"] != ""
     assert cells[*ours, "first_peak"]["value"] == "200"
     assert float(cells[*ours, "noticed"]["value"]) == 0.5

@@ -61,12 +61,12 @@ def false_alarms(
         ViewColumn("promised", _of(COLLISION, ALL, PROMISED), 1, ends=share),
         ViewColumn("counted", _of(COLLISION, COUNTED), 1, ends=share),
         ViewColumn("kept", _of(COLLISION, COUNTED, KEPT), text=_yes_or_no),
-        ViewColumn(BETWEEN, _of(COLLISION, BETWEEN), 1),
-        ViewColumn("original's rule, from random walking: there", _of(WALKING, RANDOM), 0),
-        ViewColumn(BETWEEN, _of(WALKING, BETWEEN), 0),
-        ViewColumn("from walking in place: there", _of(LARGEST, PLACE), 0),
-        ViewColumn("random walking", _of(LARGEST, RANDOM), 0),
-        ViewColumn(BETWEEN, _of(LARGEST, BETWEEN), 0),
+        ViewColumn("pushes", _of(COLLISION, BETWEEN), 1),
+        ViewColumn("random: there", _of(WALKING, RANDOM), 0),
+        ViewColumn("pushes", _of(WALKING, BETWEEN), 0),
+        ViewColumn("in place: there", _of(LARGEST, PLACE), 0),
+        ViewColumn("random", _of(LARGEST, RANDOM), 0),
+        ViewColumn("pushes", _of(LARGEST, BETWEEN), 0),
     ]
     # the level stands in every line, and a rule between levels
     view = View({"title": "Level", "detector": "Detector"}, columns, blocks=("level",))

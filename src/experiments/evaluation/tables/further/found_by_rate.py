@@ -78,13 +78,16 @@ def found_by_rate(
             sentences.append(f"{level.replace('_', ' ').capitalize()}: {gain}")
     share = f"{statistics.confidence:.0%}"
     columns: list[ViewColumn] = []
+    # A page has room for the interval and the delay of one rate; the CSV file has all of them.
     for kind, rate in rates:
-        columns.append(ViewColumn(f"found at {rate:g}/h", {"kind": kind, "quantity": FOUND}, ends=share))
-        columns.append(ViewColumn("delay [ms]", {"kind": kind, "quantity": DELAY}, digits=1))
+        ends = share if kind == COLLISION else ""
+        columns.append(ViewColumn(f"at {rate:g}/h", {"kind": kind, "quantity": FOUND}, ends=ends))
+        if kind == COLLISION:
+            columns.append(ViewColumn("delay [ms]", {"kind": kind, "quantity": DELAY}, digits=1))
     of_pairs = {"kind": COLLISION, "cell": ALL}
     columns += [
-        ViewColumn(f"found at {settings.counted_per_h:g}/h counted", {"quantity": COUNTED}, ends=share),
-        ViewColumn(f"{settings.reference} alone", {**of_pairs, "quantity": FIRST_ONLY}, digits=0),
+        ViewColumn(f"at {settings.counted_per_h:g}/h counted", {"quantity": COUNTED}, ends=share),
+        ViewColumn("reference alone", {**of_pairs, "quantity": FIRST_ONLY}, digits=0),
         ViewColumn("this alone", {**of_pairs, "quantity": THIS_ONLY}, digits=0),
         ViewColumn("by chance", {**of_pairs, "quantity": CHANCE}, text=lambda row: chance_text(row.number.value)),
     ]
