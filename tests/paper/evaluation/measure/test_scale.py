@@ -58,7 +58,7 @@ def test_a_claim_is_judged_with_methods_in_the_place_of_its_network(configured: 
 def test_no_method_is_compared_with_itself_and_nothing_stands_in_for_a_training(
     configured: Settings, known: KnownMethods
 ) -> None:
-    assert list(stand_ins_of(configured.claims["walk-mob-fric"], known)) == ["zero", "MOB-Net-shuffled"]
+    assert list(stand_ins_of(configured.claims["mob-net-cut"], known)) == ["zero", "MOB-Net-shuffled"]
     assert "zero" not in stand_ins_of(configured.claims["zero-walk"], known)
     assert stand_ins_of(configured.claims["gru-validation"], known) == {}
     assert stand_ins_of(configured.claims["noise-floor"], known) == {}
