@@ -1,7 +1,7 @@
 """Uncertainty levels (section 5.1), and surrogate robots: hidden drives, masses and errors of sensors (5.2 to 7)."""
 
 from collections.abc import Mapping
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, cast
 
 from pydantic import AfterValidator, Field
 
@@ -123,9 +123,9 @@ def _laid_over(numbers: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[s
     """Return numbers, nested at any depth, with changes in their places."""
     found: dict[str, Any] = dict(numbers)
     for name, value in changes.items():
-        inside = found.get(name)
+        inside: Any = found.get(name)
         nested = isinstance(inside, dict) and isinstance(value, dict)
-        found[name] = _laid_over(inside, value) if nested else value
+        found[name] = _laid_over(cast("dict[str, Any]", inside), cast("dict[str, Any]", value)) if nested else value
     return found
 
 

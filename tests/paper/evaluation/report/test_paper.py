@@ -34,6 +34,7 @@ from experiments.evaluation.tables.layout import PART, long_table, note_tex, tex
 from experiments.plan.files import Files
 from experiments.plan.products import DRAWN, KEPT_TABLE, MAIN_TABLES, Folders, Products, pictures, sources
 from experiments.settings.catalogue import Catalogue
+from experiments.settings.load import load_settings
 from experiments.settings.pages import PaperText
 from experiments.settings.settings import Settings
 from mobnet.core.columns import CLAIMS
@@ -97,7 +98,9 @@ def write_tex(name: str, settings: Settings, out: Path) -> None:
     align = "l" * left + "r" * (len(header) - left)
     parts = getattr(settings.evaluation.tables.get(name), "parts", ())
     if name == "claims":
-        tex = long_table(claims_table.COLUMNS, claims_table.CAPTION, header[:-1], [line[:-1] for line in lines])
+        width = len(claims_table.HEADER)  # what follows are lines below a claim
+        shown = [line[:width] for line in lines]
+        tex = long_table(claims_table.COLUMNS, claims_table.CAPTION, header[:width], shown)
     elif name == "methods":
         tex = long_table(align, methods.CAPTION, header, lines)
     elif parts:
@@ -155,14 +158,18 @@ def test_with_tex_equal_input_gives_equal_bytes(source: Path) -> None:
 def write_detection(
     tmp_path: Path, make_table: Callable[..., Path], settings: Settings, monkeypatch: pytest.MonkeyPatch
 ) -> Callable[[], None]:
-    """Write the tables of detection, with a made-up number for each detector of the configuration."""
+    """Write the tables of detection as the configuration has them: of robots, a made-up number for each detector."""
+
+    configured = load_settings()
 
     def write() -> None:
         for name in settings.detection.detectors:
             monkeypatch.setitem(made_detections.FOUND, name, 0.75)
             monkeypatch.setitem(made_detections.DELAY_S, name, 0.123)
         for name in DETECTION:
-            make_table(name, detections=made_detections.write_detections(tmp_path / "detection"))
+            section = getattr(configured.evaluation, name)
+            made = made_detections.write_detections(tmp_path / "detection", ["robot_1"])
+            make_table(name, settings=section, detection=configured.detection, detections=made)
 
     return write
 

@@ -10,7 +10,6 @@ from pathlib import Path
 
 import numpy as np
 
-from experiments.evaluation.compare.rmse import Spans
 from experiments.evaluation.compare.windows import push_windows
 from experiments.evaluation.measure.learning.trials import Known, ObservedWalks
 from experiments.plan.runs import Tried
@@ -46,9 +45,9 @@ def taken_by_inputs(
     """
     layout = describe(known.robot).layout
     place = hits.joints.index(joint)
-    spans = [
-        push_windows(stem, len(truth), 0.0, after_s)[0] for (stem, _), truth in zip(walks, hits.truths, strict=True)
-    ]
+    spans: list[tuple[int, int]] = []
+    for (stem, _), truth in zip(walks, hits.truths, strict=True):
+        spans.append(push_windows(stem, len(truth), 0.0, after_s)[0])
     twins: list[Sensed] = []
     for (stem, other), one, (start, _) in zip(walks, hits.read, spans, strict=True):
         twin = read_sensed(other, layout).sensed
@@ -91,7 +90,12 @@ def mix(twin: Sensed, hit: Sensed, inputs: Sequence[str]) -> Sensed:
 
 
 def _predictions(
-    tried: Tried, known: Known, hits: ObservedWalks, sensed: Sequence[Sensed], spans: Spans, joint: str
+    tried: Tried,
+    known: Known,
+    hits: ObservedWalks,
+    sensed: Sequence[Sensed],
+    spans: Sequence[tuple[int, int]],
+    joint: str,
 ) -> list[Array]:
     """Return what a network predicts of a joint from what was sensed, up to the end of the first hit (T_i,) [N m]."""
     read: list[ObservedRecording] = []
@@ -107,5 +111,5 @@ def _predictions(
     found: list[Array] = []
     for estimate, one in zip(estimates, read, strict=True):
         assert one.residual is not None
-        found.append(one.residual[:, whole] - estimate.tau_ext[:, column])
+        found.append(one.residual[:, whole].astype(np.float64) - estimate.tau_ext[:, column])
     return found
