@@ -16,6 +16,7 @@ HELD = "held"
 LIKE = {  # kind of jobs -> that whose rates count where it has none
     "train_stack": "train",  # both read and are prepared
     "falls": "collect",  # both walk robots
+    "claims_tolerance": "claims_summary",  # both count what the table of claims holds
 }
 Rates = Mapping[str, float]  # amount -> what a unit of it takes
 
