@@ -97,6 +97,5 @@ def shape_of(files: Files, name: NetworkName, training: Training) -> str:
 def inputs_of(files: Files, network: Network) -> int:
     """Return the number of inputs of a network."""
     limbs = files.settings.layout.limbs
-    return (
-        INPUTS_PER_JOINT * len(limbs(network.Q)) + len(limbs(network.T)) + sum(map(IMU_INPUTS.__getitem__, network.imu))
-    )
+    base = sum(IMU_INPUTS[reading] for reading in network.imu)
+    return INPUTS_PER_JOINT * len(limbs(network.Q)) + len(limbs(network.T)) + base

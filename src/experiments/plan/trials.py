@@ -9,6 +9,7 @@ from experiments.plan.files import Files, made_by_jobs
 from experiments.plan.jobs import KINDS, scoring
 from experiments.plan.products import TABLE, Product
 from experiments.plan.runs import ExplainedRobot, TaughtRobot, Tried, TriedTask
+from experiments.settings.settings import Settings
 from experiments.settings.trials import (
     WAY,
     MethodVariant,
@@ -55,10 +56,7 @@ def _factorial(files: Files, out: Path) -> Product:
     robots = {name: _taught(own) for name, own in (wanted or files.robots).items()}
     cells = {name: factors_of(settings.training_sets, settings.scenarios, name) for name in sets_of(trial)}
     arguments = {
-        "robot": settings.robot,
-        "gravity_m_s2": settings.plant.gravity_m_s2,
-        "observer": settings.observer,
-        "rate_hz": settings.rates.data_hz,
+        **_known(settings),
         "settings": trial,
         "robots": robots,
         "cells": cells,
@@ -67,10 +65,7 @@ def _factorial(files: Files, out: Path) -> Product:
         "statistics": settings.evaluation.statistics,
         "out": out,
     }
-    kinds: dict[str, None] = {}
-    for robot in robots.values():
-        for one in robot.walk.tried:
-            kinds |= dict.fromkeys(f"{KINDS}.{row.kind}" for row in one.methods.values())
+    kinds = _kinds(robot.walk for robot in robots.values())
     call = Call("experiments.evaluation.tables.further.factorial:factorial", arguments)
     return _table(out, call, made_by_jobs(robots), kinds)
 
@@ -99,20 +94,14 @@ def _why(files: Files, out: Path) -> Product:
                 sets |= dict.fromkeys(row.sets)
         asked += [_explained(own, name, data) for data in sets]
     arguments = {
-        "robot": settings.robot,
-        "gravity_m_s2": settings.plant.gravity_m_s2,
-        "observer": settings.observer,
-        "rate_hz": settings.rates.data_hz,
+        **_known(settings),
         "settings": trial,
         "robots": tuple(asked),
         "peaks": settings.evaluation.peaks,
         "statistics": settings.evaluation.statistics,
         "out": out,
     }
-    kinds: dict[str, None] = {}
-    for one in asked:
-        for tried in one.taught.walk.tried:
-            kinds |= dict.fromkeys(f"{KINDS}.{row.kind}" for row in tried.methods.values())
+    kinds = _kinds(one.taught.walk for one in asked)
     call = Call("experiments.evaluation.tables.further.why:why", arguments)
     return _table(out, call, made_by_jobs(tuple(asked)), kinds)
 
@@ -161,19 +150,32 @@ def _product(files: Files, out: Path, trials: Sequence[MethodVariant]) -> Produc
         by_task[trial.task].append(trial)
     tasks = {name: _task(files, name, own) for name, own in by_task.items()}
     arguments = {
+        **_known(settings),
+        "tasks": tasks,
+        "out": out,
+    }
+    kinds = _kinds(tasks.values())
+    call = Call("experiments.evaluation.tables.further.trials:trials", arguments)
+    return _table(out, call, made_by_jobs(tasks), kinds)
+
+
+def _known(settings: Settings) -> dict[str, object]:
+    """Return what every table of trials is told to run estimators on walks."""
+    return {
         "robot": settings.robot,
         "gravity_m_s2": settings.plant.gravity_m_s2,
         "observer": settings.observer,
-        "tasks": tasks,
         "rate_hz": settings.rates.data_hz,
-        "out": out,
     }
-    kinds: dict[str, None] = {}
-    for task in tasks.values():
-        for one in task.tried:
-            kinds |= dict.fromkeys(f"{KINDS}.{row.kind}" for row in one.methods.values())
-    call = Call("experiments.evaluation.tables.further.trials:trials", arguments)
-    return _table(out, call, made_by_jobs(tasks), kinds)
+
+
+def _kinds(tasks: Iterable[TriedTask]) -> dict[str, None]:
+    """Return the modules of the estimators that are tried, each once."""
+    found: dict[str, None] = {}
+    for task in tasks:
+        for tried in task.tried:
+            found |= dict.fromkeys(f"{KINDS}.{row.kind}" for row in tried.methods.values())
+    return found
 
 
 def _table(out: Path, call: Call, inputs: Iterable[str], modules: Iterable[str] = ()) -> Product:
