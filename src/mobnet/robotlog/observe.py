@@ -183,8 +183,10 @@ def _torques_looked_at(
     if windows is None:
         return [], []
     known = known_joints(nominal, windows, windows.asked(nominal), bounds)
-    # Late speeds make torques look early.
-    delay = None if late else torque_delay(nominal, *log_of, known, torque, bounds)
+    # Late speeds make torques look early, and so do the gears of arms and a waist, which alone are left where legs tell
+    # nothing for want of a sensor at the foot.
+    told = not late and set(nominal.robot.feet) <= set(wrenches)
+    delay = torque_delay(nominal, *log_of, known, torque, bounds) if told else None
     if delay:
         windows = windows_of(*log_of, torque, delay.samples, bounds) or windows
     hints = list(torque_hints(nominal, windows, bounds))

@@ -84,17 +84,24 @@ def set_obstacles(model: mujoco.MjModel, obstacles: Mapping[str, Obstacle]) -> N
     for k in range(model.npair):
         geoms = model.pair_geom1[k], model.pair_geom2[k]
         bodies = [int(model.geom_bodyid[geom]) for geom in geoms]
-        names = [model.body(body).name for body in bodies]
-        pad = next(pads[name] for name in names if name in pads)
+        pad = next((pads[name] for name in (model.body(body).name for body in bodies) if name in pads), None)
+        if pad is None:
+            continue  # a sole on the ground
         corner = (1.0 - IMPEDANCE) * sum(float(model.body_invweight0[body, 0]) for body in bodies)
         stiffness = pad.stiffness_n_m * corner
         damping = pad.damping_ns_m * corner
-        # MuJoCo takes (damping / impedance) x step of the speed in a step where friction is as stiff as `contact_grip`
-        # makes it.
-        sliding = min(damping, SLIDING_SHARE * IMPEDANCE / model.opt.timestep)
+        sliding = sliding_damping(damping, model.opt.timestep)
         model.pair_solref[k] = [-stiffness, -damping]
         model.pair_solreffriction[k] = [-stiffness, -sliding]
         model.pair_solimp[k, :2] = IMPEDANCE
+
+
+def sliding_damping(damping: float, step_s: float) -> float:
+    """Return the damping of MuJoCo's solref [1/s] for friction along a contact, which has another one across.
+
+    MuJoCo takes (damping / impedance) x step of the speed in a step where friction is as stiff as `contact_grip` makes it.
+    """
+    return min(damping, SLIDING_SHARE * IMPEDANCE / step_s)
 
 
 def points_on(model: mujoco.MjModel, data: mujoco.MjData) -> Array:

@@ -10,11 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mobnet.robot.description import SIDES, RobotDescription
-from mobnet.robot.plant import robot_spec, sole_name
+from mobnet.robot.plant import SLIDING, robot_spec, sole_name
 from mobnet.settings.data import Obstacle
 from mobnet.settings.plant import Plant
 from mobnet.settings.surrogate import Level
-from mobnet.simulation.obstacles import IMPEDANCE, add_obstacles, set_obstacles
+from mobnet.simulation.obstacles import IMPEDANCE, add_obstacles, set_obstacles, sliding_damping
 from mobnet.simulation.terrain import TERRAIN_GROUP, DrawnTerrain, add_terrain, top_of
 
 DOWN = np.array([0.0, 0.0, -1.0])
@@ -57,6 +57,7 @@ def make_world(
     """
     spec = robot_spec(robot)
     add_terrain(spec, terrain)
+    _add_pairs(spec)
     _set_options(spec, plant, rate_hz)
     if rng is not None:
         add_obstacles(spec, robot, obstacles, rng)
@@ -98,8 +99,15 @@ def _set_options(spec: mujoco.MjSpec, plant: Plant, rate_hz: float) -> None:
     option.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_ISLAND)  # one robot is one island
     option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
     option.impratio = plant.contact_grip
-    for geom in spec.geoms:
-        geom.friction[0] = plant.contact_friction
+
+
+def _add_pairs(spec: mujoco.MjSpec) -> None:
+    """Name what soles may stand on, and pair it with them: only of a pair, friction has a damping of its own."""
+    ground = [geom for geom in spec.worldbody.geoms if geom.group == TERRAIN_GROUP]
+    for number, geom in enumerate(ground):
+        geom.name = geom.name or f"terrain{number}"
+        for side in SIDES:
+            spec.add_pair(geomname1=geom.name, geomname2=sole_name(side), condim=SLIDING)
 
 
 def _set_soles(model: mujoco.MjModel, plant: Plant) -> None:
@@ -108,12 +116,17 @@ def _set_soles(model: mujoco.MjModel, plant: Plant) -> None:
     MuJoCo's constraint force is (a_ref - a) / R with a_ref = -B v - K d r, R = (1 - d) A / d, B = b / d, K = k / d^2
     for solref (-k, -b), a constant impedance d, and A the inverse mass that it takes for the body of the sole. At rest
     that is the stiffness k / ((1 - d) A) and the damping b / ((1 - d) A); with a small d the term in a, which acts as a
-    mass d / ((1 - d) A), vanishes.
+    mass d / ((1 - d) A), vanishes. Friction is `contact_grip` times as stiff, so that this mass does not vanish: a
+    foot then loses nearly B times the step of its speed of sliding in a step, of which B leaves the sign.
     """
     inverse_mass = np.mean([model.body(sole_name(side)).invweight0[0] for side in SIDES])
     corner = (1.0 - IMPEDANCE) * inverse_mass / SOLE_CORNERS
-    model.geom_solref[:] = [-plant.sole_stiffness_n_m * corner, -plant.sole_damping_ns_m * corner]
-    model.geom_solimp[:, :2] = IMPEDANCE
+    stiffness = plant.sole_stiffness_n_m * corner
+    damping = plant.sole_damping_ns_m * corner
+    model.pair_friction[:, :2] = plant.contact_friction
+    model.pair_solref[:] = [-stiffness, -damping]
+    model.pair_solreffriction[:] = [-stiffness, -sliding_damping(damping, model.opt.timestep)]
+    model.pair_solimp[:, :2] = IMPEDANCE
 
 
 def _set_friction_loss(model: mujoco.MjModel, robot: RobotDescription, plant: Plant) -> None:

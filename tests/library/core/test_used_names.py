@@ -294,7 +294,7 @@ class Copy:
         return self.hash(path) == self.before[path]
 
     @contextlib.contextmanager
-    def with_numbers(self, texts: dict[Path, str]) -> Iterator[None]:
+    def changed(self, texts: dict[Path, str]) -> Iterator[None]:
         """Change files of the project in the copy for a while."""
         known = [kept.known for kept in self.kept]
         for path, text in texts.items():

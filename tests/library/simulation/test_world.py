@@ -4,7 +4,9 @@ import mujoco
 import numpy as np
 import pytest
 
-from mobnet.simulation.terrain import draw_terrain
+from mobnet.reaction.loop import columns_of
+from mobnet.simulation.simulator import Simulator
+from mobnet.simulation.terrain import TERRAIN_GROUP, draw_terrain
 from mobnet.simulation.world import ground_height, make_world
 
 
@@ -36,11 +38,14 @@ def test_level_switches_friction_loss(build, level, present):
     assert not model.dof_damping.any()
 
 
-def test_every_geom_has_the_configured_contact(build, settings):
+def test_every_contact_is_the_configured_one(build, settings):
     model = build("checks").model
-    touching = model.geom_contype != 0
-    assert set(model.geom_friction[touching, 0]) == {settings.plant.contact_friction}
-    assert len(np.unique(model.geom_solref[touching], axis=0)) == 1
+    pieces = np.flatnonzero((model.geom_bodyid == 0) & (model.geom_group == TERRAIN_GROUP))
+    soles = {model.geom(f"{side}_sole").id for side in ("left", "right")}
+    paired = {tuple(sorted(pair)) for pair in zip(model.pair_geom1.tolist(), model.pair_geom2.tolist(), strict=True)}
+    assert paired == {tuple(sorted((piece, sole))) for piece in pieces.tolist() for sole in soles}
+    assert set(model.pair_friction[:, :2].ravel()) == {settings.plant.contact_friction}
+    assert len(np.unique(model.pair_solref, axis=0)) == 1
     assert model.opt.impratio == settings.plant.contact_grip
 
 
@@ -78,6 +83,19 @@ def test_a_sole_that_carries_hardly_creeps(simulate, run):
     simulator.plant.xfrc_applied[1, 1] = 30.0
     run(simulator, 1.0)
     assert np.abs(data.geom("left_sole").xpos - before)[:2].max() < 0.001
+
+
+@pytest.mark.sim
+def test_friction_of_a_sole_keeps_its_sign_from_step_to_step(walk_of):
+    """What a robot's soles feel along the ground changes by little in a step: its gears leave a foot light."""
+    walk = walk_of("flat_walk", "robot_1", rates={"data_hz": 2000.0})
+    simulator = Simulator(walk, 1)
+    simulator.start()
+    rows = np.zeros((int(2.0 * walk.rates.plant_hz), simulator.width), dtype=np.float32)
+    assert simulator.run(rows) == len(rows)
+    force = rows[:, columns_of(simulator.robot.layout)["tau_ext"]][len(rows) // 2 :, :2]
+    assert np.abs(force).mean() > 5.0
+    assert np.abs(np.diff(force, axis=0)).mean() < 5.0  # 700 N and more where friction overshoots
 
 
 def vertical_force(world):

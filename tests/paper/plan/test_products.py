@@ -56,7 +56,8 @@ MORE = {
     "found_by_rate": 5,
     "smallest_force": 5,
     "latency": 6,
-    "claims_summary": 7,
+    "claims_summary": 8,
+    "claims_tolerance": 5,
 }
 FOLDERS = (
     "src/experiments",
