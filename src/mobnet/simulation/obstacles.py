@@ -99,7 +99,8 @@ def set_obstacles(model: mujoco.MjModel, obstacles: Mapping[str, Obstacle]) -> N
 def sliding_damping(damping: float, step_s: float) -> float:
     """Return the damping of MuJoCo's solref [1/s] for friction along a contact, which has another one across.
 
-    MuJoCo takes (damping / impedance) x step of the speed in a step where friction is as stiff as `contact_grip` makes it.
+    MuJoCo takes (damping / impedance) x step of the speed in a step where friction is as stiff as `contact_grip` makes
+    it.
     """
     return min(damping, SLIDING_SHARE * IMPEDANCE / step_s)
 

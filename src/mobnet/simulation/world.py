@@ -119,7 +119,7 @@ def _set_soles(model: mujoco.MjModel, plant: Plant) -> None:
     mass d / ((1 - d) A), vanishes. Friction is `contact_grip` times as stiff, so that this mass does not vanish: a
     foot then loses nearly B times the step of its speed of sliding in a step, of which B leaves the sign.
     """
-    inverse_mass = np.mean([model.body(sole_name(side)).invweight0[0] for side in SIDES])
+    inverse_mass = float(np.mean([model.body(sole_name(side)).invweight0[0] for side in SIDES]))
     corner = (1.0 - IMPEDANCE) * inverse_mass / SOLE_CORNERS
     stiffness = plant.sole_stiffness_n_m * corner
     damping = plant.sole_damping_ns_m * corner
