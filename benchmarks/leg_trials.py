@@ -31,7 +31,7 @@ from mobnet.core.arrays import Array
 from mobnet.core.columns import CONTACT, EXTERNAL_LP, PUSHED, RESIDUAL, SWING, foot_of, named
 from mobnet.core.files import WEIGHTS
 from mobnet.core.store import read_array, spans_and_rate
-from mobnet.estimation.low_pass import low_pass
+from mobnet.kernel.low_pass import low_pass
 from mobnet.learning.calibration import half_width, scale_for
 from mobnet.learning.dataset import LimbData, load_limb_data
 from mobnet.learning.deployed.networks import load_network

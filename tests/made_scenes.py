@@ -9,7 +9,7 @@ from experiments.evaluation.measure.push_scene import PushScene
 from experiments.evaluation.report.explore_scenes import PagePush
 from experiments.plan.parts import PageScene
 from experiments.plan.runs import Run
-from mobnet.estimation.low_pass import low_pass
+from mobnet.kernel.low_pass import low_pass
 from mobnet.robot.description import RobotDescription
 from mobnet.settings.data import Push
 

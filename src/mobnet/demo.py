@@ -14,8 +14,8 @@ from mobnet.core.place import DEMO
 from mobnet.core.printed import printed
 from mobnet.core.store import read_array
 from mobnet.estimation import observer
-from mobnet.estimation.low_pass import low_pass
 from mobnet.interface import Estimator, Observer, Robot, lab, read_recording
+from mobnet.kernel.low_pass import low_pass
 from mobnet.robot.given import given_robot
 from mobnet.robotlog.pieces import root_mean_square
 

@@ -20,7 +20,7 @@ enum {
     ROWS = 32       /* of a weight that are added up side by side, so that the compiler keeps the sums in registers */
 };
 
-/* A link as `mobnet.robot.linkage` has it and as it stands in the file. */
+/* A link as `mobnet.kernel.linkage` has it and as it stands in the file. */
 struct link {
     int64_t parent;
     double still[3][3], cosine[3][3], sine[3][3]; /* rotation to the parent: still + cos(q) cosine + sin(q) sine */
@@ -30,7 +30,7 @@ struct link {
     double armature; /* [kg m^2] */
 };
 
-/* What the sweeps keep of a link, in its axes and about its origin (`mobnet.robot.momentum`). */
+/* What the sweeps keep of a link, in its axes and about its origin (`mobnet.kernel.momentum`). */
 struct moving {
     double rotation[3][3]; /* to the parent's axes; of a floating base to the world's */
     double velocity[3], omega[3], gravity[3], momentum[3], spin[3], moment[3];
@@ -44,7 +44,7 @@ struct robot {
     struct moving *moving;
 };
 
-/* Friction and errors of a drive, as `mobnet.estimation.drive` has them and as they stand in the file. */
+/* Friction and errors of a drive, as `mobnet.kernel.drive` has them and as they stand in the file. */
 struct drive {
     double coulomb, viscous, load, offset, scale;
     double smoothing; /* width of the smooth sign of the velocity [rad/s] */

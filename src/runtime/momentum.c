@@ -1,6 +1,6 @@
 /* p = M v of (4) and beta = C^T v - g of (6) in one sweep out along the tree and one back.
  *
- * (a) to (d) are derived in src/mobnet/robot/momentum.py. Every sum stands here in the same order as there, so that
+ * (a) to (d) are derived in src/mobnet/kernel/momentum.py. Every sum stands here in the same order as there, so that
  * both give the same bits where sine and cosine do.
  */
 #include <math.h>

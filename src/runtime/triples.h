@@ -1,4 +1,4 @@
-/* Vectors of three numbers by value, which stay in registers (`mobnet.robot.triples`). */
+/* Vectors of three numbers by value, which stay in registers (`mobnet.kernel.triples`). */
 #ifndef MOBNET_TRIPLES_H
 #define MOBNET_TRIPLES_H
 

@@ -11,7 +11,7 @@ from mobnet.core.columns import MOTOR, VELOCITY, named
 from mobnet.core.joints import JointLayout
 from mobnet.core.store import read_array, spans_and_rate
 from mobnet.estimation.kinds.friction import FittedFriction, read_friction
-from mobnet.estimation.low_pass import low_pass
+from mobnet.kernel.low_pass import low_pass
 from mobnet.learning.dataset import Known
 from mobnet.settings.methods import ObserverSettings
 from mobnet.settings.networks import Training

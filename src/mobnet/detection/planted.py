@@ -19,7 +19,7 @@ from mobnet.detection.gate import Spans
 from mobnet.detection.points import points_of
 from mobnet.detection.signals import Watched
 from mobnet.detection.watch import LegRecording, LimbSetup
-from mobnet.estimation.low_pass import low_pass
+from mobnet.kernel.low_pass import low_pass
 from mobnet.robot.nominal import NominalModel
 from mobnet.robot.wrench import carrier_of, point_torque
 from mobnet.settings.free_motion import LinkPushes

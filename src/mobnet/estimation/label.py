@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array
 from mobnet.core.recording import Sensed, SensedRecording
-from mobnet.estimation.low_pass import low_pass
+from mobnet.kernel.low_pass import low_pass
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.dynamics import momentum_and_beta
 from mobnet.robot.nominal import NominalModel

@@ -1,52 +1,26 @@
-"""The momentum observer of section 3.2, in discrete time, second order in the sample time.
-
-The equations (O1) to (O5) are derived in docs/notes/observer.md, p and beta in `mobnet.robot.momentum`.
-"""
+"""The momentum observer of section 3.2 for a robot of a table: `mobnet.kernel.recursion` over its samples."""
 
 import logging
-from dataclasses import dataclass, replace
-from typing import Any, get_args
+from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array
-from mobnet.core.errors import ConfigError, DataError, not_accepted
+from mobnet.core.errors import DataError
 from mobnet.core.recording import Sensed
-from mobnet.estimation.drive import drives_of
-from mobnet.estimation.low_pass import exact_pole, filter_in_place
+from mobnet.estimation.drives import drives_of
+from mobnet.kernel.recursion import BLOCK_ROWS as BLOCK_ROWS
+from mobnet.kernel.recursion import ObserverState, Recursion
 from mobnet.robot.dynamics import momentum_and_beta
 from mobnet.robot.nominal import NominalModel
 from mobnet.settings.base import TorqueKind
 
 LOGGED_ROWS = 100_000  # samples between two messages of progress
-BLOCK_ROWS = 2_000  # samples worked on together: larger arrays would not fit into the processor's cache
 log = logging.getLogger(__name__)
 
 
-@dataclass(frozen=True)
-class ObserverState:
-    """What the observer carries from one sample to the next; all None before the first.
-
-    Attributes:
-        momentum: p of (4) at the last sample (nv,) [kg m/s] and [kg m^2/s].
-        beta: C^T v - g of (6) at the last sample (nv,) [N] and [N m].
-        residual: r of (9) at the last sample (nv,) [N] and [N m].
-        torque: motors' torque at the last sample (nu,) [N m].
-        bend: state of the drives' friction (nu,), and
-        friction: its torque at the last sample (nu,) [N m]; None for a robot whose table has no friction.
-    """
-
-    momentum: Array | None = None
-    beta: Array | None = None
-    residual: Array | None = None
-    torque: Array | None = None
-    bend: Array | None = None
-    friction: Array | None = None
-
-
 class MomentumObserver:
-    """Momentum observer (4) to (11): r follows the external torque through a first-order low-pass of K_0.
+    """Momentum observer (4) to (11) of a robot's nominal model.
 
     Attributes:
         nominal: the model it knows.
@@ -64,14 +38,15 @@ class MomentumObserver:
         Raises:
             ConfigError: a gain or a rate is not positive, or the kind of torque is unknown.
         """
-        if torque not in get_args(TorqueKind):
-            raise ConfigError(not_accepted("torque", torque, get_args(TorqueKind)))
-        self.torque = torque
+        layout = nominal.robot.layout
         self.nominal = nominal
-        self.drives = drives_of(nominal.robot.friction, nominal.robot.layout.actuated)
-        self._motors = slice(len(nominal.robot.layout.virtual), None)  # of a generalized velocity
+        self.torque = torque
+        self.drives = drives_of(nominal.robot.friction, layout.actuated)
+        motors = slice(len(layout.virtual), None)  # of a generalized velocity
+        terms = partial(momentum_and_beta, nominal)
+        self._recursion = Recursion(terms, motors, gain_hz, rate_hz, torque, self.drives)
         self.gain_hz = gain_hz
-        self.pole = exact_pole(gain_hz, rate_hz)
+        self.pole = self._recursion.pole
         self.rate_hz = rate_hz
 
     def init(self) -> ObserverState:
@@ -80,31 +55,7 @@ class MomentumObserver:
 
     def step(self, state: ObserverState, sample: Sensed) -> tuple[ObserverState, Array]:
         """Take one sample (1-D arrays); return the new state and r of (9), (nv,) [N] and [N m]. The first r is zero."""
-        p, beta = momentum_and_beta(self.nominal, sample.q, sample.v)
-        torque = np.array(sample.tau_motor, dtype=np.float64)  # kept: a robot may write its samples into one buffer
-        if state.momentum is None or state.beta is None or state.residual is None or state.torque is None:
-            # (O5): before the first sample there is no momentum to take a difference from.
-            residual = np.zeros_like(p)
-            bend, friction = self._friction(None, sample.v[None], torque[None])
-        else:
-            applied = np.zeros_like(p)
-            bend, friction = self._friction(state.bend, sample.v[None], torque[None])
-            applied[self._motors] = self._mean_torque(torque, state.torque)
-            if self.drives is not None and friction is not None and state.friction is not None:
-                lost = (friction[0] + state.friction) / 2
-                applied[self._motors] = self.drives.scale * applied[self._motors] - lost
-            # (O1): beta is known at both ends of the sample; either of them alone would cost an order in T.
-            raw = (p - state.momentum) * self.rate_hz - applied - (beta + state.beta) / 2
-            # (O4), the solution of (10) over a sample, so that r has the low-pass of the truth it is compared with.
-            residual = self.pole * state.residual + (1 - self.pole) * raw
-        return ObserverState(p, beta, residual, torque, bend, None if friction is None else friction[0]), residual
-
-    def _friction(self, bend: Array | None, v: NDArray[Any], torque: NDArray[Any]) -> tuple[Array | None, Array | None]:
-        """Return the state of the drives' friction after samples, and its torque at each (T, nu) [N m]."""
-        if self.drives is None:
-            return None, None
-        before = self.drives.init() if bend is None else bend
-        return self.drives.run(before, v[:, self._motors], torque, self.rate_hz)
+        return self._recursion.step(state, sample.q, sample.v, sample.tau_motor)
 
     def residual(self, sensed: Sensed, out: Array | None = None) -> Array:
         """Return r of (9) over one contiguous stretch, (T, nv) [N] and [N m]; equal to stepping through it.
@@ -133,44 +84,4 @@ class MomentumObserver:
         The state is that after the sample before the first one, or of `init`: a stretch may come in pieces. Its arrays
         may be overwritten afterwards.
         """
-        for start in range(0, len(sensed), BLOCK_ROWS):
-            rows = out[start : start + BLOCK_ROWS]
-            after = self._write_raw(state, sensed[start : start + BLOCK_ROWS], rows)
-            # (O5) once more: the first row is zero, and the low-pass from zero is then the recursion (O4) of `step`.
-            filter_in_place(rows, self.pole, state.residual)
-            state = replace(after, residual=rows[-1].copy())
-        return state
-
-    def _write_raw(self, state: ObserverState, block: Sensed, raw: Array) -> ObserverState:
-        """Write what (O4) filters for successive samples into `raw` (n, nv) [N], [N m]; return the state after them."""
-        p, beta = momentum_and_beta(self.nominal, block.q, block.v)
-        bend, friction = self._friction(state.bend, block.v, block.tau_motor)
-        last_friction = None if friction is None else friction[-1]
-        after = ObserverState(p[-1], beta[-1], None, block.tau_motor[-1].copy(), bend, last_friction)
-        torque = block.tau_motor
-        if state.momentum is None or state.beta is None or state.torque is None:
-            raw[0] = 0.0
-            raw = raw[1:]
-        else:
-            p = _behind(state.momentum, p)
-            beta = _behind(state.beta, beta)
-            torque = _behind(state.torque, torque)
-            friction = None if friction is None or state.friction is None else _behind(state.friction, friction)
-        np.subtract(p[1:], p[:-1], out=raw)
-        raw *= self.rate_hz
-        raw -= (beta[1:] + beta[:-1]) / 2
-        applied = self._mean_torque(torque[1:], torque[:-1])
-        if self.drives is not None and friction is not None:
-            applied = self.drives.scale * applied - (friction[1:] + friction[:-1]) / 2
-        raw[:, self._motors] -= applied
-        return after
-
-    def _mean_torque(self, now: NDArray[Any], before: NDArray[Any]) -> NDArray[Any]:
-        """Return u_k from the motors' torque logged at t_k and at t_{k-1}, (..., nu) [N m]."""
-        # (O2): a value at the tick taken for the mean would be half a sample late.
-        return now if self.torque == "mean" else np.add(now, before, dtype=np.float64) / 2
-
-
-def _behind(last: NDArray[Any], rows: NDArray[Any]) -> NDArray[Any]:
-    """Return rows (n, k) behind the one before them (k,), (n + 1, k)."""
-    return np.concatenate([last[None], rows])
+        return self._recursion.follow(state, sensed.q, sensed.v, sensed.tau_motor, out)

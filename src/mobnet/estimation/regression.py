@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from mobnet.core.arrays import Array
 from mobnet.core.columns import MOTOR, RESIDUAL, VELOCITY, named
 from mobnet.core.store import check_pair, label_of, read_array, spans_and_rate
-from mobnet.estimation.low_pass import low_pass
+from mobnet.kernel.low_pass import low_pass
 
 Pair = tuple[Path, Path]  # stems of a recording and of its residual
 # Of a joint's velocity [rad/s] and motor torque [N m], (T,) each, at a rate [Hz]: the regressors (T, m - 1).

@@ -22,8 +22,8 @@ from mobnet.core.joints import NQ_BASE, JointLayout
 from mobnet.detection.chain import Chain
 from mobnet.detection.detector import LegGate
 from mobnet.detection.leg import Leg
-from mobnet.estimation.drive import NUMBERS, DriveParameters
 from mobnet.estimation.observer import MomentumObserver
+from mobnet.kernel.drive import NUMBERS, DriveParameters
 from mobnet.learning.deployed.networks import WITHOUT_TORCH
 from mobnet.learning.deployed.weights import GRU_TENSORS, WeightsNote, std_scale_of
 from mobnet.learning.features import ROTATION_NAMES

@@ -11,16 +11,15 @@ friction takes any value. Where the table has an angle of breakaway, s is the be
 docs/notes/observer.md, which does not switch with noise either, because it follows the angle.
 """
 
-from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array
-from mobnet.settings.parts import FrictionRow
 
+TorqueKind = Literal["mean", "sample"]  # of a motor: over the interval that ends at the tick, or at the tick
 NUMBERS = ("coulomb", "viscous", "load", "offset", "scale", "smoothing", "breakaway")  # in the order of the C library
 
 
@@ -64,24 +63,8 @@ class DriveParameters:
 
 def bent(bend: Array, velocity: NDArray[Any], breakaway: Array, rate_hz: float) -> Array:
     """Advance bends (n,) over samples of velocity (T, n) [rad/s]; return them after each, (T, n)."""
-    from mobnet.estimation.presliding import follow  # numba: the workflow imports kinds before it starts
+    from mobnet.kernel.presliding import follow  # numba: the workflow imports kinds before it starts
 
     out = np.empty(velocity.shape)
     follow(bend, np.ascontiguousarray(velocity, dtype=np.float64), breakaway, 1.0 / rate_hz, out)
     return out
-
-
-def drives_of(friction: Mapping[str, FrictionRow], joints: Sequence[str]) -> DriveParameters | None:
-    """Return the drives of actuated joints (nu,) by the rows of a table; None where it has none."""
-    if not friction:
-        return None
-    rows = [friction.get(joint) for joint in joints]
-    return DriveParameters(
-        coulomb=np.array([row.coulomb_nm if row else 0.0 for row in rows]),
-        viscous=np.array([row.viscous_nms if row else 0.0 for row in rows]),
-        load=np.array([row.load if row else 0.0 for row in rows]),
-        offset=np.array([row.offset_nm if row else 0.0 for row in rows]),
-        scale=np.array([row.scale if row else 1.0 for row in rows]),
-        smoothing=np.array([row.smoothing_rad_s if row else 1.0 for row in rows]),
-        breakaway=np.array([(row.breakaway_rad if row else None) or 0.0 for row in rows]),
-    )

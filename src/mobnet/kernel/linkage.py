@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array
 from mobnet.core.compilation import compiled
-from mobnet.robot.triples import put
+from mobnet.kernel.triples import put
 
 ROOT_JOINTS = 2  # of a floating base in Pinocchio: translation and ball
 LINK = np.dtype(

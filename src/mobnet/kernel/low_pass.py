@@ -40,7 +40,7 @@ def filter_in_place(x: Array, pole: float, before: Array | None = None) -> Array
 
     `before` (...) is y_{-1}, zero where it is not given.
     """
-    from mobnet.estimation.first_order import decay  # numba: the workflow imports kinds before it starts
+    from mobnet.kernel.first_order import decay  # numba: the workflow imports kinds before it starts
 
     last = np.zeros(max(x[:1].size, 1)) if before is None else np.reshape(before, -1)
     decay(np.reshape(x, -1, copy=False), last, pole)

@@ -35,8 +35,8 @@ from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array
 from mobnet.core.compilation import compiled
-from mobnet.robot.linkage import Linkage, turn, turn_base
-from mobnet.robot.triples import Triple, add, at, cross, dot, into, out_of, product, put, times, vector
+from mobnet.kernel.linkage import Linkage, turn, turn_base
+from mobnet.kernel.triples import Triple, add, at, cross, dot, into, out_of, product, put, times, vector
 
 LANES = 8  # samples side by side: the numbers in a register of AVX-512, or two of AVX2
 Records = NDArray[np.void]

@@ -10,7 +10,7 @@ import pinocchio as pin
 from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array, rows_of
-from mobnet.robot.momentum import sweep
+from mobnet.kernel.momentum import sweep
 from mobnet.robot.nominal import NominalModel
 
 

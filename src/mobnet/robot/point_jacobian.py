@@ -9,9 +9,9 @@ from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array, rows_of
 from mobnet.core.compilation import compiled
-from mobnet.robot.linkage import Linkage, turn, turn_base
+from mobnet.kernel.linkage import Linkage, turn, turn_base
+from mobnet.kernel.triples import add, cross, out_of, put, vector
 from mobnet.robot.nominal import NominalModel
-from mobnet.robot.triples import add, cross, out_of, put, vector
 from mobnet.robot.wrench import carrier_of
 
 

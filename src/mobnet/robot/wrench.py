@@ -11,10 +11,10 @@ from numpy.typing import NDArray
 from mobnet.core.arrays import Array, rows_of
 from mobnet.core.compilation import compiled
 from mobnet.core.errors import ConfigError, not_accepted
+from mobnet.kernel.linkage import Linkage, turn, turn_base
+from mobnet.kernel.triples import add, cross, dot, out_of, product, vector
 from mobnet.robot.description import RobotDescription
-from mobnet.robot.linkage import Linkage, turn, turn_base
 from mobnet.robot.nominal import NominalModel
-from mobnet.robot.triples import add, cross, dot, out_of, product, vector
 
 
 def feet_torque(nominal: NominalModel, q: NDArray[Any], wrenches: Mapping[str, NDArray[Any]]) -> Array:

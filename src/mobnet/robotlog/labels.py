@@ -11,9 +11,9 @@ from mobnet.core.joints import JointLayout
 from mobnet.core.recording import ABSENT
 from mobnet.core.store import read_array
 from mobnet.estimation.label import foot_label
-from mobnet.estimation.low_pass import low_pass
 from mobnet.estimation.observe import read_wrenches
 from mobnet.estimation.own import RECORDING, OwnLog, check_sampling
+from mobnet.kernel.low_pass import low_pass
 from mobnet.learning.dataset import LimbData
 from mobnet.learning.features import limb_inputs
 from mobnet.robot.nominal import NominalModel

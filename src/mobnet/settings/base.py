@@ -7,15 +7,15 @@ bounds and checks are in no hash of code; methods are in that of the code that g
 
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import Annotated, Literal, TypeVar
+from typing import Annotated, TypeVar
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, JsonValue
 
 from mobnet.core.options import GAIN_HZ, RATE_HZ
+from mobnet.kernel.drive import TorqueKind as TorqueKind
 
 Number = TypeVar("Number", int, float)
 Item = TypeVar("Item")
-TorqueKind = Literal["mean", "sample"]  # of a motor: over the interval that ends at the tick, or at the tick
 
 
 class Section(BaseModel):

@@ -99,7 +99,7 @@ class FrictionRow(Section):
 
     Of the reported torque tau the joint gets scale * tau - (coulomb_nm + load |tau|) s(v) - viscous_nms * v -
     offset_nm. s(v) = tanh(v / smoothing_rad_s), or with `breakaway_rad` the bend of Dahl's law, which follows a
-    reversal over that angle (mobnet.estimation.drive).
+    reversal over that angle (mobnet.kernel.drive).
 
     Attributes:
         coulomb_nm: dry friction [N m].

@@ -24,7 +24,7 @@ from mobnet.detection.limb import OwnRecording, calibrate_limb
 from mobnet.detection.planted import PushPlan, found_pushes, plant
 from mobnet.detection.signals import Watched
 from mobnet.detection.watch import LegRecording, LimbSetup
-from mobnet.estimation.low_pass import low_pass
+from mobnet.kernel.low_pass import low_pass
 from mobnet.robot.nominal import NominalModel
 from mobnet.settings.detection import DetectorSettings
 

@@ -8,7 +8,7 @@ import pytest
 
 from mobnet.core.recording import SensedRecording
 from mobnet.estimation.label import foot_label, zero_of
-from mobnet.estimation.low_pass import low_pass
+from mobnet.kernel.low_pass import low_pass
 from mobnet.robot.wrench import feet_torque
 
 RATE_HZ, GAIN_HZ = 1000.0, 100.0

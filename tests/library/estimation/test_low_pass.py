@@ -7,13 +7,13 @@ import numpy as np
 import pytest
 from scipy.signal import lfilter
 
-from mobnet.estimation.first_order import decay
-from mobnet.estimation.low_pass import exact_pole, filter_in_place, low_pass
+from mobnet.kernel.first_order import decay
+from mobnet.kernel.low_pass import exact_pole, filter_in_place, low_pass
 
 GAIN_HZ, RATE_HZ = 100.0, 1000.0
 START = """import sys
 import numpy as np
-from mobnet.estimation.low_pass import filter_in_place
+from mobnet.kernel.low_pass import filter_in_place
 filter_in_place(np.ones((5, 2)), 0.9)
 print("scipy.signal" in sys.modules)
 """

@@ -8,8 +8,8 @@ import pytest
 
 from mobnet.core.errors import ConfigError, DataError
 from mobnet.core.recording import Sensed
-from mobnet.estimation.low_pass import exact_pole, low_pass
 from mobnet.estimation.observer import MomentumObserver
+from mobnet.kernel.low_pass import exact_pole, low_pass
 from mobnet.robot.dynamics import mass_matrix, momentum_and_beta
 
 GAIN_HZ, RATE_HZ = 100.0, 1000.0

@@ -11,8 +11,8 @@ from mobnet.core.errors import DataError
 from mobnet.core.joints import N_VIRTUAL
 from mobnet.core.recording import write_recording
 from mobnet.core.store import write_array
-from mobnet.estimation.low_pass import low_pass
 from mobnet.estimation.regression import TERMS, Law, non_negative, regress
+from mobnet.kernel.low_pass import low_pass
 
 GAIN_HZ, RATE_HZ, SMOOTHING = 100.0, 1000.0, 0.02
 TRUE = {"coulomb_nm": 12.0, "static_nm": 9.0, "viscous_nms": 3.0, "load_per_nm": 0.002, "stribeck_rad_s": 0.3}

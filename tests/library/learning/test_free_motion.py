@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from library_settings import ROOT, training_of
 
-from mobnet.estimation.low_pass import filter_in_place
 from mobnet.estimation.observer import MomentumObserver
+from mobnet.kernel.low_pass import filter_in_place
 from mobnet.learning.dataset import LimbData
 from mobnet.learning.deployed.networks import load_network
 from mobnet.learning.features import limb_inputs

@@ -5,9 +5,9 @@ import pinocchio as pin
 import pytest
 
 from mobnet.core.errors import DataError
+from mobnet.kernel.momentum import LANES
 from mobnet.robot.description import describe
 from mobnet.robot.dynamics import coriolis, gravity, mass_matrix, momentum_and_beta
-from mobnet.robot.momentum import LANES
 from mobnet.robot.nominal import NominalModel
 from mobnet.robot.wrench import feet_torque
 

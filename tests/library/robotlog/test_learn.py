@@ -17,7 +17,6 @@ from mobnet.core.recording import read_sensed, write_recording
 from mobnet.core.store import footer_hash
 from mobnet.detection.limb import OwnRecording
 from mobnet.estimation.label import foot_label
-from mobnet.estimation.low_pass import low_pass
 from mobnet.estimation.observe import read_wrenches
 from mobnet.estimation.own import (
     RECORDING,
@@ -28,6 +27,7 @@ from mobnet.estimation.own import (
     read_log_folder,
     read_network_folder,
 )
+from mobnet.kernel.low_pass import low_pass
 from mobnet.learning.dataset import LimbData
 from mobnet.learning.deployed.networks import Prediction
 from mobnet.robot.nominal import NominalModel

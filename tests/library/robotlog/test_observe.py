@@ -13,7 +13,7 @@ from library_settings import walk_settings
 from mobnet.core.columns import recording_columns
 from mobnet.core.recording import read_sensed
 from mobnet.core.store import read_array
-from mobnet.estimation.low_pass import low_pass
+from mobnet.kernel.low_pass import low_pass
 from mobnet.robot.description import describe
 from mobnet.robotlog.observe import main, observe_log
 from mobnet.simulation.simulator import Simulator

@@ -11,16 +11,16 @@ from mobnet.core.columns import COMMAND, FEET, recording_width
 from mobnet.core.recording import Sensed
 from mobnet.detection.detector import LegGate
 from mobnet.detection.gate import advance_held, gate_state
-from mobnet.estimation.first_order import decay
 from mobnet.estimation.kinds.dahl import bent
 from mobnet.estimation.observe import observer_of
-from mobnet.estimation.presliding import follow
+from mobnet.kernel.first_order import decay
+from mobnet.kernel.momentum import sweep
+from mobnet.kernel.presliding import follow
 from mobnet.learning.deployed import tick
 from mobnet.learning.deployed.limbs import LimbNetworks
 from mobnet.learning.deployed.networks import deployed
 from mobnet.learning.features import signal_names
 from mobnet.robot.description import describe
-from mobnet.robot.momentum import sweep
 from mobnet.settings.networks import NetworkCell
 from mobnet.simulation import engine
 from mobnet.simulation.simulator import Simulator

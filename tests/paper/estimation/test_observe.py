@@ -12,9 +12,9 @@ from mobnet.core.columns import residual_columns
 from mobnet.core.recording import Recording, write_recording
 from mobnet.core.store import read_array
 from mobnet.estimation.label import foot_label
-from mobnet.estimation.low_pass import low_pass
 from mobnet.estimation.observe import observer_of
 from mobnet.estimation.observer import MomentumObserver
+from mobnet.kernel.low_pass import low_pass
 from mobnet.robot.nominal import NominalModel
 
 RATE_HZ, GAIN_HZ = 1000.0, 100.0

@@ -16,7 +16,7 @@ from experiments.evaluation.figures.drawing.robot import projection
 from experiments.evaluation.report.explore import as_stored, judged_before_s, page_of
 from experiments.evaluation.report.explore_numbers import push_numbers
 from experiments.plan.products import TEMPLATES
-from mobnet.estimation.low_pass import exact_pole, low_pass
+from mobnet.kernel.low_pass import exact_pole, low_pass
 from mobnet.robot.plant import robot_spec
 
 REPO = Path(__file__).parents[3]

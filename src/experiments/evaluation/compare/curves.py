@@ -15,7 +15,7 @@ from mobnet.core.columns import RESIDUAL, SWING, foot_of, named
 from mobnet.core.errors import DataError
 from mobnet.core.joints import JointLayout
 from mobnet.core.store import read_array
-from mobnet.estimation.low_pass import low_pass
+from mobnet.kernel.low_pass import low_pass
 
 TRUTH, TARGET = "truth", "target"  # labels: tau_e, and what is learned of the uncertainty, r - tau_e (section 4.2.3)
 ZERO = "zero"  # the method that estimates no torque at all: its error is the torque

@@ -16,7 +16,7 @@ from mobnet.core.columns import CONTACT, EXTERNAL, FEET, PUSH_TORQUE, PUSHED, SW
 from mobnet.core.joints import JointLayout
 from mobnet.core.notes import read_array_note
 from mobnet.core.store import NOTE, file_of, read_array
-from mobnet.estimation.low_pass import low_pass
+from mobnet.kernel.low_pass import low_pass
 
 SWINGING, TOUCH_DOWN, STANCE = "swing", "touch_down", "stance"  # phases of a leg
 

@@ -27,7 +27,7 @@ from mobnet.core.joints import JointLayout
 from mobnet.core.notes import read_array_note
 from mobnet.core.rows import read_rows
 from mobnet.core.store import NOTE, file_of, read_array
-from mobnet.estimation.low_pass import low_pass
+from mobnet.kernel.low_pass import low_pass
 
 FORCE = named(PUSH, ("force_x", "force_y", "force_z"))
 

@@ -30,8 +30,8 @@ from mobnet.core.store import NOTE, check_rate, file_of, read_array
 from mobnet.detection.detector import ALARM_RATIO, LegDetector
 from mobnet.detection.signals import Watched
 from mobnet.detection.watch import LegSetup
-from mobnet.estimation.low_pass import low_pass
 from mobnet.estimation.recipe import Recipe, build_estimator
+from mobnet.kernel.low_pass import low_pass
 from mobnet.robot.description import RobotDescription, describe
 from mobnet.settings.detection import DetectorSettings
 

@@ -19,9 +19,9 @@ from mobnet.core.notes import Note, NotNegative, Text, read_note
 from mobnet.core.notes import Positive as AboveZero
 from mobnet.core.recording import Sensed
 from mobnet.estimation.kinds.residual import ResidualEstimator
-from mobnet.estimation.low_pass import exact_pole, low_pass
 from mobnet.estimation.recipe import Recipe
 from mobnet.estimation.regression import TERMS, Law, Pair, regress, regressors
+from mobnet.kernel.low_pass import exact_pole, low_pass
 from mobnet.learning.deployed.networks import Prediction
 from mobnet.settings.base import Distinct, Positive, Rising, Section
 from mobnet.settings.methods import Method, ObserverSettings

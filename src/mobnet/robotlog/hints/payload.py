@@ -7,7 +7,7 @@ import numpy as np
 import pinocchio as pin
 
 from mobnet.core.arrays import Array
-from mobnet.robot.linkage import linkage_of
+from mobnet.kernel.linkage import linkage_of
 from mobnet.robot.nominal import NominalModel
 from mobnet.robotlog.hints.fits import friction_fit, quotient
 from mobnet.robotlog.hints.windows import MotionWindows, MotorDemand, known_joints, left_of, size_of

@@ -2,7 +2,7 @@
 
 Nothing touches the robot, so that the residual s of (O1) in docs/notes/observer.md is what the model gets wrong. With
 the law of
-`mobnet.estimation.drive`, a rotor of the inertia I and links whose numbers differ by delta from those of the table,
+`mobnet.kernel.drive`, a rotor of the inertia I and links whose numbers differ by delta from those of the table,
 -s is linear in what is unknown:
 
     -s = coulomb sign + load abs(tau) sign + viscous v + offset + I dv/dt - (scale - 1) tau + Y delta.
@@ -22,8 +22,8 @@ from scipy.signal import butter, sosfiltfilt
 
 from mobnet.core.arrays import Array
 from mobnet.core.recording import Sensed, SensedRecording
-from mobnet.estimation.drive import bent
 from mobnet.estimation.observer import MomentumObserver
+from mobnet.kernel.drive import bent
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.nominal import NominalModel
 from mobnet.settings.base import TorqueKind

@@ -14,7 +14,7 @@ from mobnet.core.recording import write_recording
 from mobnet.core.store import write_array
 from mobnet.estimation.kinds.dahl import TERMS, DahlFriction, Options, bent, build, fit, read_dahl
 from mobnet.estimation.kinds.friction import FrictionModel, read_friction
-from mobnet.estimation.low_pass import low_pass
+from mobnet.kernel.low_pass import low_pass
 
 GAIN_HZ, RATE_HZ = 100.0, 1000.0
 ANGLES = (0.002, 0.004, 0.02)

@@ -8,8 +8,8 @@ from library_settings import network_of
 
 from mobnet.core.joints import N_VIRTUAL
 from mobnet.estimation.kinds.friction import FittedFriction, FrictionModel, Options, build, fit, read_friction
-from mobnet.estimation.low_pass import low_pass
 from mobnet.estimation.regression import TERMS
+from mobnet.kernel.low_pass import low_pass
 from mobnet.simulation.friction import friction_torque, make_friction
 
 GAIN_HZ, RATE_HZ = 100.0, 1000.0

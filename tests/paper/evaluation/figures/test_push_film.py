@@ -22,7 +22,7 @@ from mobnet.core.detections import COLLISION, Collision, Detected
 from mobnet.core.errors import DataError
 from mobnet.core.recording import Recording, write_recording
 from mobnet.core.store import write_array
-from mobnet.estimation.low_pass import low_pass
+from mobnet.kernel.low_pass import low_pass
 
 START, LENGTH, PEAK_N, PEAK_NM, GAIN_HZ = GROUND + 150, 80, 150.0, 50.0, 100.0
 SHARES = {"MOB": 1.5, "MOB-fric-dahl": 1.0, "MOB-Net-pushed": 0.7}  # of the push in each estimate

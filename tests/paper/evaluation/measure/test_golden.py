@@ -15,7 +15,7 @@ from mobnet.core.columns import residual_columns, torque_columns
 from mobnet.core.joints import JointLayout
 from mobnet.core.recording import Recording, Sensed, write_recording
 from mobnet.core.store import write_array
-from mobnet.estimation.low_pass import low_pass
+from mobnet.kernel.low_pass import low_pass
 
 RATE_HZ, GAIN_HZ, ROWS = 200.0, 100.0, 1600
 SEGMENTS = ((0, 900), (900, ROWS))

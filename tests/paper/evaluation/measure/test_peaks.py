@@ -29,7 +29,7 @@ from mobnet.core.columns import torque_columns
 from mobnet.core.joints import JointLayout
 from mobnet.core.recording import Recording, Sensed, write_recording
 from mobnet.core.store import write_array
-from mobnet.estimation.low_pass import low_pass
+from mobnet.kernel.low_pass import low_pass
 
 TEST = PushedLimbRuns(scenario="knee_swing", level="ideal", methods=("MOB",), limbs=("LL",))
 SETTINGS = Peaks(turned_share=0.5, before_s=0.03, after_s=0.05, longest_s=0.2, tests=(TEST,))

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from experiments.evaluation.measure.estimates.bode import observer_response, transfer
-from mobnet.estimation.low_pass import low_pass
+from mobnet.kernel.low_pass import low_pass
 
 RATE_HZ, GAIN_HZ = 1000.0, 100.0
 LINES_HZ = (0.5, 2.0, 10.0, 50.0)

@@ -26,7 +26,7 @@ from mobnet.core.errors import ConfigError, DataError
 from mobnet.core.estimator import Estimate
 from mobnet.core.files import read_json
 from mobnet.core.store import read_array
-from mobnet.estimation.low_pass import low_pass
+from mobnet.kernel.low_pass import low_pass
 
 REPO = Path(__file__).parents[4]
 PAGE = (REPO / "docs" / "demo.md").read_text()

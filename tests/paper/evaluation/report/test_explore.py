@@ -23,7 +23,7 @@ from mobnet.core.columns import residual_columns, torque_columns
 from mobnet.core.errors import DataError
 from mobnet.core.recording import Recording, write_recording
 from mobnet.core.store import write_array
-from mobnet.estimation.low_pass import low_pass
+from mobnet.kernel.low_pass import low_pass
 
 REPO = Path(__file__).parents[4]
 PUSHES = ((2500, 2600), (5000, 5080))  # rows of the made-up recording

@@ -21,7 +21,7 @@ from mobnet.core.errors import DataError
 from mobnet.core.recording import Recording, write_recording
 from mobnet.core.store import write_array
 from mobnet.detection.contact import ContactLocator
-from mobnet.estimation.low_pass import low_pass
+from mobnet.kernel.low_pass import low_pass
 from mobnet.robot.description import RobotDescription
 
 Make = Callable[..., Path]

@@ -25,7 +25,7 @@ from mobnet.core.joints import JointLayout
 from mobnet.core.recording import Recording, write_recording
 from mobnet.core.rows import read_texts
 from mobnet.core.store import write_array
-from mobnet.estimation.low_pass import low_pass
+from mobnet.kernel.low_pass import low_pass
 
 FIRST, LAST = 1000, 1080  # rows of a push
 SHOWN = 0.6  # share of it that an observer shows

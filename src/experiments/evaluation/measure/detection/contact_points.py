@@ -25,7 +25,7 @@ from mobnet.core.recording import read_sensed
 from mobnet.core.store import read_array
 from mobnet.detection.contact import ContactLocator
 from mobnet.detection.watch import read_estimate
-from mobnet.estimation.low_pass import low_pass
+from mobnet.kernel.low_pass import low_pass
 from mobnet.robot.description import RobotDescription
 from mobnet.settings.data import Push
 from mobnet.settings.detection import ContactPoint

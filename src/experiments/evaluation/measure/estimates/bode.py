@@ -8,7 +8,7 @@ from experiments.evaluation.compare.scene import Scene, shown_pushes
 from experiments.evaluation.compare.windows import flagged_spans
 from experiments.settings.measures import Bode
 from mobnet.core.arrays import Array
-from mobnet.estimation.low_pass import exact_pole
+from mobnet.kernel.low_pass import exact_pole
 
 GAIN, PHASE = "gain_{:g}hz", "phase_{:g}hz"  # with the frequency after which a band of lines is named
 

@@ -1,0 +1,1 @@
+"""The observer for whatever Pinocchio reads: arrays and numbers alone, no configuration, no file, no command."""
