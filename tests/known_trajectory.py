@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from mobnet.core.columns import COMMAND, FEET
 from mobnet.core.recording import Sensed
-from mobnet.estimation.observer import MomentumObserver
+from mobnet.estimation.observer import RobotObserver
 from mobnet.robot.dynamics import inverse_dynamics
 
 SUB_STEPS = 2  # plant ticks in a sample
@@ -95,7 +95,7 @@ def follow(nominal, trajectory):
 
 @pytest.fixture
 def observer(nominal):
-    return MomentumObserver(nominal, 100.0, 1000.0)
+    return RobotObserver(nominal, 100.0, 1000.0)
 
 
 @pytest.fixture

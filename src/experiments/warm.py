@@ -16,7 +16,7 @@ from mobnet.detection.chain import low_passed, make_chain
 from mobnet.detection.detector import LegGate, run_over
 from mobnet.detection.gate import gate_state
 from mobnet.estimation.kinds.dahl import bent
-from mobnet.estimation.observer import MomentumObserver
+from mobnet.estimation.observer import RobotObserver
 from mobnet.learning.deployed.lanes import gru_states
 from mobnet.learning.deployed.tick import GruWeights, advance, advance_row, row_of
 from mobnet.learning.gates import ordered
@@ -63,7 +63,7 @@ def _upright(robot: WalkingRobot) -> Sensed:
 def _observe(robot: WalkingRobot, sensed: Sensed, rate_hz: float) -> None:
     """Run the observer, the memory of a friction model, and the torque of forces on the feet."""
     nominal = NominalModel(robot)
-    MomentumObserver(nominal, 1.0, rate_hz).residual(sensed)
+    RobotObserver(nominal, 1.0, rate_hz).residual(sensed)
     bent(np.zeros(1), sensed.v[:, :1], np.ones(1), rate_hz)
     feet_torque(nominal, sensed.q, {side: np.zeros((SAMPLES, 6)) for side in robot.feet})
 

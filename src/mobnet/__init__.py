@@ -20,12 +20,14 @@ if TYPE_CHECKING:
         read_recording,
         write_recording,
     )
+    from mobnet.kernel.observer import MomentumObserver
 
 __all__ = [
     "ContactFinder",
     "Detector",
     "Estimator",
     "MobnetError",
+    "MomentumObserver",
     "Observer",
     "ReactionHandler",
     "Robot",
@@ -34,12 +36,15 @@ __all__ = [
     "write_recording",
 ]
 
+ALONE = ("MomentumObserver",)  # what needs neither configuration nor files
+
 
 def __getattr__(name: str) -> Any:
     """Return a name of the interface; Python asks for those that are not there yet."""
     if name not in __all__:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    return getattr(importlib.import_module("mobnet.interface"), name)
+    module = "mobnet.kernel.observer" if name in ALONE else "mobnet.interface"
+    return getattr(importlib.import_module(module), name)
 
 
 def __dir__() -> list[str]:

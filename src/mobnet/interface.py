@@ -29,7 +29,7 @@ from mobnet.detection.detector import ALARM_RATIO, LegDetector
 from mobnet.detection.threshold_file import check_thresholds, read_thresholds, sampling_of, setup_with, watched_of
 from mobnet.detection.watch import LegSetup
 from mobnet.estimation.kinds.residual import ResidualEstimator
-from mobnet.estimation.observer import MomentumObserver, ObserverState
+from mobnet.estimation.observer import ObserverState, RobotObserver
 from mobnet.estimation.own import check_drives, check_sampling, estimator_of, read_network_folder
 from mobnet.export.contract import CONTRACT
 from mobnet.learning.deployed.limbs import load_limb_networks
@@ -165,7 +165,7 @@ class Observer:
         gain_hz = numbers.observer.gain_hz if gain_hz is None else gain_hz
         self.joints = robot.joints
         self.rate_hz = rate_hz
-        self._observer = MomentumObserver(nominal, gain_hz, rate_hz, torque)
+        self._observer = RobotObserver(nominal, gain_hz, rate_hz, torque)
 
     def init(self) -> ObserverState:
         """Return the state before the first sample."""

@@ -12,7 +12,7 @@ from mobnet.core.columns import recording_columns
 from mobnet.core.recording import Sensed, read_blocks
 from mobnet.core.store import read_array
 from mobnet.estimation.label import FootLabel, LabelState, zero_of
-from mobnet.estimation.observer import BLOCK_ROWS, MomentumObserver
+from mobnet.estimation.observer import BLOCK_ROWS, RobotObserver
 from mobnet.kernel.low_pass import low_pass
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.nominal import NominalModel
@@ -28,9 +28,9 @@ def observer_of(
     gain_hz: float,
     rate_hz: float,
     torque: TorqueKind = "mean",
-) -> MomentumObserver:
+) -> RobotObserver:
     """Return the observer, gain K_0 of (7) [1/s]; its model has so many times the robot's masses (section 5.1)."""
-    return MomentumObserver(NominalModel(robot, mass_ratio, gravity_m_s2), gain_hz, rate_hz, torque)
+    return RobotObserver(NominalModel(robot, mass_ratio, gravity_m_s2), gain_hz, rate_hz, torque)
 
 
 class BlockObserver:
@@ -41,7 +41,7 @@ class BlockObserver:
 
     def __init__(
         self,
-        observer: MomentumObserver,
+        observer: RobotObserver,
         segments: Sequence[tuple[int, int]],
         rate_hz: float,
         label: FootLabel | None = None,

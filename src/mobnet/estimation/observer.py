@@ -1,6 +1,7 @@
 """The momentum observer of section 3.2 for a robot of a table: `mobnet.kernel.recursion` over its samples."""
 
 import logging
+from collections.abc import Mapping, Sequence
 from functools import partial
 
 import numpy as np
@@ -8,18 +9,19 @@ import numpy as np
 from mobnet.core.arrays import Array
 from mobnet.core.errors import DataError
 from mobnet.core.recording import Sensed
-from mobnet.estimation.drives import drives_of
+from mobnet.kernel.drive import DriveParameters
 from mobnet.kernel.recursion import BLOCK_ROWS as BLOCK_ROWS
 from mobnet.kernel.recursion import ObserverState, Recursion
 from mobnet.robot.dynamics import momentum_and_beta
 from mobnet.robot.nominal import NominalModel
 from mobnet.settings.base import TorqueKind
+from mobnet.settings.parts import FrictionRow
 
 LOGGED_ROWS = 100_000  # samples between two messages of progress
 log = logging.getLogger(__name__)
 
 
-class MomentumObserver:
+class RobotObserver:
     """Momentum observer (4) to (11) of a robot's nominal model.
 
     Attributes:
@@ -85,3 +87,19 @@ class MomentumObserver:
         may be overwritten afterwards.
         """
         return self._recursion.follow(state, sensed.q, sensed.v, sensed.tau_motor, out)
+
+
+def drives_of(friction: Mapping[str, FrictionRow], joints: Sequence[str]) -> DriveParameters | None:
+    """Return the drives of actuated joints (nu,) by the rows of a table; None where it has none."""
+    if not friction:
+        return None
+    rows = [friction.get(joint) for joint in joints]
+    return DriveParameters(
+        coulomb=np.array([row.coulomb_nm if row else 0.0 for row in rows]),
+        viscous=np.array([row.viscous_nms if row else 0.0 for row in rows]),
+        load=np.array([row.load if row else 0.0 for row in rows]),
+        offset=np.array([row.offset_nm if row else 0.0 for row in rows]),
+        scale=np.array([row.scale if row else 1.0 for row in rows]),
+        smoothing=np.array([row.smoothing_rad_s if row else 1.0 for row in rows]),
+        breakaway=np.array([(row.breakaway_rad if row else None) or 0.0 for row in rows]),
+    )

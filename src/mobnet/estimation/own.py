@@ -18,7 +18,7 @@ from mobnet.core.store import ARRAY, NOTE, file_of, footer_hash, read_array
 from mobnet.core.word_checks import ESTIMATE, RECORDING, check_log_folder, check_network_folder
 from mobnet.estimation.estimate import ObservedRecording, only, run_segments
 from mobnet.estimation.kinds.residual import ResidualEstimator
-from mobnet.estimation.observer import MomentumObserver
+from mobnet.estimation.observer import RobotObserver
 from mobnet.learning.deployed.limbs import LimbNetworks, load_limb_networks
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.nominal import NominalModel
@@ -192,7 +192,7 @@ def estimator_of(
 ) -> ResidualEstimator:
     """Return the estimator of a log, as a closed loop has it: the observer, or less what networks predict."""
     nominal = NominalModel(robot, gravity_m_s2=gravity_m_s2)
-    observer = MomentumObserver(nominal, sampling.gain_hz, sampling.rate_hz, sampling.torque)
+    observer = RobotObserver(nominal, sampling.gain_hz, sampling.rate_hz, sampling.torque)
     return ResidualEstimator(observer, robot.layout, networks)
 
 
@@ -201,7 +201,7 @@ def without_friction(logs: Sequence[OwnLog], robot: RobotDescription, gravity_m_
     nominal = NominalModel(replace(robot, friction={}), gravity_m_s2=gravity_m_s2)
     found = list[OwnLog]()
     for log in logs:
-        mob = MomentumObserver(nominal, log.sampling.gain_hz, log.sampling.rate_hz, log.sampling.torque)
+        mob = RobotObserver(nominal, log.sampling.gain_hz, log.sampling.rate_hz, log.sampling.torque)
         residual = np.empty(log.residual.shape, dtype=np.float32)
         for span in log.recording.spans():
             residual[span] = mob.residual(log.recording.sensed[span])

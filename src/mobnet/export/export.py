@@ -24,7 +24,7 @@ from mobnet.detection.chain import make_chain
 from mobnet.detection.detector import LegGate
 from mobnet.detection.signals import MEAN
 from mobnet.detection.threshold_file import read_thresholds
-from mobnet.estimation.observer import MomentumObserver
+from mobnet.estimation.observer import RobotObserver
 from mobnet.estimation.own import OBSERVER, check_drives
 from mobnet.export.contract import CONTRACT, Contract, ObserverContract, read_contract
 from mobnet.export.graph import graph_of
@@ -65,7 +65,7 @@ def model_of(robot: RobotDescription, contract: Contract, networks: Sequence[Tra
         return None
     observing = contract.observer
     nominal = NominalModel(robot, gravity_m_s2=observing.gravity_m_s2)
-    observer = MomentumObserver(nominal, observing.gain_hz, contract.rate_hz, observing.torque)
+    observer = RobotObserver(nominal, observing.gain_hz, contract.rate_hz, observing.torque)
     pairs = zip(networks, contract.networks, strict=True)
     parts = [RuntimeNetwork(one.tensors, one.note, told.estimates) for one, told in pairs]
     return model_content(observer, parts, [_detector(one, robot, gate) for one in contract.detectors])

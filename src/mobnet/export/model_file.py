@@ -22,7 +22,7 @@ from mobnet.core.joints import NQ_BASE, JointLayout
 from mobnet.detection.chain import Chain
 from mobnet.detection.detector import LegGate
 from mobnet.detection.leg import Leg
-from mobnet.estimation.observer import MomentumObserver
+from mobnet.estimation.observer import RobotObserver
 from mobnet.kernel.drive import NUMBERS, DriveParameters
 from mobnet.learning.deployed.networks import WITHOUT_TORCH
 from mobnet.learning.deployed.weights import GRU_TENSORS, WeightsNote, std_scale_of
@@ -109,7 +109,7 @@ class RuntimeDetector:
 
 
 def write_model_file(
-    path: Path, observer: MomentumObserver, networks: Sequence[RuntimeNetwork], detectors: Sequence[RuntimeDetector]
+    path: Path, observer: RobotObserver, networks: Sequence[RuntimeNetwork], detectors: Sequence[RuntimeDetector]
 ) -> None:
     """Write the file of an observer that knows its robot, and of the networks and detectors of the robot's limbs.
 
@@ -123,7 +123,7 @@ def write_model_file(
 
 
 def model_content(
-    observer: MomentumObserver, networks: Sequence[RuntimeNetwork], detectors: Sequence[RuntimeDetector]
+    observer: RobotObserver, networks: Sequence[RuntimeNetwork], detectors: Sequence[RuntimeDetector]
 ) -> bytes:
     """Return the bytes of such a file.
 
@@ -147,7 +147,7 @@ def model_content(
 
 
 def _number_faults(
-    observer: MomentumObserver, networks: Sequence[RuntimeNetwork], detectors: Sequence[RuntimeDetector]
+    observer: RobotObserver, networks: Sequence[RuntimeNetwork], detectors: Sequence[RuntimeDetector]
 ) -> Iterator[str]:
     """Yield the numbers of files from outside that the library would not accept."""
     yield from beyond("rate_hz", observer.rate_hz, BOUNDS)
@@ -213,7 +213,7 @@ def _floats(values: Any) -> bytes:
     return np.asarray(values, dtype="<f4").tobytes()
 
 
-def _robot(observer: MomentumObserver) -> bytes:
+def _robot(observer: RobotObserver) -> bytes:
     """Return the tree as `LINK` has it, without its rotations."""
     nominal = observer.nominal
     links, gravity = nominal.linkage
@@ -283,7 +283,7 @@ def _source(name: str, layout: JointLayout) -> tuple[int, int]:
     raise DataError(not_accepted("input of a network", name, accepted))
 
 
-def _detector(detector: RuntimeDetector, observer: MomentumObserver) -> bytes:
+def _detector(detector: RuntimeDetector, observer: RobotObserver) -> bytes:
     """Return a detector: sizes, low-pass, thresholds, gate, joints."""
     chain = detector.chain
     gate = detector.gate

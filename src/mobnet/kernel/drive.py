@@ -15,11 +15,13 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from mobnet.core.arrays import Array
+from mobnet.core.errors import ConfigError, not_accepted
 
 TorqueKind = Literal["mean", "sample"]  # of a motor: over the interval that ends at the tick, or at the tick
+SMOOTHING_RAD_S = 0.01  # width of the smooth sign where none is given
 NUMBERS = ("coulomb", "viscous", "load", "offset", "scale", "smoothing", "breakaway")  # in the order of the C library
 
 
@@ -44,6 +46,24 @@ class DriveParameters:
     scale: Array
     smoothing: Array
     breakaway: Array
+
+    @classmethod
+    def of(cls, count: int, **numbers: ArrayLike) -> "DriveParameters":
+        """Return the drives of so many joints by numbers of some names, one for all joints or one for each.
+
+        What is not given is 0, but for the scale, which is 1, and the width of the smooth sign, 0.01 rad/s.
+
+        Raises:
+            ConfigError: a name is not known, or numbers are not as many as there are joints.
+        """
+        given = {"scale": 1.0, "smoothing": SMOOTHING_RAD_S, **numbers}
+        if unknown := [name for name in given if name not in NUMBERS]:
+            raise ConfigError(not_accepted("number of a drive", unknown[0], NUMBERS))
+        arrays = {name: np.asarray(given.get(name, 0.0), dtype=np.float64) for name in NUMBERS}
+        for name, array in arrays.items():
+            if array.shape not in ((), (count,)):
+                raise ConfigError(not_accepted(f"{name}: shape", array.shape, [(count,)]))
+        return cls(**{name: np.array(np.broadcast_to(array, count)) for name, array in arrays.items()})
 
     def init(self) -> Array:
         """Return the bends before the first sample, (nu,): none."""

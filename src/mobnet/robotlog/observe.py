@@ -97,7 +97,7 @@ def observe_log(
     if meaning and meaning.tool:
         converted = with_tool(converted, nominal, meaning.tool)
     read = converted.recording
-    mob = observer.MomentumObserver(nominal, gain_hz, read.rate_hz, torque)
+    mob = observer.RobotObserver(nominal, gain_hz, read.rate_hz, torque)
     rows = len(read.sensed)
     _progress(rows, f"{rows} samples read")
     residual = np.empty(read.sensed.v.shape)

@@ -9,7 +9,7 @@ from pushed_arm import PUSH, RATE_HZ, SAMPLES
 from mobnet.core.columns import recording_columns
 from mobnet.core.errors import ConfigError
 from mobnet.core.recording import Sensed, read_recording, read_sensed, write_recording
-from mobnet.estimation.observer import MomentumObserver
+from mobnet.estimation.observer import RobotObserver
 from mobnet.robot.dynamics import inverse_dynamics
 from mobnet.robot.nominal import NominalModel
 
@@ -38,7 +38,7 @@ def swing(arm, rate_hz):
 
 def error(arm, kind, sensed, rate_hz):
     """Return the largest departure (2,) from the answer (10) to a push, a share of the motors' torque."""
-    residual = MomentumObserver(NominalModel(arm), GAIN_HZ, rate_hz, kind).residual(sensed)
+    residual = RobotObserver(NominalModel(arm), GAIN_HZ, rate_hz, kind).residual(sensed)
     answer = PUSH * (1 - np.exp(-GAIN_HZ / rate_hz * np.arange(len(residual))))[:, None]
     return np.abs(residual - answer).max(axis=0) / (np.ptp(sensed.tau_motor, axis=0) / 2)
 
@@ -61,7 +61,7 @@ def test_a_sample_taken_for_a_mean_is_half_a_sample_late(arm):
 @pytest.mark.parametrize("kind", ["mean", "sample"])
 def test_stepping_through_one_buffer_equals_the_whole(arm, kind):
     """Both forms are equivalent for either kind of torque, for any memory order, and if samples share their memory."""
-    sensed, observer = swing(arm, 100.0)[1], MomentumObserver(NominalModel(arm), GAIN_HZ, 100.0, kind)
+    sensed, observer = swing(arm, 100.0)[1], RobotObserver(NominalModel(arm), GAIN_HZ, 100.0, kind)
     whole, state, buffer, rows = observer.residual(sensed), observer.init(), np.zeros(2), []
     for k in range(len(sensed)):
         buffer[:] = sensed.tau_motor[k]
@@ -74,7 +74,7 @@ def test_stepping_through_one_buffer_equals_the_whole(arm, kind):
 
 def test_an_unknown_kind_of_torque_is_named(arm):
     with pytest.raises(ConfigError, match="torque: 'median' is not accepted; accepted: mean, sample"):
-        MomentumObserver(NominalModel(arm), GAIN_HZ, RATE_HZ, "median")  # type: ignore[arg-type]
+        RobotObserver(NominalModel(arm), GAIN_HZ, RATE_HZ, "median")  # type: ignore[arg-type]
 
 
 def test_a_log_holds_joints_alone_and_is_read_back(pushed_arm, arm, tmp_path):

@@ -8,7 +8,7 @@ import pytest
 
 from mobnet.core.errors import ConfigError, DataError
 from mobnet.core.recording import Sensed
-from mobnet.estimation.observer import MomentumObserver
+from mobnet.estimation.observer import RobotObserver
 from mobnet.kernel.low_pass import exact_pole, low_pass
 from mobnet.robot.dynamics import mass_matrix, momentum_and_beta
 
@@ -49,7 +49,7 @@ def recursion(nominal, sensed, pole, shift=0, share=0.5):
 
 def test_answer_to_a_push_converges_to_the_closed_form_with_second_order(nominal, pushed):
     rates = np.array([500.0, 1000.0, 2000.0])
-    errors = [push_error(nominal, MomentumObserver(nominal, GAIN_HZ, r).residual(pushed(r)[0]), r) for r in rates]
+    errors = [push_error(nominal, RobotObserver(nominal, GAIN_HZ, r).residual(pushed(r)[0]), r) for r in rates]
     np.testing.assert_array_less(errors, [0.016, BOUND_NM, 0.001])
     orders = np.diff(np.log(errors)) / np.diff(np.log(1 / rates))
     np.testing.assert_allclose(orders, 2, atol=0.1)
@@ -156,7 +156,7 @@ def test_low_pass_has_the_observer_s_pole(observer):
 @pytest.mark.parametrize(("gain_hz", "rate_hz"), [(0.0, 1000.0), (100.0, -1.0)])
 def test_gain_or_rate_not_above_zero_is_named(nominal, gain_hz, rate_hz):
     with pytest.raises(ConfigError, match=f"gain {gain_hz} 1/s at {rate_hz} Hz"):
-        MomentumObserver(nominal, gain_hz, rate_hz)
+        RobotObserver(nominal, gain_hz, rate_hz)
 
 
 def test_samples_of_another_robot_are_refused(observer, pushed):

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from library_settings import ROOT, training_of
 
-from mobnet.estimation.observer import MomentumObserver
+from mobnet.estimation.observer import RobotObserver
 from mobnet.kernel.low_pass import filter_in_place
 from mobnet.learning.dataset import LimbData
 from mobnet.learning.deployed.networks import load_network
@@ -35,7 +35,7 @@ def moved(panda, settings):
 
     def make(seconds, seed, pushed):
         log = record_motion(robot, numbers, seconds, seed, ideal=False, pushed=pushed)
-        observer = MomentumObserver(NominalModel(robot), settings.observer.gain_hz, log.rate_hz, "sample")
+        observer = RobotObserver(NominalModel(robot), settings.observer.gain_hz, log.rate_hz, "sample")
         external = filter_in_place(log.truth.tau_ext.copy(), observer.pole)
         found = inputs(log.sensed), observer.residual(log.sensed), external
         return [values[::EVERY].astype(np.float32) for values in found]

@@ -1,4 +1,4 @@
-"""The ten names that programs of others import: what they accept, and that they are those of the page."""
+"""The eleven names that programs of others import: what they accept, and that they are those of the page."""
 
 import inspect
 import re

@@ -12,7 +12,7 @@ import pytest
 from mobnet.core.errors import ConfigError, DataError
 from mobnet.core.recording import Sensed, SensedRecording
 from mobnet.detection.calibrate import main as calibrate
-from mobnet.estimation.observer import MomentumObserver
+from mobnet.estimation.observer import RobotObserver
 from mobnet.robot.description import describe
 from mobnet.robot.nominal import NominalModel
 from mobnet.robot.table_file import head_of, write_table
@@ -69,7 +69,7 @@ def moved(bare):
         rotors = (row.model_copy(update={"armature": own}) for row, own in zip(bare.joints, ROTORS, strict=True))
         true = NominalModel(replace(bare, bodies=bodies, joints=tuple(rotors)), gravity_m_s2=GRAVITY)
         tau = np.array([pin.rnea(true.model, true.data, *row) for row in zip(q, v, a, strict=True)])
-        known = MomentumObserver(NominalModel(replace(bare, friction=friction)), 100.0, RATE_HZ, "sample")
+        known = RobotObserver(NominalModel(replace(bare, friction=friction)), 100.0, RATE_HZ, "sample")
         tau += known.drives.run(known.drives.init(), v, np.zeros_like(v), RATE_HZ)[1]
         for start, end in spans:
             tau[round(start * RATE_HZ) : round(end * RATE_HZ)] -= push_nm
@@ -128,7 +128,7 @@ def test_a_wrong_torque_constant_is_found_where_asked(bare, moved, settings):
 def test_the_observer_steps_as_it_runs(bare, moved):
     for friction in (SMOOTH, BENT, {"J2": SMOOTH["J2"].model_copy(update={"load": 0.1, "scale": 1.1})}):
         sensed = moved(3, friction, seconds=2.0)
-        observer = MomentumObserver(NominalModel(replace(bare, friction=friction)), 100.0, RATE_HZ, "sample")
+        observer = RobotObserver(NominalModel(replace(bare, friction=friction)), 100.0, RATE_HZ, "sample")
         state, rows = observer.init(), []
         for k in range(len(sensed)):
             state, residual = observer.step(state, sensed[k])
@@ -142,7 +142,7 @@ def test_the_observer_explains_what_it_knows(bare, moved, arm):
     rotors = (row.model_copy(update={"armature": own}) for row, own in zip(arm.joints, ROTORS, strict=True))
     knows = replace(bare, joints=tuple(rotors), friction=SMOOTH)
     for robot, low, high in ((bare, 1.0, 5.0), (knows, 0.0, 0.3)):
-        observer = MomentumObserver(NominalModel(robot, gravity_m_s2=GRAVITY), 100.0, RATE_HZ, "sample")
+        observer = RobotObserver(NominalModel(robot, gravity_m_s2=GRAVITY), 100.0, RATE_HZ, "sample")
         size = np.sqrt(np.square(observer.residual(sensed)[100:]).mean(axis=0))
         assert (size >= low).all()
         assert (size <= high).all()

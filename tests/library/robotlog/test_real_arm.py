@@ -12,7 +12,7 @@ import pytest
 from made_ur10e import GAINS, UR10E, ur10e_rows, write_ur10e_table
 
 from mobnet.detection.chain import low_passed, make_chain
-from mobnet.estimation.observer import MomentumObserver
+from mobnet.estimation.observer import RobotObserver
 from mobnet.robot.dynamics import inverse_dynamics
 from mobnet.robot.given import given_robot
 from mobnet.robot.nominal import NominalModel
@@ -64,7 +64,7 @@ def judged(table, folder, calm, pushes, settings):
         found = converted_log(folder / f"{name}.csv", robot.layout, meaning, settings.robotlog)
         nominal = NominalModel(robot, gravity_m_s2=settings.plant.gravity_m_s2)
         read, settle = found.recording, round(SETTLE_S * 100.0)
-        residual = MomentumObserver(nominal, 100.0, read.rate_hz, "sample").residual(read.sensed)[settle:]
+        residual = RobotObserver(nominal, 100.0, read.rate_hz, "sample").residual(read.sensed)[settle:]
         behind = np.zeros_like(residual)
         low_passed(chain.pole, residual, behind)
         return residual, np.abs(behind), found.time_s[settle:]

@@ -11,7 +11,7 @@ from made_notes import network_note
 from mobnet.core.joints import N_VIRTUAL, NQ_BASE
 from mobnet.core.recording import Sensed
 from mobnet.detection.chain import make_chain
-from mobnet.estimation.observer import MomentumObserver
+from mobnet.estimation.observer import RobotObserver
 from mobnet.export.model_file import RuntimeDetector, RuntimeNetwork, write_model_file
 from mobnet.learning.deployed.weights import WeightsNote, read_weights, shapes
 from mobnet.learning.features import BASE_NAMES
@@ -62,7 +62,7 @@ def observer_of(robot_table, arm_table):
 
     def make(machine, torque="mean"):
         table = robot_table if machine == "robot" else arm_table
-        return MomentumObserver(NominalModel(describe(table), 0.9, GRAVITY), GAIN_HZ, RATE_HZ, torque)
+        return RobotObserver(NominalModel(describe(table), 0.9, GRAVITY), GAIN_HZ, RATE_HZ, torque)
 
     return make
 

@@ -11,7 +11,7 @@ from mobnet.core.estimator import Estimate
 from mobnet.detection.detector import ALARM_RATIO, GateSignal, LegDetector, LegGate, run_over
 from mobnet.detection.signals import Watched
 from mobnet.estimation.kinds.residual import ResidualEstimator
-from mobnet.estimation.observer import MomentumObserver
+from mobnet.estimation.observer import RobotObserver
 from mobnet.export.model_file import RuntimeDetector, write_model_file
 from mobnet.learning.deployed.limbs import LimbNetworks
 from mobnet.learning.deployed.networks import deployed
@@ -79,7 +79,7 @@ def test_residual_with_friction_of_the_drives(runtime, observer_of, machine):
     shapes = [{"smoothing_rad_s": 0.05}, {"smoothing_rad_s": 1.0, "breakaway_rad": 0.02}]
     rows = {joint: FrictionRow(**rubbing, **shapes[k % 2]) for k, joint in enumerate(robot.layout.actuated) if k != 2}
     nominal = NominalModel(replace(robot, friction=rows), plain.nominal.mass_ratio, GRAVITY)
-    observer = MomentumObserver(nominal, GAIN_HZ, RATE_HZ, "sample")
+    observer = RobotObserver(nominal, GAIN_HZ, RATE_HZ, "sample")
     sensed = moving(robot.layout, 500)
     residual, _, _, _, _ = run(runtime(observer), sensed)
     agree(residual, observer.residual(sensed), EXACT)

@@ -16,7 +16,7 @@ from mobnet.core.errors import ConfigError, DataError
 from mobnet.core.files import RUN, WEIGHTS
 from mobnet.detection.detector import LegGate
 from mobnet.detection.leg import make_leg
-from mobnet.estimation.observer import MomentumObserver
+from mobnet.estimation.observer import RobotObserver
 from mobnet.export import model_file
 from mobnet.export.contract import ObserverContract
 from mobnet.export.export import MODEL, main, model_of
@@ -72,7 +72,7 @@ def test_drives_follow_the_observer_and_have_no_other_place(observer_of, library
     plain = observer_of("arm")
     row = FrictionRow(coulomb_nm=1.0, viscous_nms=0.0, smoothing_rad_s=0.01)
     robot = replace(plain.nominal.robot, friction={"J2": row})
-    observer = MomentumObserver(NominalModel(robot), 100.0, RATE_HZ)
+    observer = RobotObserver(NominalModel(robot), 100.0, RATE_HZ)
     write_model_file(tmp_path / "arm.bin", observer, [network_of(robot.layout, "A", GRU)], [])
     found = sections((tmp_path / "arm.bin").read_bytes())
     assert [kind for kind, _ in found] == [1, 2, 3, 4, 7, 5]
@@ -283,7 +283,7 @@ def test_bounds_are_those_of_the_library(library, observer_of, tmp_path):
     nominal = observer_of("arm").nominal
     layout, path = nominal.robot.layout, tmp_path / "m.bin"
     for rate, gain, threshold in zip(base.RATE_HZ, base.GAIN_HZ, base.THRESHOLD, strict=True):
-        write_model_file(path, MomentumObserver(nominal, gain, rate), [], [watching(layout, "A", threshold=threshold)])
+        write_model_file(path, RobotObserver(nominal, gain, rate), [], [watching(layout, "A", threshold=threshold)])
         assert status_of(library, path.read_bytes()) == OK
 
 

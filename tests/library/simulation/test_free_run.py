@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from mobnet.estimation.observer import MomentumObserver
+from mobnet.estimation.observer import RobotObserver
 from mobnet.kernel.low_pass import filter_in_place
 from mobnet.robot.frames import rotation
 from mobnet.robot.nominal import NominalModel
@@ -28,7 +28,7 @@ def error_of(settings):
     """A function of a robot and a recording: error of the momentum observer (T, nv) [N, N m], from BEGIN on."""
 
     def measure(robot, recording):
-        observer = MomentumObserver(NominalModel(robot), settings.observer.gain_hz, recording.rate_hz, "sample")
+        observer = RobotObserver(NominalModel(robot), settings.observer.gain_hz, recording.rate_hz, "sample")
         truth = filter_in_place(recording.truth.tau_ext.copy(), observer.pole)
         return (observer.residual(recording.sensed) - truth)[BEGIN:]
 

@@ -13,7 +13,7 @@ from mobnet.core.recording import Recording, write_recording
 from mobnet.core.store import read_array
 from mobnet.estimation.label import foot_label
 from mobnet.estimation.observe import observer_of
-from mobnet.estimation.observer import MomentumObserver
+from mobnet.estimation.observer import RobotObserver
 from mobnet.kernel.low_pass import low_pass
 from mobnet.robot.nominal import NominalModel
 
@@ -80,7 +80,7 @@ def test_every_segment_starts_anew(run, recording, nominal, written, tmp_path):
     array, _ = read_array(tmp_path / "out")
     nv = nominal.model.nv
     np.testing.assert_array_equal(array[[0, 100]], 0)
-    alone = MomentumObserver(nominal, GAIN_HZ, RATE_HZ).residual(recording.sensed[100:200])
+    alone = RobotObserver(nominal, GAIN_HZ, RATE_HZ).residual(recording.sensed[100:200])
     np.testing.assert_allclose(array[100:, :nv], alone, atol=0.02)
     np.testing.assert_allclose(array[100:, nv:], low_pass(recording.truth.tau_ext[100:], GAIN_HZ, RATE_HZ), atol=0.01)
 

@@ -14,7 +14,7 @@ from experiments.settings.catalogue import Catalogue
 from mobnet.core.detections import Threshold
 from mobnet.core.estimator import Estimate
 from mobnet.estimation.kinds.residual import ResidualEstimator
-from mobnet.estimation.observer import MomentumObserver
+from mobnet.estimation.observer import RobotObserver
 from mobnet.estimation.recipe import build_estimator
 from mobnet.reaction.loop import columns_of
 from mobnet.settings.reaction import Watch
@@ -40,7 +40,7 @@ def walker(settings, layout):
 @pytest.fixture
 def steps(monkeypatch):
     """Steps of all observers and of all estimators, counted by class."""
-    counted = {MomentumObserver: 0, ResidualEstimator: 0}
+    counted = {RobotObserver: 0, ResidualEstimator: 0}
 
     def count(kind, step):
         def counting(self, state, sample):
@@ -69,7 +69,7 @@ def test_in_a_tick_the_observer_runs_once_and_each_estimator_once(walker, steps,
         sample = sensed[k]
         state, estimate = in_loop.step(state, sample)
         ratios.append([watcher.ratio(states[limb], sample, estimate) for limb, watcher in watchers.items()])
-    assert steps == {MomentumObserver: len(sensed), ResidualEstimator: 2 * len(sensed)}
+    assert steps == {RobotObserver: len(sensed), ResidualEstimator: 2 * len(sensed)}
     # A leg's own detector with its own observer is the reference.
     alone = build_estimator(recipe_of("MOB", LEVEL))
     watcher, state = watchers["LL"], alone.init()

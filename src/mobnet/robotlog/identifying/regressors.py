@@ -22,7 +22,7 @@ from scipy.signal import butter, sosfiltfilt
 
 from mobnet.core.arrays import Array
 from mobnet.core.recording import Sensed, SensedRecording
-from mobnet.estimation.observer import MomentumObserver
+from mobnet.estimation.observer import RobotObserver
 from mobnet.kernel.drive import bent
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.nominal import NominalModel
@@ -107,7 +107,7 @@ def windows_of(
     """
     nominal = NominalModel(bare(robot), gravity_m_s2=gravity_m_s2)
     # A gain this large has no low-pass: r is s of (O1).
-    observer = MomentumObserver(nominal, 1e3 * read.rate_hz, read.rate_hz, torque)
+    observer = RobotObserver(nominal, 1e3 * read.rate_hz, read.rate_hz, torque)
     columns = columns_of(settings)
     every = max(1, int(read.rate_hz / (OVERSAMPLED * settings.low_pass_hz)))
     rows = round(settings.window_s * read.rate_hz / every)
@@ -146,7 +146,7 @@ class _Filter:
         return sosfiltfilt(self._sos, values, axis=0, padlen=min(len(values) - 1, self._padding))
 
 
-def _joints(observer: MomentumObserver, sensed: Sensed, columns: Columns, thin: _Filter, rows: int) -> Array:
+def _joints(observer: RobotObserver, sensed: Sensed, columns: Columns, thin: _Filter, rows: int) -> Array:
     """Return the columns of all joints in windows, target last, (windows, rows, nu, m)."""
     nu = observer.nominal.robot.layout.nu
     rate_hz = observer.rate_hz

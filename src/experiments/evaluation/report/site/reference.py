@@ -17,7 +17,7 @@ CONFIGURATION = f"{PLACE}/configuration"
 INTERNALS_HEAD = """# Internals
 
 For those who change this project: its packages by what their docstrings say. They may change with any release; programs
-of others take the ten names of [Use it from Python](../docs/interface.md).
+of others take the eleven names of [Use it from Python](../docs/interface.md).
 
 """
 PUBLIC = {  # packages whose modules are shown -> what they are for
