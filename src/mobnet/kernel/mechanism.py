@@ -112,6 +112,24 @@ class Mechanism:
         self.is_same = not (self._linear or self._endless or self._mimics)
         self._linkage = linkage_of(self.simple) if self.is_compiled else None
 
+    @property
+    def widths(self) -> tuple[int, ...]:
+        """How many numbers a position may have: nq, or one less for each endless hinge, whose angle is then given."""
+        return tuple(dict.fromkeys((self.model.nq, self.model.nq - len(self._endless))))
+
+    def with_circles(self, q: Array) -> Array:
+        """Return positions (T, nq) with cosine and sine of each endless hinge, where its angle is given."""
+        if q.shape[1] == self.model.nq:
+            return q
+        whole = np.empty((len(q), self.model.nq))
+        cosines = [at.q for at in self._endless]
+        sines = [at.q + 1 for at in self._endless]
+        rest = [column for column in range(self.model.nq) if column not in sines]
+        whole[:, rest] = q
+        whole[:, sines] = np.sin(whole[:, cosines])
+        whole[:, cosines] = np.cos(whole[:, cosines])
+        return whole
+
     def columns_of(self, joint: str) -> list[int]:
         """Return the columns of a joint's velocities among simple joints.
 

@@ -21,7 +21,8 @@ class MomentumObserver:
 
     Positions (nq,) and velocities (nv,) are those of the model, in Pinocchio's order, axes and units: of a free-flyer
     place [m], quaternion x y z w, and velocities in its own axes. The residual (nv,) [N], [N m] is in the same axes. A
-    free-flyer's force is filtered in the axes of its parent, which do not turn.
+    free-flyer's force is filtered in the axes of its parent, which do not turn. An endless hinge, which a URDF calls
+    continuous, has cosine and sine in Pinocchio; its angle [rad] is taken as well, where all of them have it.
 
     Attributes:
         model: the model.
@@ -83,12 +84,12 @@ class MomentumObserver:
         Raises:
             DataError: an array has another shape, or a number is not finite.
         """
-        position = self._taken("q", q, (self.model.nq,))
-        velocity = self._taken("v", v, (self.model.nv,))
-        torque = self._taken("tau", tau, (self.nu,))
-        simple_q, simple_v = self._mechanism.to_simple(position[None], velocity[None])
+        position = self._mechanism.with_circles(_taken("q", q, (), self._mechanism.widths)[None])
+        velocity = _taken("v", v, (), (self.model.nv,))
+        torque = _taken("tau", tau, (), (self.nu,))
+        simple_q, simple_v = self._mechanism.to_simple(position, velocity[None])
         state, residual = self._recursion.step(state, simple_q[0], simple_v[0], torque)
-        return state, self._mechanism.from_simple(position[None], residual[None])[0]
+        return state, self._mechanism.from_simple(position, residual[None])[0]
 
     def run(self, q: ArrayLike, v: ArrayLike, tau: ArrayLike) -> Array:
         """Return the residual of samples without a gap (T, nv) [N], [N m], as stepping through them gives it.
@@ -101,10 +102,10 @@ class MomentumObserver:
         Raises:
             DataError: an array has another shape, or a number is not finite.
         """
-        samples = np.shape(q)[0] if np.ndim(q) else 0
-        positions = self._taken("q", q, (samples, self.model.nq))
-        velocities = self._taken("v", v, (samples, self.model.nv))
-        torques = self._taken("tau", tau, (samples, self.nu))
+        samples = np.shape(q)[:1]
+        positions = self._mechanism.with_circles(_taken("q", q, samples, self._mechanism.widths))
+        velocities = _taken("v", v, samples, (self.model.nv,))
+        torques = _taken("tau", tau, samples, (self.nu,))
         simple_q, simple_v = self._mechanism.to_simple(positions, velocities)
         residual = np.empty(simple_v.shape)
         self._recursion.follow(self.init(), simple_q, simple_v, torques, residual)
@@ -116,15 +117,17 @@ class MomentumObserver:
         moves = f"{self.model.nv} velocities, {self.nu} motors"
         return f"MomentumObserver {self.model.name}: {moves}, {self.rate_hz:g} Hz, gain {self.gain_hz:g} 1/s, {way}"
 
-    def _taken(self, name: str, array: ArrayLike, shape: tuple[int, ...]) -> Array:
-        """Return an array of that shape whose numbers are finite."""
-        taken = np.asarray(array, dtype=np.float64)
-        if taken.shape != shape:
-            raise DataError(not_accepted(f"shape of {name}", taken.shape, [shape]))
-        # A sum shows in one call whether a number is not finite; a sum that is too large is no fault.
-        if not math.isfinite(taken.sum()) and not np.isfinite(taken).all():
-            raise DataError(not_accepted(name, float(taken[~np.isfinite(taken)][0]), ["finite numbers"]))
-        return taken
+
+def _taken(name: str, array: ArrayLike, samples: tuple[int, ...], widths: Sequence[int]) -> Array:
+    """Return an array of finite numbers that is as long as there are samples, of one of some widths."""
+    taken = np.asarray(array, dtype=np.float64)
+    accepted = [(*samples, width) for width in widths]
+    if taken.shape not in accepted:
+        raise DataError(not_accepted(f"shape of {name}", taken.shape, accepted))
+    # A sum shows in one call whether a number is not finite; a sum that is too large is no fault.
+    if not math.isfinite(taken.sum()) and not np.isfinite(taken).all():
+        raise DataError(not_accepted(name, float(taken[~np.isfinite(taken)][0]), ["finite numbers"]))
+    return taken
 
 
 def _driven(model: pin.Model) -> tuple[str, ...]:

@@ -161,6 +161,17 @@ def test_friction_that_is_known_is_no_external_torque():
     np.testing.assert_allclose(given, wanted, atol=1e-9 * np.abs(wanted).max())
 
 
+def test_an_endless_hinge_takes_its_angle():
+    pin.seed(7)
+    model = arm(pin.JointModelRX(), pin.JointModelRUBZ(), pin.JointModelRY(), pin.JointModelRUBX())
+    q, v, tau = moving(model)
+    angles = np.column_stack([q[:, 0], np.arctan2(q[:, 2], q[:, 1]), q[:, 3], np.arctan2(q[:, 5], q[:, 4])])
+    observer = MomentumObserver(model, RATE_HZ)
+    np.testing.assert_allclose(observer.run(angles, v, tau), observer.run(q, v, tau), atol=1e-9)
+    with pytest.raises(DataError, match=r"shape of q: \(5,\) is not accepted; accepted: \(6,\), \(4,\)"):
+        observer.step(observer.init(), q[0, :5], v[0], tau[0])
+
+
 def test_what_is_wrong_is_one_line():
     model = pin.buildSampleModelManipulator()
     observer = MomentumObserver(model, RATE_HZ)

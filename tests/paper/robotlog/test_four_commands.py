@@ -65,6 +65,7 @@ def made(arm, tmp_path_factory):
     with pytest.MonkeyPatch.context() as patch:
         patch.chdir(folder)
         Path("arm.yaml").symlink_to(ARM)
+        Path("arm.urdf").symlink_to(ARM.with_suffix(".urdf"))
         Path("map.yaml").write_text(yaml.safe_dump(signals))
         for name, (seed, seconds, pushes) in LOGS.items():
             arm_log(arm, seconds, RATE_HZ, seed, pushes).to_csv(f"{name}.csv", index=False)
@@ -188,6 +189,7 @@ def test_the_examples_of_the_interface_run_on_the_files_of_the_page(made, arm, s
     of_an_arm = [code for code in others if "humanoid" not in code]  # tests/library/package runs those of a humanoid
     for code in of_an_arm:
         exec(code, names)
+    assert names["torque"].shape == (2,)
     assert capsys.readouterr().out.startswith("q: shape: (1,) is not accepted;")
     of_observer, _ = read_array(Path("free/estimate"))
     np.testing.assert_allclose(names["residual"], of_observer, atol=1e-4)
