@@ -108,8 +108,10 @@ class Mechanism:
         self._mimics: list[Mimic] = []
         self._take_apart()
         self._data = self.simple.createData()
+        self._floats = self._has_floating_base()
         self.is_compiled = self._is_of_hinges()
-        self.is_same = not (self._linear or self._endless or self._mimics)
+        turns_quaternion = self.is_compiled and self._floats
+        self.is_same = not (self._linear or self._endless or self._mimics or turns_quaternion)
         self._linkage = linkage_of(self.simple) if self.is_compiled else None
 
     @property
@@ -179,7 +181,7 @@ class Mechanism:
             followed = _angle(q, at) if is_endless else q[:, at.q]
             positions[:, at.simple_q] = scale * followed + offset
             velocities[:, at.simple_v] = scale * v[:, at.v]
-        if self.is_compiled and self._linear:
+        if self.is_compiled and self._floats:
             positions[:, 3:7] = positions[:, [6, 3, 4, 5]]  # compiled code takes w x y z
         return positions, velocities
 
@@ -246,14 +248,17 @@ class Mechanism:
         else:
             self._same_v |= {at.v + k: at.simple_v + k for k in range(added.nv)}
 
+    def _has_floating_base(self) -> bool:
+        """Return whether a translation and a ball at the world's origin carry all links."""
+        kinds = [self.simple.joints[k].shortname() for k in range(1, min(3, self.simple.njoints))]
+        others = list(self.simple.parents)[3:]
+        at_origin = self.simple.jointPlacements[1].isIdentity()
+        return kinds == FLOATING and at_origin and self.simple.parents[2] == 1 and 0 not in others and 1 not in others
+
     def _is_of_hinges(self) -> bool:
         """Return whether compiled code can take the simple joints."""
-        kinds = [self.simple.joints[k].shortname() for k in range(1, self.simple.njoints)]
-        floats = kinds[:2] == FLOATING and bool(self._linear)
-        hinges = kinds[2:] if floats else kinds
-        parents = list(self.simple.parents)[3:]
-        is_root = self.simple.jointPlacements[1].isIdentity() and 0 not in parents and 1 not in parents
-        return all(kind in HINGES for kind in hinges) and (is_root or not floats)
+        first = 3 if self._floats else 1
+        return all(self.simple.joints[k].shortname() in HINGES for k in range(first, self.simple.njoints))
 
 
 def _parts_of(model: pin.Model, number: int) -> Iterator[SimpleJoint]:
