@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -43,7 +43,12 @@ from mobnet.settings.lab import Lab, load_lab
 from mobnet.settings.limb_thresholds import LimbThresholds
 from mobnet.settings.reaction import Strategy, load_reaction
 
+if TYPE_CHECKING:
+    import pandas as pd
+    from matplotlib.figure import Figure
+
 FILES = (".urdf", ".xml", ".mjcf")  # of robots that no table describes yet
+FEW = 8  # joints that a line names
 FIELDS = {"acc": "acc_base_in_base"}  # argument of `sample` -> field, where their names differ
 
 
@@ -88,6 +93,11 @@ class Robot:
         from mobnet.robot.import_table import read_robot  # MuJoCo, which comes with an extra
 
         return cls(read_robot(path))
+
+    def __repr__(self) -> str:
+        """Return what a notebook shows, such as `Robot two-link arm: J1, J2; fixed base`."""
+        named = self.motors if len(self.motors) <= FEW else [f"{limb} ({len(own)})" for limb, own in self.limbs.items()]
+        return f"Robot {self.name}: {', '.join(named)}; {'floating' if self.description.floating else 'fixed'} base"
 
     def sample(
         self,
@@ -167,6 +177,10 @@ class Observer:
         self.rate_hz = rate_hz
         self._observer = RobotObserver(nominal, gain_hz, rate_hz, torque)
 
+    def __repr__(self) -> str:
+        """Return what a notebook shows."""
+        return f"Observer: {_joints(self.joints)}, {self.rate_hz:g} Hz, gain {self._observer.gain_hz:g} 1/s"
+
     def init(self) -> ObserverState:
         """Return the state before the first sample."""
         return self._observer.init()
@@ -219,6 +233,10 @@ class Estimator:
         together = load_limb_networks(of_limbs, layout)
         gravity_m_s2 = numbers.plant.gravity_m_s2
         return cls(estimator_of(robot.description, gravity_m_s2, first.sampling, together), first.sampling.rate_hz)
+
+    def __repr__(self) -> str:
+        """Return what a notebook shows."""
+        return f"Estimator: {_joints(self.joints)}, {self.rate_hz:g} Hz"
 
     def init(self) -> Any:
         """Return the state before the first sample."""
@@ -289,6 +307,11 @@ class Detector:
         estimator = estimator_of(description, numbers.plant.gravity_m_s2, sampling, own and own.networks)
         return cls(description, estimator, found)
 
+    def __repr__(self) -> str:
+        """Return what a notebook shows."""
+        promised = f"false alarms promised: {self.thresholds.rate_per_h:g} 1/h"
+        return f"Detector of limb {self.thresholds.limb}: {_joints(self.joints)}, {self.rate_hz:g} Hz, {promised}"
+
     def reset(self) -> None:
         """Begin anew, as after a gap in the samples."""
         self._state: Any = self._estimator.init()
@@ -320,6 +343,10 @@ class ContactFinder:
         own = robot.description.layout.limb(limb) if joints is None else tuple(joints)
         self._finder = contact.ContactLocator.of(lab().contact_point, robot.description, limb, own)
         self.joints = self._finder.joints
+
+    def __repr__(self) -> str:
+        """Return what a notebook shows."""
+        return f"ContactFinder: {_joints(self.joints)}"
 
     def locate(
         self, q: NDArray[Any], tau: NDArray[Any], std: NDArray[Any], standing: Sequence[str] = ()
@@ -376,8 +403,13 @@ class ReactionHandler:
                 raise ConfigError(not_accepted("joint of a detector", missing[0], estimator.joints))
             columns = description.layout.columns(one.joints)
             watchers[one.thresholds.limb] = watcher_of(description, one.thresholds, columns)
+        self._limbs = list(watchers)
         self._handler = Handler(description, load_reaction(), foot_spacing_m, watchers, strategy)
         self.reset()
+
+    def __repr__(self) -> str:
+        """Return what a notebook shows."""
+        return f"ReactionHandler: watches {', '.join(self._limbs)}"
 
     def reset(self) -> None:
         """Begin anew."""
@@ -405,6 +437,42 @@ class ReactionHandler:
         return Estimate(tau, std)
 
 
+@dataclass(frozen=True, repr=False)
+class LabRecording(SensedRecording):
+    """What a robot sensed, with the names of its columns.
+
+    Attributes:
+        robot: the robot.
+    """
+
+    robot: Robot
+
+    def __repr__(self) -> str:
+        """Return what a notebook shows."""
+        seconds = len(self.sensed) / self.rate_hz
+        parts = f"{len(self.segments)} segment{'s' if len(self.segments) > 1 else ''}"
+        return f"Recording of {self.robot.name}: {seconds:.1f} s at {self.rate_hz:g} Hz, {parts}"
+
+    def frame(self) -> "pd.DataFrame":
+        """Return a table of pandas: a row for each sample, a column for each signal, the time [s] as index."""
+        check_extra("logs")
+        from mobnet.robotlog.shown import frame_of
+
+        return frame_of(self, self.robot.description.layout)
+
+    def plot(self) -> "Figure":
+        """Return a figure of matplotlib: positions [rad], velocities [rad/s] and torques of the motors [N m]."""
+        check_extra("logs")
+        from mobnet.robotlog.shown import plot_of
+
+        return plot_of(self, self.robot.motors)
+
+
+def _joints(names: Sequence[str]) -> str:
+    """Return the names of joints, or how many there are of many."""
+    return ", ".join(names) if len(names) <= FEW else f"{len(names)} joints"
+
+
 def watcher_of(robot: RobotDescription, found: LimbThresholds, columns: NDArray[np.intp]) -> LegWatcher | LimbWatcher:
     """Return what watches a limb with thresholds, on an estimate in which the limb's joints have these columns."""
     watched = watched_of(found)
@@ -415,8 +483,10 @@ def watcher_of(robot: RobotDescription, found: LimbThresholds, columns: NDArray[
     return LegWatcher(LegDetector(watched, setup.gate, chain), columns)
 
 
-def read_recording(path: str | Path, robot: Robot) -> SensedRecording:
+def read_recording(path: str | Path, robot: Robot) -> LabRecording:
     """Read what a robot sensed: `sensed` (T samples), `segments` without a gap as (start, end), `rate_hz`, and `meta`.
+
+    Its `frame()` is a table of pandas, its `plot()` a figure.
 
     Args:
         path: the file without its ending; both NAME.parquet and NAME.json are read, as `mobnet observe` writes them.
@@ -425,7 +495,8 @@ def read_recording(path: str | Path, robot: Robot) -> SensedRecording:
     Raises:
         DataError: a file is missing or damaged, or a column is missing.
     """
-    return read_sensed(Path(path), robot.description.layout)
+    read = read_sensed(Path(path), robot.description.layout)
+    return LabRecording(read.sensed, read.segments, read.rate_hz, read.meta, robot)
 
 
 def write_recording(

@@ -7,6 +7,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 from made_contacts import pushed
@@ -110,6 +111,38 @@ def test_the_examples_of_a_humanoid_run(humanoid, walk, thresholds, capsys):
     assert capsys.readouterr().out.startswith(f"{knee.body}: ")
     exec(react, names)
     assert capsys.readouterr().out.startswith("LL was hit: ")
+
+
+def test_each_name_tells_a_notebook_what_it_is(arm, humanoid, walk, thresholds):
+    assert repr(arm) == "Robot two-link arm: J1, J2; fixed base"
+    assert repr(humanoid) == "Robot TOCABI: V (6), LL (6), RL (6), W (3), LA (8), RA (8), N (2); floating base"
+    assert repr(mobnet.Observer(arm, 500.0)) == "Observer: J1, J2, 500 Hz, gain 100 1/s"
+    estimator = mobnet.Estimator.from_folder(humanoid, LEG)
+    assert repr(estimator) == "Estimator: LL1, LL2, LL3, LL4, LL5, LL6, 1000 Hz"
+    detector = mobnet.Detector.from_files(humanoid, None, thresholds())
+    shown = "Detector of limb LL: LL1, LL2, LL3, LL4, LL5, LL6, 1000 Hz, false alarms promised: 1 1/h"
+    assert repr(detector) == shown
+    finder = mobnet.ContactFinder(humanoid, "LL", joints=(*humanoid.limbs["LL"], *humanoid.limbs["V"]))
+    assert repr(finder) == "ContactFinder: 12 joints"
+    handler = mobnet.ReactionHandler(humanoid, estimator, [detector], foot_spacing_m=0.205)
+    assert repr(handler) == "ReactionHandler: watches LL"
+    assert repr(walk) == f"Recording of TOCABI: {len(walk.sensed) / 1000:.1f} s at 1000 Hz, 1 segment"
+
+
+def test_a_recording_is_a_table_and_a_picture(walk, humanoid):
+    table = walk.frame()
+    assert len(table) == len(walk.sensed)
+    np.testing.assert_array_equal(table["tau_motor.LL3"], walk.sensed.tau_motor[:, 2])
+    np.testing.assert_array_equal(table["q.LL3"], walk.sensed.q[:, 7 + 2])
+    assert table.index[1000] == 1.0
+    assert table.columns.is_unique
+    figure = walk.plot()
+    assert [panel.get_ylabel() for panel in figure.axes] == [
+        "position [rad]",
+        "velocity [rad/s]",
+        "torque of the motor [N m]",
+    ]
+    plt.close(figure)
 
 
 def test_the_import_alone_loads_no_package():

@@ -17,7 +17,11 @@ from mobnet.learning.deployed import networks
 
 MOBNET = SOURCE / "mobnet"
 ASKED = {  # file -> files that it imports after it has asked for their extra itself, as a test below shows
-    MOBNET / "interface.py": {MOBNET / "robot" / "import_table.py", MOBNET / "export" / "export.py"},
+    MOBNET / "interface.py": {
+        MOBNET / "robot" / "import_table.py",
+        MOBNET / "export" / "export.py",
+        MOBNET / "robotlog" / "shown.py",
+    },
     MOBNET / "learning" / "deployed" / "networks.py": {MOBNET / "learning" / "deployed" / "module_network.py"},
 }
 DEMO = commands.Command("", commands.demo_parser, lambda _: None, "mobnet.demo")
