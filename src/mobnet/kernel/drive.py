@@ -83,7 +83,7 @@ class DriveParameters:
 
 def bent(bend: Array, velocity: NDArray[Any], breakaway: Array, rate_hz: float) -> Array:
     """Advance bends (n,) over samples of velocity (T, n) [rad/s]; return them after each, (T, n)."""
-    from mobnet.kernel.presliding import follow  # numba: the workflow imports kinds before it starts
+    from mobnet.kernel.first_order import follow  # numba: the workflow imports kinds before it starts
 
     out = np.empty(velocity.shape)
     follow(bend, np.ascontiguousarray(velocity, dtype=np.float64), breakaway, 1.0 / rate_hz, out)

@@ -15,7 +15,7 @@ NAMED = 8  # joints that a legend names
 
 
 def frame_of(recording: SensedRecording, layout: JointLayout) -> pd.DataFrame:
-    """Return a row for each sample and a column for each sensed signal, named as in files; the time [s] is the index."""
+    """Return a row for each sample, a column for each sensed signal, named as in files, and the time [s] as index."""
     columns = recording_columns(layout)
     parts: list[pd.DataFrame] = []
     for field, values in vars(recording.sensed).items():

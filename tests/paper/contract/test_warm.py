@@ -13,9 +13,8 @@ from mobnet.detection.detector import LegGate
 from mobnet.detection.gate import advance_held, gate_state
 from mobnet.estimation.kinds.dahl import bent
 from mobnet.estimation.observe import observer_of
-from mobnet.kernel.first_order import decay
+from mobnet.kernel.first_order import decay, follow
 from mobnet.kernel.momentum import sweep
-from mobnet.kernel.presliding import follow
 from mobnet.learning.deployed import tick
 from mobnet.learning.deployed.limbs import LimbNetworks
 from mobnet.learning.deployed.networks import deployed
