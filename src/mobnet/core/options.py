@@ -224,10 +224,13 @@ def export_parser() -> argparse.ArgumentParser:
         prog=command("export"),
         description="Write trained networks as ONNX files, one for each limb, with what a program that runs them must "
         "know: names, units and order of inputs and outputs, rate, observer, thresholds. Where all networks are of the "
-        "cells GRU and constant, also write model.bin, which the C library in src/runtime runs with the observer.",
+        "cells GRU and constant, also write model.bin, which the C library in src/runtime runs with the observer. "
+        "Without a network that is the observer alone, with the thresholds that are given.",
         epilog="docs/runtime.md says how these files are used from Python, C and ROS 2.",
     )
-    parser.add_argument("network", type=Path, nargs="+", metavar="NET", help="folder of a trained network")
+    parser.add_argument(
+        "network", type=Path, nargs="*", metavar="NET", help="folder of a trained network (default: the observer alone)"
+    )
     add_robot(parser)
     parser.add_argument(
         "--thresholds",

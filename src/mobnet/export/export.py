@@ -1,7 +1,7 @@
-"""Networks as files for a robot's own program: `./reproduce export NET... --robot TABLE --out DIR` (docs/runtime.md).
+"""Networks as files for a robot's own program: `./reproduce export [NET...] --robot TABLE --out DIR` (docs/runtime.md).
 
-It writes one ONNX file for each limb, and the contract of all of them. It runs each file beside the project's own
-network on random inputs, and prints by how much they differ.
+It writes one ONNX file for each limb, and the contract of all of them; without networks, the observer alone with its
+thresholds. It runs each file beside the project's own network on random inputs, and prints by how much they differ.
 """
 
 import logging
@@ -161,16 +161,16 @@ def check_thresholds(
 
 
 def agreed(name: str, given: Value | None, trained: Sequence[Value | None], default: Value) -> Value:
-    """Return the value of the trainings, where none says it what is given, else a default.
+    """Return the value of trainings or thresholds, where none says it what is given, else a default.
 
     Raises:
-        DataError: the trainings differ, or another value is given than theirs.
+        DataError: they differ, or another value is given than theirs.
     """
     found = sorted({value for value in trained if value is not None})
     if len(found) > 1:
-        raise DataError(not_accepted(f"{name} of the networks", found, ["one for all of them"]))
+        raise DataError(not_accepted(f"{name} of the networks or thresholds", found, ["one for all of them"]))
     if found and given not in (None, found[0]):
-        raise DataError(not_accepted(f"--{name}", given, [f"{found[0]}, that of the training"]))
+        raise DataError(not_accepted(f"--{name}", given, [f"{found[0]}, that of the files"]))
     return found[0] if found else default if given is None else given
 
 
@@ -224,7 +224,9 @@ def export_folders(
         ConfigError: a file of thresholds is not accepted, or as `export` says.
     """
     networks = [read_trained(folder, robot.layout) for folder in folders]
-    notes = [one.run for one in networks]
+    found = [read_thresholds(path) for path in thresholds]
+    # Without a network, thresholds of the observer alone say at which rate and how it ran.
+    notes = [one.run for one in networks] or found
     own = settings.observer
     run_time = RunTime(
         agreed("rate", given.rate_hz, [note.rate_hz for note in notes], settings.rates.data_hz),
@@ -234,7 +236,6 @@ def export_folders(
             gravity_m_s2=settings.plant.gravity_m_s2,
         ),
     )
-    found = [read_thresholds(path) for path in thresholds]
     sweep(out)
     return export(networks, robot, run_time, found, settings.detection.gate, out), networks
 

@@ -58,8 +58,24 @@ def test_numbers_are_those_of_the_training_then_those_given_then_those_of_config
     assert (status, lines[0]) == (0, "TOCABI at 500 Hz, gain 50 1/s, torques: sample")
     _, lines = called(folder, "--rate", 500, *out)
     assert lines[0] == "TOCABI at 500 Hz, gain 100 1/s, torques: sample"
-    refused = "--rate: 250.0 is not accepted; accepted: 500.0, that of the training"
+    refused = "--rate: 250.0 is not accepted; accepted: 500.0, that of the files"
     assert called(folder, "--rate", 250, *out) == (1, [refused])
+
+
+def test_the_observer_alone_is_exported_with_its_thresholds(called, save, tmp_path, thresholds):
+    found = thresholds("LL", method="MOB", network=None, rate_hz=500.0, gain_hz=50.0, torque="sample")
+    write_thresholds(tmp_path / "LL.yaml", found)
+    out = tmp_path / "out"
+    status, lines = called("--thresholds", tmp_path / "LL.yaml", "--out", out)
+    assert (status, lines[0]) == (0, "TOCABI at 500 Hz, gain 50 1/s, torques: sample")
+    assert lines[1:] == [
+        "detector of LL: mean of LL1, LL2, LL3, LL4, LL5, LL6, always",
+        f"{out / 'contract.json'}",
+        f"{out / 'model.bin'}: for the C library in src/runtime",
+    ]
+    refused = "--rate: 250.0 is not accepted; accepted: 500.0, that of the files"
+    assert called("--thresholds", tmp_path / "LL.yaml", "--rate", 250, "--out", out) == (1, [refused])
+    assert called("--rate", 250, "--out", out)[1][0] == "TOCABI at 250 Hz, gain 100 1/s, torques: mean"
 
 
 def test_trainings_that_differ_are_refused():
