@@ -27,8 +27,7 @@ def train(
     margins: Margins | None = None,
     observer: ObserverSettings | None = None,
     fitted: Path | None = None,
-    stack: Path | None = None,
-    lesson: str | None = None,
+    lesson: tuple[Path, str] | None = None,
 ) -> None:
     """Train a network on recordings; a training that was killed goes on from its last epoch.
 
@@ -46,8 +45,7 @@ def train(
         margins: where swings label, what is left out of them.
         observer: the observer's settings, of a network with a fit.
         fitted: what rule `fit` wrote, whose friction is known of the target; None where nothing is known.
-        stack: file of what networks have learned side by side; None of one that learns alone.
-        lesson: its name in this file.
+        lesson: file of what it has learned in a stack, and its name there; None of one that learns alone.
 
     Raises:
         DataError: a recording, a residual or the fit is damaged, or they are too short.
@@ -58,8 +56,7 @@ def train(
         # By its name, so that no other training has the code of friction in its hash.
         known = importlib.import_module("experiments.jobs.known").known_of(layout, observer, fitted)
     data = data_of(layout, training, recordings, residuals, rate_hz, margins, known)
-    learned = (stack, lesson) if stack and lesson else None
-    train_on(data, TrainingJob(training, seed, root_seed), out, state, start, learned, in_place=True)
+    train_on(data, TrainingJob(training, seed, root_seed), out, state, start, lesson, in_place=True)
 
 
 def data_of(

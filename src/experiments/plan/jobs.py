@@ -107,7 +107,7 @@ class Jobs:
         }
 
     def train(self, w: Any) -> Arguments:
-        """Return the training of a network, with its name among those that learn side by side where it is one of them."""
+        """Return the training of a network, with what it learned in a stack where it is in one."""
         files = self.files(w)
         training = files.catalogue.training(w.method, w.limb)
         arguments: Arguments = {
@@ -125,9 +125,9 @@ class Jobs:
             arguments["margins"] = (swings.lift_off_s, swings.landing_s)
         if files.fit(w.method):
             arguments["observer"] = self.settings.observer
-        own = _stacked(w)
+        own = Stacked(w.robot, NetworkName(w.method, w.limb, int(w.seed)))
         if self.settings.stacks.side_by_side is True and own in self.stacks.names:
-            arguments["lesson"] = own.name
+            arguments["lesson"] = (self.stacks.file(self.stacks.names[own]), own.name)
         return arguments
 
     def learned_from(self, w: Any) -> dict[str, Any]:
@@ -147,10 +147,6 @@ class Jobs:
         if fitted := files.fit(w.method):
             read["fitted"] = fitted[0]
         return read
-
-    def stack_of(self, w: Any) -> list[Path]:
-        """Return the file of what a network has learned in a stack; none of one that learns alone."""
-        return [self.stacks.file(self.stacks.names[_stacked(w)])] if "lesson" in self.train(w) else []
 
     def train_stack(self, w: Any) -> Arguments:
         """Return the training of networks side by side: what that of each of them would get, and its files."""
@@ -311,11 +307,6 @@ class Jobs:
             "observer": files.settings.observer,
             "rate_hz": files.settings.rates.data_hz,
         }
-
-
-def _stacked(w: Any) -> Stacked:
-    """Return a network as a stack names it."""
-    return Stacked(w.robot, NetworkName(w.method, w.limb, int(w.seed)))
 
 
 def _with_source(files: Files, method: str) -> dict[str, Method]:

@@ -122,7 +122,7 @@ class Sheets:
             method, limb, seed = own.rsplit("-", 2)
             w = SimpleNamespace(robot=robot, method=method, limb=limb, seed=seed.removeprefix("s"))
             read = jobs.learned_from(w)
-            return {"seeds": seeds_in(read["recordings"]), **self._read([read, jobs.stack_of(w)])}
+            return {"seeds": seeds_in(read["recordings"]), **self._read([read, jobs.train(w).get("lesson")])}
 
         def names() -> Iterator[str]:
             for files in self.plan.files.owners:

@@ -56,7 +56,7 @@ def test_what_no_product_reads_is_not_made(planned):
 
 def test_every_network_is_trained_by_a_job_of_its_own(planned):
     plan = make_plan(load_settings(overrides={"scale": "default"}), with_pdf=False)
-    trained = [job for job in planned("default") if job.rule in ("train", "train_gray")]
+    trained = [job for job in planned("default") if job.rule == "train"]
     folders = {str(Path(job.outputs[0]).parent) for job in trained}
     assert len(trained) == len(folders)
     assert folders == set(map(str, plan.files.all_networks()))
@@ -71,7 +71,7 @@ def test_networks_learn_side_by_side_where_it_is_asked_for(planned, scale):
     stacks = [job for job in jobs if job.rule == "train_stack"]
     assert sorted(job.wildcards["stack"] for job in stacks) == sorted(plan.jobs.stacks.members)
     made = {job.outputs[0] for job in stacks}
-    taught = [job for job in jobs if job.rule in ("train", "train_gray") and made & set(job.inputs)]
+    taught = [job for job in jobs if job.rule == "train" and made & set(job.inputs)]
     assert len(taught) == len(plan.jobs.stacks.names)
     others = [job.name for job in jobs if job.rule != "train_stack"]
     assert sorted(others) == sorted(job.name for job in planned(scale))
