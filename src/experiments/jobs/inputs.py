@@ -35,7 +35,7 @@ def only(files: Sequence[str]) -> Path | None:
 def placed(named: Any, files: Iterable[str]) -> Any:
     """Return what a function gets with the job's own files in place of their names.
 
-    The plan names a file below the folder of the project, as `results/default/plant/networks/MOB-Net-LL-s0`; the job may
+    The plan names a file below the folder of the project, as `results/default/plant/fits/MOB-fric.json`; the job may
     have it elsewhere, where a storage of Snakemake keeps it. Names stand at any depth of containers and dataclasses.
 
     Args:

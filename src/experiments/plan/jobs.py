@@ -1,8 +1,8 @@
-"""What the job of each rule gets beside its files, by the rule's wildcards: sections of the configuration and numbers.
+"""What the job of each rule gets beside its files, by the rule's wildcards: sections of the configuration and seeds.
 
-Nothing is worked out before Snakemake asks for it. The files that a job reads are inputs of its rule, which looks them up
-in `experiments.plan.sheets`. Where a function gets many files, by methods or limbs, arguments name them as the plan does:
-a network by its folder, an array without its endings. Scripts put in their place what `input` of the rule has
+Nothing is worked out before Snakemake asks for it. The files that a job reads are inputs of its rule, which looks them
+up in `experiments.plan.sheets`. Where a function gets many files, by methods or limbs, arguments name them as the plan
+does: a network by its folder, an array without its endings. Scripts put in their place what `input` of the rule has
 (`experiments.jobs.inputs`).
 """
 

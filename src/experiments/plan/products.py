@@ -5,7 +5,6 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from fnmatch import fnmatch
 from pathlib import Path
-from typing import Any
 
 from experiments.plan.call import Call, call_of, parameters
 from experiments.plan.demo import FOLDER, demo_needs, demo_outputs

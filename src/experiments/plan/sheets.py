@@ -1,7 +1,7 @@
 """What the rules read, as sheets: a row for each set, network, test or product, with a column for each kind of file.
 
-Rules look up what their wildcards name, and `./reproduce sheet NAME` prints a sheet. A set, a network or another file of
-one robot stands in a row as `ROBOT/NAME`, what all robots share by its name alone; the rule says where such a file is.
+Rules look up what their wildcards name, and `./reproduce sheet NAME` prints a sheet. A set, a network or another file
+of one robot is named `ROBOT/NAME`, what all robots share by its name alone. The rule says where such a file is.
 """
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
@@ -17,6 +17,7 @@ from experiments.plan.plan import Plan
 from experiments.plan.products import Folders
 from experiments.plan.sets import networks_of
 from experiments.plan.stacks import Stacked
+from experiments.running.words import SHEETS
 
 SHARED = ("scores", "motions", "stacks")  # folders of what all robots share, each a column
 OWN = {"fits": "fits", "detection": "detections", "reactions": "reactions"}  # folder of a robot -> column of its files
@@ -79,11 +80,7 @@ class Sheets:
     @property
     def all(self) -> dict[str, Sheet]:
         """Every sheet by its name."""
-        return {
-            "sets": self.sets, "fits": self.fits, "networks": self.networks, "stacks": self.stacks, "tests": self.tests,
-            "scores": self.scores, "detectors": self.detectors, "watched": self.watched, "reactions": self.reactions,
-            "shown": self.shown,
-        }  # fmt: skip
+        return {name: getattr(self, name) for name in SHEETS}
 
     @cached_property
     def sets(self) -> Sheet:

@@ -12,6 +12,7 @@ from experiments.evaluation.report.cost import costs
 from experiments.evaluation.report.machines import ASKED, PAGE, block_of, row, table
 from experiments.evaluation.report.paper import missing_packages
 from experiments.plan.dry_run import dry_run
+from experiments.plan.files import made_by_jobs
 from experiments.plan.gpu import GPU_RATES, GpuNote, fitted
 from experiments.plan.limits import MB_OF_MIB, MINUTE_S, SNAKEMAKE_MB
 from experiments.plan.plan import make_plan
@@ -43,6 +44,26 @@ def test_the_manifest_names_all_that_other_jobs_make(planned, scale):
     others = [job for job in jobs if job.rule not in ("manifest", "all", "wandb_runs")]
     made = {name for job in others for name in job.outputs}
     assert set(manifest.inputs) == made
+
+
+@pytest.mark.parametrize("side_by_side", [False, True])
+def test_no_job_gets_the_name_of_a_file_that_its_rule_does_not_read(planned, side_by_side):
+    """Inputs stand in the rules, names of many files in the arguments of their functions."""
+    stacks = {"side_by_side": side_by_side}
+    plan = make_plan(load_settings(overrides={"scale": "smoke", "stacks": stacks}), with_pdf=not missing_packages())
+    checked = set()
+    for job in planned("smoke", side_by_side=side_by_side):
+        rule = "react" if job.rule == "walk_freely" else job.rule
+        if hasattr(plan.jobs, rule):
+            named = made_by_jobs(getattr(plan.jobs, rule)(job.w))
+            read = {name for name in named if "/state/" not in name}  # of a training's checkpoint
+        elif job.outputs[0]:
+            read = set(plan.product(Path(job.name).name).inputs)
+        else:
+            continue
+        assert read <= set(job.inputs), job.name
+        checked.add(job.rule)
+    assert {"train", "estimate", "score", "detect", "react", "table", "figure", "claims", "pages"} <= checked
 
 
 def test_what_no_product_reads_is_not_made(planned):
