@@ -112,17 +112,16 @@ def shown(figure):
 
 
 def flagged(name):
-    """Mark an output of a product whose rule makes nothing else, as a folder or a file with its caption."""
-    output = name if Path(name).suffix else directory(name)
+    """Mark a file of a product whose rule makes nothing else for the report, with its caption, if it is shown there."""
     how = report_of(name)
     if how is None:
-        return output
+        return name
     labels = {"file": Path(name).stem, "shows": how.title}
     # Results lie in the working folder, also captions with numbers, which are there once a report is made.
     caption = how.caption and PLAN.folders.caption(how.caption)
     if caption:
         caption = (ROOT if caption == how.caption else Path.cwd()) / caption
-    return report(output, caption=caption, category=how.category, labels=labels)
+    return report(name, caption=caption, category=how.category, labels=labels)
 
 
 def let_go(output):

@@ -6,7 +6,7 @@ rule deviations:
     input:
         markdown="docs/deviations.md",
     output:
-        [flagged(name) for name in PLAN.product("deviations").outputs],
+        "<tables>/deviations.tex",
     log:
         "<logs>/deviations.log",
     group:
@@ -43,7 +43,7 @@ rule compute:
     input:
         after=[*rules.tables.input, *rules.figures.input, *rules.pictures.output],
     output:
-        [flagged(name) for name in PLAN.product("compute").outputs],
+        multiext("<results>/compute", ".csv", ".tex", ".md"),
     log:
         "<logs>/compute.log",
     group:
@@ -90,7 +90,7 @@ rule runs_page:
         scores=collect("<results>/scores/{test}.csv", test=lookup("runs_page/scores", within=SHOWN)),
         templates=lookup("runs_page/files", within=SHOWN),
     output:
-        [flagged(name) for name in PLAN.product("runs_page").outputs],
+        flagged("<results>/runs.html"),
     log:
         "<logs>/runs_page.log",
     group:
@@ -112,7 +112,7 @@ rule wandb_runs:
             file=TRAINED,
         ),
     output:
-        [flagged(name) for name in PLAN.product("wandb_runs").outputs],
+        directory("<results>/wandb"),
     log:
         "<logs>/wandb_runs.log",
     group:
@@ -175,7 +175,7 @@ rule explore:
         ),
         templates=lookup("explore/files", within=SHOWN),
     output:
-        [flagged(name) for name in PLAN.product("explore").outputs],
+        flagged("<results>/explore.html"),
     log:
         "<logs>/explore.log",
     group:
@@ -194,7 +194,7 @@ rule pages:
         tables=collect("<tables>/{name}.csv", name=lookup("pages/tables", within=SHOWN)),
         files=lookup("pages/files", within=SHOWN),
     output:
-        [flagged(name) for name in PLAN.product("pages").outputs],
+        [flagged(f"<results>/pages/{name}.html") for name in [*PLAN.tables, "compute", "index"]],
     log:
         "<logs>/pages.log",
     group:

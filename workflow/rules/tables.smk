@@ -167,7 +167,11 @@ rule figure_10:
         ),
         scores=collect("<results>/scores/{test}.csv", test=lookup("figure_10/scores", within=SHOWN)),
     output:
-        [flagged(name) for name in PLAN.product("figure_10").outputs],
+        multiext("<figures>/figure_10", ".pdf", ".svg", ".csv"),
+        flagged("<figures>/figure_10.png"),
+        multiext("<figures>/figure_10_support", ".pdf", ".svg", ".csv"),
+        flagged("<figures>/figure_10_support.png"),
+        "<figures>/figure_10_bars.csv",
     log:
         "<logs>/figure/figure_10.log",
     group:
@@ -185,7 +189,10 @@ rule bode:
     input:
         scores=collect("<results>/scores/{test}.csv", test=lookup("bode/scores", within=SHOWN)),
     output:
-        [flagged(name) for name in PLAN.product("bode").outputs],
+        multiext("<figures>/bode", ".pdf", ".svg", ".csv"),
+        flagged("<figures>/bode.png"),
+        multiext("<figures>/bode_all", ".pdf", ".svg", ".csv"),
+        flagged("<figures>/bode_all.png"),
     log:
         "<logs>/figure/bode.log",
     group:
@@ -209,7 +216,11 @@ rule claims:
             file=TRAINED,
         ),
     output:
-        [flagged(name) for name in PLAN.product("claims").outputs],
+        multiext("<figures>/claims", ".pdf", ".svg", ".csv"),
+        flagged("<figures>/claims.png"),
+        multiext("<figures>/claims_own", ".pdf", ".svg", ".csv"),
+        flagged("<figures>/claims_own.png"),
+        multiext("<tables>/claims", ".csv", ".tex", ".md"),
     log:
         "<logs>/table/claims.log",
     group:

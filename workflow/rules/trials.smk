@@ -71,13 +71,11 @@ rule films:
 
 
 rule docs:
-    # The documentation as pages.
+    # The documentation as pages, from its documents, captions, modules and templates.
     input:
-        documents=PLAN.product("docs").reads("documents"),
-        captions=PLAN.product("docs").reads("captions"),
-        modules=PLAN.product("docs").reads("modules"),
+        files=lookup("docs/files", within=SHOWN),
     output:
-        [flagged(name) for name in PLAN.product("docs").outputs],
+        directory("<results>/docs"),
     log:
         "<logs>/docs.log",
     group:

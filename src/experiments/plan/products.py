@@ -105,10 +105,6 @@ class Product:
         """Hash of the code behind it."""
         return code_hash(SCRIPT, self.call.module, *self.modules)
 
-    def reads(self, argument: str) -> list[str]:
-        """Return the files behind an argument."""
-        return made_by_jobs(self.call.arguments[argument])
-
     @property
     def rule(self) -> str:
         """The rule that makes it: products with files of the same layout share one, others have one of their name."""

@@ -152,6 +152,21 @@ def test_the_graph_of_rules_is_a_page(snakemake):
     assert set(boxes) == {"motion", "collect", "observe", "fit", "train", "estimate", "score", "table"}
 
 
+def test_inputs_stand_in_the_rules_and_go_through_the_scripts():
+    """As paths, lookups in sheets, or what other rules make; no rule asks the plan for them."""
+    rules = []
+    for path in sorted((ROOT / "workflow" / "rules").glob("*.smk")):
+        rules += re.split(r"^(?:use )?rule ", path.read_text(), flags=re.MULTILINE)[1:]
+    reading = [rule for rule in rules if "\n    input:\n" in rule]
+    assert len(reading) > 30
+    for rule in reading:
+        read = re.search(r"\n    input:\n((?: {8}.*\n)+)", rule)[1]
+        assert re.search(r'"|\brules\.|PLAN\.sets', read), rule
+        assert not re.search(r"lambda|PLAN\.product|JOBS", read), rule
+        for script in re.findall(r'"\.\./scripts/(\w+\.py)"', rule):
+            assert "snakemake.input" in (ROOT / "workflow" / "scripts" / script).read_text(), script
+
+
 def test_no_rule_is_made_in_a_loop():
     files = [ROOT / "Snakefile", *(ROOT / "workflow" / "rules").glob("*.smk")]
     assert [path.name for path in files if re.search(r"^for .* in .*:$", path.read_text(), re.MULTILINE)] == []
