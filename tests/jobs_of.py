@@ -13,8 +13,15 @@ def arguments(plan: Plan, rule: str, robot: str = PLANT, **wildcards: str) -> An
 
 
 def reads(plan: Plan, rule: str, robot: str = PLANT, **wildcards: str) -> list[str]:
-    """Return what other jobs make of the files behind them."""
-    return made_by_jobs(arguments(plan, rule, robot, **wildcards))
+    """Return what the job reads of what other jobs make."""
+    w = SimpleNamespace(robot=robot, **wildcards)
+    needs = [arguments(plan, rule, robot, **wildcards)]
+    if rule == "train":
+        needs.append(plan.jobs.learned_from(w))
+    if rule == "estimate":
+        files = plan.jobs.files(w)
+        needs += [files.tests(w.scenario, w.level, kind) for kind in ("recordings", "residuals")]
+    return made_by_jobs(needs)
 
 
 def network(name: str) -> dict[str, str]:

@@ -17,9 +17,12 @@ rule motion:
 
 
 rule collect:
-    # Recordings of a walk, a set: one file for each seed.
+    # Recordings of a walk, a set: one file for each seed. All sets: ./reproduce sheet sets
     input:
-        motions=needed(JOBS.collect, "motions"),
+        motions=collect(
+            "<results>/motions/{motion}.parquet",
+            motion=lookup("{robot}/{scenario}/{level}/motions", within=SHEETS.sets),
+        ),
     output:
         recordings=let_go(directory("<results>/{robot}/recordings/{scenario}/{level}")),
     log:
@@ -52,6 +55,7 @@ rule observe:
         **LIMITS.of("observe"),
         disk_mb=SIZES.residuals,
     params:
+        seeds=lookup("{robot}/{scenario}/{level}/seeds", within=SHEETS.sets),
         given=JOBS.observe,
         code=code("observe"),
     script:

@@ -8,9 +8,10 @@ from experiments.running.interrupts import Interrupts
 # Ctrl-C is answered from here on: all that is imported below takes a second.
 INTERRUPTS = Interrupts() if workflow.is_main_process else None
 
-from experiments.plan.files import made_by_jobs
+from experiments.plan.files import TRAINED
 from experiments.plan.products import shown as report_of
 from experiments.plan.room import Sizes
+from experiments.plan.sheets import Sheets
 from experiments.running.environment import quieten
 from experiments.running.processes import PREFIX
 from experiments.running.words import one_of
@@ -26,6 +27,8 @@ PLAN = RUN.plan
 JOBS = PLAN.jobs
 LIMITS = RUN.limits
 SIZES = Sizes(JOBS)
+SHEETS = Sheets(PLAN)
+SHOWN = SHEETS.shown  # what tables, figures and texts are made from
 GPUS = RUN.gpus
 
 sys.executable = shlex.quote(sys.executable)  # Snakemake writes it into shell commands as it is
@@ -61,14 +64,34 @@ onerror:
     RUN.fail()
 
 
-def needed(job, *names):
-    """Return a function of wildcards: what other jobs make of the files behind arguments that a job gets."""
+def lookup(dpath, within):
+    """Return a function of wildcards: the column of a sheet's row that they name, as ROW/COLUMN.
 
-    def read(w):
+    It takes the place of Snakemake's function of this name, which goes through the whole sheet for each job.
+    """
+
+    def look(w):
         RUN.ask_for_lost()
-        return made_by_jobs([job(w).get(name) for name in names])
+        row, _, column = dpath.format_map(dict(w.items())).rpartition("/")
+        return within[row][column]
 
-    return read
+    return look
+
+
+def product(name):
+    """Return the parameters of the rule of a product, a table, figure or text whose name may have a wildcard.
+
+    They are worked out late: a hash of code takes its time.
+    """
+
+    def found(w):
+        return PLAN.product(name.format_map(dict(w.items())))
+
+    return {
+        "function": lambda w: found(w).function,
+        "given": lambda w: found(w).arguments,
+        "code": lambda w: found(w).code,
+    }
 
 
 def code(script, further=lambda w: []):
@@ -89,17 +112,16 @@ def shown(figure):
 
 
 def flagged(name):
-    """Mark an output of a product whose rule makes nothing else, as a folder or a file with its caption."""
-    output = name if Path(name).suffix else directory(name)
+    """Mark a file of a product whose rule makes nothing else for the report, with its caption, if it is shown there."""
     how = report_of(name)
     if how is None:
-        return output
+        return name
     labels = {"file": Path(name).stem, "shows": how.title}
     # Results lie in the working folder, also captions with numbers, which are there once a report is made.
     caption = how.caption and PLAN.folders.caption(how.caption)
     if caption:
         caption = (ROOT if caption == how.caption else Path.cwd()) / caption
-    return report(output, caption=caption, category=how.category, labels=labels)
+    return report(name, caption=caption, category=how.category, labels=labels)
 
 
 def let_go(output):

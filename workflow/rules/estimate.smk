@@ -1,9 +1,17 @@
 rule estimate:
-    # The external torque of a test by every method that a table or figure shows of it.
+    # The external torque of a test by every method that a table or figure shows of it. All tests: ./reproduce sheet tests
     input:
-        recordings=needed(JOBS.estimate, "recordings"),
-        residuals=needed(JOBS.estimate, "residuals"),
-        networks=needed(JOBS.estimate, "runs"),
+        recordings=rules.collect.output.recordings,
+        residuals=rules.observe.output.residuals,
+        networks=collect(
+            "<results>/{network.robot}/networks/{network.name}/{file}",
+            network=lookup("{robot}/{scenario}/{level}/networks", within=SHEETS.tests),
+            file=TRAINED,
+        ),
+        fits=collect(
+            "<results>/{fit.robot}/fits/{fit.name}.json",
+            fit=lookup("{robot}/{scenario}/{level}/fits", within=SHEETS.tests),
+        ),
     output:
         estimates=let_go(directory("<results>/{robot}/estimates/{scenario}/{level}")),
     log:
@@ -14,6 +22,7 @@ rule estimate:
         **LIMITS.of("estimate"),
         disk_mb=SIZES.estimates,
     params:
+        seeds=lookup("{robot}/{scenario}/{level}/seeds", within=SHEETS.tests),
         given=JOBS.estimate,
         code=code("estimate", JOBS.estimated_by),
     script:
@@ -21,9 +30,20 @@ rule estimate:
 
 
 rule score:
-    # Errors of all of these estimates, of all robots together where the level is theirs.
+    # Errors of all of these estimates, of all robots together where the level is theirs: ./reproduce sheet scores
     input:
-        sets=needed(JOBS.score, "runs"),
+        recordings=collect(
+            "<results>/{set.robot}/recordings/{set.name}",
+            set=lookup("{scenario}/{level}/recordings", within=SHEETS.scores),
+        ),
+        residuals=collect(
+            "<results>/{set.robot}/residuals/{set.name}",
+            set=lookup("{scenario}/{level}/residuals", within=SHEETS.scores),
+        ),
+        estimates=collect(
+            "<results>/{set.robot}/estimates/{set.name}",
+            set=lookup("{scenario}/{level}/estimates", within=SHEETS.scores),
+        ),
     output:
         "<results>/scores/{scenario}/{level}.csv",
     log:

@@ -1,12 +1,19 @@
 # Small trainings go into the queue of a cluster together. Those that take their weights from a stack cannot: a stack may
 # wait for one of them.
-NETWORKS = None if SETTINGS.stacks.side_by_side else "networks"
+TOGETHER = None if SETTINGS.stacks.side_by_side else "networks"
 
 
 rule fit:
-    # Formulas of friction, fitted to the recordings from which networks learn.
+    # Formulas of friction, fitted to the recordings from which networks learn. Rows: ./reproduce sheet fits
     input:
-        sets=needed(JOBS.fit, "training"),
+        recordings=collect(
+            "<results>/{set.robot}/recordings/{set.name}",
+            set=lookup("{robot}/{method}/recordings", within=SHEETS.fits),
+        ),
+        residuals=collect(
+            "<results>/{set.robot}/residuals/{set.name}",
+            set=lookup("{robot}/{method}/residuals", within=SHEETS.fits),
+        ),
     output:
         "<results>/{robot}/fits/{method}.json",
     log:
@@ -25,9 +32,24 @@ rule fit:
 
 rule train_stack:
     # Networks of one shape side by side on a GPU (docs/notes/training.md); where each learns alone, no job asks for
-    # this.
+    # this. Rows: ./reproduce sheet stacks
     input:
-        read=lambda w: made_by_jobs(JOBS.read_by_stack(w)),
+        recordings=collect(
+            "<results>/{set.robot}/recordings/{set.name}",
+            set=lookup("{stack}/recordings", within=SHEETS.stacks),
+        ),
+        residuals=collect(
+            "<results>/{set.robot}/residuals/{set.name}",
+            set=lookup("{stack}/residuals", within=SHEETS.stacks),
+        ),
+        starts=collect(
+            "<results>/{network.robot}/networks/{network.name}/weights.safetensors",
+            network=lookup("{stack}/networks", within=SHEETS.stacks),
+        ),
+        fits=collect(
+            "<results>/{fit.robot}/fits/{fit.name}.json",
+            fit=lookup("{stack}/fits", within=SHEETS.stacks),
+        ),
     output:
         "<results>/stacks/{stack}.safetensors",
     log:
@@ -48,56 +70,45 @@ rule train_stack:
 
 
 rule train:
-    # One network (section 4.4). Its checkpoint is no output: a training that was killed goes on from its last epoch.
+    # One network (section 4.4), from recordings; fine-tuned, from the weights of another one; with a fit, on what this
+    # leaves of the uncertainty; on a GPU, from what it learned in a stack. Rows: ./reproduce sheet networks
     input:
-        recordings=needed(JOBS.train, "recordings"),
-        residuals=needed(JOBS.train, "residuals"),
-        start=needed(JOBS.train, "start"),
-        lesson=needed(JOBS.train, "lesson"),
+        recordings=collect(
+            "<results>/{set.robot}/recordings/{set.name}",
+            set=lookup("{robot}/{method}-{limb}-s{seed}/recordings", within=SHEETS.networks),
+        ),
+        residuals=collect(
+            "<results>/{set.robot}/residuals/{set.name}",
+            set=lookup("{robot}/{method}-{limb}-s{seed}/residuals", within=SHEETS.networks),
+        ),
+        start=collect(
+            "<results>/{network.robot}/networks/{network.name}/weights.safetensors",
+            network=lookup("{robot}/{method}-{limb}-s{seed}/networks", within=SHEETS.networks),
+        ),
+        fitted=collect(
+            "<results>/{fit.robot}/fits/{fit.name}.json",
+            fit=lookup("{robot}/{method}-{limb}-s{seed}/fits", within=SHEETS.networks),
+        ),
+        stack=collect(
+            "<results>/stacks/{stack}.safetensors",
+            stack=lookup("{robot}/{method}-{limb}-s{seed}/stacks", within=SHEETS.networks),
+        ),
     output:
+        # Its checkpoint is none: a training that was killed goes on from its last epoch.
         weights="<results>/{robot}/networks/{method}-{limb}-s{seed}/weights.safetensors",
         metrics="<results>/{robot}/networks/{method}-{limb}-s{seed}/metrics.csv",
         run="<results>/{robot}/networks/{method}-{limb}-s{seed}/run.json",
     log:
         "<logs>/train/{robot}/{method}-{limb}-s{seed}.log",
-    wildcard_constraints:
-        method=one_of(PLAN.trained),
     priority: 10
     group:
-        NETWORKS
+        TOGETHER
     resources:
         **LIMITS.of("train"),
         gpu=lambda w: 0 if "lesson" in JOBS.train(w) else min(GPUS, 1),
     params:
+        seeds=lookup("{robot}/{method}-{limb}-s{seed}/seeds", within=SHEETS.networks),
         given=JOBS.train,
-        code=code("train"),
+        code=code("train", JOBS.trained_by),
     script:
         "../scripts/train.py"
-
-
-rule train_gray:
-    # A network that learns what a fitted formula of friction leaves of the uncertainty.
-    input:
-        recordings=needed(JOBS.train_gray, "recordings"),
-        residuals=needed(JOBS.train_gray, "residuals"),
-        fitted=needed(JOBS.train_gray, "fitted"),
-        lesson=needed(JOBS.train_gray, "lesson"),
-    output:
-        weights="<results>/{robot}/networks/{method}-{limb}-s{seed}/weights.safetensors",
-        metrics="<results>/{robot}/networks/{method}-{limb}-s{seed}/metrics.csv",
-        run="<results>/{robot}/networks/{method}-{limb}-s{seed}/run.json",
-    log:
-        "<logs>/train/{robot}/{method}-{limb}-s{seed}.log",
-    wildcard_constraints:
-        method=one_of(PLAN.trained_gray),
-    priority: 10
-    group:
-        NETWORKS
-    resources:
-        **LIMITS.of("train"),
-        gpu=lambda w: 0 if "lesson" in JOBS.train_gray(w) else min(GPUS, 1),
-    params:
-        given=JOBS.train_gray,
-        code=code("train_gray"),
-    script:
-        "../scripts/train_gray.py"

@@ -18,49 +18,71 @@ rule falls:
         "../scripts/falls.py"
 
 
-use rule table as trial with:
+rule trial:
     # Variants of methods on walks of their own (configs/trials.yaml); their networks are trained as all others are.
     input:
-        made_from=lambda w: PLAN.product(w.trial).inputs,
+        recordings=collect(
+            "<results>/{set.robot}/recordings/{set.name}",
+            set=lookup("{trial}/recordings", within=SHOWN),
+        ),
+        residuals=collect("<results>/{set.robot}/residuals/{set.name}", set=lookup("{trial}/residuals", within=SHOWN)),
+        networks=collect(
+            "<results>/{network.robot}/networks/{network.name}/{file}",
+            network=lookup("{trial}/networks", within=SHOWN),
+            file=TRAINED,
+        ),
+        fits=collect("<results>/{fit.robot}/fits/{fit.name}.json", fit=lookup("{trial}/fits", within=SHOWN)),
+        falls=collect("<results>/{robot}/falls.csv", robot=lookup("{trial}/falls", within=SHOWN)),
     output:
         multiext("<results>/trials/{trial}", ".csv", ".tex", ".md"),
     log:
         "<logs>/trials/{trial}.log",
     wildcard_constraints:
         trial=one_of(PLAN.made_by("trial")),
+    group:
+        "tables"
     resources:
         **LIMITS.of("{trial}"),
     params:
-        function=lambda w: PLAN.product(w.trial).function,
-        given=lambda w: PLAN.product(w.trial).arguments,
-        code=lambda w: PLAN.product(w.trial).code,
+        **product("{trial}"),
+    script:
+        "../scripts/product.py"
 
 
-use rule deviations as films with:
+rule films:
     # Films of walks into obstacles.
     input:
-        made_from=PLAN.product("films").inputs,
+        courses=collect(
+            "<results>/{own.robot}/reactions/{own.name}.parquet",
+            own=lookup("films/courses", within=SHOWN),
+        ),
     output:
         [flagged(name) for name in PLAN.product("films").outputs],
     log:
         "<logs>/films.log",
+    group:
+        "tables"
     resources:
         **LIMITS.of("films"),
     params:
-        **PLAN.product("films").params,
+        **product("films"),
+    script:
+        "../scripts/product.py"
 
 
-use rule deviations as docs with:
-    # The documentation as pages.
+rule docs:
+    # The documentation as pages, from its documents, captions, modules and templates.
     input:
-        documents=PLAN.product("docs").reads("documents"),
-        captions=PLAN.product("docs").reads("captions"),
-        modules=PLAN.product("docs").reads("modules"),
+        files=lookup("docs/files", within=SHOWN),
     output:
-        [flagged(name) for name in PLAN.product("docs").outputs],
+        directory("<results>/docs"),
     log:
         "<logs>/docs.log",
+    group:
+        "tables"
     resources:
         **LIMITS.of("docs"),
     params:
-        **PLAN.product("docs").params,
+        **product("docs"),
+    script:
+        "../scripts/product.py"

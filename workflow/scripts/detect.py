@@ -3,7 +3,11 @@
 from pathlib import Path
 
 from experiments.jobs.detect import detect
+from experiments.jobs.inputs import placed
 from experiments.running.logs import job
 
 with job(snakemake.log[0]):
-    detect(**snakemake.params.given, out=Path(snakemake.output[0]).parent)
+    detect(
+        **placed(snakemake.params.given, snakemake.input),
+        out=Path(snakemake.output[0]).parent,
+    )

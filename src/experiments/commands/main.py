@@ -25,12 +25,13 @@ MODULES = {  # command -> the module that `python -m` runs, with words that come
     **{name: ("mobnet", name) for name in LAB},
     "demo": ("experiments.demo",),
     "cost": ("experiments.evaluation.report.cost",),
+    "sheet": ("experiments.sheet",),
     **{name: ("experiments.evaluation.report.snapshot", name) for name in ("verify", "compare", "snapshot")},
 }
 # Their words are files of the caller, no code of ours.
 OUTSIDE = ("check", "demo", *LAB)
 # They say themselves what Ctrl-C leaves of them.
-LINED = ("cost", *LAB)
+LINED = ("cost", "sheet", *LAB)
 REPORT = ("--report", "report.html", "--report-after-run")
 
 

@@ -21,6 +21,7 @@ from experiments.running.words import (
     list_option,
     results_parser,
     scale_given,
+    sheet_parser,
     value_beside,
 )
 from mobnet.commands import COMMANDS as LAB
@@ -36,6 +37,7 @@ GROUPS = {  # heading of the help -> command -> what it does, in a line
         "paper_core": "make Tables 5 and 6 and Figure 5 alone, section 5.1",
         "report": "make everything, then report.html: tables and figures in one file",
         "cost": "print what a run will take: jobs, core-hours, memory, disk",
+        "sheet": "print what the rules read: a row for each set, network, table, ...",
         "setup": "make .venv from environment.lock and stop",
         "clean": "remove what runs have made, after a question",
     },
@@ -100,6 +102,7 @@ PARSERS = {
     "check": check_parser,
     "cost": cost_parser,
     "demo": demo_parser,
+    "sheet": sheet_parser,
     **{name: command.parser for name, command in LAB.items()},
     **{name: functools.partial(results_parser, name) for name in RESULTS},
 }  # of commands whose module has words of its own

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from experiments.jobs.train_gray import known_of
+from experiments.jobs.known import known_of
 from experiments.jobs.trainings import data_of
 from mobnet.core.files import MEMBERS, write_json
 from mobnet.learning.dataset import LimbData
@@ -13,7 +13,7 @@ from mobnet.learning.job import TrainingJob
 from mobnet.learning.stacked.train import train_stack as train_on
 from mobnet.learning.stacked.trainer import Member
 
-Given = Mapping[str, Any]  # what the rule `train`, or `train_gray`, gets for one network
+Given = Mapping[str, Any]  # what the rule `train` gets for one network, and its files
 
 
 def train_stack(members: Mapping[str, Given], state: Path, out: Path) -> None:

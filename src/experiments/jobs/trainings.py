@@ -1,5 +1,6 @@
 """The rule `train`: it trains one network of a limb."""
 
+import importlib
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -8,6 +9,7 @@ from mobnet.learning.dataset import Known, LimbData, load_limb_data
 from mobnet.learning.job import TrainingJob
 from mobnet.learning.swings import Margins
 from mobnet.learning.train import train_on
+from mobnet.settings.methods import ObserverSettings
 from mobnet.settings.networks import Training
 
 
@@ -23,7 +25,8 @@ def train(
     rate_hz: float | None = None,
     start: Path | None = None,
     margins: Margins | None = None,
-    known: Known | None = None,
+    observer: ObserverSettings | None = None,
+    fitted: Path | None = None,
     lesson: tuple[Path, str] | None = None,
 ) -> None:
     """Train a network on recordings; a training that was killed goes on from its last epoch.
@@ -40,13 +43,18 @@ def train(
         rate_hz: of the recordings [Hz], where it is given.
         start: weights from which it is fine-tuned; None of one that learns from the first.
         margins: where swings label, what is left out of them.
-        known: what is subtracted from the target.
+        observer: the observer's settings, of a network with a fit.
+        fitted: what rule `fit` wrote, whose friction is known of the target; None where nothing is known.
         lesson: file of what it has learned in a stack, and its name there; None of one that learns alone.
 
     Raises:
-        DataError: a recording or a residual is damaged or too short.
+        DataError: a recording, a residual or the fit is damaged, or they are too short.
         TrainingError: the loss diverged, where `learning.may_diverge` does not allow it.
     """
+    known = None
+    if fitted:
+        # By its name, so that no other training has the code of friction in its hash.
+        known = importlib.import_module("experiments.jobs.known").known_of(layout, observer, fitted)
     data = data_of(layout, training, recordings, residuals, rate_hz, margins, known)
     train_on(data, TrainingJob(training, seed, root_seed), out, state, start, lesson, in_place=True)
 

@@ -1,7 +1,9 @@
-"""What the job of each rule gets: its function's arguments but for the place of its results, by the rule's wildcards.
+"""What the job of each rule gets beside its files, by the rule's wildcards: sections of the configuration and seeds.
 
-Nothing is worked out before Snakemake asks for it. A network is named by its folder, an array without its endings;
-`experiments.plan.files.made_by_jobs` says which outputs of other rules stand behind them.
+Nothing is worked out before Snakemake asks for it. The files that a job reads are inputs of its rule, which looks them
+up in `experiments.plan.sheets`. Where a function gets many files, by methods or limbs, arguments name them as the plan
+does: a network by its folder, an array without its endings. Scripts put in their place what `input` of the rule has
+(`experiments.jobs.inputs`).
 """
 
 from collections.abc import Iterable, Sequence
@@ -11,10 +13,10 @@ from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
-from experiments.plan.detection import detection_files, level_of_detectors, numbers_of, walks_of
+from experiments.plan.detection import level_of_detectors, numbers_of, walks_of
 from experiments.plan.files import PLANT, Files, NetworkName, files_in
 from experiments.plan.parts import CaseWalks, MethodRun
-from experiments.plan.reactions import is_pushed, methods_of, sizes_of, watch_file
+from experiments.plan.reactions import is_pushed, methods_of, sizes_of
 from experiments.plan.stacks import Stacked, Stacks
 from experiments.settings.asked import tests_in
 from experiments.settings.evaluation import measured_in
@@ -26,6 +28,7 @@ from mobnet.settings.walking import Walking, WalkSettings
 
 KINDS = "mobnet.estimation.kinds"  # modules that a method names as its kind
 MEASURES = "experiments.evaluation.measure.estimates"  # modules that sections of the evaluation name
+KNOWN = "experiments.jobs.known"  # what a training builds upon
 Arguments = dict[str, Any]
 
 
@@ -71,15 +74,20 @@ class Jobs:
         return {
             "settings": walk_settings(files.settings, w.scenario, w.level),
             "duration_s": files.duration_s([w.scenario], seeds[0], w.level),
-            "motions": {seed: next(iter(files.motion(w.scenario, seed)), None) for seed in seeds},
+            "seeds": seeds,
         }
+
+    def motions(self, w: Any) -> list[Path]:
+        """Return the motion of the upper body in each of these recordings; none where it stays as it is."""
+        files = self.files(w)
+        found: list[Path] = []
+        for seed in files.seeds_of(w.scenario, w.level):
+            found += files.motion(w.scenario, seed)
+        return found
 
     def observe(self, w: Any) -> Arguments:
         """Return the observer's residuals of these recordings."""
-        files = self.files(w)
-        seeds = files.seeds_of(w.scenario, w.level)
-        recordings = [files.array("recordings", w.scenario, w.level, seed) for seed in seeds]
-        return {**self._observer(files, w.level), "recordings": recordings}
+        return self._observer(self.files(w), w.level)
 
     def fit(self, w: Any) -> Arguments:
         """Return the fit of a method without networks to the training sets of its limbs."""
@@ -99,7 +107,7 @@ class Jobs:
         }
 
     def train(self, w: Any) -> Arguments:
-        """Return the training of a network; one with a `start` begins with the weights of that method's network."""
+        """Return the training of a network, with what it learned in a stack where it is in one."""
         files = self.files(w)
         training = files.catalogue.training(w.method, w.limb)
         arguments: Arguments = {
@@ -107,34 +115,45 @@ class Jobs:
             "layout": self.settings.layout,
             "training": training,
             "seed": int(w.seed),
-            "recordings": files.training("recordings", training.network.data),
-            "residuals": files.training("residuals", training.network.data),
             "state": files.results / "state" / files.network(w.method, w.limb, int(w.seed)).name,
             "rate_hz": self.settings.rates.data_hz,
         }
-        if start := files.start(w.method, w.limb, int(w.seed)):
-            arguments["start"] = start
         if training.learning.labels == "swing":
             # Without a sensor a leg knows its external torque only where it surely touches nothing
             # (docs/notes/fine_tuning.md).
             swings = self.settings.evaluation.changed
             arguments["margins"] = (swings.lift_off_s, swings.landing_s)
+        if files.fit(w.method):
+            arguments["observer"] = self.settings.observer
         own = Stacked(w.robot, NetworkName(w.method, w.limb, int(w.seed)))
         if self.settings.stacks.side_by_side is True and own in self.stacks.names:
             arguments["lesson"] = (self.stacks.file(self.stacks.names[own]), own.name)
         return arguments
 
-    def train_gray(self, w: Any) -> Arguments:
-        """Return the training of a network that learns what is left of the uncertainty by a fit."""
-        (fitted,) = self.files(w).fit(w.method)
-        return {**self.train(w), "observer": self.settings.observer, "fitted": fitted}
+    def learned_from(self, w: Any) -> dict[str, Any]:
+        """Return the files that a network learns from.
+
+        One with a `start` begins with the weights of that method's network; one that builds upon a fit learns what it
+        leaves of the uncertainty.
+        """
+        files = self.files(w)
+        data = files.catalogue.training(w.method, w.limb).network.data
+        read: dict[str, Any] = {
+            "recordings": files.training("recordings", data),
+            "residuals": files.training("residuals", data),
+        }
+        if start := files.start(w.method, w.limb, int(w.seed)):
+            read["start"] = start
+        if fitted := files.fit(w.method):
+            read["fitted"] = fitted[0]
+        return read
 
     def train_stack(self, w: Any) -> Arguments:
-        """Return the training of networks side by side: what that of each of them would get."""
+        """Return the training of networks side by side: what that of each of them would get, and its files."""
         members: dict[str, Arguments] = {}
         for robot, (method, limb, seed) in self.stacks.members[w.stack]:
             own = SimpleNamespace(robot=robot, method=method, limb=limb, seed=seed)
-            given = self.train_gray(own) if self.files_of(robot).fit(method) else self.train(own)
+            given = {**self.train(own), **self.learned_from(own)}
             given.pop("lesson", None)
             members[Stacked(robot, NetworkName(method, limb, seed)).name] = given
         return {"members": members, "state": self.plant.results / "state" / w.stack}
@@ -154,12 +173,7 @@ class Jobs:
         for method in files.catalogue.tests[w.scenario][w.level]:
             for seed in files.run_seeds(method, w.scenario, w.level):
                 runs.append(self._run(files, method, seed, w.scenario, w.level))
-        return {
-            **self._observer(files, w.level),
-            "runs": runs,
-            "recordings": files.tests(w.scenario, w.level),
-            "residuals": files.tests(w.scenario, w.level, "residuals"),
-        }
+        return {**self._observer(files, w.level), "runs": runs}
 
     def score(self, w: Any) -> Arguments:
         """Return the errors of every run of a test at a level, and what else products ask for."""
@@ -187,8 +201,12 @@ class Jobs:
         return {
             **self._in_the_loop(files, [files.settings.reaction.estimator]),
             "settings": walk_settings(files.settings, random, level),
-            "quiet": files.tests(random, level),
         }
+
+    def quiet(self, w: Any) -> tuple[Path, ...]:
+        """Return the recordings from which these thresholds follow."""
+        files = self.files(w)
+        return files.tests(files.settings.detection.random, level_of_detectors(files))
 
     def react(self, w: Any) -> Arguments:
         """Return the walks of a robot in a case, with all that is compared there."""
@@ -206,7 +224,6 @@ class Jobs:
         )
         return {
             **self._in_the_loop(files, methods_of(files, [w.case]), settings.reaction.cases[w.case].limbs),
-            "thresholds": [detection_files(files)["thresholds"], watch_file(files)],
             "walks": walks,
         }
 
@@ -229,6 +246,10 @@ class Jobs:
             for name in (method, catalogue.source_of(method)):
                 found[f"{KINDS}.{catalogue.method(name).kind}"] = None
         return list(found)
+
+    def trained_by(self, w: Any) -> list[str]:
+        """Return the module by which a training knows a fit, if it builds upon one: others do not rerun with it."""
+        return [KNOWN] if self.files(w).fit(w.method) else []
 
     def estimated_by(self, w: Any) -> list[str]:
         """Return the modules of the methods of a test."""

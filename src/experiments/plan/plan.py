@@ -88,7 +88,8 @@ def _found(pattern: str) -> list[Path]:
 class Plan:
     """What the workflow makes at the chosen scale.
 
-    Of the products, `all` makes the first ones; trials, films and the documentation are made on their own.
+    Of the products, `all` makes the first ones; trials, films and the documentation are made on their own. `tables` and
+    `figures` are names of products, `drawn` those of the pictures that figures and drawings write.
     """
 
     settings: Settings
@@ -100,6 +101,7 @@ class Plan:
     docs: tuple[Product, ...]
     tables: tuple[str, ...]
     figures: tuple[str, ...]
+    drawn: tuple[str, ...]
 
     @cached_property
     def jobs(self) -> Jobs:
@@ -126,16 +128,6 @@ class Plan:
         return [*catalogue.all_methods, *catalogue.tried]
 
     @property
-    def trained(self) -> list[str]:
-        """Methods whose networks learn the uncertainty or the external torque itself."""
-        return [name for name in self.methods if name not in self.trained_gray]
-
-    @cached_property
-    def trained_gray(self) -> list[str]:
-        """Methods whose networks learn what is left by a fit."""
-        return [name for name in self.methods if self.files.fit(name)]
-
-    @property
     def pushed_cases(self) -> list[str]:
         """Cases of reactions in which a robot walks into something, or is pushed."""
         return [case for case in self.settings.reaction.cases if is_pushed(self.files, case)]
@@ -149,6 +141,11 @@ class Plan:
     def _by_name(self) -> dict[str, Product]:
         every = (*self.products, *self.trials, *self.films, *self.docs)
         return {product.name: product for product in every}
+
+    @property
+    def names(self) -> list[str]:
+        """Names of all products."""
+        return list(self._by_name)
 
     def product(self, name: str) -> Product:
         """Return a table, a figure or a text by its name.
@@ -232,6 +229,7 @@ def make_plan(settings: Settings, *, with_pdf: bool, with_mp4: bool | None = Non
         docs=tuple(documentation(files)),
         tables=tuple(products.table_names),
         figures=tuple(products.figure_names),
+        drawn=tuple(products.drawn),
     )
 
 

@@ -1,11 +1,10 @@
 """Every table, figure and text: what makes it, what it needs and what it writes."""
 
 import functools
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from fnmatch import fnmatch
 from pathlib import Path
-from typing import Any
 
 from experiments.plan.call import Call, call_of, parameters
 from experiments.plan.demo import FOLDER, demo_needs, demo_outputs
@@ -107,19 +106,6 @@ class Product:
         return code_hash(SCRIPT, self.call.module, *self.modules)
 
     @property
-    def params(self) -> dict[str, Callable[[Any], object]]:
-        """The parameters of a rule for this product alone, worked out late: a hash of code takes its time."""
-        return {
-            "function": lambda w: self.function,
-            "given": lambda w: self.arguments,
-            "code": lambda w: self.code,
-        }
-
-    def reads(self, argument: str) -> list[str]:
-        """Return the files behind an argument."""
-        return made_by_jobs(self.call.arguments[argument])
-
-    @property
     def rule(self) -> str:
         """The rule that makes it: products with files of the same layout share one, others have one of their name."""
         places = [(Path(output).parts[0], Path(output).name) for output in self.outputs]
@@ -179,7 +165,7 @@ class Products:
         return not isinstance(kept, Path) or kept.is_file()
 
     @property
-    def _drawn(self) -> list[str]:
+    def drawn(self) -> list[str]:
         """Names of the files of all figures, then of the drawings."""
         names: list[str] = []
         for name in self.figure_names:
@@ -283,7 +269,7 @@ class Products:
         names = (*self.table_names, "numbers", "captions", "deviations")
         texts = [*(tables / f"{name}.tex" for name in names), compute[1], KEPT_TABLE.with_suffix(".tex")]
         sources = {"main": Path("paper/main.tex"), "references": Path("paper/refs.bib"), "tables": texts}
-        figures = [self.folders.figures / f"{picture}.pdf" for picture in self._drawn]
+        figures = [self.folders.figures / f"{picture}.pdf" for picture in self.drawn]
         built = [paper / "build.json", *([paper / "main.pdf"] if self.with_pdf else [])]
         yield self._report_product("paper", {**sources, "figures": figures}, built)
         listed = [*(tables / f"{name}.md" for name in self.table_names), results / "compute.md"]
@@ -314,7 +300,7 @@ class Products:
     def _captions(self) -> list[Path]:
         """Return the captions of all tables and figures that have one, for the paper and the report."""
         files = _files(CAPTIONS / "tables", [*self.table_names, "compute", KEPT_TABLE.name], ["rst"])
-        files += _files(CAPTIONS / "figures", [*self._drawn, STILL], ["rst"])
+        files += _files(CAPTIONS / "figures", [*self.drawn, STILL], ["rst"])
         return [path for path in files if path.is_file()]
 
     def _report_product(self, name: str, needs: Mapping[str, object], outputs: list[Path]) -> Product:

@@ -216,7 +216,7 @@ class OnGpu:
 def on_gpu(plan: Plan, job: PlannedJob) -> OnGpu | None:
     """Return what a job does on a GPU, where the plan has stacks: nothing if it trains nothing there."""
     w = job.w
-    alone = job.rule in ("train", "train_gray") and "lesson" not in plan.jobs.train(w)
+    alone = job.rule == "train" and "lesson" not in plan.jobs.train(w)
     if job.rule == "train_stack":
         members = plan.jobs.stacks.members[w.stack]
     elif alone:

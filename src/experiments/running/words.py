@@ -63,6 +63,9 @@ ALIASES = {
     "--res": "--resources",
     "--sdm": "--software-deployment-method",
 }
+SHEETS = (
+    "sets", "fits", "networks", "stacks", "tests", "scores", "detectors", "watched", "reactions", "shown",
+)  # fmt: skip
 RESULTS = {  # command -> what it does with the results of a run
     "verify": "List the missing, changed and unexpected files of a run, by its manifest.",
     "compare": "List the differences between the published tables and figures, docs/results, and those of this folder.",
@@ -102,6 +105,18 @@ def cost_parser() -> argparse.ArgumentParser:
         help="`all`, or files: price what a run of them would start now (default: a run from nothing)",
     )
     add_config(parser, "keys of the configuration, such as scale=quick, as ./reproduce all takes them")
+    return parser
+
+
+def sheet_parser() -> argparse.ArgumentParser:
+    """Return the parser of `./reproduce sheet`."""
+    parser = argparse.ArgumentParser(
+        prog="./reproduce sheet",
+        description="Print what the rules read: a row for each set, network, test, table or figure.",
+    )
+    parser.add_argument("name", metavar="NAME", help=f"the sheet: {', '.join(SHEETS)}")
+    parser.add_argument("rows", nargs="*", metavar="ROW", help="such as table_07 of the sheet shown (default: all)")
+    add_config(parser, "keys of the configuration, such as scale=smoke, as ./reproduce all takes them")
     return parser
 
 

@@ -314,7 +314,7 @@ def test_the_hash_of_a_rule_has_its_script() -> None:
             scripts = re.findall(r'"\.\./scripts/(\w+)\.py"', rule)
             hashed = re.findall(r'code=code\("(\w+)"', rule)
             # The hash of a product has the script of all products.
-            assert hashed == scripts or (scripts == ["product"] and "PLAN.product(" in rule), rule
+            assert hashed == scripts or (scripts == ["product"] and "**product(" in rule), rule
             found += scripts
     assert set(found) | {"warm"} == {path.stem for path in code.ROOT.glob("workflow/scripts/*.py")}
     call = Call("experiments.evaluation.report.docs:docs", {})

@@ -35,6 +35,7 @@ from experiments.evaluation.measure.estimates import run_errors
 from experiments.evaluation.measure.estimates.scores import measured
 from experiments.evaluation.measure.estimates.scores import measure_problems
 from experiments.plan.plan import make_plan
+from experiments.plan.sheets import Sheets
 from types import SimpleNamespace
 from experiments.settings.load import load_settings
 
@@ -78,8 +79,8 @@ print(json.dumps({
     "refused": list(measure_problems(load_settings(Path("configs"), {"scale": "smoke", **WRONG}))),
     "estimated": estimated,
     "recorded_s": plan.jobs.collect(wildcards("plates_walk"))["duration_s"],
-    "recorded": list(plan.jobs.collect(wildcards("plates_walk"))["motions"]),
-    "observed": list(map(str, plan.jobs.observe(wildcards("plates_walk"))["recordings"])),
+    "recorded": list(plan.jobs.collect(wildcards("plates_walk"))["seeds"]),
+    "observed": Sheets(plan).sets["plant/plates_walk/all_uncertainty"]["seeds"],
     "products": {product.name: [product.inputs, product.outputs] for product in plan.products},
 }))
 """
@@ -182,7 +183,7 @@ def test_the_measure_is_taken_where_its_entry_says(told):
 
 def test_the_training_set_is_recorded(told):
     assert told["recorded"] == [1000]
-    assert told["observed"] == ["results/smoke/plant/recordings/plates_walk/all_uncertainty/s1000"]
+    assert told["observed"] == [1000]
     assert told["recorded_s"] == 20.0
 
 

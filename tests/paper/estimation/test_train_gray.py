@@ -8,7 +8,8 @@ import pytest
 from jobs_of import network, reads
 
 from experiments.jobs.fitting import write_fit
-from experiments.jobs.train_gray import filtered_friction, train_gray
+from experiments.jobs.known import filtered_friction
+from experiments.jobs.trainings import train
 from experiments.plan.plan import make_plan
 from experiments.settings.catalogue import Catalogue
 from mobnet.estimation.kinds.friction import read_friction
@@ -68,20 +69,20 @@ def test_it_trains(settings, pair, fitted, tmp_path):
         "learning": training.learning.model_copy(update={"stream_s": 0.5, "batch_size": 4}),
         "epochs": 1, "epoch_samples": None,
     }  # fmt: skip
-    given = settings.layout, settings.observer, training.model_copy(update=small), 0, [pair[0]], [pair[1]], fitted
-    train_gray(1, *given, tmp_path / "state", tmp_path / "out")
+    given = settings.layout, training.model_copy(update=small), 0, [pair[0]], [pair[1]]
+    train(1, *given, tmp_path / "state", tmp_path / "out", observer=settings.observer, fitted=fitted)
     note = json.loads((tmp_path / "out" / "run.json").read_text())
     assert (note["method"], note["target"]) == (METHOD, "uncertainty")
 
 
 def test_a_training_reads_the_fit_that_it_builds_upon_and_no_other_does(settings):
     plan = make_plan(settings, with_pdf=False)
-    gray = reads(plan, "train_gray", **network(f"{METHOD}-{LIMB}-s0"))
+    gray = reads(plan, "train", **network(f"{METHOD}-{LIMB}-s0"))
     plain = reads(plan, "train", **network(f"MOB-Net-{LIMB}-s0"))
     assert [name for name in gray if "/fits/" in name] == ["results/smoke/plant/fits/MOB-fric-load.json"]
     assert not [name for name in plain if "/fits/" in name]
-    assert METHOD in plan.trained_gray
-    assert "MOB-Net" in plan.trained
+    modules = [plan.jobs.trained_by(SimpleNamespace(robot="plant", method=name)) for name in (METHOD, "MOB-Net")]
+    assert modules == [["experiments.jobs.known"], []]
     test = {"robot": "plant", "scenario": "hip_pitch_step", "level": "all_uncertainty"}
     estimated = reads(plan, "estimate", **test)
     assert "results/smoke/plant/fits/MOB-fric-load.json" in estimated

@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
@@ -100,15 +101,19 @@ def test_a_fine_tuning_begins_with_the_robot_s_own_network_and_learns_from_the_c
     def given(method: str) -> Any:
         return arguments(plan, "train", "robot_2", **network(f"{method}-LL-s102"))
 
+    def learned_from(method: str) -> Any:
+        return plan.jobs.learned_from(SimpleNamespace(robot="robot_2", **network(f"{method}-LL-s102")))
+
     tuned = given("MOB-Net-other-swing-data-s-10")
-    assert tuned["start"] == RESULTS / "robot_2/networks/MOB-Net-LL-s102/weights.safetensors"
-    assert tuned["recordings"] == (RESULTS / "robot_2/recordings/robot_walk/robot_2_robots_other/s1000",)
+    read = learned_from("MOB-Net-other-swing-data-s-10")
+    assert read["start"] == RESULTS / "robot_2/networks/MOB-Net-LL-s102/weights.safetensors"
+    assert read["recordings"] == (RESULTS / "robot_2/recordings/robot_walk/robot_2_robots_other/s1000",)
     swings = plan.settings.evaluation.changed
     assert tuned["margins"] == (swings.lift_off_s, swings.landing_s)
     learning = tuned["training"].learning
     assert (learning.data_s, learning.labels) == (10, "swing")
     assert "margins" not in given("MOB-Net-other-data-s-10")
-    assert "start" not in given("MOB-Net")
+    assert "start" not in learned_from("MOB-Net")
 
 
 def test_names_of_networks_differ_and_motions_are_shared(plan: Plan) -> None:

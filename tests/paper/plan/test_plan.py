@@ -18,6 +18,7 @@ from experiments.plan.needs import needs_of
 from experiments.plan.plan import Plan, make_plan
 from experiments.plan.products import Shown, shown
 from experiments.plan.runs import SweptSize
+from experiments.plan.sheets import Sheets
 from experiments.settings.evaluation import PRODUCTS
 from experiments.settings.products import MadeBy
 from experiments.settings.settings import Settings
@@ -172,8 +173,7 @@ def test_all_recordings_of_a_test_are_estimated_by_one_job_with_each_network(pla
     job = arguments(plan, "estimate", scenario="forward_walk", level="all_uncertainty")
     runs = [run for run in plan.files.runs("forward_walk", "all_uncertainty", ["MOB-Net"]) if run.network_seed == 1]
     assert len(runs) == plan.settings.sizes.test.shards
-    assert job["recordings"] == tuple(run.recording for run in runs)
-    assert job["residuals"] == tuple(run.residual for run in runs)
+    assert Sheets(plan).tests["plant/forward_walk/all_uncertainty"]["seeds"] == [run.test_seed for run in runs]
     assert [run.network_seed for run in job["runs"] if run.method == "MOB-Net"] == [0, 1, 2]
 
 
@@ -183,7 +183,6 @@ FUNCTIONS = {  # rule -> function of its job
     "observe": "experiments.jobs.observing:observe_walks",
     "fit": "experiments.jobs.fitting:write_fit",
     "train": "experiments.jobs.trainings:train",
-    "train_gray": "experiments.jobs.train_gray:train_gray",
     "train_stack": "experiments.jobs.stacks:train_stack",
     "estimate": "experiments.jobs.estimates:estimate",
     "score": "experiments.evaluation.measure.estimates.scores:score",
@@ -198,7 +197,6 @@ JOBS: dict[str, dict[str, str]] = {  # rule -> wildcards of one of its jobs
     "observe": {"scenario": "forward_walk", "level": "ideal"},
     "fit": {"method": "MOB-fric"},
     "train": network("MOB-Net-LL-s0"),
-    "train_gray": network("MOB-Net-gray-LL-s0"),
     "train_stack": {"stack": "plant-MOB-Net-LL-s0"},
     "estimate": {"scenario": "forward_walk", "level": "ideal"},
     "score": {"scenario": "forward_walk", "level": "ideal"},
@@ -211,12 +209,20 @@ JOBS: dict[str, dict[str, str]] = {  # rule -> wildcards of one of its jobs
 
 @pytest.mark.parametrize("rule", FUNCTIONS)
 def test_a_job_gets_what_its_function_takes(plan: Plan, rule: str) -> None:
-    """All but the place of its results, which its script takes from the rule."""
+    """Besides what its script takes from the rule: files, and the place of its results."""
     module, name = FUNCTIONS[rule].split(":")
     signature = inspect.signature(getattr(import_module(module), name))
-    signature.bind(**arguments(plan, rule, **JOBS[rule]), out=Path("out"))
-    script = Path(__file__).parents[3] / "workflow" / "scripts" / f"{rule}.py"
-    assert f"from {module} import {name}\n" in script.read_text()
+    script = (Path(__file__).parents[3] / "workflow" / "scripts" / f"{rule}.py").read_text()
+    assert f"from {module} import {name}\n" in script
+    taken = re.findall(r"\b(\w+)=", script)
+    assert "out" in taken
+    signature.bind(**arguments(plan, rule, **JOBS[rule]), **dict.fromkeys(taken))
+
+
+def test_a_network_with_a_fit_is_told_of_the_observer(plan: Plan) -> None:
+    """The friction of the fit is filtered as the observer filters; no other training reruns with its gain."""
+    assert arguments(plan, "train", **network("MOB-Net-gray-LL-s0"))["observer"] == plan.settings.observer
+    assert "observer" not in arguments(plan, "train", **network("MOB-Net-LL-s0"))
 
 
 @pytest.mark.parametrize("rule", FUNCTIONS)

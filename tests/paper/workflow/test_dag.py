@@ -12,6 +12,7 @@ from experiments.evaluation.report.cost import costs
 from experiments.evaluation.report.machines import ASKED, PAGE, block_of, row, table
 from experiments.evaluation.report.paper import missing_packages
 from experiments.plan.dry_run import dry_run
+from experiments.plan.files import made_by_jobs
 from experiments.plan.gpu import GPU_RATES, GpuNote, fitted
 from experiments.plan.limits import MB_OF_MIB, MINUTE_S, SNAKEMAKE_MB
 from experiments.plan.plan import make_plan
@@ -45,6 +46,26 @@ def test_the_manifest_names_all_that_other_jobs_make(planned, scale):
     assert set(manifest.inputs) == made
 
 
+@pytest.mark.parametrize("side_by_side", [False, True])
+def test_no_job_gets_the_name_of_a_file_that_its_rule_does_not_read(planned, side_by_side):
+    """Inputs stand in the rules, names of many files in the arguments of their functions."""
+    stacks = {"side_by_side": side_by_side}
+    plan = make_plan(load_settings(overrides={"scale": "smoke", "stacks": stacks}), with_pdf=not missing_packages())
+    checked = set()
+    for job in planned("smoke", side_by_side=side_by_side):
+        rule = "react" if job.rule == "walk_freely" else job.rule
+        if hasattr(plan.jobs, rule):
+            named = made_by_jobs(getattr(plan.jobs, rule)(job.w))
+            read = {name for name in named if "/state/" not in name}  # of a training's checkpoint
+        elif job.outputs[0]:
+            read = set(plan.product(Path(job.name).name).inputs)
+        else:
+            continue
+        assert read <= set(job.inputs), job.name
+        checked.add(job.rule)
+    assert {"train", "estimate", "score", "detect", "react", "table", "figure", "claims", "pages"} <= checked
+
+
 def test_what_no_product_reads_is_not_made(planned):
     """Of trials nothing, and of everything else what somebody reads."""
     plan = make_plan(load_settings(overrides={"scale": "smoke"}), with_pdf=False)
@@ -56,7 +77,7 @@ def test_what_no_product_reads_is_not_made(planned):
 
 def test_every_network_is_trained_by_a_job_of_its_own(planned):
     plan = make_plan(load_settings(overrides={"scale": "default"}), with_pdf=False)
-    trained = [job for job in planned("default") if job.rule in ("train", "train_gray")]
+    trained = [job for job in planned("default") if job.rule == "train"]
     folders = {str(Path(job.outputs[0]).parent) for job in trained}
     assert len(trained) == len(folders)
     assert folders == set(map(str, plan.files.all_networks()))
@@ -71,7 +92,7 @@ def test_networks_learn_side_by_side_where_it_is_asked_for(planned, scale):
     stacks = [job for job in jobs if job.rule == "train_stack"]
     assert sorted(job.wildcards["stack"] for job in stacks) == sorted(plan.jobs.stacks.members)
     made = {job.outputs[0] for job in stacks}
-    taught = [job for job in jobs if job.rule in ("train", "train_gray") and made & set(job.inputs)]
+    taught = [job for job in jobs if job.rule == "train" and made & set(job.inputs)]
     assert len(taught) == len(plan.jobs.stacks.names)
     others = [job.name for job in jobs if job.rule != "train_stack"]
     assert sorted(others) == sorted(job.name for job in planned(scale))
@@ -129,6 +150,21 @@ def test_the_graph_of_rules_is_a_page(snakemake):
         r'label = "(\w+)"', snakemake("tables/smoke/table_06.tex", "--config", alone, "--rulegraph").stdout
     )
     assert set(boxes) == {"motion", "collect", "observe", "fit", "train", "estimate", "score", "table"}
+
+
+def test_inputs_stand_in_the_rules_and_go_through_the_scripts():
+    """As paths, lookups in sheets, or what other rules make; no rule asks the plan for them."""
+    rules = []
+    for path in sorted((ROOT / "workflow" / "rules").glob("*.smk")):
+        rules += re.split(r"^(?:use )?rule ", path.read_text(), flags=re.MULTILINE)[1:]
+    reading = [rule for rule in rules if "\n    input:\n" in rule]
+    assert len(reading) > 30
+    for rule in reading:
+        read = re.search(r"\n    input:\n((?: {8}.*\n)+)", rule)[1]
+        assert re.search(r'"|\brules\.|PLAN\.sets', read), rule
+        assert not re.search(r"lambda|PLAN\.product|JOBS", read), rule
+        for script in re.findall(r'"\.\./scripts/(\w+\.py)"', rule):
+            assert "snakemake.input" in (ROOT / "workflow" / "scripts" / script).read_text(), script
 
 
 def test_no_rule_is_made_in_a_loop():

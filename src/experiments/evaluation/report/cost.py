@@ -41,7 +41,7 @@ MB_OF_GB = 1e3
 STEPS_UNIT = 1e9
 PERCENT = 100.0
 Cost = tuple[int, float, float]  # jobs, processor time [s], largest peak of the memory [MiB]
-STACK, TRAINING = "train_stack", ("train", "train_gray")  # rules
+STACK, TRAINING = "train_stack", "train"  # rules
 
 
 def costs(works: Iterable[Work], kinds: Mapping[str, Kind]) -> dict[str, Cost]:

@@ -1,11 +1,10 @@
-"""The rule `train_gray`: the target is what a fitted friction model leaves of the uncertainty."""
+"""What a training knows of its target before it begins: the friction of a model that was fitted."""
 
 from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
 
-from experiments.jobs.trainings import train
 from mobnet.core.arrays import Array
 from mobnet.core.columns import MOTOR, VELOCITY, named
 from mobnet.core.joints import JointLayout
@@ -14,31 +13,6 @@ from mobnet.estimation.kinds.friction import FittedFriction, read_friction
 from mobnet.kernel.low_pass import low_pass
 from mobnet.learning.dataset import Known
 from mobnet.settings.methods import ObserverSettings
-from mobnet.settings.networks import Training
-
-
-def train_gray(
-    root_seed: int,
-    layout: JointLayout,
-    observer: ObserverSettings,
-    training: Training,
-    seed: int,
-    recordings: Sequence[Path],
-    residuals: Sequence[Path],
-    fitted: Path,
-    state: Path,
-    out: Path,
-    rate_hz: float | None = None,
-    lesson: tuple[Path, str] | None = None,
-) -> None:
-    """Train a network on r - tau_e - friction, where `fitted` is what rule `fit` wrote; else as `train`.
-
-    Raises:
-        DataError: a recording, a residual or the fit is damaged.
-        TrainingError: the loss diverged, where `learning.may_diverge` does not allow it.
-    """
-    known = known_of(layout, observer, fitted)
-    train(root_seed, layout, training, seed, recordings, residuals, state, out, rate_hz, known=known, lesson=lesson)
 
 
 def known_of(layout: JointLayout, observer: ObserverSettings, fitted: Path) -> Known:
