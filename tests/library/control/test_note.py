@@ -12,7 +12,7 @@ SOURCE = ROOT / "src"
 
 @pytest.mark.parametrize(("note", "letter", "code"), [
     ("walking", "W", ["mobnet/control/*.py", "mobnet/simulation/start.py"]),
-    ("observer", "O", ["mobnet/estimation/**/*.py", "experiments/jobs/observing.py"]),
+    ("observer", "O", ["mobnet/estimation/**/*.py", "mobnet/kernel/*.py", "experiments/jobs/*.py"]),
     ("networks", "N", ["mobnet/learning/**/*.py"]),
     ("detection", "D", ["mobnet/detection/**/*.py", "experiments/jobs/*.py", "experiments/evaluation/**/*.py"]),
 ])  # fmt: skip
