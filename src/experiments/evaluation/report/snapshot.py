@@ -22,6 +22,7 @@ from experiments.evaluation.report.paper import missing_packages
 from experiments.evaluation.report.rates import measured
 from experiments.evaluation.report.readme import blocks
 from experiments.evaluation.report.single_rows import write_single_rows
+from experiments.evaluation.report.small_png import save_small
 from experiments.evaluation.report.walked import SEEDS, check_seeds, read_history, walked, write_history
 from experiments.plan.demo import FOLDER
 from experiments.plan.detection import all_detections
@@ -54,7 +55,7 @@ RESULTS = Path("results/default")
 FURTHER = tuple(RESULTS / name for name in ("compute.md", "explore.html"))
 UP_TO_DATE = "Nothing to be done"  # by which Snakemake says that no job would run
 DRAWN = "figures"  # folder of the snapshot with the CSVs of figures, compressed
-PICTURES = (".png", ".svg", ".webp")
+PICTURES = (".png", ".webp")  # SVG and PDF: ./reproduce draw
 NOTED = ("recordings", "motions", "networks")  # folders of results whose notes name the commit that made them
 README = Path("README.md")
 KEYS = (  # columns that name a row; the others are results
@@ -147,7 +148,7 @@ def check_fingerprints(*words: str) -> None:
 
 
 def write_snapshot(settings: Settings, tables: Path, figures: Path, further: Sequence[Path], out: Path) -> None:
-    """Copy a scale's tables (CSV, Markdown), figures (PNG, SVG, WebP, CSV) and further files, and note their origin.
+    """Copy a scale's tables (CSV, Markdown), figures (PNG, WebP, CSV) and further files, and note their origin.
 
     Tables and figures of an earlier snapshot that are made no longer are removed. The table of compute differs from run
     to run, so only its Markdown is stored, and no CSV to be compared.
@@ -167,8 +168,11 @@ def write_snapshot(settings: Settings, tables: Path, figures: Path, further: Seq
     if missing:
         raise DataError(f"{missing[0]}: file is missing; ./reproduce all makes it")
     for source in found:
-        with atomic_path(out / source.name) as temporary:
-            shutil.copyfile(source, temporary)
+        if source.suffix == ".png":
+            save_small(source, out / source.name)
+        else:
+            with atomic_path(out / source.name) as temporary:
+                shutil.copyfile(source, temporary)
     drawn = sorted(figures.glob("*.csv"))
     for source in drawn:
         store_drawn(source, out)
