@@ -84,6 +84,7 @@ use rule deviations as wandb_runs with:
     # The trainings as offline runs of Weights & Biases.
     input:
         folders=PLAN.product("wandb_runs").reads("folders"),
+        scores=PLAN.product("wandb_runs").reads("scores"),
     output:
         [flagged(name) for name in PLAN.product("wandb_runs").outputs],
     log:

@@ -12,8 +12,7 @@ from pathlib import Path
 
 from experiments.evaluation.figures.drawing.push_film import draw_film
 from experiments.evaluation.measure.story import StoredPush
-from experiments.evaluation.report.small_png import save_small
-from experiments.evaluation.report.snapshot import DEMO, DRAWN, SNAPSHOT, note_renewal, run_renewal
+from experiments.evaluation.report.snapshot import DEMO, DRAWN, SNAPSHOT, note_renewal, run_renewal, save_small
 from experiments.settings.load import load_settings
 from mobnet.core.errors import DataError
 

@@ -43,26 +43,32 @@ from experiments.evaluation.figures.further import (
     sigma_courses,
 )
 from experiments.evaluation.figures.paper import (
+    figure_05,
+    figure_06,
     figure_08,
+    figure_09,
     figure_10,
     figure_14,
     figure_15,
     figure_18,
     figure_19,
     figure_20,
+    hand_figure,
 )
-from experiments.evaluation.figures.paper.hand_figure import RELATIVE, limb_of
 from experiments.evaluation.figures.style import save_picture
-from experiments.evaluation.measure.claims.places import BEYOND_BOUND, OVER_PAPER, statements_of
+from experiments.evaluation.measure.claims.places import statements_of
 from experiments.evaluation.measure.data.conditional import TorqueRange, even_cells
 from experiments.evaluation.measure.data.planes import Plane
 from experiments.evaluation.measure.estimates.bode import observer_response
 from experiments.evaluation.measure.estimates.run_errors import ERROR
 from experiments.evaluation.number.grid import AVERAGE
 from experiments.evaluation.number.number import Number
+from experiments.evaluation.report import calibration, claims, sigma
 from experiments.evaluation.report.judge_again import judged_again
 from experiments.evaluation.report.snapshot import DRAWN, SNAPSHOT, run_renewal
+from experiments.plan.products import EVALUATION
 from experiments.running.words import draw_parser
+from experiments.settings.evaluation import PRODUCTS
 from experiments.settings.load import load_settings
 from experiments.settings.settings import Settings
 from mobnet.core.columns import COMMAND, TrialError
@@ -87,10 +93,9 @@ class Stored:
         self._folder = results / DRAWN
         self.settings = settings
 
-    @property
-    def shown(self) -> Any:
-        """The sections of figures."""
-        return self.settings.evaluation
+    def section(self, name: str) -> Any:
+        """Return the section of the configuration that says what a figure shows."""
+        return getattr(self.settings.evaluation, name)
 
     def path(self, name: str) -> Path:
         """Return the file of a figure's numbers; a DataError says that there is none."""
@@ -152,11 +157,11 @@ def errors_of(stored: Stored, name: str, metric: str) -> dict[str, dict[str, Num
     return {joint: numbers_of(of, by="method") for joint, of in own.groupby("joint", sort=False)}
 
 
-def draw_05(stored: Stored) -> Figure:
+def draw_05(stored: Stored, name: str) -> Figure:
     """Draw one gait cycle of a joint at each level."""
-    settings = stored.shown.figure_05
-    rows = stored.rows("figure_05_bars")
-    pairs = pairs_of(stored.rows("figure_05"))
+    settings = stored.section(name)
+    rows = stored.rows(f"{name}_bars")
+    pairs = pairs_of(stored.rows(name))
     bars: list[NamedBar] = []
     for level, own in rows.groupby("level", sort=False):
         title = str(level).replace("_", " ")
@@ -166,28 +171,28 @@ def draw_05(stored: Stored) -> Figure:
     return draw_stack(list(pairs.values()), bars, settings.errors_of, "RMSE over all walks", settings.joint)
 
 
-def draw_06(stored: Stored) -> Figure:
+def draw_06(stored: Stored, name: str) -> Figure:
     """Draw a step of torque on a hip."""
-    joint = stored.shown.figure_06.joint
-    panels = panels_of(stored.rows("figure_06"))
-    (errors,) = (numbers_of(own, by="method") for _, own in stored.rows("figure_06_bars").groupby("joint"))
+    joint = stored.section(name).joint
+    panels = panels_of(stored.rows(name))
+    (errors,) = (numbers_of(own, by="method") for _, own in stored.rows(f"{name}_bars").groupby("joint"))
     return draw_step(panels, bars_of(errors, compared(panels[0]).rmse), joint, "RMSE around all steps")
 
 
-def draw_08(stored: Stored) -> Figure:
+def draw_08(stored: Stored, name: str) -> Figure:
     """Draw the uncertainty torque of a leg."""
-    settings = stored.shown.figure_08
+    settings = stored.section(name)
     (method,) = settings.methods
-    errors = errors_of(stored, "figure_08", settings.metric)
-    pairs = pairs_of(stored.rows("figure_08"))
+    errors = errors_of(stored, name, settings.metric)
+    pairs = pairs_of(stored.rows(name))
     return draw_leg([figure_08.entitled(pair, method, errors[joint][method]) for joint, pair in pairs.items()])
 
 
-def draw_09(stored: Stored) -> Figure:
+def draw_09(stored: Stored, name: str) -> Figure:
     """Draw a leg by method."""
-    settings = stored.shown.figure_09
-    errors = errors_of(stored, "figure_09", settings.metric)
-    pairs = pairs_of(stored.rows("figure_09"))
+    settings = stored.section(name)
+    errors = errors_of(stored, name, settings.metric)
+    pairs = pairs_of(stored.rows(name))
     return draw_columns(
         [pairs[joint] for joint in settings.drawn],
         [bars_of(errors[joint], pairs[joint].rmse) for joint in settings.drawn],
@@ -200,21 +205,21 @@ def draw_09(stored: Stored) -> Figure:
 
 def draw_hand(stored: Stored, name: str) -> Figure:
     """Draw a hand that is loaded or pushed."""
-    settings = getattr(stored.shown, name)
+    settings = stored.section(name)
     layout = stored.settings.layout
     pairs = list(pairs_of(stored.rows(name), settings.called).values())
-    errors = errors_of(stored, name, RELATIVE.format(settings.metric, "zero"))
-    limbs = [limb_of(layout, joint)[0] for joint in settings.joints]
+    errors = errors_of(stored, name, hand_figure.RELATIVE.format(settings.metric, "zero"))
+    limbs = [hand_figure.limb_of(layout, joint)[0] for joint in settings.joints]
     bars = [bars_of(errors[limb], {}) for limb in limbs]
     units = [layout.unit(joint) for joint in settings.joints]
     return draw_relative_columns(pairs, bars, units, settings.errors_of, "time [s]", limbs)
 
 
-def draw_10(stored: Stored, place: int) -> Figure:
+def draw_10(stored: Stored, name: str) -> Figure:
     """Draw hits of a knee: those of the first test of the section, in the air, or of the second, on the ground."""
-    settings = stored.shown.figure_10
-    title, test = list(settings.tests.items())[place]
-    rows = stored.rows("figure_10_bars")
+    settings = stored.section(figure_10.PICTURES[0])
+    title, test = list(settings.tests.items())[figure_10.PICTURES.index(name)]
+    rows = stored.rows(f"{figure_10.PICTURES[0]}_bars")
     own = rows[rows["scenario"] == test.scenario]
     errors: dict[str, dict[str, Number]] = {}
     responses: dict[str, dict[str, Number]] = {}
@@ -222,13 +227,13 @@ def draw_10(stored: Stored, place: int) -> Figure:
         is_error = of["measure"] == ERROR
         errors[str(method)] = numbers_of(of[is_error], by="push")
         responses[str(method)] = numbers_of(of[~is_error & (of["push"] == AVERAGE)], by="measure")
-    panels = panels_of(stored.rows(figure_10.PICTURES[place]))
+    panels = panels_of(stored.rows(name))
     return draw_hits(figure_10.group_of(panels, title, errors, responses), settings.joint, PAPER_LABEL[True])
 
 
-def draw_14(stored: Stored) -> Figure:
+def draw_14(stored: Stored, name: str) -> Figure:
     """Draw histograms of collisions; of each bin its middle, as often as it was counted."""
-    rows = stored.rows("figure_14")
+    rows = stored.rows(name)
     found: dict[str, dict[str, Any]] = {}
     edges: dict[str, Any] = {}
     for (level, quantity), own in rows.groupby(["level", "quantity"], sort=False):
@@ -238,35 +243,35 @@ def draw_14(stored: Stored) -> Figure:
     return figure_14.draw_histograms(found, edges)
 
 
-def draw_15(stored: Stored) -> Figure:
+def draw_15(stored: Stored, name: str) -> Figure:
     """Draw standard deviations at collisions."""
     courses: list[figure_15.CollisionCourse] = []
-    for title, rows in stored.rows("figure_15").groupby("panel", sort=False):
+    for title, rows in stored.rows(name).groupby("panel", sort=False):
         by_method = {str(method): own for method, own in rows.groupby("method", sort=False)}
         stds = {method: own["std_nm"].to_numpy() for method, own in by_method.items()}
         thresholds = {method: float(own["threshold_nm"].iloc[0]) for method, own in by_method.items()}
         first = next(iter(by_method.values()))
         time, force, swing = (first[name].to_numpy() for name in ("time_s", "force_n", "swing"))
         courses.append(figure_15.CollisionCourse(str(title), time, stds, thresholds, force, swing))
-    return figure_15.draw_courses(courses, stored.shown.figure_15.joint)
+    return figure_15.draw_courses(courses, stored.section(name).joint)
 
 
-def draw_18(stored: Stored) -> Figure:
+def draw_18(stored: Stored, name: str) -> Figure:
     """Draw one network for the whole body beside one for each limb."""
     panels: list[figure_18.LimbPanel] = []
-    for scenario, rows in stored.rows("figure_18").groupby("scenario", sort=False):
+    for scenario, rows in stored.rows(name).groupby("scenario", sort=False):
         errors: dict[str, dict[tuple[str, str], Number]] = {}
         for row in rows.to_dict("records"):
             place = row["limb"], row["joint"]
             errors.setdefault(row["method"], {})[place] = number_of(row, "rmse_nm")
-        panels.append(figure_18.panel_of(stored.shown.figure_18.panels[scenario], errors))
+        panels.append(figure_18.panel_of(stored.section(name).panels[scenario], errors))
     return figure_18.draw_limbs(panels, "RMSE [N m]")
 
 
-def draw_20(stored: Stored) -> Figure:
+def draw_20(stored: Stored, name: str) -> Figure:
     """Draw errors over the size of the network and of the data."""
     panels: list[LinePanel] = []
-    rows = stored.rows("figure_20").rename(columns={"rmse_low_nm": "low", "rmse_high_nm": "high"})
+    rows = stored.rows(name).rename(columns={"rmse_low_nm": "low", "rmse_high_nm": "high"})
     for panel, title in figure_20.TITLES.items():
         own = rows[rows["panel"] == panel].sort_values(panel, kind="stable")
         lines: list[Line] = []
@@ -290,26 +295,26 @@ def draw_bode(stored: Stored, name: str) -> Figure:
         answers.append(bode.Answer(str(method), str(joint), str(quantity), numbers_of(own, by="frequency_hz")))
     gain_hz = stored.settings.observer.gain_hz
     response = partial(observer_response, gain_hz=gain_hz, rate_hz=stored.settings.rates.data_hz)
-    inch = bode.SHOWN_INCH if name == "bode" else bode.ALL_INCH
+    inch = bode.SHOWN_INCH if name == bode.bode.__name__ else bode.ALL_INCH
     return bode.draw_bode(answers, list(rows["joint"].unique()), response, inch)
 
 
-def draw_calibration(stored: Stored) -> Figure:
+def draw_calibration(stored: Stored, name: str) -> Figure:
     """Draw the reliability diagram."""
-    settings = stored.shown.calibration
+    settings = stored.section(name)
     curves: list[reliability.CoverageCurve] = []
-    for (case, method, name), own in stored.rows("calibration").groupby(["case", "method", "limb"], sort=False):
-        limb = str(name).partition(" ")[0]  # that of the base comes with the unit
+    for (case, method, title), own in stored.rows(name).groupby(["case", "method", "limb"], sort=False):
+        limb = str(title).partition(" ")[0]  # that of the base comes with the unit
         columns = (own[column].to_numpy() for column in ("nominal", "before", "after"))
-        curve = reliability.CoverageCurve(str(case), str(method), limb, str(name), *columns)
+        curve = reliability.CoverageCurve(str(case), str(method), limb, str(title), *columns)
         if limb in settings.drawn:
             curves.append(curve)
     return reliability.draw_reliability(curves, settings.tolerance)
 
 
-def draw_commands(stored: Stored) -> Figure:
+def draw_commands(stored: Stored, name: str) -> Figure:
     """Draw the commands of the first training set."""
-    rows = stored.rows("commands")
+    rows = stored.rows(name)
     own = rows[rows["set"] == rows["set"].iloc[0]]
     panels: list[commands.Bars] = []
     for column, label in enumerate(commands.LABELS):
@@ -320,9 +325,9 @@ def draw_commands(stored: Stored) -> Figure:
     return commands.draw_bars(panels)
 
 
-def draw_drift(stored: Stored) -> Figure:
+def draw_drift(stored: Stored, name: str) -> Figure:
     """Draw pushes that last."""
-    rows = stored.rows("drift")
+    rows = stored.rows(name)
     panels: list[LinePanel] = []
     for title in rows["panel"].unique():
         for phase in (SWINGING, STANCE):
@@ -333,48 +338,48 @@ def draw_drift(stored: Stored) -> Figure:
     return draw_lines(panels, min(drift.COLUMNS, len(panels)), drift.PANEL_INCH)
 
 
-def draw_fine_tuning(stored: Stored) -> Figure:
+def draw_fine_tuning(stored: Stored, name: str) -> Figure:
     """Draw errors over the seconds of new data."""
     panels: list[LinePanel] = []
-    for title, rows in stored.rows("fine_tuning").groupby("panel", sort=False):
+    for title, rows in stored.rows(name).groupby("panel", sort=False):
         lines = [(str(label), numbers_of(own, by="seconds")) for label, own in rows.groupby("line", sort=False)]
         panels.append(fine_tuning.panel_of(str(title), lines))
     return draw_lines(panels, min(fine_tuning.COLUMNS, len(panels)), fine_tuning.PANEL_INCH)
 
 
-def draw_learning_curve(stored: Stored) -> Figure:
+def draw_learning_curve(stored: Stored, name: str) -> Figure:
     """Draw errors over the length of the training."""
     with tempfile.NamedTemporaryFile(suffix=".csv") as file:
         plain = Path(file.name)
-        plain.write_bytes(gzip.decompress(stored.path("learning_curve").read_bytes()))
+        plain.write_bytes(gzip.decompress(stored.path(name).read_bytes()))
         rows = read_rows(plain, TrialError)
     tasks: dict[str, list[TrialError]] = {}
     for row in rows:
         tasks.setdefault(row.task, []).append(row)
-    return learning_curve.draw_learning(stored.shown.learning_curve, tasks)
+    return learning_curve.draw_learning(stored.section(name), tasks)
 
 
-def draw_sigma(stored: Stored) -> Figure:
+def draw_sigma(stored: Stored, name: str) -> Figure:
     """Draw predicted standard deviations in parts of a walk."""
     courses: list[sigma_courses.SigmaLine] = []
     names = ["panel", "test", "method", "limb"]
-    for (panel, test, method, limb), own in stored.rows("sigma").groupby(names, sort=False):
+    for (panel, test, method, limb), own in stored.rows(name).groupby(names, sort=False):
         numbers = [number_of(row) for row in own.to_dict("records")]
         courses.append(sigma_courses.SigmaLine(panel, test, method, limb, own["x"].tolist(), numbers))
     return sigma_courses.draw_sigma(courses, stored.settings.learning.calibration_share)
 
 
 @styled
-def draw_blocks(stored: Stored) -> Figure:
+def draw_blocks(stored: Stored, name: str) -> Figure:
     """Draw the method as blocks, which has no number."""
-    limbs = stored.shown.drawings.limbs
+    limbs = stored.settings.evaluation.drawings.limbs
     return draw_method([limb for limb in LIMBS if limb in limbs])[0]
 
 
-def draw_19(stored: Stored) -> Figure:
+def draw_19(stored: Stored, name: str) -> Figure:
     """Draw the ranges of torque by phase."""
-    rows = stored.rows("figure_19")
-    phases = stored.shown.coverage.phases
+    rows = stored.rows(name)
+    phases = stored.section("coverage").phases
     cells = even_cells([(0.0, 1.0)], [phases])
     edges = (np.zeros(0), np.zeros(0))  # of the plane, which is not drawn
     planes: list[Plane] = []
@@ -384,17 +389,17 @@ def draw_19(stored: Stored) -> Figure:
         # Cells that a set does not visit are no rows of it.
         shares = inside["share_percent"].groupby([*places, inside["set"]]).sum().unstack(fill_value=0.0)
         ranges: dict[str, TorqueRange] = {}
-        for name, of in own[own["kind"] == "phase"].groupby("set", sort=False):
+        for samples, of in own[own["kind"] == "phase"].groupby("set", sort=False):
             ends = np.full((2, phases), np.nan)
             ends[:, np.round(of["from"] * phases).astype(int)] = of[["torque_from_nm", "torque_to_nm"]].T
-            ranges[str(name)] = TorqueRange(cells, *ends)
-        planes.append(Plane(str(joint), edges, {name: shares[name].to_numpy() for name in ranges}, ranges))
+            ranges[str(samples)] = TorqueRange(cells, *ends)
+        planes.append(Plane(str(joint), edges, {each: shares[each].to_numpy() for each in ranges}, ranges))
     return figure_19.draw_ranges(planes)
 
 
-def draw_detection(stored: Stored) -> Figure:
+def draw_detection(stored: Stored, name: str) -> Figure:
     """Draw detection against false alarms and force."""
-    rows = stored.rows("detection_curves")
+    rows = stored.rows(name)
     own = rows[rows["panel"] != detection_curves.AREA]
     courses: list[detection_curves.DetectorLine] = []
     for detector in own["detector"].unique():
@@ -405,53 +410,60 @@ def draw_detection(stored: Stored) -> Figure:
     return detection_curves.draw_courses(courses)
 
 
-def draw_claims(stored: Stored, axis: str) -> Figure:
+def draw_claims(stored: Stored, name: str) -> Figure:
     """Draw statements by their worst claim, as the published tables have them."""
     settings = stored.settings
     statements = statements_of(judged_again(settings, stored.results))
+    axis = next(axis for axis, stem in forest.STEMS.items() if stem == name)
     confidence = settings.evaluation.statistics.confidence
     own = [each for each in statements if each.worst.axis == axis]
     return forest.draw_forest(own, axis, f"{confidence:.0%} interval")
 
 
 @styled
-def draw_robot(stored: Stored) -> Figure:
+def draw_robot(stored: Stored, name: str) -> Figure:
     """Draw the robot, whose places are those of its table."""
     settings = stored.settings
-    own = stored.shown.drawings
+    own = stored.settings.evaluation.drawings
     shown = dressed(describe(settings.robot), settings.robot.looks)
-    push = settings.pushes[stored.shown.story.push]
+    push = settings.pushes[stored.settings.evaluation.story.push]
     return draw_parts(own, shown, position_of(own, settings.robot, settings.layout), push)[0]
 
 
-FROM_CSV: Mapping[str, Callable[[Stored], Figure]] = {
-    "figure_05": draw_05,
-    "figure_06": draw_06,
-    "figure_07": partial(draw_hand, name="figure_07"),
-    "figure_08": draw_08,
-    "figure_09": draw_09,
-    "figure_10": partial(draw_10, place=0),
-    "figure_10_support": partial(draw_10, place=1),
-    "figure_12": partial(draw_hand, name="figure_12"),
-    "figure_14": draw_14,
-    "figure_15": draw_15,
-    "figure_18": draw_18,
-    "figure_19": draw_19,
-    "figure_20": draw_20,
-    "bode": partial(draw_bode, name="bode"),
-    "bode_all": partial(draw_bode, name="bode_all"),
-    "calibration": draw_calibration,
-    "claims": partial(draw_claims, axis=OVER_PAPER),
-    "claims_own": partial(draw_claims, axis=BEYOND_BOUND),
-    "commands": draw_commands,
-    "detection_curves": draw_detection,
-    "drift": draw_drift,
-    "fine_tuning": draw_fine_tuning,
-    "learning_curve": draw_learning_curve,
-    "method": draw_blocks,
-    "robot": draw_robot,
-    "sigma": draw_sigma,
+# What makes a figure in a run -> what draws it from its CSV.
+BY_FUNCTION: Mapping[Callable[..., None], Callable[[Stored, str], Figure]] = {
+    figure_05.figure_05: draw_05,
+    figure_06.figure_06: draw_06,
+    hand_figure.hand_figure: draw_hand,
+    figure_08.figure_08: draw_08,
+    figure_09.figure_09: draw_09,
+    figure_10.figure_10: draw_10,
+    figure_14.figure_14: draw_14,
+    figure_15.figure_15: draw_15,
+    figure_18.figure_18: draw_18,
+    figure_19.figure_19: draw_19,
+    figure_20.figure_20: draw_20,
+    bode.bode: draw_bode,
+    calibration.calibration: draw_calibration,
+    claims.claims: draw_claims,
+    commands.commands: draw_commands,
+    detection_curves.detection_curves: draw_detection,
+    drift.drift: draw_drift,
+    fine_tuning.fine_tuning: draw_fine_tuning,
+    learning_curve.learning_curve: draw_learning_curve,
+    sigma.sigma: draw_sigma,
 }
+DRAWINGS: Mapping[str, Callable[[Stored, str], Figure]] = {"method": draw_blocks, "robot": draw_robot}  # of no number
+
+
+def drawn_from_csv() -> dict[str, Callable[[Stored, str], Figure]]:
+    """Return the names of the figures that can be drawn -> what draws them."""
+    known = {f"{function.__module__}:{function.__name__}": draw for function, draw in BY_FUNCTION.items()}
+    found = dict(DRAWINGS)
+    for name, row in PRODUCTS.items():
+        if draw := known.get(f"{EVALUATION}.{row.function}"):
+            found |= dict.fromkeys((name, *row.further), draw)
+    return found
 
 
 def redraw(stored: Stored, names: Sequence[str], out: Path) -> None:
@@ -461,13 +473,14 @@ def redraw(stored: Stored, names: Sequence[str], out: Path) -> None:
         ConfigError: a name is that of no figure whose CSV has all that is drawn.
         DataError: a file is missing or damaged.
     """
+    known = drawn_from_csv()
     for name in names:
-        if name not in FROM_CSV:
-            fault = not_accepted("figure", name, FROM_CSV)
+        if name not in known:
+            fault = not_accepted("figure", name, known)
             raise ConfigError(f"{fault}; ./reproduce figures/{name}.pdf makes it in a run")
     out.mkdir(parents=True, exist_ok=True)
-    for name in names or FROM_CSV:
-        save_picture(FROM_CSV[name](stored), out / name, ENDINGS)
+    for name in names or known:
+        save_picture(known[name](stored, name), out / name, ENDINGS)
         log.info("%s", " ".join(str(out / f"{name}{ending}") for ending in ENDINGS))
 
 

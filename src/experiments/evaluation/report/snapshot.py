@@ -12,6 +12,8 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from itertools import zip_longest
 from pathlib import Path
 
+from PIL import Image
+
 from experiments.evaluation.measure.story import StoredPush
 from experiments.evaluation.report.demo import lines_of, title_of
 from experiments.evaluation.report.demo_data import copy_demo
@@ -22,7 +24,6 @@ from experiments.evaluation.report.paper import missing_packages
 from experiments.evaluation.report.rates import measured
 from experiments.evaluation.report.readme import blocks
 from experiments.evaluation.report.single_rows import write_single_rows
-from experiments.evaluation.report.small_png import save_small
 from experiments.evaluation.report.walked import SEEDS, check_seeds, read_history, walked, write_history
 from experiments.plan.demo import FOLDER
 from experiments.plan.detection import all_detections
@@ -55,6 +56,9 @@ RESULTS = Path("results/default")
 FURTHER = tuple(RESULTS / name for name in ("compute.md", "explore.html"))
 UP_TO_DATE = "Nothing to be done"  # by which Snakemake says that no job would run
 DRAWN = "figures"  # folder of the snapshot with the CSVs of figures, compressed
+# A figure has a few colours and, where lines are smoothed, many between them: these are what can be told apart least.
+COLOURS = 64
+WHITE = (255, 255, 255)
 PICTURES = (".png", ".webp")  # SVG and PDF: ./reproduce draw
 NOTED = ("recordings", "motions", "networks")  # folders of results whose notes name the commit that made them
 README = Path("README.md")
@@ -184,6 +188,18 @@ def write_snapshot(settings: Settings, tables: Path, figures: Path, further: Seq
             gone.unlink(missing_ok=True)
     write_json(out / "provenance.json", {"scale": settings.scale, **provenance()})
     log.info("%s: %d files", out, len(found))
+
+
+def save_small(source: Path, out: Path) -> None:
+    """Store a picture as a PNG of `COLOURS` colours on white; equal pictures give equal files."""
+    with Image.open(source) as image:
+        picture = image.convert("RGBA")
+    paper = Image.new("RGBA", picture.size, WHITE)
+    flat = Image.alpha_composite(paper, picture).convert("RGB")
+    # Without dithering: it would put dots into even areas.
+    few = flat.quantize(COLOURS, kmeans=1, dither=Image.Dither.NONE)
+    with atomic_path(out) as temporary:
+        few.save(temporary, "png", optimize=True)
 
 
 def store_drawn(source: Path, out: Path) -> None:
