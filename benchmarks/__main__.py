@@ -28,7 +28,7 @@ NAMES = (
     "loop_speed",
     "runtime_tick",
 )
-LONG = ("collect_growth", "collect_hour", "leg_trials", "log_speed", "torque_amplitude", "walk_quality")  # minutes each
+LONG = ("collect_growth", "collect_hour", "log_speed", "torque_amplitude", "walk_quality")  # minutes each
 BEFORE = ("benchmark", "name", "ours", "reference", "unit", "ratio", "ratio_min")  # columns that come first
 BOUNDS = {"bar": "ratio", "at_least": "at least", "at_most": "at most"}  # columns next, and how a table says it
 Row = dict[str, float | str]

@@ -111,6 +111,7 @@ rule wandb_runs:
             network=lookup("wandb_runs/networks", within=SHOWN),
             file=TRAINED,
         ),
+        scores=collect("<results>/scores/{test}.csv", test=lookup("wandb_runs/scores", within=SHOWN)),
     output:
         directory("<results>/wandb"),
     log:

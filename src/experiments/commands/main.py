@@ -26,6 +26,7 @@ MODULES = {  # command -> the module that `python -m` runs, with words that come
     "demo": ("experiments.demo",),
     "cost": ("experiments.evaluation.report.cost",),
     "sheet": ("experiments.sheet",),
+    "draw": ("experiments.evaluation.report.redraw",),
     **{name: ("experiments.evaluation.report.snapshot", name) for name in ("verify", "compare", "snapshot")},
 }
 # Their words are files of the caller, no code of ours.

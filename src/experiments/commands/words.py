@@ -17,6 +17,7 @@ from experiments.running.words import (
     check_parser,
     cost_parser,
     demo_parser,
+    draw_parser,
     joined,
     list_option,
     results_parser,
@@ -43,6 +44,7 @@ GROUPS = {  # heading of the help -> command -> what it does, in a line
     },
     "look": {
         "demo": "show one push as three methods estimate it, without training",
+        "draw": "draw published figures as SVG and PDF, without a run",
         "docs": "make the documentation as pages",
         "films": "make films of walks into obstacles",
     },
@@ -103,6 +105,7 @@ PARSERS = {
     "cost": cost_parser,
     "demo": demo_parser,
     "sheet": sheet_parser,
+    "draw": draw_parser,
     **{name: command.parser for name, command in LAB.items()},
     **{name: functools.partial(results_parser, name) for name in RESULTS},
 }  # of commands whose module has words of its own

@@ -33,7 +33,7 @@ TABLE, FIGURE = ("csv", "tex", "md"), ("pdf", "svg", "png", "csv")  # endings of
 COUNTED = ("claims_summary", "claims_tolerance")  # tables of what the table of claims holds
 STILL = "push"  # the picture beside the film
 FILM, DRAWN = ("webp", "gif", "png", "csv"), ("method", "robot")  # endings of the film's files; drawings
-TESTS = (  # scenario and level of those whose errors the page of trainings shows, the first that has a network
+TESTS = (  # scenario and level of those whose errors the lists of trainings show, the first that has a network
     "forward_walk/all_uncertainty", "motion_test/all_uncertainty", "walk_test/robots", "hand_wrench/robots",
     "changed_walk/*",
 )  # fmt: skip
@@ -250,9 +250,9 @@ class Products:
         tests: list[tuple[str, str]] = []
         for pattern in TESTS:
             tests += [pair for pair in self.files.scored if fnmatch("/".join(pair), pattern)]
-        needs = {**networks, "templates": parts, "scores": self.files.scores(tests)}
-        yield self._report_product("runs_page", needs, [results / "runs.html"])
-        yield self._report_product("wandb_runs", networks, [results / "wandb"])
+        tested = {**networks, "scores": self.files.scores(tests)}
+        yield self._report_product("runs_page", {**tested, "templates": parts}, [results / "runs.html"])
+        yield self._report_product("wandb_runs", tested, [results / "wandb"])
         push = demo_needs(self.files)
         yield self._report_product("demo_data", push, [results / FOLDER / name for name in demo_outputs(push)])
         scenes = explore_needs(self.files)

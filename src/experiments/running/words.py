@@ -92,6 +92,19 @@ def demo_parser() -> argparse.ArgumentParser:
     return parser
 
 
+def draw_parser() -> argparse.ArgumentParser:
+    """Return the parser of `./reproduce draw`; the folder is None where it is not given."""
+    parser = argparse.ArgumentParser(
+        prog="./reproduce draw",
+        description="Draw published figures as SVG and PDF from their numbers in docs/results, without a run.",
+    )
+    parser.add_argument(
+        "figures", nargs="*", metavar="FIGURE", help="such as figure_05 (default: all whose CSV has all that is drawn)"
+    )
+    parser.add_argument("--out", type=Path, help="folder of the drawings (default: results/drawn)")
+    return parser
+
+
 def cost_parser() -> argparse.ArgumentParser:
     """Return the parser of `./reproduce cost`."""
     parser = argparse.ArgumentParser(

@@ -31,6 +31,7 @@ NOTES = sorted(path for path in NUMBERED.parent.glob("*.md") if path != NUMBERED
 ANCHOR = re.compile(r'^<a id="note-(\d{4})"></a>$', re.MULTILINE)
 CITED = re.compile(r"\bnotes?[\s_#*-]+\d{4}\b(?:(?:,| and| to)[\s#*]+\d{4}\b)*", re.IGNORECASE)
 TEXTS = ("*.md", "*.lock", "paper/*.tex", "docs/**/*.md", "configs/**/*.yaml", "workflow/**/*.*", "src/**/*.[pc]*")
+CHANGELOG_WORDS = 600  # of a version
 BINARY = (".pyc", ".png", ".svg")
 CITING = sorted(path for part in (*TEXTS, "tests/**/*.py") for path in ROOT.glob(part) if path.suffix not in BINARY)
 PROGRAMS = r"\./reproduce|mobnet|python -m|snakemake"
@@ -223,6 +224,16 @@ def test_the_newest_version_is_that_of_the_published_results_and_of_the_citation
     assert str(citation["date-released"]) == date
     commit = json.loads((ROOT / "docs" / "results" / "provenance.json").read_text())["commit"]
     assert commit[:7] in text
+
+
+def test_the_changelog_says_of_each_version_what_fits_on_a_page():
+    """Details stand in the notes: nobody reads a thousand lines to learn what moved."""
+    counts: dict[str, int] = {}
+    for section in re.split(r"^## ", (ROOT / "CHANGELOG.md").read_text(), flags=re.MULTILINE)[1:]:
+        version, _, text = section.partition("\n")
+        counts[version] = len(text.split())
+    assert len(counts) >= 7
+    assert {version: count for version, count in counts.items() if count > CHANGELOG_WORDS} == {}
 
 
 def test_readme_citation_and_references_name_the_original_by_one_doi_and_the_version_that_is_reproduced():

@@ -6,7 +6,6 @@ import subprocess
 import sys
 from pathlib import Path
 
-import numpy as np
 import pytest
 import torch
 
@@ -43,28 +42,6 @@ def test_a_quantity_outside_its_bounds_or_not_measured_misses(runner, ours, miss
     assert runner.misses(row) == missed
     assert ("missed" in runner.table([row])) == missed
     assert not runner.misses({"name": "falls", "ours": ours, "unit": ""})
-
-
-def test_a_trial_that_would_pay_misses_its_bound(runner):
-    """Coverage [%] by one factor, by phase and by innovation too; the errors of two networks on two walks."""
-    trials = importlib.import_module("benchmarks.leg_trials")
-    kept = trials._coverage_rows("leg", [{"walk, swing": np.array([71.0, 69.0, 65.5])}], 0.68)
-    assert not any(map(runner.misses, kept))
-    paying = trials._coverage_rows("leg", [{"walk, swing": np.array([72.0, 68.5, 72.0])}], 0.68)
-    nearer, most, lost = list(paying)[-3:]
-    assert (nearer["ours"], runner.misses(nearer), most["ours"], lost["ours"]) == (3.5, True, 3.5, 0.0)
-    after = trials._after(np.array([0, 1, 0, 0, 1, 0, 1, 0], dtype=bool), [(0, 6), (6, 8)], 1)
-    np.testing.assert_array_equal(after, np.array([0, 1, 1, 0, 1, 1, 1, 1], dtype=bool))
-
-
-@pytest.mark.parametrize(("share", "missed"), [(0.97, False), (0.7, True)])
-def test_an_error_in_stance_that_surely_falls_by_a_tenth_misses_its_bound(runner, settings, share, missed):
-    trials = importlib.import_module("benchmarks.leg_trials")
-    without = np.array([[[2.0, 2.02]], [[2.04, 2.06]]])
-    rows = list(trials._error_rows(settings, "robot_leg", ["stance"], without, share * without))
-    assert rows[0]["ratio"] == pytest.approx(share)
-    assert rows[0]["ratio_min"] < share < rows[1]["ours"]
-    assert [runner.misses(row) for row in rows] == [False, missed]
 
 
 def test_an_unknown_benchmark_is_named_with_those_accepted(runner, monkeypatch, capsys):

@@ -93,11 +93,11 @@ class Reader(HTMLParser):
 def test_every_run_has_a_row_with_its_numbers(page: Path) -> None:
     """The page is complete without scripts; a dash stands for a number that does not exist."""
     rows = {row[0]: row for row in Reader(page).rows}
-    assert rows["GRU-LL-s1"][2:] == [
-        "GRU", "83,712", "1,800,000", "3", "2", "-4.000", "11.50", "2.50", "360.0", "done",
+    assert rows["GRU-LL-s1"][3:] == [
+        "GRU", "LL", "1", "GRU", "83,712", "1,800,000", "3", "2", "-4.000", "11.50", "2.50", "360.0", "done",
     ]  # fmt: skip
-    assert rows["FTS-e2e-LL-s0"][5:10] == ["0", "–", "–", "–", "–"]
-    assert rows[LOST][10] == "–"
+    assert rows["FTS-e2e-LL-s0"][9:14] == ["0", "–", "–", "–", "–"]
+    assert rows[LOST][14] == "–"
     assert rows["FTS-e2e-LL-s0"][-1] == "diverged"
     assert len(rows["name"]) == len(COLUMNS) + 1
 

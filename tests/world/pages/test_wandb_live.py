@@ -64,7 +64,15 @@ def test_a_training_shows_while_it_goes_on_and_ends(tmp_path: Path, followed: Fo
     followed.look()
     assert wait(lambda: "epoch 2" in shown(tmp_path, "--summary"))
     said = shown(tmp_path, "--summary").splitlines()
-    assert {"joints/LL1 1", "joints/LL2 2", "validation_rmse 1.5", "method MOB-Net", "seed 0"} <= set(said)
+    assert {
+        "joints/LL1 1",
+        "joints/LL2 2",
+        "validation_rmse 1.5",
+        "robot plant",
+        "method MOB-Net",
+        "limb LL",
+        "seed 0",
+    } <= set(said)
     assert not any(line.startswith("state finished") for line in said)
     train(tmp_path, 3, done=True)
     followed.look()
@@ -119,15 +127,15 @@ def test_damaged_metrics_stop_only_their_own_run(tmp_path: Path, followed: Follo
     assert (tmp_path / RUNS / FOLDER.format(NAME)).is_dir()
 
 
-def test_runs_of_finished_trainings_take_the_place_of_live_ones(
+def test_runs_that_go_on_and_those_of_finished_trainings_do_not_touch_each_other(
     tmp_path: Path, followed: Follower, write_run: Callable[..., Path]
 ) -> None:
     train(tmp_path, 2)
     followed.look()
     followed.close()
-    assert (tmp_path / RUNS).stat().st_mtime == 0  # for Snakemake older than anything it is made of
-    wandb_runs([write_run(tmp_path / "networks", NAME, ["1,-1,-1,4,.1,9"])], tmp_path / RUNS)
-    assert {"epoch 1", "parameters 83712"} <= set(shown(tmp_path, "--summary").splitlines())
+    wandb_runs([write_run(tmp_path / "networks", NAME, ["1,-1,-1,4,.1,9"])], [], tmp_path / "wandb")
+    assert [path.name for path in (tmp_path / "wandb").iterdir()] == [FOLDER.format(NAME)]
+    assert "epoch 2" in shown(tmp_path, "--summary")
 
 
 def test_the_process_ends_with_a_killed_run(tmp_path: Path) -> None:

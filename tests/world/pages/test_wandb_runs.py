@@ -11,6 +11,7 @@ import termios
 import time
 import unittest.mock
 from collections.abc import Callable
+from dataclasses import astuple
 from pathlib import Path
 
 import pytest
@@ -18,7 +19,10 @@ from patience import HANGS_S
 
 from experiments.evaluation.report import wandb_runs as module
 from experiments.evaluation.report.wandb_runs import wandb_runs
+from mobnet.core.columns import SCORES, Score
 from mobnet.core.errors import DataError
+from mobnet.core.files import write_text
+from mobnet.core.rows import csv_text
 
 EPOCHS = [",".join(map(str, (k, *(10.0 * k + i for i in range(1, 6))))) for k in (1, 2, 3)]
 
@@ -29,9 +33,12 @@ pytestmark = pytest.mark.slow
 def wandb_dir(tmp_path_factory: pytest.TempPathFactory, write_run: Callable[..., Path]) -> Path:
     """A folder into which two runs were written, and then once more the first of them alone."""
     root = tmp_path_factory.mktemp("wandb")
-    networks = [write_run(root, f"MOB-Net-LL-s{seed}", EPOCHS) for seed in (0, 1)]
+    networks = [write_run(root / "robot_1" / "networks", f"MOB-Net-LL-s{seed}", EPOCHS) for seed in (0, 1)]
+    scores = root / "walk_test" / "robots.csv"
+    rows = [Score("walk_test", "robots", "MOB-Net", 0, k, "LL", "avg", "rmse", 2.0 + k, "N m") for k in (0, 1)]
+    write_text(scores, csv_text(SCORES, [astuple(row) for row in rows]))
     for rest in (networks, networks[:1]):
-        wandb_runs(rest, root / "wandb")
+        wandb_runs(rest, [scores], root / "wandb")
     return root / "wandb"
 
 
@@ -56,7 +63,7 @@ def test_a_run_of_which_wandb_left_no_file_is_logged_again(tmp_path, write_run, 
 
     real = module.begin
     monkeypatch.setattr(module, "begin", begin)
-    wandb_runs([write_run(tmp_path, "MOB-Net-LL-s0", EPOCHS)], tmp_path / "wandb")
+    wandb_runs([write_run(tmp_path, "MOB-Net-LL-s0", EPOCHS)], [], tmp_path / "wandb")
     assert logged == ["MOB-Net-LL-s0"] * 2
     assert [path.name for path in (tmp_path / "wandb").glob("*/*")] == ["run-MOB-Net-LL-s0.wandb"]
     assert "wandb made no file of the run MOB-Net-LL-s0" in caplog.text
@@ -65,7 +72,7 @@ def test_a_run_of_which_wandb_left_no_file_is_logged_again(tmp_path, write_run, 
 def test_a_run_of_which_wandb_never_makes_a_file_is_one_line(tmp_path, write_run, monkeypatch):
     monkeypatch.setattr(module, "begin", lambda *words: contextlib.nullcontext(unittest.mock.MagicMock()))
     with pytest.raises(DataError, match=r"wandb made no file of the run MOB-Net-LL-s0; accepted: the same call again"):
-        wandb_runs([write_run(tmp_path, "MOB-Net-LL-s0", EPOCHS)], tmp_path / "wandb")
+        wandb_runs([write_run(tmp_path, "MOB-Net-LL-s0", EPOCHS)], [], tmp_path / "wandb")
     assert not (tmp_path / "wandb").exists()
 
 
@@ -75,7 +82,9 @@ def test_a_run_holds_settings_and_results(wandb_dir: Path) -> None:
     shown = subprocess.run(words, env=quiet(wandb_dir), capture_output=True, text=True, check=True).stdout
     summary, config = ({" ".join(line.split()) for line in part.splitlines()} for part in shown.split("\nconfig\n"))
     assert {"parameters 83712", "best.epoch 1", "validation_rmse 33", "epoch 3"} <= summary
-    assert {"limb LL", "settings.network.cell GRU", "provenance.commit c"} <= config
+    assert {"test walk_test, robots", "test_rmse 2.5"} <= summary
+    assert {"robot robot_1", "method MOB-Net", "limb LL", "seed 0"} <= config
+    assert {"settings.network.cell GRU", "provenance.commit c"} <= config
     assert not any("parameters" in line for line in config)
 
 

@@ -179,15 +179,20 @@ def save_figure(figure: Figure, stem: Path, columns: Sequence[str], rows: Iterab
     if outlined:
         raise ValueError(f"{stem}: text with path effects: {outlined[0]!r}; give it a box as background instead")
     write_csv(stem.with_suffix(".csv"), columns, rows)
+    save_picture(figure, stem)
+    log.info("%s.pdf: %d panels", stem, len(figure.axes))
+
+
+def save_picture(figure: Figure, stem: Path, endings: Iterable[str] = UNDATED) -> None:
+    """Write a figure in the formats of some endings, by default as PDF, SVG and PNG, without dates."""
     with mpl.rc_context(STYLE):
         settle(figure)
-        for suffix, metadata in UNDATED.items():
+        for suffix in endings:
             with atomic_path(stem.with_suffix(suffix)) as temporary:
-                figure.savefig(temporary, format=suffix[1:], metadata=metadata)
+                figure.savefig(temporary, format=suffix[1:], metadata=UNDATED[suffix])
                 if suffix == ".svg":
                     svg = temporary.read_text(encoding="utf-8")
                     temporary.write_text(with_stable_names(shortened(svg)), encoding="utf-8")
-    log.info("%s.pdf: %d panels", stem, len(figure.axes))
 
 
 def shortened(svg: str) -> str:

@@ -12,13 +12,12 @@ from pathlib import Path
 
 from experiments.evaluation.figures.drawing.push_film import draw_film
 from experiments.evaluation.measure.story import StoredPush
-from experiments.evaluation.report.snapshot import DEMO, DRAWN, SNAPSHOT, note_renewal, run_renewal
+from experiments.evaluation.report.snapshot import DEMO, DRAWN, SNAPSHOT, note_renewal, run_renewal, save_small
 from experiments.settings.load import load_settings
 from mobnet.core.errors import DataError
 
 log = logging.getLogger(__name__)
 FILM = "push"
-SHOWN = (".webp", ".png")  # endings that a snapshot has of it
 AGAIN = "drawn after the run from the push in docs/demo"  # what the note of a snapshot says
 
 
@@ -39,8 +38,8 @@ def draw_again(stored: StoredPush, published: Path) -> None:
         told = published / DRAWN / f"{FILM}.csv.gz"
         if gzip.decompress(told.read_bytes()) != numbers:
             raise DataError(f"{told}: its numbers are not those of {stored.folder}; ./reproduce snapshot stores both")
-        for ending in SHOWN:
-            film.with_suffix(ending).replace(published / f"{FILM}{ending}")
+        film.replace(published / film.name)
+        save_small(film.with_suffix(".png"), published / f"{FILM}.png")
     note_renewal(published, "film", AGAIN)
     log.info("%s: the film of the push is drawn again", published)
 

@@ -22,6 +22,8 @@ HEAD = """# Published results
 What the run of the newest version in the [CHANGELOG](../../CHANGELOG.md) found: each table and figure by its title,
 with its files. Commands wrote this folder, `./reproduce snapshot` first; nothing in it is edited by hand, and
 `provenance.json` says what was made after the run. `./reproduce docs` makes pages of it with captions and claims.
+`./reproduce draw` draws figures as SVG and PDF from the numbers here; those that show more than their numbers are made
+by a run.
 """
 # Files that are neither a table nor a figure: what they are, in the order of the page.
 FIRST = {
@@ -83,8 +85,7 @@ def _figures(items: Sequence[Item], results: Path) -> Iterator[str]:
     yield "| --- | --- | --- |"
     for item in items:
         picture = item.shown.name
-        drawn = item.shown.with_suffix(".svg").name
-        kinds = [(picture, "PNG"), (drawn, "SVG"), *((path, "numbers") for path in item.csvs)]
+        kinds = [(picture, "PNG"), *((path, "numbers") for path in item.csvs)]
         files = ", ".join(f"[{kind}]({path})" for path, kind in kinds if (results / path).is_file())
         shown = f'<a href="{picture}"><img src="{picture}" width="{WIDTH}" alt="{_title(item)}"></a>'
         yield f"| {shown} | {_title(item)} | {files} |"

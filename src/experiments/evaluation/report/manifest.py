@@ -18,7 +18,7 @@ RESULTS = "results"
 # Folders of results, and names of files, that no list has: logs, what a training goes on from, what stacks have learned
 # (with its time), views, others' files
 STATE = "state"
-UNLISTED = ("logs", STATE, "stacks", "wandb", "docs", "trials", "films")
+UNLISTED = ("logs", STATE, "stacks", "wandb", "wandb_live", "docs", "trials", "films")
 KEPT = (".gitignore", ".snakemake_timestamp", TIMES, "MANIFEST.sha256")
 TIMED = ("runs.html", "main.pdf")  # they show what jobs took, as the table of compute does
 COMPUTE = "compute"

@@ -8,11 +8,17 @@ import os
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from statistics import fmean
 from typing import Any
 
-from experiments.evaluation.measure.learning.trainings import TrainedNetwork, read_training, training_seconds
-from experiments.evaluation.number.rows import read_scores
+from experiments.evaluation.measure.learning.trainings import (
+    Key,
+    TestError,
+    TrainedNetwork,
+    read_test_errors,
+    read_training,
+    robot_of,
+    training_seconds,
+)
 from experiments.evaluation.report.charts import Chart, line_chart
 from experiments.evaluation.report.html import rendered
 from mobnet.core.columns import Epoch
@@ -26,24 +32,13 @@ DIVERGED = "diverged"
 MISSING = "–"
 
 
-Key = tuple[str, str, int]  # method, limb and seed of a network
-
-
-@dataclass(frozen=True)
-class TestError:
-    """The error of a network's estimates in a test, scenario and level: RMSE [N m; N of the base's forces]."""
-
-    __test__ = False  # pytest would take it for a class of tests
-    test: str
-    rmse: float
-
-
 @dataclass(frozen=True)
 class TrainingRun(TrainedNetwork):
     """One training.
 
     Attributes:
         name: method, limb and seed, such as `MOB-Net-LL-s0`.
+        robot: folder of the plant or of the robot whose recordings it learned from.
         limb: row of the configuration's networks.
         cell: kind of network.
         settings: what was trained on what, dotted name -> text.
@@ -53,6 +48,7 @@ class TrainingRun(TrainedNetwork):
     """
 
     name: str
+    robot: str
     limb: str
     cell: str
     settings: Mapping[str, str]
@@ -101,24 +97,6 @@ class TrainingRun(TrainedNetwork):
         return {name: errors[self.best.epoch - 1] for name, errors in self.joint_errors.items()} if self.best else {}
 
 
-def read_test_errors(scores: Sequence[Path]) -> dict[Key, TestError]:
-    """Return method, limb and seed -> error in the first of some files of scores that has it, a mean over walks.
-
-    Raises:
-        DataError: a file is missing or damaged.
-    """
-    found: dict[Key, TestError] = {}
-    for path in scores:
-        values: dict[Key, list[float]] = {}
-        for row in read_scores(path):
-            if (row.metric, row.joint) == ("rmse", "avg"):
-                values.setdefault((row.method, row.limb, row.network_seed), []).append(row.value)
-        test = f"{path.parent.name}, {path.stem}"
-        # The first file that has a network counts, so that later ones only add others.
-        found = {key: TestError(test, fmean(own)) for key, own in values.items()} | found
-    return found
-
-
 def read_training_run(folder: Path, tested: Mapping[Key, TestError] | None = None) -> TrainingRun:
     """Read a network's folder, and what its training took from the folder of its checkpoint.
 
@@ -133,6 +111,7 @@ def read_training_run(folder: Path, tested: Mapping[Key, TestError] | None = Non
     return TrainingRun(
         **vars(training),
         **{key: note[key] for key in SHOWN},
+        robot=robot_of(folder),
         cell=note["settings"]["network"]["cell"],
         settings=settings,
         tested=(tested or {}).get((note["method"], note["limb"], note["seed"])),
@@ -176,6 +155,10 @@ class RunColumn:
 
 COLUMNS = (
     RunColumn("name", "name"),
+    RunColumn("robot", "robot"),
+    RunColumn("method", "method"),
+    RunColumn("limb", "limb"),
+    RunColumn("seed", "seed", layout="d"),
     RunColumn("cell", "cell"),
     RunColumn("parameters", "parameters", layout=",d"),
     RunColumn("samples", "samples", layout=",d"),

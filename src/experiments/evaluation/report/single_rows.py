@@ -59,7 +59,8 @@ def _collisions(detections: Detections) -> Iterator[Sequence[Field]]:
     """Yield what each detector said of each collision, robot by robot."""
     for level, files in detections.items():
         hits = {(row.scenario, row.seed, row.number): row for row in read_rows(files["collisions"], Collision)}
-        for row in read_rows(files["detected"], Detected):
+        # What detectors said of one collision stands together: its own numbers, which repeat, take less room so.
+        for row in sorted(read_rows(files["detected"], Detected), key=lambda row: (row.scenario, row.seed, row.number)):
             hit = hits[row.scenario, row.seed, row.number]
             struck = hit.link, hit.direction, hit.force_n, hit.impulse_ns, hit.swing_share
             said = row.detector, row.kind, row.ratio, row.delay_s, row.perfect_s, row.link, row.direction

@@ -12,6 +12,8 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from itertools import zip_longest
 from pathlib import Path
 
+from PIL import Image
+
 from experiments.evaluation.measure.story import StoredPush
 from experiments.evaluation.report.demo import lines_of, title_of
 from experiments.evaluation.report.demo_data import copy_demo
@@ -54,7 +56,10 @@ RESULTS = Path("results/default")
 FURTHER = tuple(RESULTS / name for name in ("compute.md", "explore.html"))
 UP_TO_DATE = "Nothing to be done"  # by which Snakemake says that no job would run
 DRAWN = "figures"  # folder of the snapshot with the CSVs of figures, compressed
-PICTURES = (".png", ".svg", ".webp")
+# A figure has a few colours and, where lines are smoothed, many between them: these are what can be told apart least.
+COLOURS = 64
+WHITE = (255, 255, 255)
+PICTURES = (".png", ".webp")  # SVG and PDF: ./reproduce draw
 NOTED = ("recordings", "motions", "networks")  # folders of results whose notes name the commit that made them
 README = Path("README.md")
 KEYS = (  # columns that name a row; the others are results
@@ -147,7 +152,7 @@ def check_fingerprints(*words: str) -> None:
 
 
 def write_snapshot(settings: Settings, tables: Path, figures: Path, further: Sequence[Path], out: Path) -> None:
-    """Copy a scale's tables (CSV, Markdown), figures (PNG, SVG, WebP, CSV) and further files, and note their origin.
+    """Copy a scale's tables (CSV, Markdown), figures (PNG, WebP, CSV) and further files, and note their origin.
 
     Tables and figures of an earlier snapshot that are made no longer are removed. The table of compute differs from run
     to run, so only its Markdown is stored, and no CSV to be compared.
@@ -167,8 +172,11 @@ def write_snapshot(settings: Settings, tables: Path, figures: Path, further: Seq
     if missing:
         raise DataError(f"{missing[0]}: file is missing; ./reproduce all makes it")
     for source in found:
-        with atomic_path(out / source.name) as temporary:
-            shutil.copyfile(source, temporary)
+        if source.suffix == ".png":
+            save_small(source, out / source.name)
+        else:
+            with atomic_path(out / source.name) as temporary:
+                shutil.copyfile(source, temporary)
     drawn = sorted(figures.glob("*.csv"))
     for source in drawn:
         store_drawn(source, out)
@@ -180,6 +188,18 @@ def write_snapshot(settings: Settings, tables: Path, figures: Path, further: Seq
             gone.unlink(missing_ok=True)
     write_json(out / "provenance.json", {"scale": settings.scale, **provenance()})
     log.info("%s: %d files", out, len(found))
+
+
+def save_small(source: Path, out: Path) -> None:
+    """Store a picture as a PNG of `COLOURS` colours on white; equal pictures give equal files."""
+    with Image.open(source) as image:
+        picture = image.convert("RGBA")
+    paper = Image.new("RGBA", picture.size, WHITE)
+    flat = Image.alpha_composite(paper, picture).convert("RGB")
+    # Without dithering: it would put dots into even areas.
+    few = flat.quantize(COLOURS, kmeans=1, dither=Image.Dither.NONE)
+    with atomic_path(out) as temporary:
+        few.save(temporary, "png", optimize=True)
 
 
 def store_drawn(source: Path, out: Path) -> None:

@@ -2,7 +2,8 @@
 
 The workflow starts this as a process of its own (`experiments.running.processes`), so that a training neither waits for
 wandb nor depends on its version. A training that was killed and goes on is logged from its first epoch again, into a
-file that takes the place of the old one. When all trainings are done, `wandb_runs` writes all runs once more.
+file that takes the place of the old one. They have a folder of their own, so that nothing here touches what
+`wandb_runs` makes when all trainings are done.
 """
 
 import contextlib
@@ -16,6 +17,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from experiments.evaluation.measure.learning.trainings import robot_of
 from experiments.evaluation.report.wandb_runs import begin, put, rows
 from mobnet.core.columns import Epoch
 from mobnet.core.epochs import read_epochs
@@ -25,7 +27,7 @@ from mobnet.core.files import CHECKPOINT, MEMBERS, METRICS, PARTIAL, read_json
 if TYPE_CHECKING:
     from wandb import Run
 
-RUNS = "wandb"  # folder of the runs, below that of results
+RUNS = "wandb_live"  # folder of the runs, below that of results
 TRAININGS = f"*/state/*/{CHECKPOINT}"  # below the results, in the folder of the plant or of a robot
 PAUSE_S = 2.0  # between two looks at the trainings
 NICENESS = 10
@@ -73,7 +75,7 @@ class Follower:
                 # A training that was killed and goes on is logged from its first epoch again, in a new run.
                 if live is None or epochs[: len(live.epochs)] != live.epochs:
                     self._end(state, 1)
-                    live = self._live[state] = self._begin(state.name)
+                    live = self._live[state] = self._begin(state)
                 live.log(state)
                 if not self._checkpoint[state].exists():
                     self._end(state, 0)
@@ -94,10 +96,11 @@ class Follower:
                 found.add((path, path.stat().st_mtime_ns))
         return found
 
-    def _begin(self, name: str) -> Live:
-        """Begin the run of a training named by method, limb and seed, such as `MOB-Net-LL-s0`."""
+    def _begin(self, state: Path) -> Live:
+        """Begin the run of a training, whose folder is named by method, limb and seed, such as `MOB-Net-LL-s0`."""
+        name = state.name
         method, limb, seed = name.rsplit("-", 2)
-        settings = {"name": name, "method": method, "limb": limb, "seed": int(seed[1:])}
+        settings = {"name": name, "robot": robot_of(state), "method": method, "limb": limb, "seed": int(seed[1:])}
         run = begin(self._scratch, name, method, limb, settings)
         runs = self._results / RUNS
         try:
@@ -105,7 +108,6 @@ class Follower:
         except DataError:
             run.finish(exit_code=1)
             raise
-        os.utime(runs, (0, 0))  # or Snakemake would take the folder for what `wandb_runs` has made
         return Live(run)
 
     def _end(self, state: Path, status: int) -> None:

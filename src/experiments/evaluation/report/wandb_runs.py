@@ -1,7 +1,6 @@
 """All trainings as offline wandb runs, made from run.json and metrics.csv; nothing leaves the machine.
 
-They are written once more when the trainings are done, with settings and results; until then the folder has what
-`wandb_live` wrote while they went on.
+They are written when the trainings are done and tested; what goes on is in the folder of `wandb_live`.
 """
 
 import logging
@@ -13,7 +12,7 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from experiments.evaluation.measure.learning.trainings import read_training
+from experiments.evaluation.measure.learning.trainings import Key, TestError, read_test_errors, read_training, robot_of
 from mobnet.core.columns import Epoch
 from mobnet.core.errors import DataError
 from mobnet.core.files import PARTIAL, RUN, check_room, read_json
@@ -32,24 +31,27 @@ TRIALS = 3  # to log a run
 log = logging.getLogger(__name__)
 
 
-def wandb_runs(folders: Iterable[Path], out: Path) -> None:
+def wandb_runs(folders: Iterable[Path], scores: Sequence[Path], out: Path) -> None:
     """Write one offline run for each network, a file in a folder; they replace the folder of runs together.
+
+    Of the `scores`, the first file that has a network gives its error in a test.
 
     Raises:
         DataError: the disk is full, or wandb leaves no file.
     """
+    tested = read_test_errors(scores)
     out.parent.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory(prefix=PARTIAL, suffix=f".{out.name}", dir=out.parent) as scratch:
         runs = Path(scratch) / "runs"
         runs.mkdir()
         for folder in folders:
-            _log_again(Path(scratch), folder, runs)
+            _log_again(Path(scratch), folder, tested, runs)
         if out.exists():
             os.replace(out, Path(scratch) / "old")
         os.replace(runs, out)
 
 
-def _log_again(scratch: Path, folder: Path, runs: Path) -> None:
+def _log_again(scratch: Path, folder: Path, tested: Mapping[Key, TestError], runs: Path) -> None:
     """Log a training into a run among others, again where wandb left no file: seen once, on a busy machine.
 
     Raises:
@@ -57,7 +59,7 @@ def _log_again(scratch: Path, folder: Path, runs: Path) -> None:
     """
     for trial in range(1, TRIALS + 1):
         try:
-            name = _log_run(scratch, folder)
+            name = _log_run(scratch, folder, tested)
         finally:
             check_room(runs)
         try:
@@ -70,19 +72,21 @@ def _log_again(scratch: Path, folder: Path, runs: Path) -> None:
             return
 
 
-def _log_run(scratch: Path, folder: Path) -> str:
+def _log_run(scratch: Path, folder: Path, tested: Mapping[Key, TestError]) -> str:
     """Log a training into a run below the scratch folder, and return its name.
 
-    The keys SETTINGS of its note become the run's configuration, all others its summary. Runs are grouped by method,
-    and the limb is their type of job.
+    The robot and the keys SETTINGS of its note become the run's configuration, all others its summary, which ends with
+    the error in a test. Runs are grouped by method, and the limb is their type of job.
     """
     training = read_training(folder)
     note = read_json(folder / RUN)
-    settings = {key: note[key] for key in SETTINGS}
+    settings = {"robot": robot_of(folder), **{key: note[key] for key in SETTINGS}}
     with begin(scratch, note["name"], note["method"], note["limb"], settings) as run:
         for row in rows(training.epochs, training.joint_errors):
             run.log(row, step=row["epoch"])
         run.summary.update({key: value for key, value in note.items() if key not in SETTINGS})
+        if error := tested.get((note["method"], note["limb"], note["seed"])):
+            run.summary.update({"test": error.test, "test_rmse": error.rmse})
     return note["name"]
 
 

@@ -20,7 +20,7 @@ def results(tmp_path: Path) -> Path:
     """A folder with a figure of the original, one of ours, two tables, and a film."""
     folder = tmp_path / "results"
     (folder / "figures").mkdir(parents=True)
-    for name in ("figure_15.png", "figure_15.svg", "figures/figure_15.csv.gz", "commands.png", "table_05.md",
+    for name in ("figure_15.png", "figures/figure_15.csv.gz", "commands.png", "table_05.md",
                  "table_05.csv", "compute.md", "push.webp"):  # fmt: skip
         (folder / name).touch()
     for name in ("claims.csv", "claims_summary.csv"):  # the numbers of captions are looked up in them
@@ -36,10 +36,7 @@ def test_items_are_grouped_by_kind_and_by_whose_they_are(results: Path) -> None:
     write_page(results, results.parent)
     page = (results / PAGE).read_text()
     parts = dict(re.findall(r"^## (.*?)\n(.*?)(?=^## |\Z)", page, re.MULTILINE | re.DOTALL))
-    assert (
-        "[PNG](figure_15.png), [SVG](figure_15.svg), [numbers](figures/figure_15.csv.gz)"
-        in (parts["Figures of the original"])
-    )
+    assert "[PNG](figure_15.png), [numbers](figures/figure_15.csv.gz)" in parts["Figures of the original"]
     assert '<img src="commands.png" width="240" alt="Title of commands">' in parts["Our figures"]
     assert "* [Title of table_05](table_05.md) ([CSV](table_05.csv))\n" in parts["Tables of the original"]
     assert parts["Our tables"] == "\n* [Title of compute](compute.md)\n\n"
@@ -55,7 +52,7 @@ def test_the_published_page_is_that_of_the_published_files_and_captions() -> Non
 
 
 def test_every_published_file_is_on_the_page() -> None:
-    """A picture by its PNG and its SVG, a table by its Markdown and its CSV."""
+    """A picture by its PNG, a table by its Markdown and its CSV."""
     named = LINK.findall((PUBLISHED / PAGE).read_text())
     published = {str(path.relative_to(PUBLISHED)) for path in PUBLISHED.rglob("*") if path.is_file()}
     published = {name for name in published if not name.startswith("rows/")} - {PAGE}

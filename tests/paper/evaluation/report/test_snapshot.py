@@ -4,8 +4,10 @@ from collections.abc import Callable
 from dataclasses import asdict
 from pathlib import Path
 
+import numpy as np
 import pytest
 from paper_settings import settings_at
+from PIL import Image
 
 from experiments.evaluation.report.manifest import write_lists
 from experiments.evaluation.report.readme import blocks
@@ -26,6 +28,10 @@ from mobnet.core.files import read_json, write_json
 REPO = Path(__file__).parents[4]
 SETTINGS = settings_at()
 TABLES, FIGURES, COMPUTE, STORED = (Path(name) for name in ("tables", "figures", "compute.md", "docs/results"))
+SHADES = np.random.default_rng(1).integers(0, 256, (64, 64), dtype=np.uint8)
+# More shades than a palette has, and a clear margin, as around a figure.
+PICTURE = np.dstack([SHADES] * 3 + [np.full_like(SHADES, 255)])
+PICTURE[:8, :, 3] = 0
 TABLE = (
     "scenario,level,method,joint,metric,value,published\nwalk,ideal,MOB,LL1,rmse,1.5,2\nwalk,ideal,MOB,LL2,rmse,3,4\n"
 )
@@ -35,11 +41,12 @@ TABLE = (
 def stored(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """A working folder with a fresh table and a snapshot of it."""
     monkeypatch.chdir(tmp_path)
-    made = {TABLES / "table_05.csv": TABLE, TABLES / "table_05.md": "x", FIGURES / "figure_05.png": "p", COMPUTE: "c"}
+    made = {TABLES / "table_05.csv": TABLE, TABLES / "table_05.md": "x", COMPUTE: "c"}
     made |= {FIGURES / "figure_05.svg": "s", FIGURES / "push.webp": "w", FIGURES / "figure_05.csv": "x,y\n1,2\n3,4\n"}
     for path, text in made.items():
         path.parent.mkdir(exist_ok=True)
         path.write_text(text)
+    Image.fromarray(PICTURE).save(FIGURES / "figure_05.png")
     write_snapshot(SETTINGS, TABLES, FIGURES, [COMPUTE], STORED)
 
 
@@ -53,10 +60,18 @@ def rewrite(old: str, new: str) -> list[str]:
 def test_snapshot_holds_tables_and_pictures_with_their_origin() -> None:
     names = sorted(path.name for path in STORED.iterdir())
     assert names == [
-        "compute.md", "figure_05.png", "figure_05.svg", "figures", "provenance.json", "push.webp", "table_05.csv",
-        "table_05.md",
+        "compute.md", "figure_05.png", "figures", "provenance.json", "push.webp", "table_05.csv", "table_05.md",
     ]  # fmt: skip
     assert set(read_json(STORED / "provenance.json")) == {"scale", "commit", "lock"}
+
+
+@pytest.mark.usefixtures("stored")
+def test_a_stored_picture_looks_the_same_and_is_smaller() -> None:
+    with Image.open(STORED / "figure_05.png") as image:
+        shown = np.asarray(image.convert("RGB"), dtype=int)
+    seen = np.where(PICTURE[..., 3:] == 0, 255, PICTURE[..., :3]).astype(int)
+    assert np.abs(shown - seen).mean() < 2.0
+    assert (STORED / "figure_05.png").stat().st_size < (FIGURES / "figure_05.png").stat().st_size
 
 
 @pytest.mark.usefixtures("stored")
@@ -70,8 +85,8 @@ def test_what_is_made_no_longer_is_removed_with_the_next_snapshot() -> None:
     write_snapshot(SETTINGS, TABLES, FIGURES, [COMPUTE], STORED)
     names = sorted(path.name for path in STORED.rglob("*") if path.is_file())
     assert names == [
-        "compute.md", "figure_06.csv.gz", "figure_06.png", "figure_06.svg", "provenance.json", "push.webp",
-        "rates.json", "table_05.csv", "table_05.md", "walking.png",
+        "compute.md", "figure_06.csv.gz", "figure_06.png", "provenance.json", "push.webp", "rates.json", "table_05.csv",
+        "table_05.md", "walking.png",
     ]  # fmt: skip
 
 

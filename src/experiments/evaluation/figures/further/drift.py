@@ -29,24 +29,28 @@ def drift(settings: Drift, statistics: Statistics, scores: Sequence[Path], figur
     for title, test in settings.tests.items():
         for phase in (SWINGING, STANCE):
             held = {method: held_by_step(lookup, settings, test, method, phase) for method in test.methods}
-            lines = [Line(method, list(own), list(own.values())) for method, own in held.items() if own]
-            panel = LinePanel(
-                f"{title}, {phase}",
-                X_LABEL,
-                Y_LABEL,
-                lines,
-                guide=1.0,
-                ends=ENDS,
-                note=beyond(held),
-                logarithmic=False,
-                dodge=APART,
-            )
-            panels.append(panel)
+            panels.append(panel_of(f"{title}, {phase}", held))
             for method, own in held.items():
                 place = title, test.scenario, test.level, method, phase
                 rows += [(*place, step, *number.with_ends, *number.spread) for step, number in own.items()]
     figure = draw_lines(panels, min(COLUMNS, len(panels)), PANEL_INCH)
     save_figure(figure, figure_dir / "drift", DRIFT, rows)
+
+
+def panel_of(title: str, held: Mapping[str, Held]) -> LinePanel:
+    """Return the panel of a phase: a line for each method that has a share there."""
+    lines = [Line(method, list(own), list(own.values())) for method, own in held.items() if own]
+    return LinePanel(
+        title,
+        X_LABEL,
+        Y_LABEL,
+        lines,
+        guide=1.0,
+        ends=ENDS,
+        note=beyond(held),
+        logarithmic=False,
+        dodge=APART,
+    )
 
 
 def held_by_step(lookup: Lookup, settings: Drift, test: Runs, method: str, phase: str) -> Held:

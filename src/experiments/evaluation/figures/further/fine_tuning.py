@@ -1,11 +1,12 @@
 """Fine-tuning to a changed robot (section 8.2): error over the seconds of new data."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from experiments.evaluation.figures.drawing.lines import Line, LinePanel, draw_lines
 from experiments.evaluation.figures.style import save_figure
 from experiments.evaluation.number.grid import Wanted, number_of
+from experiments.evaluation.number.number import Number
 from experiments.evaluation.number.rows import read_scores
 from experiments.settings.figures import FineTuning, TunedTest
 from experiments.settings.runs import Statistics
@@ -32,20 +33,28 @@ def fine_tuning(
     panels = []
     rows = []
     for title, test in settings.tests.items():
-        bands = {}
-        lines = []
+        found = []
         for label, shown in shown_of(settings, seconds, test).items():
             errors = [number_of(read, [wanted], statistics) for wanted in shown]
-            if label in (BEFORE, KNOWN):
-                bands[label] = errors[0]
-            else:
-                lines.append(Line(label, seconds, errors))
+            found.append((label, dict(zip(seconds, errors, strict=True))))
             for time, wanted, error in zip(seconds, shown, errors, strict=True):
                 place = (title, label, time, wanted.scenario, wanted.level, wanted.method, wanted.joint)
                 rows.append((*place, *error.with_ends, *error.spread, error.unit))
-        panels.append(LinePanel(title, X_LABEL, Y_LABEL, lines, bands, dodge=APART))
+        panels.append(panel_of(title, found))
     figure = draw_lines(panels, min(COLUMNS, len(panels)), PANEL_INCH)
     save_figure(figure, figure_dir / "fine_tuning", TUNED, rows)
+
+
+def panel_of(title: str, found: Sequence[tuple[str, Mapping[int, Number]]]) -> LinePanel:
+    """Return the panel of a test: of each label the error by seconds; those that need none of these are bands."""
+    bands: dict[str, Number] = {}
+    lines: list[Line] = []
+    for label, errors in found:
+        if label in (BEFORE, KNOWN):
+            bands[label] = next(iter(errors.values()))
+        else:
+            lines.append(Line(label, list(errors), list(errors.values())))
+    return LinePanel(title, X_LABEL, Y_LABEL, lines, bands, dodge=APART)
 
 
 def shown_of(settings: FineTuning, seconds: Sequence[int], test: TunedTest) -> dict[str, list[Wanted]]:

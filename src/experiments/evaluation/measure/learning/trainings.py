@@ -1,4 +1,4 @@
-"""Trainings as they were written: sizes from run.json, losses from metrics.csv."""
+"""Trainings as they were written: sizes from run.json, losses from metrics.csv, and errors in tests from scores."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
+from experiments.evaluation.number.rows import read_scores
 from experiments.settings.figures import Figure17
 from mobnet.core.columns import Epoch
 from mobnet.core.epochs import read_epochs
@@ -32,6 +33,16 @@ MEASURES: Mapping[str, tuple[Callable[[TrainedNetwork], float], str]] = {  # nam
 DIGITS = 1e-6  # relative difference of a number that was written twice
 Row = list[float]
 Share = Annotated[float, Field(ge=0, le=1)]
+Key = tuple[str, str, int]  # method, limb and seed of a network
+
+
+@dataclass(frozen=True)
+class TestError:
+    """The error of a network's estimates in a test, scenario and level: RMSE [N m; N of the base's forces]."""
+
+    __test__ = False  # pytest would take it for a class of tests
+    test: str
+    rmse: float
 
 
 class NotedNetwork(Note):
@@ -143,6 +154,29 @@ class TrainedNetwork:
     def kept(self) -> Epoch:
         """The epoch that validated best, whose weights are kept."""
         return min(self.epochs, key=attrgetter("stride", self.chosen_by))
+
+
+def read_test_errors(scores: Sequence[Path]) -> dict[Key, TestError]:
+    """Return method, limb and seed -> error in the first of some files of scores that has it, a mean over walks.
+
+    Raises:
+        DataError: a file is missing or damaged.
+    """
+    found: dict[Key, TestError] = {}
+    for path in scores:
+        values: dict[Key, list[float]] = {}
+        for row in read_scores(path):
+            if (row.metric, row.joint) == ("rmse", "avg"):
+                values.setdefault((row.method, row.limb, row.network_seed), []).append(row.value)
+        test = f"{path.parent.name}, {path.stem}"
+        # The first file that has a network counts, so that later ones only add others.
+        found = {key: TestError(test, fmean(own)) for key, own in values.items()} | found
+    return found
+
+
+def robot_of(folder: Path) -> str:
+    """Return the name of the plant or robot whose folder has that of a network, or of its checkpoint."""
+    return folder.parent.parent.name
 
 
 def read_training(folder: Path) -> TrainedNetwork:
