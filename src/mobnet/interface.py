@@ -47,7 +47,6 @@ if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.figure import Figure
 
-FILES = (".urdf", ".xml", ".mjcf")  # of robots that no table describes yet
 FEW = 8  # joints that a line names
 FIELDS = {"acc": "acc_base_in_base"}  # argument of `sample` -> field, where their names differ
 
@@ -86,13 +85,7 @@ class Robot:
             ConfigError: the table cannot be read, or a value is not accepted.
             DataError: the file is no robot, or a table cannot hold it.
         """
-        path = Path(path)
-        if path.suffix not in FILES:
-            return cls(given_robot(path, lab()))
-        check_extra("simulate")
-        from mobnet.robot.import_table import read_robot  # MuJoCo, which comes with an extra
-
-        return cls(read_robot(path))
+        return cls(given_robot(Path(path), lab()))
 
     def __repr__(self) -> str:
         """Return what a notebook shows, such as `Robot two-link arm: J1, J2; fixed base`."""

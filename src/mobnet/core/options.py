@@ -42,8 +42,10 @@ def observe_parser() -> argparse.ArgumentParser:
 
 
 def add_robot(parser: argparse.ArgumentParser) -> None:
-    """Add the option that names the table of a robot."""
-    parser.add_argument("--robot", type=Path, help="table of the robot (default: that of configs)")
+    """Add the option that names the file of a robot."""
+    parser.add_argument(
+        "--robot", type=Path, help="table of the robot, or its URDF or MJCF file (default: the table of configs)"
+    )
 
 
 def add_wrench(parser: argparse.ArgumentParser) -> None:

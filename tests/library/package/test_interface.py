@@ -15,7 +15,8 @@ from made_contacts import pushed
 import mobnet
 from mobnet.core.files import RUN, WEIGHTS
 from mobnet.detection.threshold_file import write_thresholds
-from mobnet.settings.lab import CONFIGS
+from mobnet.robot.given import given_robot
+from mobnet.settings.lab import CONFIGS, load_lab
 from mobnet.settings.limb_thresholds import LimbThresholds
 
 ROOT = Path(__file__).parents[3]
@@ -260,3 +261,12 @@ def test_an_export_is_that_of_the_command(humanoid, tmp_path):
     assert contract == tmp_path / "contract.json"
     assert sorted(path.name for path in tmp_path.iterdir()) == ["LL.onnx", "contract.json", "model.bin"]
     assert (LEG / WEIGHTS).is_file()
+
+
+def test_a_command_takes_a_urdf_where_it_takes_a_table(tmp_path):
+    robot = ROOT / "tests" / "data" / "arm.urdf"
+    given = given_robot(robot, load_lab())
+    assert given.layout.actuated == mobnet.Robot.read(robot).motors
+    (tmp_path / "arm.urdf").write_text("<robot/>")
+    with pytest.raises(mobnet.MobnetError, match=r"arm\.urdf"):
+        given_robot(tmp_path / "arm.urdf", load_lab())

@@ -17,8 +17,8 @@ from mobnet.learning.deployed import networks
 
 MOBNET = SOURCE / "mobnet"
 ASKED = {  # file -> files that it imports after it has asked for their extra itself, as a test below shows
+    MOBNET / "robot" / "given.py": {MOBNET / "robot" / "import_table.py"},
     MOBNET / "interface.py": {
-        MOBNET / "robot" / "import_table.py",
         MOBNET / "export" / "export.py",
         MOBNET / "robotlog" / "shown.py",
     },
