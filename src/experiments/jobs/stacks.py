@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from experiments.jobs.known import known_of
+from experiments.jobs.fitting import known_of
 from experiments.jobs.trainings import data_of
 from mobnet.core.files import MEMBERS, write_json
 from mobnet.learning.dataset import LimbData

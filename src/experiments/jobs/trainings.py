@@ -54,7 +54,7 @@ def train(
     known = None
     if fitted:
         # By its name, so that no other training has the code of friction in its hash.
-        known = importlib.import_module("experiments.jobs.known").known_of(layout, observer, fitted)
+        known = importlib.import_module("experiments.jobs.fitting").known_of(layout, observer, fitted)
     data = data_of(layout, training, recordings, residuals, rate_hz, margins, known)
     train_on(data, TrainingJob(training, seed, root_seed), out, state, start, lesson, in_place=True)
 

@@ -28,7 +28,7 @@ from mobnet.settings.walking import Walking, WalkSettings
 
 KINDS = "mobnet.estimation.kinds"  # modules that a method names as its kind
 MEASURES = "experiments.evaluation.measure.estimates"  # modules that sections of the evaluation name
-KNOWN = "experiments.jobs.known"  # what a training builds upon
+KNOWN = "experiments.jobs.fitting"  # what a training builds upon
 Arguments = dict[str, Any]
 
 

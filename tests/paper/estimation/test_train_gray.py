@@ -7,8 +7,7 @@ import numpy as np
 import pytest
 from jobs_of import network, reads
 
-from experiments.jobs.fitting import write_fit
-from experiments.jobs.known import filtered_friction
+from experiments.jobs.fitting import filtered_friction, write_fit
 from experiments.jobs.trainings import train
 from experiments.plan.plan import make_plan
 from experiments.settings.catalogue import Catalogue
@@ -82,7 +81,7 @@ def test_a_training_reads_the_fit_that_it_builds_upon_and_no_other_does(settings
     assert [name for name in gray if "/fits/" in name] == ["results/smoke/plant/fits/MOB-fric-load.json"]
     assert not [name for name in plain if "/fits/" in name]
     modules = [plan.jobs.trained_by(SimpleNamespace(robot="plant", method=name)) for name in (METHOD, "MOB-Net")]
-    assert modules == [["experiments.jobs.known"], []]
+    assert modules == [["experiments.jobs.fitting"], []]
     test = {"robot": "plant", "scenario": "hip_pitch_step", "level": "all_uncertainty"}
     estimated = reads(plan, "estimate", **test)
     assert "results/smoke/plant/fits/MOB-fric-load.json" in estimated
