@@ -64,8 +64,17 @@ ALIASES = {
     "--sdm": "--software-deployment-method",
 }
 SHEETS = (
-    "sets", "fits", "networks", "stacks", "tests", "scores", "detectors", "watched", "reactions", "shown",
-)  # fmt: skip
+    "sets",
+    "fits",
+    "networks",
+    "stacks",
+    "tests",
+    "scores",
+    "detectors",
+    "watched",
+    "reactions",
+    "shown",
+)
 RESULTS = {  # command -> what it does with the results of a run
     "verify": "List the missing, changed and unexpected files of a run, by its manifest.",
     "compare": "List the differences between the published tables and figures, docs/results, and those of this folder.",
