@@ -24,7 +24,7 @@ from mobnet.core.columns import COMMAND, FEET
 from mobnet.core.joints import NQ_BASE, JointLayout
 from mobnet.core.recording import Sensed
 from mobnet.estimation.observe import observer_of
-from mobnet.estimation.observer import MomentumObserver
+from mobnet.estimation.observer import RobotObserver
 from mobnet.robot.description import describe
 from mobnet.robot.dynamics import momentum_and_beta
 from mobnet.robot.nominal import NominalModel
@@ -79,7 +79,7 @@ def _turn(ours: Callable[[], Array], reference: Callable[[], Array]) -> tuple[fl
     return between - started, ended - between
 
 
-def _stepped(observer: MomentumObserver, sensed: Sensed) -> Array:
+def _stepped(observer: RobotObserver, sensed: Sensed) -> Array:
     """Return the last residual of stepping through a recording, (nv,) [N] and [N m]."""
     state, last = observer.init(), np.empty(0)
     for k in range(SAMPLES):
