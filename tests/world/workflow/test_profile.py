@@ -10,7 +10,7 @@ from .conftest import ROOT
 
 PROFILE = ROOT / "workflow" / "profiles" / "slurm" / "config.yaml"
 MARKED = re.compile(r"^# (set-resources:|  - )", re.MULTILINE)  # what is to be used on nodes with GPUs
-TRAINING = {"train", "train_gray", "train_stack"}
+TRAINING = {"train", "train_stack"}
 
 
 @pytest.fixture

@@ -31,7 +31,7 @@ IDLE = {  # file -> rules that an edit of it runs again, to the same bytes
     "src/experiments/jobs/estimates.py": "estimate",
 }
 GAINS = (25, 31)  # of the observer: other residuals, and all that follows from them
-RULES = ("collect", "observe", "fit", "train", "train_gray", "estimate", "score", "figure_with_bars")
+RULES = ("collect", "observe", "fit", "train", "estimate", "score", "figure_with_bars")
 MADE = ("results/smoke", "figures/smoke")
 LONGEST_S = 8.0  # from the start of a call to its stop: a call takes three seconds to plan, some jobs a second each
 LEAST_S = 2.0
