@@ -31,6 +31,7 @@ PRECISION = Path("state") / "precision.json"  # below the results of a scale
 STACKS = Path("state") / "stacks.json"
 ROOT = ("README.md", "CONTRIBUTING.md", "CHANGELOG.md", "CITATION.cff", "SECURITY.md", "paper/README.md")
 DOCUMENTS = "docs/**/*.*"
+EXAMPLES = "examples/*.*"
 # All of them: docstrings and bounds are shown, which the hash of the code leaves out.
 MODULES = ("src/mobnet/**/*.py", "src/experiments/**/*.py")
 CLAIMS_PAGE = (
@@ -67,7 +68,7 @@ def documentation(files: Files) -> Iterator[Product]:
     for pattern in MODULES:
         modules += _found(pattern)
     given = {
-        "documents": [*map(Path, ROOT), *_found(DOCUMENTS)],
+        "documents": [*map(Path, ROOT), *_found(DOCUMENTS), *_found(EXAMPLES)],
         "captions": [*_found(f"{CAPTIONS}/figures/*.rst"), *_found(f"{CAPTIONS}/tables/*.rst")],
         "modules": modules,
         "templates": [TEMPLATES / name for name in CLAIMS_PAGE],

@@ -22,6 +22,7 @@ of others take the eleven names of [Use it from Python](../docs/interface.md).
 """
 PUBLIC = {  # packages whose modules are shown -> what they are for
     "core": "recordings, estimates and files",
+    "kernel": "the observer of a `pin.Model`, over arrays",
     "robot": "models of the robot",
     "simulation": "simulated plant and recordings",
     "learning": "networks and their training",
