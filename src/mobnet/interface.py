@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from mobnet.core.arrays import check_finite
 from mobnet.core.columns import recording_columns
 from mobnet.core.errors import ConfigError, DataError, not_accepted
 from mobnet.core.errors import MobnetError as MobnetError
@@ -135,8 +136,7 @@ class Robot:
             taken = np.zeros(wanted) if array is None else np.asarray(array, dtype=np.float64)
             if taken.shape != wanted:
                 raise DataError(not_accepted(f"{name}: shape", taken.shape, [wanted]))
-            if not np.isfinite(taken).all():
-                raise DataError(not_accepted(name, float(taken[~np.isfinite(taken)][0]), ["finite numbers"]))
+            check_finite(name, taken)
             values[field] = taken
         return Sensed(**values)
 
@@ -458,7 +458,7 @@ class LabRecording(SensedRecording):
         check_extra("logs")
         from mobnet.robotlog.shown import plot_of
 
-        return plot_of(self, self.robot.motors)
+        return plot_of(self, self.robot.motors, FEW)
 
 
 def _joints(names: Sequence[str]) -> str:

@@ -10,7 +10,6 @@ from mobnet.core.arrays import Array
 from mobnet.core.errors import DataError
 from mobnet.core.recording import Sensed
 from mobnet.kernel.drive import DriveParameters
-from mobnet.kernel.recursion import BLOCK_ROWS as BLOCK_ROWS
 from mobnet.kernel.recursion import ObserverState, Recursion
 from mobnet.robot.dynamics import momentum_and_beta
 from mobnet.robot.nominal import NominalModel

@@ -1,13 +1,12 @@
 """The momentum observer of section 3.2 for any model of Pinocchio, over arrays."""
 
-import math
 from collections.abc import Mapping, Sequence
 
 import numpy as np
 import pinocchio as pin
 from numpy.typing import ArrayLike
 
-from mobnet.core.arrays import Array
+from mobnet.core.arrays import Array, check_finite
 from mobnet.core.errors import DataError, not_accepted
 from mobnet.kernel.drive import DriveParameters, TorqueKind
 from mobnet.kernel.mechanism import Mechanism
@@ -124,9 +123,7 @@ def _taken(name: str, array: ArrayLike, samples: tuple[int, ...], widths: Sequen
     accepted = [(*samples, width) for width in widths]
     if taken.shape not in accepted:
         raise DataError(not_accepted(f"shape of {name}", taken.shape, accepted))
-    # A sum shows in one call whether a number is not finite; a sum that is too large is no fault.
-    if not math.isfinite(taken.sum()) and not np.isfinite(taken).all():
-        raise DataError(not_accepted(name, float(taken[~np.isfinite(taken)][0]), ["finite numbers"]))
+    check_finite(name, taken)
     return taken
 
 

@@ -11,8 +11,6 @@ from mobnet.core.columns import recording_columns
 from mobnet.core.joints import JointLayout
 from mobnet.core.recording import SensedRecording
 
-NAMED = 8  # joints that a legend names
-
 
 def frame_of(recording: SensedRecording, layout: JointLayout) -> pd.DataFrame:
     """Return a row for each sample, a column for each sensed signal, named as in files, and the time [s] as index."""
@@ -25,8 +23,8 @@ def frame_of(recording: SensedRecording, layout: JointLayout) -> pd.DataFrame:
     return pd.concat(parts, axis=1).set_index(time)
 
 
-def plot_of(recording: SensedRecording, motors: Sequence[str]) -> Figure:
-    """Return a figure of positions [rad], velocities [rad/s] and torques [N m] of motors over time [s]."""
+def plot_of(recording: SensedRecording, motors: Sequence[str], most_named: int) -> Figure:
+    """Return a figure of positions [rad], velocities [rad/s] and torques [N m] over time [s]; a legend names few."""
     sensed = recording.sensed
     count = len(motors)
     time = np.arange(len(sensed)) / recording.rate_hz
@@ -40,6 +38,6 @@ def plot_of(recording: SensedRecording, motors: Sequence[str]) -> Figure:
         panel.plot(time, values, linewidth=0.8)
         panel.set_ylabel(title)
     panels[-1].set_xlabel("time [s]")
-    if count <= NAMED:
+    if count <= most_named:
         panels[0].legend(motors, ncols=count, fontsize="small")
     return figure

@@ -86,7 +86,7 @@ def test_batch_equals_the_recursion_and_stepping(nominal, observer, pushed):
 def test_blocks_of_samples_change_no_bit(observer, pushed, monkeypatch):
     sensed, _ = pushed(RATE_HZ)
     whole = observer.residual(sensed)
-    monkeypatch.setattr("mobnet.estimation.observer.BLOCK_ROWS", 7)
+    monkeypatch.setattr("mobnet.kernel.recursion.BLOCK_ROWS", 7)
     out = np.empty(whole.shape)
     assert observer.residual(sensed, out) is out
     np.testing.assert_array_equal(out, whole)
