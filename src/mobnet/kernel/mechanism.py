@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array, rows_of
 from mobnet.core.errors import ConfigError, not_accepted
+from mobnet.kernel.frames import rotation
 from mobnet.kernel.linkage import linkage_of
 from mobnet.kernel.momentum import sweep
 
@@ -338,10 +339,4 @@ def _angle(q: NDArray[Any], at: JointColumns) -> Array:
 
 def _rotations(quaternions: NDArray[Any]) -> Array:
     """Return the rotations (T, 3, 3) of quaternions x y z w (T, 4), which logs round and which are made unit length."""
-    x, y, z, w = (quaternions / np.linalg.norm(quaternions, axis=1, keepdims=True)).T
-    rows = [
-        [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-        [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-        [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
-    ]
-    return np.array(rows).transpose(2, 0, 1)
+    return rotation(np.roll(quaternions, 1, axis=1) / np.linalg.norm(quaternions, axis=1, keepdims=True))

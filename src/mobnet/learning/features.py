@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from mobnet.core.errors import ConfigError, not_accepted
 from mobnet.core.joints import N_VIRTUAL, NQ_BASE, JointLayout
 from mobnet.core.recording import Sensed
-from mobnet.robot.frames import QUATERNION, rotation
+from mobnet.kernel.frames import QUATERNION, rotation
 from mobnet.settings.networks import Inertial, Limb
 
 OMEGA = slice(3, N_VIRTUAL)  # of the generalized velocity, base axes

@@ -4,8 +4,8 @@ import numpy as np
 import pinocchio as pin
 import pytest
 
+from mobnet.kernel.frames import rotation, to_pinocchio
 from mobnet.robot import dynamics
-from mobnet.robot.frames import rotation, to_pinocchio
 from mobnet.robot.nominal import NominalModel
 
 STEP = 1e-6  # for differences in time [s]

@@ -5,8 +5,8 @@ import numpy as np
 import pytest
 
 from mobnet.core.errors import ConfigError
+from mobnet.kernel.frames import rotation
 from mobnet.robot.description import SIDES
-from mobnet.robot.frames import rotation
 from mobnet.robot.nominal import NominalModel
 from mobnet.robot.plant import robot_spec, sole_name
 from mobnet.robot.wrench import feet_torque, point_torque

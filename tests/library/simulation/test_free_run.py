@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from mobnet.estimation.observer import RobotObserver
+from mobnet.kernel.frames import rotation
 from mobnet.kernel.low_pass import filter_in_place
-from mobnet.robot.frames import rotation
 from mobnet.robot.nominal import NominalModel
 from mobnet.simulation.free_plant import damping_of, held_model, hidden_links, joint_friction
 from mobnet.simulation.free_run import Numbers, record_motion, slightly_turned
