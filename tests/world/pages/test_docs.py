@@ -53,7 +53,7 @@ def test_modules_that_are_run_and_packages_that_are_not_public_have_no_page():
     found = modules_of([Path("src/mobnet") / name for name in names])
     assert {name: modules for name, modules in found.items() if modules} == {
         "core": ["mobnet.core.rows"],
-        "robot": ["mobnet.kernel.frames"],
+        "kernel": ["mobnet.kernel.frames"],
     }
 
 

@@ -16,7 +16,7 @@ from .smoke import LOST, MADE, reproduce, told
 
 __all__ = ["outputs", "planned", "snakemake"]
 PARTS = (
-    "Snakefile", "workflow", "profiles", "configs", "src", "docs", "paper", "reproduce", "environment.lock",
+    "Snakefile", "workflow", "profiles", "configs", "src", "docs", "examples", "paper", "reproduce", "environment.lock",
     "README.md", "CONTRIBUTING.md", "CHANGELOG.md", "CITATION.cff", "SECURITY.md", "Dockerfile", "apptainer.def",
     "tests/data",
 )  # fmt: skip

@@ -22,7 +22,10 @@ def reproduce(folder, *words, command="all"):
 
 
 def told(folder):
-    return (folder / "out.log").read_text()[-5000:]
+    """Return the end of what the runs in a folder have said, and their errors, which may stand far above it."""
+    said = (folder / "out.log").read_text()
+    errors = [line for line in said.splitlines() if "rror" in line]
+    return "\n".join([said[-5000:], "errors:", *errors[-20:]])
 
 
 def products(folder):
