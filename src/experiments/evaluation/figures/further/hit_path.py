@@ -19,8 +19,8 @@ BARS = 0.8  # of a group, share of what it takes
 ROOM = 0.15  # above and below all bars and robots [share of their range]
 INTERVAL: Mapping[str, Any] = {"color": "black", "linewidth": 0.7, "zorder": 3.0}
 BEYOND: Mapping[str, Any] = {"color": "black", "linestyle": "", "markersize": 3.0, "clip_on": False, "zorder": 3.0}
-ROBOT: Mapping[str, Any] = {"marker": "o", "markersize": 2.6, "color": "white", "markeredgecolor": "black",
-                            "markeredgewidth": 0.5, "linestyle": "", "zorder": 4.0}  # fmt: skip
+EDGE: Mapping[str, Any] = {"markeredgecolor": "black", "markeredgewidth": 0.5}
+ROBOT: Mapping[str, Any] = {"marker": "o", "markersize": 2.6, "color": "white", "linestyle": "", "zorder": 4.0, **EDGE}
 ROBOT_LABEL = "each robot"
 
 

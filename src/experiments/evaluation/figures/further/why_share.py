@@ -11,15 +11,16 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from experiments.evaluation.figures.style import LOOKS, NAME, apart, beside, entitle, legend, save_figure
-from experiments.evaluation.measure.learning.explained import FEW, Cell, by_robot, over_robots, read_why
+from experiments.evaluation.measure.learning.explained import FEW, LearnedCell, by_robot, over_robots, read_why
 from experiments.evaluation.measure.learning.taught import SHARE_OF_HIT, WALKING
 from experiments.evaluation.number.number import Number
 from experiments.settings.figures import ExplainedPanel, WhyShare
 from experiments.settings.runs import Statistics
 from mobnet.core.style import styled
 
-COLUMNS = ("panel", "network", "data", "method", "way", "robots", "ends", "error_ratio", "error_ratio_low",
-           "error_ratio_high", "share", "share_low", "share_high")  # fmt: skip
+ERROR = ("error_ratio", "error_ratio_low", "error_ratio_high")
+SHARE = ("share", "share_low", "share_high")
+COLUMNS = ("panel", "network", "data", "method", "way", "robots", "ends", *ERROR, *SHARE)
 INTERVAL, ROBOTS = "interval", "robots"  # what the ends of a number are
 HEIGHT_INCH = 2.5
 MARK: Mapping[str, Any] = {"markersize": 4.5, "markeredgewidth": 0.9, "markerfacecoloralt": "white", "zorder": 3.0}
@@ -42,7 +43,7 @@ class Dot:
     panel: str
     network: str
     text: str
-    cell: Cell
+    cell: LearnedCell
     robots: int
     error: Number
     share: Number
@@ -74,8 +75,8 @@ def dots_of(
     statistics: Statistics,
     title: str,
     panel: ExplainedPanel,
-    errors: Mapping[Cell, Mapping[str, float]],
-    shares: Mapping[Cell, Mapping[str, float]],
+    errors: Mapping[LearnedCell, Mapping[str, float]],
+    shares: Mapping[LearnedCell, Mapping[str, float]],
 ) -> list[Dot]:
     """Return the dots of a panel, from errors in walking [N m] and shares of a hit [-] of each robot.
 
@@ -87,7 +88,7 @@ def dots_of(
     found: list[Dot] = []
     for name, cell in shown:
         own = settings.sets[cell.data]
-        over = Cell(own.over, settings.over.method, settings.over.ways[0])
+        over = LearnedCell(own.over, settings.over.method, settings.over.ways[0])
         error = over_robots([errors[each] for each in (cell, over)], robots, statistics)
         share = over_robots([shares[cell]], robots, statistics)
         text = ", ".join(each for each in (own.says, settings.ways.get(cell.way, "")) if each)
@@ -95,14 +96,14 @@ def dots_of(
     return found
 
 
-def cells_of(settings: WhyShare, panel: ExplainedPanel) -> Iterator[tuple[str, Cell]]:
+def cells_of(settings: WhyShare, panel: ExplainedPanel) -> Iterator[tuple[str, LearnedCell]]:
     """Yield what a panel shows, each with the name of its network."""
     for name in panel.networks:
         network = settings.networks[name]
         for data in panel.sets:
             for way in panel.ways:
                 if way in network.ways:
-                    yield name, Cell(data, network.method, way)
+                    yield name, LearnedCell(data, network.method, way)
 
 
 def marks_of(networks: Iterable[str]) -> dict[str, dict[str, Any]]:

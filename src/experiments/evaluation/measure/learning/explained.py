@@ -38,7 +38,7 @@ class HitNumber:
     unit: str
 
 
-class Cell(NamedTuple):
+class LearnedCell(NamedTuple):
     """Networks that differ in their seed and robot alone: training set, method and way of learning."""
 
     data: str
@@ -55,12 +55,12 @@ def read_why(kept: Path) -> list[HitNumber]:
     return read_rows(kept, HitNumber)
 
 
-def by_robot(rows: Sequence[HitNumber], measure: str) -> dict[Cell, dict[str, float]]:
+def by_robot(rows: Sequence[HitNumber], measure: str) -> dict[LearnedCell, dict[str, float]]:
     """Return the networks of which a measure is known -> robot -> the number [unit of the measure]."""
-    found: dict[Cell, dict[str, float]] = {}
+    found: dict[LearnedCell, dict[str, float]] = {}
     for row in rows:
         if row.measure == measure and row.robot != ALL:
-            cell = Cell(row.data, row.method, row.way)
+            cell = LearnedCell(row.data, row.method, row.way)
             found.setdefault(cell, {})[row.robot] = row.value
     return found
 
