@@ -35,7 +35,9 @@ from experiments.settings.figures import (
     Figure20,
     FineTuning,
     HandFigure,
+    HitPath,
     LearningCurve,
+    WhyShare,
 )
 from experiments.settings.measures import (
     Bode,
@@ -175,6 +177,10 @@ class Evaluation(Section):
     learning_curve: Annotated[
         LearningCurve, MadeBy("figures.further.learning_curve:learning_curve", needs={"kept": "kept_file"}, figure=True)
     ]
+    why_share: Annotated[
+        WhyShare, MadeBy("figures.further.why_share:why_share", needs={"kept": "kept_file"}, figure=True)
+    ]
+    hit_path: Annotated[HitPath, MadeBy("figures.further.hit_path:hit_path", needs={"kept": "kept_file"}, figure=True)]
     fine_tuning: Annotated[
         FineTuning,
         MadeBy(

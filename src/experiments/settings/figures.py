@@ -201,22 +201,84 @@ class Figure20(Checked):
                 yield ("sweeps", self.samples, "of", k), text
 
 
-class LearningCurve(Checked):
+class KeptTable(Checked):
+    """A figure of a table of trials that is kept: the file `data`."""
+
+    data: base.Text
+
+    def problems(self, results: "Results", place: Place) -> Iterator[Problem]:
+        """Yield a table of trials that there is not."""
+        if not re.fullmatch(r"docs/trials/[a-z0-9_]+\.csv", self.data):
+            yield (*place, "data"), not_accepted("file", self.data, ["a .csv file of docs/trials"])
+
+
+class LearningCurve(KeptTable):
     """Error over the length of the training: a table of trials that is kept, and how its names are shown.
 
     `titles` are those of each task's panels, `recipes` and `beside` are names in the legend and in notes: of recipes of
     learning, and of methods that do not learn.
     """
 
-    data: base.Text
     titles: dict[base.TaskName, base.Text]
     recipes: dict[base.LowerName, base.Text]
     beside: dict[base.MethodName, base.Text]
 
+
+class ExplainedNetwork(Section):
+    """A network of the trial `why`: its method, and the ways of learning in which it is this one."""
+
+    method: base.LearnedName
+    ways: base.Distinct[base.LowerName]
+
+
+class ExplainedSet(Section):
+    """A training set of the trial `why`: that of the network `over` on the same robots, and what is said of it."""
+
+    over: base.TrainingSetName
+    says: str = ""
+
+
+class ExplainedPanel(Section):
+    """A panel: networks by their names in the legend, with the training sets and ways of learning that it shows."""
+
+    networks: base.Distinct[base.Text]
+    sets: base.Distinct[base.TrainingSetName]
+    ways: base.Distinct[base.LowerName]
+
+
+class WhyShare(KeptTable):
+    """What networks show of a hit over their errors in walking, which are over those of the network `over`.
+
+    `networks` are named as in the legend, those of a kind one after another. `ways` has what is said of a way of
+    learning, nothing of one that it leaves out. A panel shows the robots that all of its rows have.
+    """
+
+    over: ExplainedNetwork
+    networks: dict[base.Text, ExplainedNetwork]
+    sets: dict[base.TrainingSetName, ExplainedSet]
+    ways: dict[base.LowerName, base.Text]
+    panels: Annotated[dict[base.Text, ExplainedPanel], Field(min_length=1)]
+
     def problems(self, results: "Results", place: Place) -> Iterator[Problem]:
-        """Yield a table of trials that there is not."""
-        if not re.fullmatch(r"docs/trials/[a-z0-9_]+\.csv", self.data):
-            yield (*place, "data"), not_accepted("file", self.data, ["a .csv file of docs/trials"])
+        """Yield names that the section, or the trial, does not have."""
+        yield from super().problems(results, place)
+        known = results.settings.trials.why.ways
+        for name in self.ways:
+            if name not in known:
+                yield (*place, "ways", name), not_accepted("way of learning", name, known)
+        for title, panel in self.panels.items():
+            for k, name in enumerate(panel.networks):
+                if name not in self.networks:
+                    yield (*place, "panels", title, "networks", k), not_accepted("network", name, self.networks)
+            for k, name in enumerate(panel.sets):
+                if name not in self.sets:
+                    yield (*place, "panels", title, "sets", k), not_accepted("set", name, self.sets)
+
+
+class HitPath(KeptTable):
+    """By which inputs a hit enters the predictions of methods, by name and as the legend calls them."""
+
+    methods: Annotated[dict[base.LearnedName, base.Text], Field(min_length=1)]
 
 
 class TunedTest(Runs):

@@ -164,10 +164,17 @@ def test_a_gray_box_is_tried_on_its_fit_and_a_filter_without_networks(products: 
     assert {"mobnet.estimation.kinds.kalman", "mobnet.estimation.kinds.gray"} <= set(products["tuning"].modules)
 
 
-def test_the_learning_curve_is_drawn_where_its_data_are(plan: Plan, monkeypatch: Any, tmp_path: Path) -> None:
+@pytest.mark.parametrize(("name", "kept"), [
+    ("learning_curve", "docs/trials/lengths.csv"),
+    ("why_share", "docs/trials/why.csv"),
+    ("hit_path", "docs/trials/why.csv"),
+])  # fmt: skip
+def test_a_figure_of_a_trial_is_drawn_where_its_data_are(
+    plan: Plan, monkeypatch: Any, tmp_path: Path, name: str, kept: str
+) -> None:
     monkeypatch.chdir(tmp_path)
-    assert "learning_curve" not in {product.name for product in make_plan(plan.settings, with_pdf=False).products}
+    assert name not in {product.name for product in make_plan(plan.settings, with_pdf=False).products}
     (tmp_path / "docs/trials").mkdir(parents=True)
-    (tmp_path / "docs/trials/lengths.csv").touch()
+    (tmp_path / kept).touch()
     products = {product.name: product for product in make_plan(plan.settings, with_pdf=False).products}
-    assert products["learning_curve"].inputs == ("docs/trials/lengths.csv",)
+    assert products[name].inputs == (kept,)

@@ -75,6 +75,10 @@ MEANINGLESS: list[tuple[str, Any, str]] = [
     ("methods.MOB-Net-other.start", "MOB-Net-Single", "a method that trains LL"),
     ("methods.MOB-Net-other.network.hidden", 151, "the same GRU for LL"),
     ("evaluation.learning_curve.data", "/etc/passwd", "docs/trials"),
+    ("evaluation.why_share.data", "/etc/passwd", "docs/trials"),
+    ("evaluation.why_share.ways", {"faster": "faster"}, "way of learning: 'faster'"),
+    ("evaluation.why_share.panels.inputs.networks.0", "MOBNet", "network: 'MOBNet'"),
+    ("evaluation.why_share.panels.inputs.sets.0", "walk", "set: 'walk'"),
     ("evaluation.drift.steps", 9, "the steps that begin in the longest push"),
     ("evaluation.latency.method", "MOB", "method with networks"),
     # terrains and commands

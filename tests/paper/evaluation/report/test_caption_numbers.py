@@ -7,6 +7,8 @@ from statistics import mean
 import pytest
 from csv_files import read_table
 
+from experiments.evaluation.measure.learning.explained import ALL, PATH, LearnedCell, by_robot, read_why
+from experiments.evaluation.measure.learning.taught import SHARE_OF_HIT, WALKING
 from experiments.settings.settings import Settings
 
 ROOT = Path(__file__).parents[4]
@@ -65,3 +67,27 @@ def test_the_error_falls_with_the_length_of_training_as_the_learning_curve_says(
         means = [mean(lengths[steps]) for steps in sorted(lengths)]
         assert means == sorted(means, reverse=True)
     assert words("figures/learning_curve").count("The error falls with the length of the training") == 1
+
+
+def test_every_robot_shows_what_the_paper_says_of_why_a_hit_is_hidden() -> None:
+    """Of the figures `why_share` and `hit_path`, whose numbers are those of a trial and no fields."""
+    rows = read_why(TRIALS / "why.csv")
+    seen, blind = (LearnedCell("why_walk", method, "soap") for method in ("MOB-Net", "MOB-Net-noimu"))
+    for measure in (SHARE_OF_HIT, WALKING):
+        values = by_robot(rows, measure)
+        assert set(values[seen]) == set(values[blind])
+        for robot, value in values[seen].items():
+            assert values[blind][robot] > value
+    taken = {
+        (row.robot, row.inputs): row.value
+        for row in rows if row.measure == PATH and row.method == "MOB-Net"
+    }  # fmt: skip
+    robots = {robot for robot, _ in taken}
+    assert len(robots - {ALL}) > 1
+    for robot in robots:
+        sensor = taken[robot, "inertial sensor"]
+        assert taken[robot, "desired torque"] > sensor
+        assert max(taken[robot, "positions"], taken[robot, "velocities"]) < sensor / 2
+    text = " ".join((ROOT / "paper/main.tex").read_text(encoding="utf-8").split())
+    assert "a network that does not see the inertial sensor shows more of a hit, for a larger error in walking." in text
+    assert "the desired torque takes more of a hit into the prediction than the inertial sensor does, positions" in text

@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 from paper_settings import STATISTICS
 
+from experiments.evaluation.measure.learning.explained import ALL, PATH
 from experiments.evaluation.measure.learning.paths import EVERY, GROUPS
-from experiments.evaluation.tables.further.why import ALL, PATH, UNITS, table_of
+from experiments.evaluation.tables.further.why import UNITS, table_of
 from experiments.evaluation.tables.layout import write_table
 from experiments.plan.plan import make_plan
 from experiments.settings.load import load_settings

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
+from experiments.evaluation.measure.learning.explained import ALL, PATH
 from experiments.evaluation.measure.learning.paths import GROUPS, taken_by_inputs
 from experiments.evaluation.measure.learning.taught import HITS, ROUGHNESS, SHARE_OF_HIT, WALKING, judged
 from experiments.evaluation.measure.learning.trials import Known, read_walks
@@ -23,8 +24,6 @@ from mobnet.settings.methods import ObserverSettings
 from mobnet.settings.robot import RobotTable
 
 UNITS = {WALKING: "N m", HITS: "N m", SHARE_OF_HIT: "-", ROUGHNESS: "-"}
-PATH = "path"  # what the inputs of a network bring in of a hit
-ALL = "all"  # robots
 log = logging.getLogger(__name__)
 Cell = tuple[str, str, str]  # training set, method and way
 Found = dict[Cell, dict[str, dict[str, list[Array]]]]  # -> measure -> robot -> numbers of the walks of each network
