@@ -285,7 +285,7 @@ WHY = (
     "measure",
     "inputs",
     "robot",
-    "networks",
+    "network",
     "value",
     "low",
     "high",

@@ -13,9 +13,11 @@ from experiments.evaluation.measure.learning.explained import (
     PATH,
     HitNumber,
     LearnedCell,
+    by_network,
     by_robot,
     over_robots,
     read_why,
+    spread_of,
 )
 from experiments.evaluation.measure.learning.paths import EVERY, INPUTS
 from experiments.evaluation.measure.learning.taught import HITS, ROUGHNESS, SHARE_OF_HIT, WALKING
@@ -46,6 +48,7 @@ SHOWN = "push_share"  # metric of a claim on shares of a hit
 MISSED, OUTSIDE, UNDECIDED, HELD = "missed", "open, outside", "open", "held"  # in the order of the table
 MOB_NET, NO_SENSOR, END_TO_END = "MOB-Net", "MOB-Net-noimu", "FTS-e2e"
 KINDS = (MOB_NET, NO_SENSOR, END_TO_END)
+SPREAD = {WALKING: ("walking", "N m"), HITS: ("hits, LL3", "N m"), SHARE_OF_HIT: ("share of a hit", "-")}
 Values = Mapping[str, Mapping[LearnedCell, Mapping[str, float]]]  # measure -> networks -> robot -> number
 
 
@@ -81,6 +84,7 @@ def why_blocks(settings: Settings, kept: Path) -> dict[str, str]:
         "why_found": found(settings, values),
         "why_kinds": kinds(settings, values),
         "why_inputs": inputs(rows),
+        "why_seeds": seeds(rows),
     }
 
 
@@ -187,6 +191,16 @@ def inputs(rows: Sequence[HitNumber]) -> str:
         parts = [f"{own[name]} by {name}" for name in INPUTS]
         lines.append(f"* Of a hit, {own[EVERY]} goes into the prediction of {method}: {', '.join(parts)}.")
     return "\n".join(lines)
+
+
+def seeds(rows: Sequence[HitNumber]) -> str:
+    """Return the table of how far networks of a robot lie apart, and robots."""
+    lines: list[list[str]] = []
+    for measure, (says, unit) in SPREAD.items():
+        pairs, networks, robots = spread_of(list(by_network(rows, measure).values()))
+        lines.append([f"{says} [{unit}]", str(pairs), number_text(networks), number_text(robots)])
+    head = ["", "pairs of networks", "standard deviation over seeds", "over robots, of means of two seeds"]
+    return markdown_table(head, lines, left=1)
 
 
 def _first(settings: Settings) -> str:

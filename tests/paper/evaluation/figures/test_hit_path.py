@@ -23,9 +23,7 @@ def path_rows(method: str, inputs: str, *values: float, ends: tuple[float, float
     return [*found, HitNumber(*place, ALL, None, float(np.mean(values)), *ends, "-")]
 
 
-def test_bars_have_the_mean_the_robots_and_an_interval_as_far_as_the_axis_reaches(
-    settings: Settings, tmp_path: Path
-) -> None:
+def test_bars_have_the_mean_and_the_robots(settings: Settings, tmp_path: Path) -> None:
     kept = tmp_path / "why.csv"
     made = path_rows("MOB-Net", "all inputs", 0.3, 0.5, ends=(0.1, 0.9))
     made += path_rows("MOB-Net-noimu", "all inputs", 0.2, 0.2, ends=(-2.0, 2.0))
@@ -38,7 +36,3 @@ def test_bars_have_the_mean_the_robots_and_an_interval_as_far_as_the_axis_reache
     assert [patch.get_height() for patch in axis.patches] == pytest.approx([0.4, 0.2])  # type: ignore[attr-defined]
     drawn = [np.asarray(line.get_ydata()).tolist() for line in axis.lines]
     assert [0.3, 0.5, 0.2, 0.2] in drawn
-    bottom, top = axis.get_ylim()
-    assert [bottom] in drawn  # arrows of the second bar's interval
-    assert [top] in drawn
-    assert 0.5 < top < 0.9

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from paper_settings import STATISTICS
 
-from experiments.evaluation.measure.learning.explained import ALL, PATH
+from experiments.evaluation.measure.learning.explained import ALL, PATH, spread_of
 from experiments.evaluation.measure.learning.paths import EVERY, GROUPS
 from experiments.evaluation.tables.further.why import UNITS, table_of
 from experiments.evaluation.tables.layout import write_table
@@ -30,15 +30,29 @@ def test_a_number_is_a_mean_over_robots_and_each_robot_one_over_its_networks(
     write_table(tmp_path / "why", table_of(settings.trials.why, found, taken, STATISTICS))
     rows = read_texts(tmp_path / "why.csv")
     for measure in UNITS:
-        own = {row["robot"]: row for row in rows if row["measure"] == measure}
-        assert {name: float(row["value"]) for name, row in own.items()} == {"robot_1": 2.5, "robot_2": 4.0, ALL: 3.25}
-        assert float(own[ALL]["low"]) < 2.5 < 4.0 < float(own[ALL]["high"])
-        assert own["robot_1"]["networks"] == "2"
+        own = {(row["robot"], row["network"]): row for row in rows if row["measure"] == measure}
+        single = {("robot_1", "0"): 2.0, ("robot_1", "1"): 3.0, ("robot_2", "0"): 4.0}
+        assert {name: float(row["value"]) for name, row in own.items()} == {**single, (ALL, ""): 3.25}
+        assert float(own[ALL, ""]["low"]) < 2.5 < 4.0 < float(own[ALL, ""]["high"])
     (every,) = [row for row in rows if row["measure"] == PATH and row["inputs"] == EVERY and row["robot"] == ALL]
     assert float(every["value"]) == pytest.approx(0.4)
     assert "Share of a hit that the prediction of MOB-Net takes, by inputs: all inputs 0.40" in (
         (tmp_path / "why.md").read_text()
     )
+
+
+def test_the_spread_of_seeds_is_apart_from_that_of_robots() -> None:
+    """Drawn numbers with known spreads; items with one network, or one robot, say nothing of it."""
+    rng = np.random.default_rng(7)
+    drawn: list[dict[str, list[float]]] = []
+    for _ in range(2000):
+        of_robots = rng.normal(0.0, 0.3, 2)
+        drawn.append({name: list(mean + rng.normal(0.0, 0.1, 2)) for name, mean in zip("ab", of_robots, strict=True)})
+    alone: list[dict[str, list[float]]] = [{"a": [9.0], "b": [1.0]}, {"a": [9.0, 1.0]}]
+    pairs, networks, robots = spread_of([*drawn, *alone])
+    assert pairs == 4000
+    assert networks == pytest.approx(0.1, rel=0.05)
+    assert robots == pytest.approx(np.hypot(0.3, 0.1 / np.sqrt(2.0)), rel=0.05)
 
 
 def test_each_robot_has_the_networks_of_its_rows(settings: Settings) -> None:

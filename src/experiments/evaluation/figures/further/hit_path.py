@@ -17,8 +17,6 @@ from mobnet.core.style import COLUMN_INCH, styled
 HEIGHT_INCH = 2.1
 BARS = 0.8  # of a group, share of what it takes
 ROOM = 0.15  # above and below all bars and robots [share of their range]
-INTERVAL: Mapping[str, Any] = {"color": "black", "linewidth": 0.7, "zorder": 3.0}
-BEYOND: Mapping[str, Any] = {"color": "black", "linestyle": "", "markersize": 3.0, "clip_on": False, "zorder": 3.0}
 EDGE: Mapping[str, Any] = {"markeredgecolor": "black", "markeredgewidth": 0.5}
 ROBOT: Mapping[str, Any] = {"marker": "o", "markersize": 2.6, "color": "white", "linestyle": "", "zorder": 4.0, **EDGE}
 ROBOT_LABEL = "each robot"
@@ -35,10 +33,7 @@ def hit_path(settings: HitPath, kept: Path, figure_dir: Path) -> None:
 
 @styled
 def draw_paths(settings: HitPath, rows: Sequence[HitNumber]) -> Figure:
-    """Draw bars of each method, side by side for each kind of inputs, with intervals and the numbers of the robots.
-
-    An interval that is longer than the axis has an arrow at its end.
-    """
+    """Draw bars of each method, side by side for each kind of inputs, with the numbers of the robots."""
     figure = Figure(figsize=(COLUMN_INCH, HEIGHT_INCH), layout="constrained")
     axis: Axes = figure.subplots()
     means = [row for row in rows if row.robot == ALL]
@@ -57,8 +52,6 @@ def draw_paths(settings: HitPath, rows: Sequence[HitNumber]) -> Figure:
     values = [0.0, *(row.value for row in rows)]
     room = ROOM * (max(values) - min(values))
     axis.set_ylim(min(values) - room, max(values) + room)
-    for row in means:
-        _interval(axis, places[row.method, row.inputs], row)
     x = [places[row.method, row.inputs] for row in robots]
     axis.plot(x, [row.value for row in robots], label=ROBOT_LABEL, **ROBOT)
     axis.axhline(0.0, color="black", linewidth=0.6)
@@ -67,15 +60,3 @@ def draw_paths(settings: HitPath, rows: Sequence[HitNumber]) -> Figure:
     axis.set_ylabel("share of a hit that\nthe prediction takes [-]")
     legend(figure, [axis], last=ROBOT_LABEL)
     return figure
-
-
-def _interval(axis: Axes, x: float, row: HitNumber) -> None:
-    """Draw an interval at its bar as far as the axis reaches, with an arrow where it is longer."""
-    if row.low is None or row.high is None:
-        return
-    bottom, top = axis.get_ylim()
-    axis.vlines(x, max(row.low, bottom), min(row.high, top), **INTERVAL)
-    if row.low < bottom:
-        axis.plot(x, bottom, marker="v", **BEYOND)
-    if row.high > top:
-        axis.plot(x, top, marker="^", **BEYOND)

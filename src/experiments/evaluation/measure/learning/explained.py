@@ -21,8 +21,8 @@ FEW = 2  # robots of which the numbers of each are shown: an interval over two w
 class HitNumber:
     """A row of the table: a number of a method by its training set and way of learning.
 
-    `robot` is one of them, with its number of `networks`, or `all`, with the interval over robots. `inputs` are those
-    that bring in a hit.
+    It is of one of the robots and there of one `network`, counted from 0 in the order of seeds, or of `all` robots,
+    with the interval over them. `inputs` are those that bring in a hit.
     """
 
     data: str
@@ -31,7 +31,7 @@ class HitNumber:
     measure: str
     inputs: str
     robot: str
-    networks: int | None
+    network: int | None
     value: float
     low: float | None
     high: float | None
@@ -55,14 +55,41 @@ def read_why(kept: Path) -> list[HitNumber]:
     return read_rows(kept, HitNumber)
 
 
-def by_robot(rows: Sequence[HitNumber], measure: str) -> dict[LearnedCell, dict[str, float]]:
-    """Return the networks of which a measure is known -> robot -> the number [unit of the measure]."""
-    found: dict[LearnedCell, dict[str, float]] = {}
+def by_network(rows: Sequence[HitNumber], measure: str) -> dict[LearnedCell, dict[str, list[float]]]:
+    """Return the networks of which a measure is known -> robot -> the number of each of them [unit of the measure]."""
+    found: dict[LearnedCell, dict[str, list[float]]] = {}
     for row in rows:
         if row.measure == measure and row.robot != ALL:
             cell = LearnedCell(row.data, row.method, row.way)
-            found.setdefault(cell, {})[row.robot] = row.value
+            found.setdefault(cell, {}).setdefault(row.robot, []).append(row.value)
     return found
+
+
+def by_robot(rows: Sequence[HitNumber], measure: str) -> dict[LearnedCell, dict[str, float]]:
+    """Return the same with a mean over the networks of each robot."""
+    found: dict[LearnedCell, dict[str, float]] = {}
+    for cell, robots in by_network(rows, measure).items():
+        found[cell] = {robot: float(np.mean(values)) for robot, values in robots.items()}
+    return found
+
+
+def spread_of(robots: Sequence[Mapping[str, Sequence[float]]]) -> tuple[int, float, float]:
+    """Return how far numbers lie apart that differ in the seed of the network alone, and means of robots.
+
+    Each item has robot -> the numbers of its networks. Of two networks of a robot the spread is a standard deviation,
+    over all pairs of them; so it is of the means of two robots. Items without two of both are left out.
+
+    Returns:
+        The pairs of networks, the standard deviation over networks of a robot, and that over robots.
+    """
+    networks: list[float] = []
+    means: list[float] = []
+    for own in robots:
+        whole = [values for values in own.values() if len(values) > 1]
+        if len(whole) > 1:
+            networks += [float(np.var(values, ddof=1)) for values in whole]
+            means.append(float(np.var([np.mean(values) for values in whole], ddof=1)))
+    return len(networks), float(np.sqrt(np.mean(networks))), float(np.sqrt(np.mean(means)))
 
 
 def over_robots(values: Sequence[Mapping[str, float]], robots: Sequence[str], statistics: Statistics) -> Number:

@@ -78,7 +78,8 @@ def table_of(
         for measure, unit in UNITS.items():
             number = _number({name: float(np.mean(own)) for name, own in measures[measure].items()}, statistics, unit)
             for name, own in measures[measure].items():
-                rows.append((*cell, measure, "", name, len(own), float(np.mean(own)), None, None, unit))
+                for network, walks in enumerate(own):
+                    rows.append((*cell, measure, "", name, network, float(np.mean(walks)), None, None, unit))
             rows.append((*cell, measure, "", ALL, None, *number.with_ends, unit))
             texts += [number.text(), number.interval()]
         count = len(measures[WALKING])
@@ -90,8 +91,8 @@ def table_of(
         for group in GROUPS:
             number = _number({name: float(np.mean(own)) for name, own in groups[group].items()}, statistics, "-")
             for name, own in groups[group].items():
-                value = float(np.mean(own))
-                rows.append((settings.path_set, method, "", PATH, group, name, len(own), value, None, None, "-"))
+                for network, value in enumerate(own):
+                    rows.append((settings.path_set, method, "", PATH, group, name, network, value, None, None, "-"))
             rows.append((settings.path_set, method, "", PATH, group, ALL, None, *number.with_ends, "-"))
             parts.append(f"{group} {number.text()}")
         note.append(f"Share of a hit that the prediction of {method} takes, by inputs: {', '.join(parts)}.")
