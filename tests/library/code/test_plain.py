@@ -1,4 +1,4 @@
-"""Code that reads plainly: the formatter lays it out, a name of a class has one meaning, one step stands on a line.
+"""Code that reads plainly: a name of a class has one meaning, one step stands on a line, long functions say why.
 
 The numbers are today's, rounded up: lower them where the code has become plainer, never raise them.
 """
@@ -12,10 +12,8 @@ from pathlib import Path
 import pytest
 
 SOURCE = Path(__file__).parents[3] / "src"
-MOST_SKIPPED = 19  # places that the formatter leaves alone
 MOST_NESTED = 1.5  # nested comprehensions in 1000 lines
 MOST_AT_ONCE = 6.5  # assignments of several values at once in 1000 lines
-SMALL_LINES, MOST_SMALL = 60, 61  # lines of a small module, and how many of them there are
 LONG_LINES, LEAST_COMMENTS = 12, 15.0  # lines of a long function; comments in 1000 lines of long functions
 # Name of a class -> why several modules have it.
 PROTOCOLS = {"Options": "the numbers of a kind or of a measure; the loader finds it by this name in each module"}
@@ -70,16 +68,6 @@ def whole_line_comments(path: Path) -> set[int]:
         for token in tokens
         if token.type == tokenize.COMMENT and not token.line[: token.start[1]].strip()
     }
-
-
-def test_few_modules_are_small() -> None:
-    small = [path for path, _, length in modules(SOURCE) if length <= SMALL_LINES and path.name != "__init__.py"]
-    assert len(small) <= MOST_SMALL
-
-
-def test_the_formatter_lays_out_nearly_everything() -> None:
-    counts = {path: path.read_text(encoding="utf-8").count("# fmt: skip") for path in SOURCE.rglob("*.py")}
-    assert sum(counts.values()) <= MOST_SKIPPED, [str(path) for path, count in counts.items() if count]
 
 
 def test_a_name_of_a_class_has_one_meaning() -> None:

@@ -122,8 +122,8 @@ def test_the_page_of_the_package_says_which_command_needs_which_extra():
 
 
 def test_the_readme_installs_what_its_four_commands_need():
-    part = (place.ROOT / "README.md").read_text().split("\n## Your own arm")[1].split("\n## ")[0]
-    (installed,) = re.findall(r"`pip install '\.\[(.*)\]'` installs these four commands", part)
+    part = (place.ROOT / "README.md").read_text().split("\n## Your own robot")[1].split("\n## ")[0]
+    (installed,) = re.findall(r"`pip install '\.\[(.*)\]'` installs it all as `mobnet`", part)
     four = re.findall(r"^ {4}\./reproduce (\w+)", part, re.MULTILINE)
     assert len(four) == 4
     assert {MODULES[name].extra for name in four} - {None} == set(installed.split(","))

@@ -15,7 +15,7 @@ from mobnet.robotlog.observe import main as observe
 
 pytestmark = pytest.mark.slow
 ROOT = Path(__file__).parents[3]
-README = (ROOT / "README.md").read_text().split("\n## Your own arm")[1].split("\n## ")[0]
+README = (ROOT / "README.md").read_text().split("\n## Your own robot")[1].split("\n## ")[0]
 COMMANDS = {"robot": robot, "observe": observe, "calibrate": calibrate, "detect": detect, "motion": motion}
 # The logs of which the README tells: minutes and seed of free motion, and of a minute with pushes.
 LOGS = (
@@ -36,7 +36,7 @@ def test_the_arm_of_the_readme_gets_its_flags(
     first, *others = re.findall(r"^ {4}\./reproduce (.*)$", README, re.MULTILINE)
     assert [line.split()[0] for line in (first, *others)] == ["robot", "observe", "calibrate", "detect"]
     said = re.findall(r"^ {4}(?!\./)(.*)$", README, re.MULTILINE)
-    assert len(said) == 2
+    assert len(said) == 1
     (urdf,) = re.findall(r"\((tests/data/\S+\.urdf)\)", README)
     monkeypatch.chdir(tmp_path)
     caplog.set_level(logging.INFO)

@@ -132,10 +132,11 @@ def test_every_table_and_figure_of_ours_has_a_caption_that_begins_with_a_sentenc
         assert re.match(r"[A-Z].+?\.(?: |$)", " ".join(lines)), name
 
 
-def test_the_readme_says_what_each_scale_takes():
+def test_the_guide_says_what_each_scale_takes():
     """Time, core-hours, memory and disk."""
     lines = [
-        [cell.strip() for cell in line.strip("|").split("|")] for line in (ROOT / "README.md").read_text().splitlines()
+        [cell.strip() for cell in line.strip("|").split("|")]
+        for line in (ROOT / "docs/guide.md").read_text().splitlines()
     ]
     rows = {cells[0].strip("`"): cells[2:] for cells in lines if cells[0].strip("`") in MAIN.scales}
     assert list(rows) == list(MAIN.scales)
