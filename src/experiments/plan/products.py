@@ -48,7 +48,7 @@ HEADINGS = {
     ".html": "tables", ".png": "figures",
 }  # fmt: skip
 CATEGORIES = {"start": "0 Read me first"}  # the page on which the report opens; the report sorts its categories
-HEADLINE = ("table_05", "table_07", "table_10", "table_11")  # tables of the errors on its first page
+HEADLINE = ("table_05", "table_07", "table_10")  # tables of the errors on its first page
 
 
 @dataclass(frozen=True)

@@ -186,15 +186,6 @@ class Figure20(Checked):
                 yield (*place, key), misfit(name, f"a sweep of section {section} for {self.limb}")
                 return
         sizes = sweeps[self.parameters]
-        own = getattr(results.settings.networks[self.limb], self.parameters, None)
-        if own not in sizes.values:
-            text = misfit(list(sizes.values), f"values with {own}, that of Table 1")
-            yield ("sweeps", self.parameters, "values"), text
-        for scale, row in results.settings.scales.items():
-            tried = row.sweeps.get(self.parameters, (own,))
-            if own not in tried:
-                text = misfit(list(tried), f"values with {own}, that of Table 1")
-                yield ("scales", scale, "sweeps", self.parameters), text
         for k, base_method in enumerate(sweeps[self.samples].of):
             if base_method not in sizes.of:
                 text = not_accepted(f"method of sweep {self.parameters}", base_method, sizes.of)

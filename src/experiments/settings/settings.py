@@ -84,11 +84,19 @@ class Settings(Lab):
         return self.scales[self.scale]
 
     def with_own_sweeps(self) -> "Settings":
-        """Return the settings with the values of sweeps that the chosen scale tries, and claims about these alone."""
+        """Return the settings with the values of sweeps that the chosen scale tries, and claims about these alone.
+
+        The sweep of Figure 20 also has the size of the network itself, whatever that is.
+        """
         sweeps = dict[str, Sweep]()
         left_out = set[str]()
+        figure = self.evaluation.figure_20
         for key, row in self.sweeps.items():
-            sweeps[key] = row.model_copy(update={"values": self.sizes.sweeps.get(key, row.values)})
+            values = self.sizes.sweeps.get(key, row.values)
+            if key == figure.parameters:
+                own = getattr(self.networks[figure.limb], figure.parameters)
+                values = tuple(sorted({*values, own}))
+            sweeps[key] = row.model_copy(update={"values": values})
             left_out |= {*swept_names(key, row)} - {*swept_names(key, sweeps[key])}
         claims = dict[str, Claim]()
         for name, claim in self.claims.items():

@@ -210,3 +210,12 @@ def test_cells_of_a_claim_share_what_stands_at_it_and_every_quantity_takes_its_c
     for quantity, (least, step) in TAKES.items():
         for count in (least, least + step):
             Claim.model_validate({**CLAIM, **BOUNDS, "quantity": quantity, "cells": ["A"] * count})
+
+
+@pytest.mark.parametrize("scale", ["smoke", "default"])
+def test_a_network_of_another_size_is_one_change(scale: str) -> None:
+    """Figure 20 shows its size among those that the original tried, which stay."""
+    usual = load_settings(overrides={"scale": scale}).sweeps["hidden"].values
+    small = load_settings(overrides={"scale": scale, "networks": {"LL": {"hidden": 100}}})
+    assert small.sweeps["hidden"].values == tuple(sorted({*usual, 100}))
+    assert "MOB-Net-hidden-100" in Catalogue(small).all_methods

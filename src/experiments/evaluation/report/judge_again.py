@@ -150,7 +150,7 @@ def write_again(settings: Settings, published: Path) -> None:
 
 
 def judge_published() -> None:
-    """Judge the published claims, and renew what the README tells of them."""
+    """Judge the published claims, and renew what the README and the guide tell of results."""
     write_again(load_settings(), SNAPSHOT)
     tell_readme(SNAPSHOT)
 

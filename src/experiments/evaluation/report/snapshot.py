@@ -22,7 +22,7 @@ from experiments.evaluation.report.manifest import differences, file_hash
 from experiments.evaluation.report.model_card import CARD, card
 from experiments.evaluation.report.paper import missing_packages
 from experiments.evaluation.report.rates import measured
-from experiments.evaluation.report.readme import blocks
+from experiments.evaluation.report.readme import README, readme, scales
 from experiments.evaluation.report.single_rows import write_single_rows
 from experiments.evaluation.report.walked import SEEDS, check_seeds, read_history, walked, write_history
 from experiments.plan.demo import FOLDER
@@ -61,7 +61,7 @@ COLOURS = 64
 WHITE = (255, 255, 255)
 PICTURES = (".png", ".webp")  # SVG and PDF: ./reproduce draw
 NOTED = ("recordings", "motions", "networks")  # folders of results whose notes name the commit that made them
-README = Path("README.md")
+GUIDE = Path("docs/guide.md")
 KEYS = (  # columns that name a row; the others are results
     "scenario",
     "level",
@@ -208,12 +208,10 @@ def store_drawn(source: Path, out: Path) -> None:
         temporary.write_bytes(gzip.compress(source.read_bytes(), mtime=0))
 
 
-def tell_readme(results: Path, readme: Path = README) -> None:
-    """Write into the README what it shows of published results."""
-    page = read_text(readme)
-    for name, text in blocks(results).items():
-        page = with_block(page, name, text, readme)
-    write_text(readme, page)
+def tell_readme(results: Path) -> None:
+    """Write the README, and into the guide what each scale takes, from published results."""
+    write_text(README, readme(results))
+    write_text(GUIDE, with_block(read_text(GUIDE), "scales", scales(results), GUIDE))
 
 
 def tell_demo(stored: StoredPush, page: Path) -> None:
@@ -223,7 +221,7 @@ def tell_demo(stored: StoredPush, page: Path) -> None:
     write_text(page, with_block(read_text(page), "demo", said, page))
 
 
-def with_block(text: str, name: str, block: str, page: Path = README) -> str:
+def with_block(text: str, name: str, block: str, page: Path) -> str:
     """Return a page with a block between its marks, which it must have."""
     first = f"<!-- {name} -->\n"
     last = f"<!-- /{name} -->"
