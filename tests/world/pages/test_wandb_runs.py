@@ -4,6 +4,7 @@ import contextlib
 import os
 import pty
 import select
+import shutil
 import signal
 import subprocess
 import sys
@@ -67,6 +68,41 @@ def test_a_run_of_which_wandb_left_no_file_is_logged_again(tmp_path, write_run, 
     assert logged == ["MOB-Net-LL-s0"] * 2
     assert [path.name for path in (tmp_path / "wandb").glob("*/*")] == ["run-MOB-Net-LL-s0.wandb"]
     assert "wandb made no file of the run MOB-Net-LL-s0" in caplog.text
+
+
+@pytest.mark.parametrize(
+    "fault", [OSError("no socket"), TimeoutError("no answer"), module.loaded(Path()).Error("busy")]
+)
+def test_a_run_at_which_wandb_fails_once_is_logged_again(tmp_path, write_run, monkeypatch, caplog, fault):
+    logged = []
+
+    def begin(scratch, name, *words):
+        logged.append(name)
+        if len(logged) == 1:
+            raise fault
+        return real(scratch, name, *words)
+
+    real = module.begin
+    monkeypatch.setattr(module, "begin", begin)
+    wandb_runs([write_run(tmp_path, "MOB-Net-LL-s0", EPOCHS)], [], tmp_path / "wandb")
+    assert logged == ["MOB-Net-LL-s0"] * 2
+    assert f"{fault}; once more" in caplog.text
+
+
+def test_a_folder_in_which_wandb_still_writes_is_no_fault(tmp_path, write_run, monkeypatch):
+    """Removing it would fail; it goes when wandb's process has ended."""
+
+    def remove(folder, ignore_errors=False, **words):
+        if Path(folder).name.startswith("offline-run-"):
+            if not ignore_errors:
+                raise OSError(39, "Directory not empty", str(folder))
+        else:
+            real(folder, ignore_errors, **words)
+
+    real = shutil.rmtree
+    monkeypatch.setattr(module.shutil, "rmtree", remove)
+    wandb_runs([write_run(tmp_path, "MOB-Net-LL-s0", EPOCHS)], [], tmp_path / "wandb")
+    assert [path.name for path in (tmp_path / "wandb").glob("*/*")] == ["run-MOB-Net-LL-s0.wandb"]
 
 
 def test_a_run_of_which_wandb_never_makes_a_file_is_one_line(tmp_path, write_run, monkeypatch):

@@ -46,29 +46,28 @@ def wandb_runs(folders: Iterable[Path], scores: Sequence[Path], out: Path) -> No
         runs.mkdir()
         for folder in folders:
             _log_again(Path(scratch), folder, tested, runs)
+        loaded(Path(scratch)).teardown()  # until its process ends, that writes into the folder which is removed now
         if out.exists():
             os.replace(out, Path(scratch) / "old")
         os.replace(runs, out)
 
 
 def _log_again(scratch: Path, folder: Path, tested: Mapping[Key, TestError], runs: Path) -> None:
-    """Log a training into a run among others, again where wandb left no file: seen once, on a busy machine.
+    """Log a training into a run among others, again where wandb fails or leaves no file: seen on a busy machine.
 
     Raises:
-        DataError: the disk is full, or wandb leaves no file.
+        DataError: the disk is full, or wandb fails or leaves no file each time.
     """
     for trial in range(1, TRIALS + 1):
         try:
-            name = _log_run(scratch, folder, tested)
-        finally:
+            made = put(scratch, _log_run(scratch, folder, tested), runs)
+        except (DataError, OSError, loaded(scratch).Error) as error:
             check_room(runs)
-        try:
-            shutil.rmtree(put(scratch, name, runs).parent)
-        except DataError as error:
             if trial == TRIALS:
-                raise
+                raise DataError(f"{folder}: {error}") from error
             log.warning("%s; once more", error)
         else:
+            shutil.rmtree(made.parent, ignore_errors=True)  # where its process still writes, this goes in the end
             return
 
 
@@ -92,9 +91,7 @@ def _log_run(scratch: Path, folder: Path, tested: Mapping[Key, TestError]) -> st
 
 def begin(scratch: Path, name: str, method: str, limb: str, settings: Mapping[str, Any]) -> "Run":
     """Begin an offline run below the scratch folder, beside others that go on."""
-    os.environ |= dict.fromkeys(WANDB_PLACES, str(scratch)) | {"WANDB_ERROR_REPORTING": "false"}
-    import wandb  # reads its environment when imported
-
+    wandb = loaded(scratch)
     # Nothing of this machine goes into a run: two runs of the same results have the same files.
     quiet = wandb.Settings(
         x_disable_stats=True,
@@ -119,6 +116,14 @@ def begin(scratch: Path, name: str, method: str, limb: str, settings: Mapping[st
         settings=quiet,
         reinit="create_new",
     )
+
+
+def loaded(scratch: Path) -> Any:
+    """Return the package wandb, whose own files go into a scratch folder: it reads its environment when imported."""
+    os.environ |= dict.fromkeys(WANDB_PLACES, str(scratch)) | {"WANDB_ERROR_REPORTING": "false"}
+    import wandb
+
+    return wandb
 
 
 def rows(epochs: Sequence[Epoch], errors: Mapping[str, Sequence[float]]) -> Iterator[dict[str, Any]]:
