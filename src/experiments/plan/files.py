@@ -253,8 +253,10 @@ class Files(Seeds):
 
     def scored_runs(self, scenario: str, level: str) -> tuple[Run, ...]:
         """Return the runs of a test at a level whose errors a product shows; detectors have others."""
-        methods = [name for name in self.catalogue.tests[scenario][level] if (scenario, level, name) in self._shown]
-        return self.runs(scenario, level, methods)
+        if (scenario, level) not in self._scored:  # asked for by inputs, parameters and price of a job
+            methods = [name for name in self.catalogue.tests[scenario][level] if (scenario, level, name) in self._shown]
+            self._scored[scenario, level] = self.runs(scenario, level, methods)
+        return self._scored[scenario, level]
 
     @property
     def scored(self) -> tuple[tuple[str, str], ...]:
@@ -264,6 +266,11 @@ class Files(Seeds):
         for scenario, levels in self.catalogue.tests.items():
             pairs += [(scenario, level) for level in levels if (scenario, level) in shown]
         return tuple(pairs)
+
+    @cached_property
+    def _scored(self) -> dict[tuple[str, str], tuple[Run, ...]]:
+        """Test and level -> the runs whose errors are scored, as far as they were asked for."""
+        return {}
 
     @cached_property
     def _shown(self) -> frozenset[tuple[str, str, str]]:

@@ -23,7 +23,8 @@ from itertools import chain
 from pathlib import Path
 
 from mobnet.core.errors import ConfigError
-from mobnet.core.source import PACKAGES, SOURCE, CodePart, Source, lock_name, read
+from mobnet.core.source import PACKAGES, SOURCE, CodePart, Source, lock_name
+from mobnet.core.source_cache import read
 
 ROOT = SOURCE.parent
 LOCK = ROOT / "environment.lock"

@@ -35,6 +35,7 @@ PACKAGES = ("mobnet", "experiments")
 NOT_FOLLOWED = (
     "mobnet.core.code",
     "mobnet.core.source",
+    "mobnet.core.source_cache",
     "experiments.running.logs",
     "mobnet.settings.checks",
     "experiments.settings.checks",

@@ -68,6 +68,8 @@ def test_cached_code_follows_the_functions_that_it_calls(tmp_path: Path) -> None
         "core/errors",
         "core/place",
         "core/source",
+        "core/source_cache",
+        "core/files",
         "core/compilation",
         "control/__init__",
     ):

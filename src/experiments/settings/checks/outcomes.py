@@ -56,9 +56,14 @@ def clusters_of(settings: Settings, cell: Cell) -> int:
 def is_met_by_a_share(bounds: Bounds, trials: int, clusters: int, statistics: Statistics) -> bool:
     """Return whether some share of so many trials, in clusters that are alike, has its interval within bounds [-]."""
     low, high = bounds
-    middle = ((low or 0.0) + (1.0 if high is None else high)) / 2.0
-    # Those in the middle of the bounds come first: mostly one of them meets these.
-    counts = sorted(range(trials + 1), key=lambda count: abs(count / trials - middle))
+    # The likeliest to meet the bounds come first: none of them, all of them, or those in the middle of two bounds.
+    if not low:
+        first = 0.0
+    elif high is None or high >= 1.0:
+        first = 1.0
+    else:
+        first = (low + high) / 2.0
+    counts = sorted(range(trials + 1), key=lambda count: abs(count / trials - first))
     return any(within(best_share(count, trials, clusters, statistics), bounds) for count in counts)
 
 
