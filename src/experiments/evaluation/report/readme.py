@@ -9,6 +9,8 @@ from pathlib import Path
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined, UndefinedError
 
+from experiments.evaluation.measure.learning.explained import LearnedCell, by_robot, read_why
+from experiments.evaluation.measure.learning.taught import SHARE_OF_HIT
 from experiments.plan.prices import RATES, RatesNote
 from mobnet.core.columns import (
     CLAIMED,
@@ -69,6 +71,9 @@ PUSHES = {
     "part": "effects", "name": "without / with pushes", "random_torque_nm": "", "pushes": "", "commands": "",
     "measure": "hits",
 }  # fmt: skip
+# What is seen of a hit without some inputs, a trial that is kept: its training set and way of learning.
+EXPLAINED = Path("docs/trials/why.csv")
+AS_THE_RUN = ("why_walk", "soap")
 HIT = {"scenario": "knee_swing", "level": "robots", "limb": "LL", "joint": "avg", "metric": "push_share"}
 SHOWN = ("MOB-Net", FILMED)  # networks of which the README says how much of a hit they show
 RATED = ("MOB-Net-pushed-ratio", "MOB-fric-load")
@@ -117,11 +122,19 @@ def values(results: Path) -> dict[str, object]:
         "best_formulas": best_formulas(results),
         "c": {row["claim"]: float(row["value"] or "nan") for row in read_texts(results / "claims.csv")},
         "share": {name: _value(peaks, {**HIT, "method": name}) for name in SHOWN},
+        "trial": {name: shown_in_trial(name) for name in ("MOB-Net", "MOB-Net-noimu")},
         "found": {name: _value(detectors, {"row": name, "quantity": "found at rate"}) for name in RATED},
         "alarms": {name: _value(detectors, {"row": name, "quantity": "alarms at rate"}) for name in RATED},
         "fell": {case: fell for case, (fell, _) in falls.items()},
         "walks": {case: walks for case, (_, walks) in falls.items()},
     }
+
+
+def shown_in_trial(method: str) -> float:
+    """Return the share of a hit [-] that networks of a trial show which learn as those of the run, over its robots."""
+    data, way = AS_THE_RUN
+    robots = by_robot(read_why(EXPLAINED), SHARE_OF_HIT)[LearnedCell(data, method, way)]
+    return sum(robots.values()) / len(robots)
 
 
 def check_sentences(results: Path) -> None:
@@ -137,6 +150,8 @@ def check_sentences(results: Path) -> None:
         "random torque helps in walking": float(claims["rte-walk"]["value"]) > 1.0,
         "random torque does not help under a hit": float(claims["rte-swing"]["value"]) < 1.0,
         "pushes help under a hit": _value(read_texts(TAUGHT), PUSHES) > 1.0,
+        "networks without the inertial sensor show more of a hit": shown_in_trial("MOB-Net-noimu")
+        > shown_in_trial("MOB-Net"),
         "a bar at the knee makes no robot fall": not any(falls[f"knee {name}"][0] for name in (REACTION, "none")),
     }
     for sentence, holds in said.items():
