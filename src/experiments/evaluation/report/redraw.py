@@ -282,7 +282,15 @@ def draw_20(stored: Stored, name: str) -> Figure:
         upright = None if printed.empty else float(printed.iloc[0]) / figure_20.THOUSAND
         label = figure_20.X_LABELS[panel]
         panels.append(
-            LinePanel(title, label, figure_20.Y_LABEL, lines, upright=upright, ends=(None, None), scale=panel)
+            LinePanel(
+                title,
+                label,
+                figure_20.Y_LABEL,
+                lines,
+                upright=upright,
+                upright_name=figure_20.PRINTED_NAMES[panel],
+                scale=panel,
+            )
         )
     return draw_lines(panels)
 

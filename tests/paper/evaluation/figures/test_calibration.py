@@ -45,7 +45,8 @@ def test_lines_are_observed_minus_nominal_in_points_as_learned_and_scaled() -> N
     np.testing.assert_allclose(np.asarray(drawn_in(learned)[0].get_ydata()), -10.0)
     np.testing.assert_allclose(np.asarray(drawn_in(scaled)[0].get_ydata()), 1.0)
     low, high = scaled.get_ylim()
-    assert (low, high) == (-high, high)
+    assert low < -10.0
+    assert high > 1.0  # all is seen
     (band,) = scaled.patches
     assert (band.get_y(), band.get_height()) == (-5.0, 10.0)  # type: ignore[attr-defined]
 

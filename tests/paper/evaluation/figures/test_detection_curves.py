@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from csv_files import check_golden, read_table
 from made_detections import HOURS, write_detections
+from matplotlib.colors import to_hex
 
 from experiments.evaluation.figures.further.detection_curves import (
     DetectorLine,
@@ -13,6 +14,7 @@ from experiments.evaluation.figures.further.detection_curves import (
     detection_curves,
     draw_courses,
     looks_of,
+    shaded,
 )
 from experiments.evaluation.figures.style import LOOKS
 from experiments.evaluation.number.number import Number
@@ -57,22 +59,30 @@ def test_the_area_is_the_probability_that_a_hit_lies_higher(settings: Settings) 
     assert area_of(np.array([]), np.array([1.0]), statistics).value is None
 
 
-def test_a_detector_has_the_colour_of_its_method_and_two_of_a_method_differ(settings: Settings) -> None:
+def test_a_detector_has_the_look_of_its_method_and_those_of_a_method_differ(settings: Settings) -> None:
     found = looks_of(settings.evaluation.detection_curves.detectors)
     assert found["MOB-Net-ratio"] == LOOKS["MOB-Net"]
     assert found["FTS-e2e-mean"] == LOOKS["FTS-e2e"]
-    same = [found[name] for name in found if found[name].colour == LOOKS["MOB-Net"].colour]
+    same = [look for name, look in found.items() if name.startswith("MOB-Net")]
     assert len({look.marker for look in same}) == len(same) == 3
+    assert found["MOB-Net-OR"].colour == shaded(LOOKS["MOB-Net"].colour, -0.35)
 
 
-def test_names_stand_left_of_their_lines_with_their_markers() -> None:
+def test_a_shade_lies_between_a_colour_and_black_or_white() -> None:
+    assert [shaded("#804020", lightness) for lightness in (-1.0, -0.5, 0.5, 1.0)] == [
+        "#000000", "#402010", "#c0a090", "#ffffff",
+    ]  # fmt: skip
+
+
+def test_the_legend_has_all_detectors_and_the_first_and_the_last_have_their_intervals() -> None:
     lines = [
-        DetectorLine("found collisions", name, [10.0, 0.0], [Number(0.9), Number(share)], [5, 5])
-        for name, share in (("MOB", 0.5), ("MOB-Net-OR", 0.51))
+        DetectorLine("found collisions", name, [10.0, 0.0], [Number(0.9, 0.8, 0.95), Number(0.5, 0.4, 0.6)], [5, 5])
+        for name in ("MOB", "MOB-Net-OR", "MOB-fric-dahl")
     ]
-    first = draw_courses(lines).axes[0]
-    names = {text.get_text(): text.xy for text in first.texts}  # type: ignore[attr-defined]
-    assert set(names) == {"MOB", "MOB-Net-OR"}
-    (x, low), (_, high) = names["MOB"], names["MOB-Net-OR"]
-    assert x < 0.3
-    assert high - low == pytest.approx(0.085)  # two names that would overlap are moved apart
+    figure = draw_courses(lines)
+    (key,) = figure.legends
+    assert [text.get_text() for text in key.get_texts()] == ["MOB", "MOB-Net-OR", "MOB-fric-dahl"]
+    bands = figure.axes[0].collections
+    assert [to_hex(band.get_facecolor()[0]) for band in bands] == [  # type: ignore[index]
+        to_hex(LOOKS[name].colour) for name in ("MOB", "MOB-fric-dahl")
+    ]

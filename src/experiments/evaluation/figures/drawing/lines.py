@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from experiments.evaluation.figures.style import Look, entitle, legend, looks, stacked
+from experiments.evaluation.figures.style import NAME, Look, entitle, legend, looks, stacked
 from experiments.evaluation.number.number import Number
 from mobnet.core.style import STYLE, styled
 
@@ -43,7 +43,7 @@ class LinePanel:
     Attributes:
         bands: what is the same at all places: label -> a number, drawn as a line across the panel in its interval.
         guide: a value [unit of y] that a thin grey line marks.
-        upright: a place [unit of x] that a thin grey line marks.
+        upright: a place [unit of x] that a thin grey line marks, and `upright_name` what stands at it.
         ends: of the y axis [its unit], None for what the lines need; with both, a value outside is an arrow.
         note: a text in the lower left corner.
         scale: panels of one scale share their y axis.
@@ -58,6 +58,7 @@ class LinePanel:
     bands: Mapping[str, Number] = field(default_factory=dict[str, Number])
     guide: float | None = None
     upright: float | None = None
+    upright_name: str = ""
     ends: tuple[float | None, float | None] = (0.0, None)
     note: str = ""
     scale: str = ""
@@ -96,6 +97,8 @@ def _draw(axis: Axes, panel: LinePanel, styles: Mapping[str, Look]) -> None:
         axis.axhline(panel.guide, **GUIDE)
     if panel.upright is not None:
         axis.axvline(panel.upright, **GUIDE)
+        at = {"xy": (panel.upright, 0.04), "xycoords": axis.get_xaxis_transform()}
+        axis.annotate(panel.upright_name, xytext=(-3.0, 0.0), ha="right", **at, **NAME)
     for label, number in panel.bands.items():
         mean, low, high = number.range
         if mean is not None and low is not None and high is not None:

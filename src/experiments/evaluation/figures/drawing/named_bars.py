@@ -1,4 +1,4 @@
-"""Horizontal bars of errors with the method's name on the axis and the number at their end. Drawing only."""
+"""Horizontal bars of errors with the method's name on the axis and the number at the end of the row. Drawing only."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -43,8 +43,8 @@ class NamedBar:
 
     @property
     def text(self) -> str:
-        """The number as it is written at the end of the bar, with three digits."""
-        value = self.number.value or 0.0
+        """The number as it is written at the end of the row, with three digits."""
+        value = round(self.number.value or 0.0, 2)  # 9.999 is 10.0
         digits = 2 - (abs(value) >= 10.0) - (abs(value) >= 100.0) + (0.0 < abs(value) < 0.1)
         return self.number.text(digits).replace("-", MINUS)
 
@@ -68,8 +68,8 @@ def draw_named_bars(
     if np.isfinite(published).any():
         axis.plot(published, places, linestyle="", label=source, zorder=5, **PAPER)
     axis.set_xlim(0.0, reach * (1.0 + NUMBER_ROOM))
-    for place, bar, end in zip(places, bars, _ends(bars, high, published), strict=True):
-        _number(axis, bar, place, None if is_cut and bar.method == ZERO else end)
+    for place, bar in zip(places, bars, strict=True):
+        _number(axis, bar, place, is_cut=is_cut and bar.method == ZERO)
     axis.set_yticks(places, [shown_name(bar.name) for bar in bars], fontsize=NUMBER_POINTS)
     axis.tick_params(axis="y", length=0.0)
     axis.set(ylim=(len(bars) - 0.4, -0.6), xlabel=f"RMSE [{unit}]")
@@ -107,8 +107,8 @@ def draw_named_dots(axis: Axes, rows: Sequence[NamedBar], x_label: str, at: floa
                 markeredgewidth=0.4,
                 zorder=4,
             )
-            _number(axis, row, place, high[place])
-    # Room for the text of the number whose interval ends farthest to the right.
+            _number(axis, row, place)
+    # Room for the numbers, right of the interval that ends farthest to the right.
     left, right = axis.get_xlim()
     axis.set_xlim(left, right + NUMBER_ROOM / 2 * (right - left))
 
@@ -127,18 +127,8 @@ def reach_of(bars: Sequence[NamedBar], tops: NDArray[np.float64]) -> tuple[float
     return (most, True) if 0.0 < CUT_ABOVE * most < whole else (whole, False)
 
 
-def _ends(bars: Sequence[NamedBar], high: NDArray[Any], published: NDArray[Any]) -> list[float]:
-    """Return where the number of each bar begins: behind all that is drawn of it."""
-    own = [[top, printed, *bar.marks] for bar, top, printed in zip(bars, high, published, strict=True)]
-    return [float(np.nanmax(ends)) if np.isfinite(ends).any() else 0.0 for ends in own]
-
-
-def _number(axis: Axes, bar: NamedBar, place: int, end: float | None) -> None:
-    """Write a bar's number behind its end, or, with an arrow, into a bar that is cut at the end of the axis."""
+def _number(axis: Axes, bar: NamedBar, place: int, *, is_cut: bool = False) -> None:
+    """Write a bar's number at the end of its row, apart from all marks; with an arrow where the bar goes on there."""
     look: dict[str, Any] = {"textcoords": "offset points", "va": "center_baseline", "fontsize": NUMBER_POINTS}
-    if end is None:
-        text = f"{bar.text} \N{RIGHTWARDS ARROW}"
-        at = (axis.get_xlim()[1], place)
-        axis.annotate(text, at, (-2.0, 0.0), ha="right", **look)
-        return
-    axis.annotate(bar.text, (end, place), (3.0, 0.0), ha="left", **look)
+    text = f"{bar.text} \N{RIGHTWARDS ARROW}" if is_cut else bar.text
+    axis.annotate(text, (1.0, place), (-1.0, 0.0), xycoords=axis.get_yaxis_transform(), ha="right", **look)

@@ -8,10 +8,11 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.colors import to_hex, to_rgb
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from experiments.evaluation.figures.style import LOOKS, NAME, Look, apart, beside, entitle, save_figure
+from experiments.evaluation.figures.style import LOOKS, Look, beside, entitle, legend, save_figure
 from experiments.evaluation.measure.detection.results import (
     MS,
     Detections,
@@ -43,21 +44,20 @@ LABELS = {
     DELAY: ("false alarms of a leg [1/h]", "delay [ms]"),
     FORCE: ("largest force [N]", "found share [-]"),
 }
-HEIGHT_INCH, WIDTHS = 2.05, (2.1, 1.0, 1.1)  # of the figure; of its panels, the first one with the names
+HEIGHT_INCH, WIDTHS = 2.5, (1.3, 1.0, 1.1)  # of the figure; of its panels
 RATE_MOST = 1000.0  # false alarms in an hour above which nobody detects
 RATE_FLOOR = 0.3  # false alarms in an hour below which a rate is drawn here: none was counted
 BREAK = 0.4  # where the axis breaks between no false alarm and one
 RATES = (RATE_FLOOR, 1.0, 10.0, 100.0, 1000.0)  # that are named
-NAMES_END = 0.22  # where names end left of the first panel's lines [1/h]
-NAMES_FROM = 4e-5  # where the first panel begins, to have room for them [1/h]
-NAMES_APART = 0.085  # least distance between two names [share of the axis]
 NO_HIT_N, NO_HIT_BREAK_N = 0.9, 1.3  # where swings without a hit are drawn, and the axis breaks [N]
 FORCES = (NO_HIT_N, 3.0, 10.0, 30.0, 100.0)  # that are named [N]
 BROKEN: Mapping[str, Any] = {"color": "0.6", "linewidth": 0.6, "linestyle": (0, (2, 2)), "zorder": 0}
+BANDED = 2  # lines with intervals over the rates: of more of them nothing is seen
 BAND_ALPHA = 0.12  # opacity of intervals
 MARKER_POINTS = 3.0  # size of a point of a line
 RING: Mapping[str, Any] = {"marker": "o", "markersize": 6.5, "markerfacecolor": "none", "markeredgewidth": 0.9}
-MARKERS = ("v", "X")  # of the second and third detector of a method
+# Of the second and third detector of a method: marker, and lightness of the colour, -1 for black and 1 for white.
+FURTHER = (("v", -0.35), ("X", 0.4))
 
 
 @dataclass(frozen=True)
@@ -222,14 +222,16 @@ def area_of(hits: np.ndarray, quiet: np.ndarray, statistics: Statistics) -> Numb
 def draw_courses(courses: Sequence[DetectorLine]) -> Figure:
     """Draw the three panels side by side, those over false alarms with a break left of which none was counted.
 
-    The first one names the detectors of all.
+    Of the found share over false alarms the first and the last detector have their intervals.
     """
     styles = looks_of(one.detector for one in courses)
+    named = list(styles)
+    banded = (named[:1] + named[-1:])[:BANDED]
     figure, axes = beside(len(LABELS), HEIGHT_INCH, width_ratios=WIDTHS)
     for k, (panel, axis) in enumerate(zip(LABELS, axes, strict=True)):
         for one in courses:
             if one.panel == panel:
-                _draw(axis, one, styles[one.detector])
+                _draw(axis, one, styles[one.detector], is_banded=one.detector in banded)
             elif one.panel.startswith(f"{panel} at "):
                 _ring(axis, one, styles[one.detector])
             elif (one.panel, panel) == (NO_HIT, FORCE):
@@ -242,46 +244,42 @@ def draw_courses(courses: Sequence[DetectorLine]) -> Figure:
         axis.axvline(NO_HIT_BREAK_N if panel == FORCE else BREAK, **BROKEN)
         axis.set_ylim(0.0, None if panel == DELAY else 1.05)
         entitle(axis, k, panel)
-    _name(axes[0], [one for one in courses if one.panel == FOUND], styles)
     rates = {one.panel.rpartition(" ")[2] for one in courses if one.panel.startswith(f"{DELAY} at ")}
     keys = [Line2D([], [], linestyle="", label=f"thresholds for {rate}", **RING, color="0.3") for rate in rates]
     axes[1].legend(handles=keys, loc="lower left", frameon=False, handletextpad=0.2, borderpad=0.0)
+    legend(figure, axes[:1], columns=4)
     return figure
 
 
-def _name(axis: Axes, courses: Sequence[DetectorLine], styles: Mapping[str, Look]) -> None:
-    """Write the names of lines left of their beginnings, apart from one another, each with its marker."""
-    axis.set_xlim(NAMES_FROM, 2.0 * RATE_MOST)
-    shown = [one for one in courses if one.numbers and one.numbers[-1].value is not None]
-    shares = [one.numbers[-1].value or 0.0 for one in shown]
-    for one, share, place in zip(shown, shares, apart(shares, NAMES_APART, 1.0), strict=True):
-        look = styles[one.detector]
-        start = max(one.x[-1], RATE_FLOOR)
-        axis.plot([NAMES_END, start], [place, share], color=look.colour, linewidth=0.4, zorder=1.0)
-        axis.plot(NAMES_END, place, marker=look.marker, markersize=MARKER_POINTS + 1.0, color=look.colour)
-        axis.annotate(one.detector, (NAMES_END, place), (-4.0, 0.0), ha="right", **NAME)
-
-
 def looks_of(detectors: Iterable[str]) -> dict[str, Look]:
-    """Return the looks of detectors: the first one of a method has the method's, others have another marker."""
+    """Return the looks of detectors: the first one of a method has the method's, others differ in marker and shade."""
     found = dict[str, Look]()
     seen = Counter[str]()
     for name in dict.fromkeys(detectors):
         method = max((known for known in LOOKS if name.startswith(known)), key=len)
         look = LOOKS[method]
-        found[name] = replace(look, marker=MARKERS[seen[method] - 1]) if seen[method] else look
+        if seen[method]:
+            marker, lightness = FURTHER[seen[method] - 1]
+            look = replace(look, marker=marker, colour=shaded(look.colour, lightness))
+        found[name] = look
         seen[method] += 1
     return found
 
 
-def _draw(axis: Axes, one: DetectorLine, look: Look) -> None:
-    """Draw a line with its intervals, where it has any: bars at the forces, bands over the rates."""
+def shaded(colour: str, lightness: float) -> str:
+    """Return a colour mixed with white, or with black where the lightness is below zero."""
+    own = np.array(to_rgb(colour))
+    return to_hex(own + abs(lightness) * (float(lightness > 0.0) - own))
+
+
+def _draw(axis: Axes, one: DetectorLine, look: Look, *, is_banded: bool) -> None:
+    """Draw a line with its intervals, where it has any: bars at the forces, bands over the rates where it has one."""
     mean, low, high = np.array([number.range for number in one.numbers], dtype=np.float64).reshape(-1, 3).T
     x = np.asarray(one.x) if one.panel == FORCE else np.maximum(one.x, RATE_FLOOR)
-    axis.plot(x, mean, marker=look.marker, markersize=MARKER_POINTS, **look.line)
+    axis.plot(x, mean, marker=look.marker, markersize=MARKER_POINTS, label=one.detector, **look.line)
     if one.panel == FORCE:
         axis.vlines(x, low, high, color=look.colour, linewidth=0.6, alpha=0.7, zorder=look.order)
-    else:
+    elif is_banded:
         axis.fill_between(x, low, high, color=look.colour, alpha=BAND_ALPHA, linewidth=0.0)
 
 

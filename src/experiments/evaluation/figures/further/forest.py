@@ -7,6 +7,7 @@ without, how far ours lies on the claimed side of the bound.
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from itertools import groupby
+from math import ceil
 from pathlib import Path
 from typing import Any
 
@@ -64,7 +65,8 @@ LOOKS: Mapping[str, tuple[str, str, str]] = {
     REPRODUCED: ("#00795A", "o", "\N{CHECK MARK}"),
     NOT_MEASURED: ("0.45", "", "\N{EN DASH}"),
 }
-POINTS, ROW_INCH, HEAD_INCH, KEY_INCH = 7.0, 0.11, 0.17, 0.34  # size of text; heights of a row, a head, the legend
+POINTS, ROW_INCH, HEAD_INCH = 7.0, 0.11, 0.17  # size of text; heights of a row and of a head
+KEY_ROW_INCH, KEY_EDGE_INCH = 0.145, 0.06  # height of a row of the legend, and below all of them
 KEY_COLUMNS = 3
 AXIS_INCH = 0.3  # height below the last row, of an axis
 TEXT_INCH, LEFT_INCH, WIDTH_INCH = 0.12, 3.86, 1.2  # where texts begin; where the axis does, and its width
@@ -85,7 +87,8 @@ def draw_forest(statements: Sequence[StatementPosition], axis_name: str, interva
     """Draw statements below one another, section by section, on one axis; the legend calls the interval so."""
     sections = [list(own) for _, own in groupby(statements, lambda each: each.worst.judged.score)]
     rows = ROW_INCH * len(statements) + HEAD_INCH * max(1, len(sections))
-    tall = KEY_INCH + rows + AXIS_INCH
+    keys = _keys(statements, f"claimed range, for the {interval}")
+    tall = KEY_ROW_INCH * ceil(len(keys) / KEY_COLUMNS) + KEY_EDGE_INCH + rows + AXIS_INCH
     with mpl.rc_context({**STYLE, "font.size": POINTS}):
         figure = Figure(figsize=(PAGE_INCH, tall))
         place = (LEFT_INCH / PAGE_INCH, AXIS_INCH / tall, WIDTH_INCH / PAGE_INCH, rows / tall)
@@ -100,7 +103,18 @@ def draw_forest(statements: Sequence[StatementPosition], axis_name: str, interva
                     _stripe(axis, top)
                 _row(axis, top + ROW_INCH / 2.0, each)
                 top += ROW_INCH
-        _key(figure, statements, f"claimed range, for the {interval}")
+        figure.legend(
+            handles=keys,
+            loc="upper center",
+            bbox_to_anchor=(0.5, 1.0),
+            ncols=KEY_COLUMNS,
+            frameon=False,
+            fontsize=POINTS,
+            borderaxespad=0.3,
+            handlelength=1.4,
+            columnspacing=1.0,
+            handletextpad=0.4,
+        )
     return figure
 
 
@@ -193,8 +207,8 @@ def _place(axis: Axes, row: float, place: ClaimPosition) -> None:
         axis.plot([value], [row], marker, markersize=3.8, **look)
 
 
-def _key(figure: Figure, statements: Sequence[StatementPosition], band: str) -> None:
-    """Put what colours, signs and markers mean on top of a figure, with how many statements have each verdict."""
+def _keys(statements: Sequence[StatementPosition], band: str) -> list[Any]:
+    """Return what colours, signs and markers mean, with how many statements have each verdict."""
     counts = Counter(each.worst.judged.verdict for each in statements)
     handles: list[Any] = []
     for verdict, (colour, marker, sign) in LOOKS.items():
@@ -204,16 +218,4 @@ def _key(figure: Figure, statements: Sequence[StatementPosition], band: str) -> 
         text = f"{sign} {verdict} ({counts[verdict]})"
         line = mpl.lines.Line2D([], [], color=colour, marker=marker, markersize=4, linewidth=width, label=text)
         handles.append(line)
-    handles.append(mpl.patches.Patch(color="0.88", label=band))
-    figure.legend(
-        handles=handles,
-        loc="upper center",
-        bbox_to_anchor=(0.5, 1.0),
-        ncols=KEY_COLUMNS,
-        frameon=False,
-        fontsize=POINTS,
-        borderaxespad=0.3,
-        handlelength=1.4,
-        columnspacing=1.0,
-        handletextpad=0.4,
-    )
+    return [*handles, mpl.patches.Patch(color="0.88", label=band)]

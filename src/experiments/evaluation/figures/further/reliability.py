@@ -19,8 +19,7 @@ from mobnet.core.columns import RELIABILITY
 from mobnet.core.style import styled
 
 HEIGHT_INCH, WIDTHS = 2.4, (1.0, 1.8)  # of the figure; of its panels, the second one with the names
-MOST = 33.0  # end of the axis [points]
-TICKS = (-30.0, -20.0, -10.0, 0.0, 10.0, 20.0, 30.0)
+ROOM_Y = 3.0  # above and below all curves [points]
 NAMES_FROM, ROOM = 106.0, 85.0  # where names begin, and how far the axis goes on for them [%]
 NAMES_APART = 4.5  # least distance between two names [points]
 WITHIN: Mapping[str, Any] = {"color": "0.65", "linewidth": 0.7, "zorder": 2}
@@ -95,6 +94,7 @@ def draw_reliability(curves: Sequence[CoverageCurve], tolerance: float) -> Figur
     """
     colours = {method: look.colour for method, look in looks(curve.method for curve in curves).items()}
     figure, axes = beside(2, HEIGHT_INCH, width_ratios=WIDTHS, sharey=True)
+    drawn = [0.0]
     titles = ("as learned", "scaled on validation data")
     for k, (axis, title) in enumerate(zip(axes, titles, strict=True)):
         end = 100.0 / (100.0 + ROOM) if k else 1.0
@@ -104,9 +104,13 @@ def draw_reliability(curves: Sequence[CoverageCurve], tolerance: float) -> Figur
             is_outside = curve.leaves(tolerance)
             observed = curve.after if k else curve.before
             look = {"color": colours[curve.method], "linewidth": 1.3, "zorder": 3} if is_outside else WITHIN
-            axis.plot(100.0 * curve.nominal, 100.0 * (observed - curve.nominal), **look)
-        axis.set(xlim=(0.0, 100.0), ylim=(-MOST, MOST), yticks=TICKS, xlabel="nominal coverage [%]")
+            points = 100.0 * (observed - curve.nominal)
+            drawn += points.tolist()
+            axis.plot(100.0 * curve.nominal, points, **look)
+        axis.set_xlim(0.0, 100.0)
+        axis.set_xlabel("nominal coverage [%]", x=end / 2.0)  # below its numbers, not below the names
         entitle(axis, k, title)
+    axes[0].set_ylim(min(drawn) - ROOM_Y, max(drawn) + ROOM_Y)
     axes[0].set_ylabel("observed minus nominal\ncoverage [points]")
     outside = [curve for curve in curves if curve.leaves(tolerance)]
     _name(axes[1], outside, colours)
@@ -123,7 +127,7 @@ def _name(axis: Axes, curves: Sequence[CoverageCurve], colours: Mapping[str, str
     axis.set(xlim=(0.0, 100.0 + ROOM), xticks=(0.0, 20.0, 40.0, 60.0, 80.0, 100.0))
     axis.spines["bottom"].set_bounds(0.0, 100.0)
     ends = [100.0 * float(curve.after[-1] - curve.nominal[-1]) for curve in curves]
-    for curve, end, place in zip(curves, ends, apart(ends, NAMES_APART, MOST), strict=True):
+    for curve, end, place in zip(curves, ends, apart(ends, NAMES_APART, axis.get_ylim()[1]), strict=True):
         x = 100.0 * float(curve.nominal[-1])
         axis.plot([x, NAMES_FROM], [end, place], color=colours[curve.method], linewidth=0.4)
         axis.annotate(curve.text, (NAMES_FROM, place), (2.0, 0.0), ha="left", **NAME)

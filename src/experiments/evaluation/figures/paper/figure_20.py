@@ -12,6 +12,7 @@ from mobnet.core.columns import SIZES
 
 TITLES = {"parameters": "size of the network, all data", "samples": "size of the data, printed network"}
 X_LABELS = {"parameters": "parameters [thousand]", "samples": "samples learned from [thousand]"}
+PRINTED_NAMES = {"parameters": "network of Table 1", "samples": "all data"}  # at the grey line of each panel
 Y_LABEL = "RMSE [N m]"
 THOUSAND = 1e3
 
@@ -36,7 +37,7 @@ def figure_20(sizes_of_networks: Sequence[SweptSize], statistics: Statistics, fi
             Y_LABEL,
             lines,
             upright=printed_place(sizes, panel),
-            ends=(None, None),
+            upright_name=PRINTED_NAMES[panel],
             scale=panel,
         )
         panels.append(drawn)
