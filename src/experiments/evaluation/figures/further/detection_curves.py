@@ -269,7 +269,8 @@ def looks_of(detectors: Iterable[str]) -> dict[str, Look]:
 def shaded(colour: str, lightness: float) -> str:
     """Return a colour mixed with white, or with black where the lightness is below zero."""
     own = np.array(to_rgb(colour))
-    return to_hex(own + abs(lightness) * (float(lightness > 0.0) - own))
+    mixed = own + abs(lightness) * (float(lightness > 0.0) - own)
+    return to_hex(tuple(mixed.tolist()))
 
 
 def _draw(axis: Axes, one: DetectorLine, look: Look, *, is_banded: bool) -> None:
