@@ -17,7 +17,8 @@ from .smoke import LOST, MADE, reproduce, told
 __all__ = ["outputs", "planned", "snakemake"]
 PARTS = (
     "Snakefile", "workflow", "profiles", "configs", "src", "docs", "examples", "paper", "reproduce", "environment.lock",
-    "README.md", "CONTRIBUTING.md", "CHANGELOG.md", "CITATION.cff", "SECURITY.md", "Dockerfile", "apptainer.def",
+    "README.md", "README.md.j2", "CONTRIBUTING.md", "CHANGELOG.md", "CITATION.cff", "SECURITY.md", "Dockerfile",
+    "apptainer.def",
     "tests/data",
 )  # fmt: skip
 
