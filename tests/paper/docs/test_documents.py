@@ -168,7 +168,7 @@ def test_a_command_that_there_is_not_is_found(line, made):
 
 
 def test_the_readme_and_the_guide_have_the_numbers_of_the_published_results():
-    """`python -m experiments.evaluation.report.judge_again` writes them."""
+    """`python -m experiments.evaluation.report.readme` writes them."""
     results = ROOT / "docs" / "results"
     assert (ROOT / "README.md").read_text() == readme(results, ROOT / TEMPLATE)
     assert f"<!-- scales -->\n{scales(results).strip()}\n<!-- /scales -->" in (ROOT / "docs/guide.md").read_text()

@@ -25,13 +25,13 @@ from experiments.evaluation.measure.claims.verdicts import (
     score_of,
 )
 from experiments.evaluation.number.number import Number
+from experiments.evaluation.report.readme import tell_readme
 from experiments.evaluation.report.snapshot import (
     PICTURES,
     SNAPSHOT,
     note_renewal,
     run_renewal,
     store_drawn,
-    tell_readme,
 )
 from experiments.evaluation.tables.further.claims_summary import claims_summary
 from experiments.evaluation.tables.further.claims_table import claim_table

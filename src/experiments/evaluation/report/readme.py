@@ -1,6 +1,6 @@
 """The README: its template, with the numbers of the published results, so that none of these is typed.
 
-`python -m experiments.evaluation.report.judge_again` writes it too; a test fails when it is out of date.
+`python -m experiments.evaluation.report.readme` writes it; a test fails when it is out of date.
 """
 
 import re
@@ -11,6 +11,7 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined, UndefinedErro
 
 from experiments.evaluation.measure.learning.explained import LearnedCell, by_robot, read_why
 from experiments.evaluation.measure.learning.taught import SHARE_OF_HIT
+from experiments.evaluation.report.blocks import with_block
 from experiments.plan.prices import RATES, RatesNote
 from mobnet.core.columns import (
     CLAIMED,
@@ -23,11 +24,12 @@ from mobnet.core.columns import (
     SIGN_ONLY,
 )
 from mobnet.core.errors import DataError
-from mobnet.core.files import read_text
+from mobnet.core.files import read_text, write_text
 from mobnet.core.notes import read_note
 from mobnet.core.rows import read_texts
 
-README = Path("README.md")
+RESULTS = Path("docs/results")
+README, GUIDE = Path("README.md"), Path("docs/guide.md")
 TEMPLATE = Path("README.md.j2")
 AVERAGE = {"metric": "rmse", "joint": "avg"}
 FORWARD = {"scenario": "forward_walk", "level": "all_uncertainty", **AVERAGE}
@@ -79,6 +81,12 @@ SHOWN = ("MOB-Net", FILMED)  # networks of which the README says how much of a h
 RATED = ("MOB-Net-pushed-ratio", "MOB-fric-load")
 REACTION = "MOB-Net-pushed-ratio"  # detector after whose alarm the robot steps back
 Row = Mapping[str, str]
+
+
+def tell_readme(results: Path) -> None:
+    """Write the README, and into the guide what each scale takes, from published results."""
+    write_text(README, readme(results))
+    write_text(GUIDE, with_block(read_text(GUIDE), "scales", scales(results), GUIDE))
 
 
 def readme(results: Path, template: Path = TEMPLATE) -> str:
@@ -231,3 +239,7 @@ def _value(rows: Sequence[Row], place: Row) -> float:
         if place.items() <= row.items():
             return float(row["value"])
     raise DataError(f"{', '.join(place.values())}: this row is missing, of which the README tells")
+
+
+if __name__ == "__main__":
+    tell_readme(RESULTS)

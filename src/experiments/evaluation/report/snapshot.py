@@ -15,6 +15,7 @@ from pathlib import Path
 from PIL import Image
 
 from experiments.evaluation.measure.story import StoredPush
+from experiments.evaluation.report.blocks import with_block
 from experiments.evaluation.report.demo import lines_of, title_of
 from experiments.evaluation.report.demo_data import copy_demo
 from experiments.evaluation.report.folder_page import write_page
@@ -22,7 +23,7 @@ from experiments.evaluation.report.manifest import differences, file_hash
 from experiments.evaluation.report.model_card import CARD, card
 from experiments.evaluation.report.paper import missing_packages
 from experiments.evaluation.report.rates import measured
-from experiments.evaluation.report.readme import README, readme, scales
+from experiments.evaluation.report.readme import tell_readme
 from experiments.evaluation.report.single_rows import write_single_rows
 from experiments.evaluation.report.walked import SEEDS, check_seeds, read_history, walked, write_history
 from experiments.plan.demo import FOLDER
@@ -61,7 +62,6 @@ COLOURS = 64
 WHITE = (255, 255, 255)
 PICTURES = (".png", ".webp")  # SVG and PDF: ./reproduce draw
 NOTED = ("recordings", "motions", "networks")  # folders of results whose notes name the commit that made them
-GUIDE = Path("docs/guide.md")
 KEYS = (  # columns that name a row; the others are results
     "scenario",
     "level",
@@ -208,26 +208,11 @@ def store_drawn(source: Path, out: Path) -> None:
         temporary.write_bytes(gzip.compress(source.read_bytes(), mtime=0))
 
 
-def tell_readme(results: Path) -> None:
-    """Write the README, and into the guide what each scale takes, from published results."""
-    write_text(README, readme(results))
-    write_text(GUIDE, with_block(read_text(GUIDE), "scales", scales(results), GUIDE))
-
-
 def tell_demo(stored: StoredPush, page: Path) -> None:
     """Write into the page of the demo what it prints."""
     push = stored.scene({method: stored.estimate(method) for method in stored.story.methods})
     said = "\n".join(["```", title_of(stored), *lines_of(stored, push), "```"])
     write_text(page, with_block(read_text(page), "demo", said, page))
-
-
-def with_block(text: str, name: str, block: str, page: Path) -> str:
-    """Return a page with a block between its marks, which it must have."""
-    first = f"<!-- {name} -->\n"
-    last = f"<!-- /{name} -->"
-    if first not in text or last not in text:
-        raise DataError(f"{page}: the marks {first.strip()!r} and {last!r} are missing")
-    return text[: text.index(first)] + first + block.strip() + "\n" + text[text.index(last) :]
 
 
 def compare_snapshot(snapshot: Path, tables: Path, figures: Path) -> list[str]:

@@ -22,7 +22,7 @@ from experiments.evaluation.measure.learning.explained import (
 from experiments.evaluation.measure.learning.paths import EVERY, INPUTS
 from experiments.evaluation.measure.learning.taught import HITS, ROUGHNESS, SHARE_OF_HIT, WALKING
 from experiments.evaluation.number.number import Number, number_text, shown_name
-from experiments.evaluation.report.snapshot import with_block
+from experiments.evaluation.report.blocks import with_block
 from experiments.evaluation.tables.layout import markdown_table
 from experiments.settings.load import load_settings
 from experiments.settings.settings import Settings

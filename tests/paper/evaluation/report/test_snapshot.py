@@ -9,6 +9,7 @@ import pytest
 from paper_settings import settings_at
 from PIL import Image
 
+from experiments.evaluation.report.blocks import with_block
 from experiments.evaluation.report.manifest import write_lists
 from experiments.evaluation.report.snapshot import (
     RESULTS,
@@ -16,7 +17,6 @@ from experiments.evaluation.report.snapshot import (
     compare_snapshot,
     main,
     read_keyed,
-    with_block,
     write_snapshot,
 )
 from experiments.running.accounts import Account
