@@ -24,17 +24,18 @@ KINDS = ("Table", "Figure", "Equation", "Section")
 ITEM = re.compile(rf"({'|'.join(KINDS)}) \(?([\d.]*\d)")  # Table 7, Equation (18), Section 4.2.3
 TITLED = re.compile(r"^(Table|Figure) \d+: ")  # the start of a caption's title that the paper's item has too
 OURS = " (ours)"  # at the end of a caption's title
+READ = (".md", ".pdf")  # endings of files that people read
 SHOWN = 3  # files of a product that are named
 TESTS = Path("tests")
 PAGES = Path("tests/world/pages")  # tests of what a browser shows
-HEADER = ("paper", "what it shows", "files", "test", "made by")
+HEADER = ("paper", "what it shows", "command", "files", "test", "rule and function")
 HEAD = f"""# Map of the paper
 
 Generated from the plan, the captions and `{SOURCE}` by
 `python -m experiments.evaluation.report.paper_map`: do not edit.
 The first table lists every table, figure and evaluated section of the paper, the second what this repository adds to
-them, each with its files at the main scale, the test in `{TESTS}` that checks it, the rule that makes it, and the
-function in `src/experiments/evaluation` that the rule calls. Where the numbers of a table are inputs, they are made by
+them, each with the command that makes it at the main scale, its files, the test in `{TESTS}` that checks it, the rule that
+makes it, and the function in `src/experiments/evaluation` that the rule calls. Where the numbers of a table are inputs, they are made by
 a key of the configuration. The third table lists systems and scenarios.
 """
 
@@ -100,13 +101,15 @@ def paper_map(plan: Plan, known: MapNotes) -> str:
     tests: dict[str, Path] = {}
     for path, names in known.tests.items():
         tests |= dict.fromkeys(names, Path(path))
-    rows = [[item, row.shows, f"`{row.file}`", "-", f"`{row.key}`"] for item, row in known.inputs.items()]
+    rows = [[item, row.shows, "-", f"`{row.file}`", "-", f"`{row.key}`"] for item, row in known.inputs.items()]
     ours: list[list[str]] = []
     for product in products:
         item = paper_item(product.name, known.paper)
         test = test_of(product, tests).relative_to(TESTS)
         made_by = f"`{product.rule}`: `{_function(product)}`"
-        row = [item, shows(product, known.shows), files_of(product.outputs), f"`{test}`", made_by]
+        read = [name for name in product.outputs if name.endswith(READ)]
+        command = f"`./reproduce {[*read, *product.outputs][0]}`"
+        row = [item, shows(product, known.shows), command, files_of(product.outputs), f"`{test}`", made_by]
         if item:
             rows.append(row)
         else:
