@@ -34,9 +34,9 @@ HEAD = f"""# Map of the paper
 Generated from the plan, the captions and `{SOURCE}` by
 `python -m experiments.evaluation.report.paper_map`: do not edit.
 The first table lists every table, figure and evaluated section of the paper, the second what this repository adds to
-them, each with the command that makes it at the main scale, its files, the test in `{TESTS}` that checks it, the rule that
-makes it, and the function in `src/experiments/evaluation` that the rule calls. Where the numbers of a table are inputs, they are made by
-a key of the configuration. The third table lists systems and scenarios.
+them, each with the command that makes it at the main scale, its files, the test in `{TESTS}` that checks it, the rule
+that makes it, and the function in `src/experiments/evaluation` that the rule calls. Where the numbers of a table are
+inputs, they are made by a key of the configuration. The third table lists systems and scenarios.
 """
 
 
