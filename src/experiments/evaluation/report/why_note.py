@@ -82,7 +82,7 @@ def why_blocks(settings: Settings, kept: Path) -> dict[str, str]:
     return {
         "why_predicted": predicted(settings, values),
         "why_found": found(settings, values),
-        "why_kinds": kinds(settings, values),
+        "why_kinds": robots_and_ways(settings, values),
         "why_inputs": inputs(rows),
         "why_seeds": seeds(rows),
     }
@@ -155,7 +155,7 @@ def found(settings: Settings, values: Values) -> str:
     return markdown_table(head, rows, left=2)
 
 
-def kinds(settings: Settings, values: Values) -> str:
+def robots_and_ways(settings: Settings, values: Values) -> str:
     """Return the table of robots and ways of learning on a few robots: shares of a hit, and what the sensor saves."""
     shown = settings.evaluation.why_share
     way = _first(settings)
