@@ -386,7 +386,9 @@ def test_other_comments_docstrings_bounds_and_messages_are_in_no_hash(copy: Copy
 def test_of_what_is_not_followed_code_takes_notes_and_places_alone() -> None:
     for path in makers():
         text = path.read_text()
-        if path.name not in ("code.py", "source.py", "source_cache.py") and any(module in text for module in source.NOT_FOLLOWED):
+        if path.name not in ("code.py", "source.py", "source_cache.py") and any(
+            module in text for module in source.NOT_FOLLOWED
+        ):
             taken = [name for module, name in imports_of(path) if module.startswith(source.NOT_FOLLOWED)]
             assert not set(taken) - NOTED, path
 
