@@ -44,7 +44,7 @@ LABELS = {
     DELAY: ("false alarms of a leg [1/h]", "delay [ms]"),
     FORCE: ("largest force [N]", "found share [-]"),
 }
-HEIGHT_INCH, WIDTHS = 2.5, (1.3, 1.0, 1.1)  # of the figure; of its panels
+HEIGHT_INCH, WIDTHS = 2.1, (1.3, 1.0, 1.1)  # of the figure; of its panels
 RATE_MOST = 1000.0  # false alarms in an hour above which nobody detects
 RATE_FLOOR = 0.3  # false alarms in an hour below which a rate is drawn here: none was counted
 BREAK = 0.4  # where the axis breaks between no false alarm and one
