@@ -89,6 +89,24 @@ def test_a_run_at_which_wandb_fails_once_is_logged_again(tmp_path, write_run, mo
     assert f"{fault}; once more" in caplog.text
 
 
+def test_a_full_disk_is_told_at_once_where_wandb_says_nothing_of_it(tmp_path, write_run, monkeypatch):
+    logged = []
+
+    def begin(scratch, name, *words):
+        logged.append(name)
+        return real(scratch, name, *words)
+
+    def full(place):
+        raise DataError(f"{place}: the disk is full")
+
+    real = module.begin
+    monkeypatch.setattr(module, "begin", begin)
+    monkeypatch.setattr(module, "check_room", full)
+    with pytest.raises(DataError, match="the disk is full"):
+        wandb_runs([write_run(tmp_path, "MOB-Net-LL-s0", EPOCHS)], [], tmp_path / "wandb")
+    assert len(logged) == 1
+
+
 def test_a_folder_in_which_wandb_still_writes_is_no_fault(tmp_path, write_run, monkeypatch):
     """Removing it would fail; it goes when wandb's process has ended."""
 

@@ -59,16 +59,18 @@ def _log_again(scratch: Path, folder: Path, tested: Mapping[Key, TestError], run
         DataError: the disk is full, or wandb fails or leaves no file each time.
     """
     for trial in range(1, TRIALS + 1):
+        fault: Exception | None = None
         try:
             made = put(scratch, _log_run(scratch, folder, tested), runs)
-        except (DataError, OSError, loaded(scratch).Error) as error:
-            check_room(runs)
-            if trial == TRIALS:
-                raise DataError(f"{folder}: {error}") from error
-            log.warning("%s; once more", error)
-        else:
             shutil.rmtree(made.parent, ignore_errors=True)  # where its process still writes, this goes in the end
+        except (DataError, OSError, loaded(scratch).Error) as error:
+            fault = error
+        check_room(runs)  # wandb may write a part of a file and say nothing
+        if fault is None:
             return
+        if trial == TRIALS:
+            raise DataError(f"{folder}: {fault}") from fault
+        log.warning("%s; once more", fault)
 
 
 def _log_run(scratch: Path, folder: Path, tested: Mapping[Key, TestError]) -> str:
