@@ -81,7 +81,7 @@ class Heartbeat:
 
 @contextlib.contextmanager
 def heartbeat(doing: Callable[[], str] = lambda: WORKING) -> Iterator[Heartbeat]:
-    """Show the line meanwhile, between the lines of the log."""
+    """Show a line of progress while a block runs; each line of the log erases it first, so that they do not mix."""
     with Heartbeat(doing) as line:
 
         def erase(record: logging.LogRecord) -> bool:

@@ -18,8 +18,7 @@ __all__ = ["outputs", "planned", "snakemake"]
 PARTS = (
     "Snakefile", "workflow", "profiles", "configs", "src", "docs", "examples", "paper", "reproduce", "environment.lock",
     "README.md", "README.md.j2", "CONTRIBUTING.md", "CHANGELOG.md", "CITATION.cff", "SECURITY.md", "Dockerfile",
-    "apptainer.def",
-    "tests/data",
+    "apptainer.def", "tests/data",
 )  # fmt: skip
 
 

@@ -7,11 +7,12 @@ import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from jinja2 import Environment, FileSystemLoader, StrictUndefined, UndefinedError
+from jinja2 import UndefinedError
 
 from experiments.evaluation.measure.learning.explained import LearnedCell, by_robot, read_why
 from experiments.evaluation.measure.learning.taught import SHARE_OF_HIT
 from experiments.evaluation.report.blocks import with_block
+from experiments.evaluation.report.html import filled
 from experiments.plan.prices import RATES, RatesNote
 from mobnet.core.columns import (
     CLAIMED,
@@ -76,6 +77,7 @@ PUSHES = {
 # What is seen of a hit without some inputs, a trial that is kept: its training set and way of learning.
 EXPLAINED = Path("docs/trials/why.csv")
 AS_THE_RUN = ("why_walk", "soap")
+MOB_NET, NO_SENSOR = "MOB-Net", "MOB-Net-noimu"
 HIT = {"scenario": "knee_swing", "level": "robots", "limb": "LL", "joint": "avg", "metric": "push_share"}
 SHOWN = ("MOB-Net", FILMED)  # networks of which the README says how much of a hit they show
 RATED = ("MOB-Net-pushed-ratio", "MOB-fric-load")
@@ -95,14 +97,8 @@ def readme(results: Path, template: Path = TEMPLATE) -> str:
     Raises:
         DataError: a table or a row is missing, or is not as a sentence says.
     """
-    settings = Environment(
-        loader=FileSystemLoader(template.parent),
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        keep_trailing_newline=True,
-    )
     try:
-        return settings.get_template(template.name).render(values(results))
+        return filled(template, values(results))
     except UndefinedError as missing:
         raise DataError(f"{results}: {missing}, of which {template} tells") from missing
 
@@ -113,13 +109,15 @@ def values(results: Path) -> dict[str, object]:
     Raises:
         DataError: a table or a row is missing, or is not as a sentence says.
     """
-    check_sentences(results)
+    claims = {row["claim"]: row for row in read_texts(results / "claims.csv")}
+    falls = falls_of(results)
+    trial = shown_in_trial()
+    check_sentences(results, claims, falls, trial)
     summary = read_texts(results / "claims_summary.csv", CLAIMED)
     counts = {row["outcome"]: int(row["statements"]) for row in summary if row["score"] == PAPER}
     refuted = counts[NOT_REPRODUCED] + counts[SIGN_ONLY]
     detectors = read_texts(results / "detectors.csv")
     peaks = read_texts(results / "peaks.csv")
-    falls = falls_of(results)
     return {
         "n": counts,
         "refuted": refuted,
@@ -128,9 +126,9 @@ def values(results: Path) -> dict[str, object]:
         "idle_h": read_note(results / RATES.name, RatesNote).core_h / CORES,
         "headline": headline(results),
         "best_formulas": best_formulas(results),
-        "c": {row["claim"]: float(row["value"] or "nan") for row in read_texts(results / "claims.csv")},
+        "c": {claim: float(row["value"] or "nan") for claim, row in claims.items()},
         "share": {name: _value(peaks, {**HIT, "method": name}) for name in SHOWN},
-        "trial": {name: shown_in_trial(name) for name in ("MOB-Net", "MOB-Net-noimu")},
+        "trial": trial,
         "found": {name: _value(detectors, {"row": name, "quantity": "found at rate"}) for name in RATED},
         "alarms": {name: _value(detectors, {"row": name, "quantity": "alarms at rate"}) for name in RATED},
         "fell": {case: fell for case, (fell, _) in falls.items()},
@@ -138,28 +136,31 @@ def values(results: Path) -> dict[str, object]:
     }
 
 
-def shown_in_trial(method: str) -> float:
-    """Return the share of a hit [-] that networks of a trial show which learn as those of the run, over its robots."""
+def shown_in_trial() -> dict[str, float]:
+    """Return method -> share of a hit [-], over the robots of a trial, that networks show which learn as the run's."""
     data, way = AS_THE_RUN
-    robots = by_robot(read_why(EXPLAINED), SHARE_OF_HIT)[LearnedCell(data, method, way)]
-    return sum(robots.values()) / len(robots)
+    shares = by_robot(read_why(EXPLAINED), SHARE_OF_HIT)
+    shown: dict[str, float] = {}
+    for method in (MOB_NET, NO_SENSOR):
+        robots = shares[LearnedCell(data, method, way)]
+        shown[method] = sum(robots.values()) / len(robots)
+    return shown
 
 
-def check_sentences(results: Path) -> None:
+def check_sentences(
+    results: Path, claims: Mapping[str, Row], falls: Mapping[str, tuple[int, int]], trial: Mapping[str, float]
+) -> None:
     """Raise a DataError where a sentence of the template says something that the results do not."""
-    claims = {row["claim"]: row for row in read_texts(results / "claims.csv")}
     for claim, verdict in SAID.items():
         if claim not in claims:
             raise DataError(f"claim {claim} is missing, of which the README tells")
         if claims[claim]["verdict"] != verdict:
             raise DataError(f"claim {claim}: the README says {verdict!r}, and it is {claims[claim]['verdict']!r}")
-    falls = falls_of(results)
     said = {
         "random torque helps in walking": float(claims["rte-walk"]["value"]) > 1.0,
         "random torque does not help under a hit": float(claims["rte-swing"]["value"]) < 1.0,
         "pushes help under a hit": _value(read_texts(TAUGHT), PUSHES) > 1.0,
-        "networks without the inertial sensor show more of a hit": shown_in_trial("MOB-Net-noimu")
-        > shown_in_trial("MOB-Net"),
+        "networks without the inertial sensor show more of a hit": trial[NO_SENSOR] > trial[MOB_NET],
         "a bar at the knee makes no robot fall": not any(falls[f"knee {name}"][0] for name in (REACTION, "none")),
     }
     for sentence, holds in said.items():
@@ -182,14 +183,15 @@ def headline(results: Path) -> str:
     """Return a table of errors in two tests [N m], the original's in parentheses."""
     lines = [["error on a walking leg [N m], ours (original)", *(title for title, *_ in COLUMNS)]]
     lines.append(["---", *["---:"] * len(COLUMNS)])
+    tests = _tests(results)
     for shown, methods in METHODS.items():
-        lines.append([shown, *(_cell(best) for best in _best(results, methods))])
+        lines.append([shown, *(_cell(best) for best in _best(tests, methods))])
     return "".join(f"| {' | '.join(line)} |\n" for line in lines)
 
 
 def best_formulas(results: Path) -> str:
     """Return which formula is our best one in each test."""
-    names = [FORMULAS[row["method"]] for row in _best(results, METHODS[BEST]) if row is not None]
+    names = [FORMULAS[row["method"]] for row in _best(_tests(results), METHODS[BEST]) if row is not None]
     return ", then ".join(dict.fromkeys(names))
 
 
@@ -213,14 +215,22 @@ def scales(results: Path) -> str:
     return "".join(f"| {' | '.join(line)} |\n" for line in lines)
 
 
-def _best(results: Path, methods: Sequence[str]) -> list[Row | None]:
-    """Return for each test the row with the smallest error of some methods; None where none of them ran."""
-    best: list[Row | None] = []
+def _tests(results: Path) -> list[list[Row]]:
+    """Return for each test the rows of all methods that ran."""
+    tests: list[list[Row]] = []
     for _, tables, place in COLUMNS:
         rows: list[Row] = []
         for table in tables:
             rows += read_texts(results / f"{table}.csv")
-        known = [row for row in rows if row["method"] in methods and row["value"] and place.items() <= row.items()]
+        tests.append([row for row in rows if row["value"] and place.items() <= row.items()])
+    return tests
+
+
+def _best(tests: Sequence[Sequence[Row]], methods: Sequence[str]) -> list[Row | None]:
+    """Return for each test the row with the smallest error of some methods; None where none of them ran."""
+    best: list[Row | None] = []
+    for rows in tests:
+        known = [row for row in rows if row["method"] in methods]
         best.append(min(known, key=lambda row: float(row["value"]), default=None))
     return best
 

@@ -52,7 +52,6 @@ RATES = (RATE_FLOOR, 1.0, 10.0, 100.0, 1000.0)  # that are named
 NO_HIT_N, NO_HIT_BREAK_N = 0.9, 1.3  # where swings without a hit are drawn, and the axis breaks [N]
 FORCES = (NO_HIT_N, 3.0, 10.0, 30.0, 100.0)  # that are named [N]
 BROKEN: Mapping[str, Any] = {"color": "0.6", "linewidth": 0.6, "linestyle": (0, (2, 2)), "zorder": 0}
-BANDED = 2  # lines with intervals over the rates: of more of them nothing is seen
 BAND_ALPHA = 0.12  # opacity of intervals
 MARKER_POINTS = 3.0  # size of a point of a line
 RING: Mapping[str, Any] = {"marker": "o", "markersize": 6.5, "markerfacecolor": "none", "markeredgewidth": 0.9}
@@ -226,7 +225,7 @@ def draw_courses(courses: Sequence[DetectorLine]) -> Figure:
     """
     styles = looks_of(one.detector for one in courses)
     named = list(styles)
-    banded = (named[:1] + named[-1:])[:BANDED]
+    banded = {*named[:1], *named[-1:]}  # of more bands nothing is seen
     figure, axes = beside(len(LABELS), HEIGHT_INCH, width_ratios=WIDTHS)
     for k, (panel, axis) in enumerate(zip(LABELS, axes, strict=True)):
         for one in courses:
