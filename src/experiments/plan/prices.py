@@ -17,6 +17,8 @@ LIKE = {  # kind of jobs -> that whose rates count where it has none
     "train_stack": "train",  # both read and are prepared
     "falls": "collect",  # both walk robots
     "claims_tolerance": "claims_summary",  # both count what the table of claims holds
+    "why_share": "figure_18",  # both draw what stands in tables
+    "hit_path": "figure_18",
 }
 Rates = Mapping[str, float]  # amount -> what a unit of it takes
 

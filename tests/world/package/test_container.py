@@ -144,6 +144,7 @@ def test_the_image_can_be_built_and_has_its_environment(tmp_path):
     run("add", container, str(base), "/")
     run("commit", container, f"docker.io/library/{release.removeprefix('FROM ')}")
     run("rm", container)
+    shutil.rmtree(base)  # the store has it, and holds each layer whole
     # TeX and pictures are left out: they take minutes, and .ci/run has installed the same packages on this machine.
     checked = tmp_path / "Dockerfile"
     checked.write_text(DOCKERFILE.read_text() + CHECKS)
