@@ -43,6 +43,7 @@ from mobnet.estimation.own import (
     read_network_folder,
 )
 from mobnet.export.contract import CONTRACT
+from mobnet.kernel.drive import TorqueKind
 from mobnet.learning.deployed.limbs import load_limb_networks
 from mobnet.reaction.handler import Handler, Reacted
 from mobnet.reaction.watchers import LegWatcher, LimbWatcher, some
@@ -50,7 +51,6 @@ from mobnet.robot.description import RobotDescription
 from mobnet.robot.given import given_robot
 from mobnet.robot.import_model import robot_of_model
 from mobnet.robot.nominal import NominalModel
-from mobnet.settings.base import TorqueKind
 from mobnet.settings.lab import Lab, load_lab
 from mobnet.settings.limb_thresholds import LimbThresholds
 from mobnet.settings.reaction import Strategy, load_reaction
@@ -406,7 +406,7 @@ class ContactFinder:
             ConfigError: limb or joints are unknown, or the limb has no shapes.
         """
         own = robot.description.layout.limb(limb) if joints is None else tuple(joints)
-        self._finder = contact.ContactLocator.of(lab().contact_point, robot.description, limb, own)
+        self._finder = contact.ContactLocator.of(lab().contact_point.numbers, robot.description, limb, own)
         self.joints = self._finder.joints
 
     def __repr__(self) -> str:
