@@ -2,14 +2,13 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, Literal, Protocol, TypeVar, cast, runtime_checkable
+from typing import Any, Protocol, TypeVar, cast, runtime_checkable
 
 from numpy.typing import NDArray
 
 from mobnet.core.recording import Sensed
 
 Stepped = TypeVar("Stepped")  # an observer or an estimator
-Target = Literal["uncertainty", "external"]  # the torque that a network learns
 
 
 @dataclass(frozen=True)

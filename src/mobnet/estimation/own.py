@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from mobnet.core.columns import EXTERNAL, named
 from mobnet.core.errors import ConfigError, DataError, beyond, not_accepted, refuse
-from mobnet.core.estimator import Estimate, Target
+from mobnet.core.estimator import Estimate
 from mobnet.core.files import RUN
 from mobnet.core.joints import JointLayout
 from mobnet.core.notes import Note, Text, pair_differences, read_array_note, read_note
@@ -20,6 +20,7 @@ from mobnet.core.word_checks import ESTIMATE, RECORDING, check_log_folder, check
 from mobnet.estimation.estimate import ObservedRecording, only, run_segments
 from mobnet.estimation.kinds.residual import ResidualEstimator
 from mobnet.estimation.observer import RobotObserver
+from mobnet.kernel.detecting import Target
 from mobnet.kernel.drive import TorqueKind
 from mobnet.learning.deployed.limbs import LimbNetworks, load_limb_networks
 from mobnet.robot.description import RobotDescription

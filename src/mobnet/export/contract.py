@@ -7,9 +7,9 @@ import json
 from pathlib import Path
 from typing import Any
 
-from mobnet.core.estimator import Target
 from mobnet.core.files import read_json
 from mobnet.core.notes import Count, FileName, Index, Note, Positive, Text, checked
+from mobnet.kernel.detecting import Target
 from mobnet.kernel.drive import TorqueKind
 from mobnet.settings.base import GainHz, RateHz
 from mobnet.settings.limb_thresholds import LimbThresholds

@@ -17,14 +17,13 @@ from mobnet.control.kinematics import empty_pose, update
 from mobnet.core.columns import recording_columns
 from mobnet.core.contract import rule_of
 from mobnet.core.errors import ConfigError, DataError, beyond, not_accepted, refuse_lines
-from mobnet.core.estimator import Target
 from mobnet.core.files import atomic_path
 from mobnet.core.joints import NQ_BASE, JointLayout
 from mobnet.detection.chain import Chain
 from mobnet.detection.detector import LegGate
 from mobnet.detection.leg import Leg
 from mobnet.estimation.observer import RobotObserver
-from mobnet.kernel.detecting import Signal
+from mobnet.kernel.detecting import Signal, Target
 from mobnet.kernel.drive import NUMBERS, DriveParameters
 from mobnet.learning.deployed.networks import WITHOUT_TORCH
 from mobnet.learning.deployed.weights import GRU_TENSORS, WeightsNote, std_scale_of

@@ -1,9 +1,10 @@
-"""Numbers that detectors are made with: programs write them down, and sections of a configuration give them."""
+"""Numbers and words of detectors and networks: programs write them down, and sections of a configuration give them."""
 
 from dataclasses import dataclass
 from typing import Literal
 
 Signal = Literal["mean", "std", "ratio"]
+Target = Literal["uncertainty", "external"]  # the torque that a network learns
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import AfterValidator, JsonValue
 
-from mobnet.core.estimator import Target as Target
+from mobnet.kernel.detecting import Target as Target
 from mobnet.settings import base
 from mobnet.settings.base import Section
 
