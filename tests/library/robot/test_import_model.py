@@ -22,21 +22,17 @@ def model():
     return pin.buildReducedModel(whole, [whole.getJointId("grip")], pin.neutral(whole))
 
 
-def moving(model):
-    """Return positions, velocities and torques of motors of a model that moves at drawn speeds."""
+def turning(joints):
+    """Return angles, velocities and torques of hinges that turn at drawn speeds; one of the arm is endless."""
     rng = np.random.default_rng(1)
-    v = np.cumsum(rng.normal(size=(SAMPLES, model.nv)), axis=0) * 0.05
-    q = [pin.neutral(model)]
-    for velocity in v[1:]:
-        q.append(pin.integrate(model, q[-1], velocity / RATE_HZ))
-    return np.array(q), v, rng.normal(size=(SAMPLES, model.nv))
+    v = np.cumsum(rng.normal(size=(SAMPLES, joints)), axis=0) * 0.05
+    return 0.3 + np.cumsum(v, axis=0) / RATE_HZ, v, rng.normal(size=(SAMPLES, joints))
 
 
 def test_its_residual_is_that_of_the_robot_of_its_urdf(model):
     """Lighter by a tenth, the model has another residual: the comparison can fail."""
     read = mobnet.Robot(robot_of_text(table_text(import_robot(ARM, None, 100.0, 10.0), ARM.name), ARM))
-    q, v, tau = moving(model)
-    q[:, 1] += 0.3
+    q, v, tau = turning(2)
     wanted = mobnet.Observer(read, RATE_HZ).residual(read.sample(q, v, tau))
     held = mobnet.Robot.from_model(model)
     assert held.joints == read.joints
@@ -58,7 +54,11 @@ def test_a_free_flyer_is_a_floating_base_and_rotors_are_kept():
     robot = mobnet.Robot.from_model(model)
     assert robot.motors == tuple(model.names)[2:]
     np.testing.assert_allclose(robot.description.armature, model.armature[6:])
-    q, v, tau = moving(model)
+    _, v, tau = turning(model.nv)
+    q = [pin.neutral(model)]
+    for velocity in v[1:]:
+        q.append(pin.integrate(model, q[-1], velocity / RATE_HZ))
+    q = np.array(q)
     wanted = mobnet.MomentumObserver(model, RATE_HZ).run(q, v, tau[:, 6:])
     turned = np.array([pin.XYZQUATToSE3(row[:7]).rotation for row in q])
     v[:, :3] = np.einsum("tij,tj->ti", turned, v[:, :3])
@@ -135,4 +135,4 @@ def test_gravity_may_be_that_of_another_place_on_the_earth():
 def test_a_motion_that_is_too_short_gives_no_detector(model):
     robot = mobnet.Robot.from_model(model)
     with pytest.raises(mobnet.MobnetError, match=r"0 s of free motion, in windows of 1 s; 200 s or more are needed"):
-        mobnet.Detector.from_free_motion(robot, robot.sample(*moving(model)), RATE_HZ)
+        mobnet.Detector.from_free_motion(robot, robot.sample(*turning(2)), RATE_HZ)
