@@ -39,7 +39,7 @@ def exported_networks(settings: Settings, folder: Path) -> LimbNetworks:
     known = {"gain_hz": observer.gain_hz, "torque": observer.torque, "gravity_m_s2": settings.plant.gravity_m_s2}
     run = RunTime(settings.rates.data_hz, ObserverContract.model_validate(known))
     networks = [_trained(one, settings) for one in six_trainings(settings).values()]
-    export(networks, robot, run, [], settings.detection.gate, folder)
+    export(networks, robot, run, [], settings.detection.gate.numbers, folder)
     return load_exported(folder, robot.layout)
 
 

@@ -66,7 +66,7 @@ def write_six(path: Path, settings: Settings) -> None:
         joints = robot.layout.limb(limb)
         thresholds = np.full((1, len(joints)), THRESHOLD)
         chain = make_chain(detection.low_pass_hz, detection.hold_s, rate_hz, thresholds)
-        gate = LegGate.of(detection.gate, robot, limb, rate_hz) if limb in detection.legs else None
+        gate = LegGate.of(detection.gate.numbers, robot, limb, rate_hz) if limb in detection.legs else None
         if not set(joints) & set(robot.layout.virtual):
             detectors.append(RuntimeDetector(limb, joints, ("ratio",), chain, gate))
     observer = observer_of(robot, *known, rate_hz, settings.observer.torque)

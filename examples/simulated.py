@@ -4,6 +4,7 @@ import numpy as np
 import pinocchio as pin
 
 RATE_HZ = 1000.0
+WAVES, SIZE_RAD = 5, 0.15  # sines of a joint that wanders
 STIFFNESS, DAMPING = 400.0, 40.0  # of the acceleration that is asked for [1/s^2], [1/s]
 
 
@@ -35,6 +36,20 @@ def moved(model, push, start_s=1.0, end_s=1.5, seconds=2.0, lost=None):
         v = v + pin.aba(model, data, q, v, tau - friction + outside) / RATE_HZ
         q = pin.integrate(model, q, v / RATE_HZ)
     return tuple(np.array(values) for values in zip(*log, strict=True))
+
+
+def wandered(model, seconds):
+    """Return the same of a robot without a free-flyer that nothing pushes, on slow sines that are drawn."""
+    rng = np.random.default_rng(0)
+    rates = 2.0 * np.pi * rng.uniform(0.02, 0.3, size=(WAVES, model.nv))  # [rad/s]
+    phases = rng.uniform(0.0, 2.0 * np.pi, size=(WAVES, model.nv))
+    angles = rates * np.arange(round(seconds * RATE_HZ))[:, None, None] / RATE_HZ + phases
+    q = SIZE_RAD * np.sin(angles).sum(axis=1)
+    v = SIZE_RAD * (rates * np.cos(angles)).sum(axis=1)
+    acceleration = -SIZE_RAD * (rates**2 * np.sin(angles)).sum(axis=1)
+    data = model.createData()
+    tau = [pin.rnea(model, data, *row) for row in zip(q, v, acceleration, strict=True)]
+    return q, v, np.array(tau)
 
 
 def draw(name, residual, joints, push):

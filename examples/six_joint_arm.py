@@ -1,27 +1,28 @@
-"""Pinocchio's own arm of six joints: thresholds from a motion without pushes, then a push."""
+"""Pinocchio's own arm of six joints: a detector from a motion that nothing pushes, then a push."""
 
 import numpy as np
 import pinocchio as pin
-from simulated import RATE_HZ, draw, moved
+from simulated import RATE_HZ, draw, moved, wandered
 
 import mobnet
-
-MARGIN = 1.5
 
 model = pin.buildSampleModelManipulator()
 wrong = pin.buildSampleModelManipulator()  # what we know of it: every link a twentieth too light
 for inertia in wrong.inertias:
     inertia.mass *= 0.95
-observer = mobnet.MomentumObserver(wrong, RATE_HZ)
+arm = mobnet.Robot.from_model(wrong)
 
-free = observer.run(*moved(model, np.zeros(6)))
-thresholds = MARGIN * np.abs(free).max(axis=0)
+free = arm.sample(*wandered(model, seconds=210.0))
+detector = mobnet.Detector.from_free_motion(arm, free, RATE_HZ)  # one false alarm in an hour
 push = np.array([0.0, 0.0, 0.0, 8.0, 0.0, 0.0])
-residual = observer.run(*moved(model, push))
+q, v, tau = moved(model, push)
 
-print(observer)
-for joint, threshold, own in zip(observer.joints, thresholds, residual.T, strict=True):
-    flags = np.flatnonzero(np.abs(own) > threshold)
-    when = f"flag at {flags[0] / RATE_HZ:.3f} s" if len(flags) else "no flag"
-    print(f"{joint}: threshold {threshold:.2f} N m, {when}")
+alarms = [detector.step(arm.sample(q[k], v[k], tau[k])) for k in range(len(q))]
+first = next(k for k in range(len(q)) if alarms[k].is_on)
+
+print(detector)
+for joint, threshold in zip(detector.joints, detector.thresholds.thresholds, strict=True):
+    print(f"{joint}: threshold {threshold:.2f} N m")
+print(f"{alarms[first].joint}: flag at {first / RATE_HZ:.3f} s")
+residual = np.array([alarm.estimate.tau_ext for alarm in alarms])
 draw("six_joint_arm", residual, {"elbow": 3}, push)

@@ -62,6 +62,6 @@ class DemoPush:
         """The filters of the detector, with the thresholds of the published run."""
         with (DATA / "thresholds.csv").open() as file:
             values = {(int(row["phase"]), row["signal"]): float(row["value"]) for row in csv.DictReader(file)}
-        names = Watched(self.row).names(self.joints)
+        names = Watched(self.row.watching).names(self.joints)
         limits = [[values[phase, name] for name in names] for phase in range(1, self.row.phases + 1)]
         return self.setup.chain(np.array(limits))

@@ -91,7 +91,7 @@ def _detect(robot: WalkingRobot, sensed: Sensed, detection: Detection, rate_hz: 
     for norm in (False, True):
         chain = make_chain(detection.low_pass_hz, detection.hold_s, rate_hz, np.ones((1, 1)), norm=norm)
         for limb in robot.layout.legs.values():
-            gate = LegGate.of(detection.gate, robot, limb, rate_hz)
+            gate = LegGate.of(detection.gate.numbers, robot, limb, rate_hz)
             run_over(chain, signals, gate.run(sensed, np.zeros((SAMPLES, 6))))
             gate.step(gate_state(), np.zeros(robot.layout.nq), np.zeros(6), 0.0, 0.0)
         low_passed(chain.pole, signals, np.zeros_like(signals))

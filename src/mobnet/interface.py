@@ -6,7 +6,7 @@ its own axes, and of the joints [rad/s]. A robot with a fixed base has its joint
 tick, 1-D arrays; *samples* of T ticks have time as their first axis. `Robot.sample` makes both.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -22,30 +22,42 @@ from mobnet.core.errors import MobnetError as MobnetError
 from mobnet.core.estimator import Estimate
 from mobnet.core.files import RUN
 from mobnet.core.place import check_extra
-from mobnet.core.recording import Recording, Sensed, SensedRecording, Truth, read_sensed
+from mobnet.core.recording import ABSENT, PLANNED, Recording, Sensed, SensedRecording, Truth, read_sensed
 from mobnet.core.recording import write_recording as write_whole
 from mobnet.detection import contact
 from mobnet.detection.contact import Contact
 from mobnet.detection.detector import ALARM_RATIO, LegDetector
+from mobnet.detection.limb import OwnRecording, calibrate_limb
+from mobnet.detection.limb_report import thresholds_of
 from mobnet.detection.threshold_file import check_thresholds, read_thresholds, sampling_of, setup_with, watched_of
 from mobnet.detection.watch import LegSetup
+from mobnet.estimation.estimate import only
 from mobnet.estimation.kinds.residual import ResidualEstimator
 from mobnet.estimation.observer import ObserverState, RobotObserver
-from mobnet.estimation.own import check_drives, check_sampling, estimator_of, read_network_folder
+from mobnet.estimation.own import (
+    Sampling,
+    check_drives,
+    check_sampling,
+    estimator_of,
+    limb_of,
+    read_network_folder,
+)
 from mobnet.export.contract import CONTRACT
+from mobnet.kernel.drive import TorqueKind
 from mobnet.learning.deployed.limbs import load_limb_networks
 from mobnet.reaction.handler import Handler, Reacted
 from mobnet.reaction.watchers import LegWatcher, LimbWatcher, some
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.given import given_robot
+from mobnet.robot.import_model import robot_of_model
 from mobnet.robot.nominal import NominalModel
-from mobnet.settings.base import TorqueKind
 from mobnet.settings.lab import Lab, load_lab
 from mobnet.settings.limb_thresholds import LimbThresholds
 from mobnet.settings.reaction import Strategy, load_reaction
 
 if TYPE_CHECKING:
     import pandas as pd
+    import pinocchio as pin
     from matplotlib.figure import Figure
 
 FEW = 8  # joints that a line names
@@ -66,15 +78,17 @@ class Robot:
         joints: names of the generalized velocities (nv,); those of a floating base are V1 to V6 and come first.
         motors: names of the joints with a motor (nu,).
         limbs: limb -> names of its joints.
+        notes: what its file or its model does not say and what was taken for it, a line each; none of a table.
     """
 
     def __init__(self, description: RobotDescription) -> None:
-        """Take a description; `read` makes one of a file."""
+        """Take a description; `read` makes one of a file, `from_model` of a model in memory."""
         self.description = description
         self.name = description.name
         self.joints = description.layout.names
         self.motors = description.layout.actuated
         self.limbs = dict(description.layout.groups)
+        self.notes = description.notes
         columns = recording_columns(description.layout)
         self._widths = {name: len(columns[name]) for name in Sensed.__dataclass_fields__}  # once, not at each tick
 
@@ -87,6 +101,25 @@ class Robot:
             DataError: the file is no robot, or a table cannot hold it.
         """
         return cls(given_robot(Path(path), lab()))
+
+    @classmethod
+    def from_model(
+        cls, model: "pin.Model", limbs: Mapping[str, Sequence[str]] | None = None, name: str | None = None
+    ) -> "Robot":
+        """Take a robot from a model of Pinocchio that a program holds; joints stay in the model's order.
+
+        Limits, inertia of rotors and limbs that the model does not have are as of a URDF; `notes` tells them.
+
+        Args:
+            model: hinges on a base that is fixed, or a free-flyer.
+            limbs: limb -> names of its joints, in the model's order and all joints; chains without a branch if None.
+            name: of the robot; that of the model if None.
+
+        Raises:
+            DataError: a joint is no hinge, or gravity or the base is one that a table cannot hold.
+            ConfigError: a name or a number is not accepted, or a joint is in no limb.
+        """
+        return cls(robot_of_model(model, lab().plant.gravity_m_s2, limbs, name))
 
     def __repr__(self) -> str:
         """Return what a notebook shows, such as `Robot two-link arm: J1, J2; fixed base`."""
@@ -270,7 +303,7 @@ class Detector:
     """
 
     def __init__(self, robot: RobotDescription, estimator: ResidualEstimator, found: LimbThresholds) -> None:
-        """Take the estimator and the thresholds of a limb; `from_files` reads them."""
+        """Take the estimator and the thresholds of a limb; `from_files` reads them, `from_free_motion` finds them."""
         self.joints = found.joints
         self.rate_hz = found.rate_hz
         self.thresholds = found
@@ -299,6 +332,45 @@ class Detector:
             check_sampling(path, sampling, own.sampling, own.folder)
         estimator = estimator_of(description, numbers.plant.gravity_m_s2, sampling, own and own.networks)
         return cls(description, estimator, found)
+
+    @classmethod
+    def from_free_motion(
+        cls,
+        robot: Robot,
+        samples: Sensed,
+        rate_hz: float,
+        limb: str | None = None,
+        rate_per_h: float = 1.0,
+        gain_hz: float | None = None,
+        torque: TorqueKind = "sample",
+    ) -> "Detector":
+        """Find the thresholds of the observer from samples while nothing touches the limb, as `mobnet calibrate` does.
+
+        Args:
+            robot: the robot.
+            samples: T samples without a gap, of 200 s or more.
+            rate_hz: samples per second [Hz].
+            limb: the limb; the robot's only one if None.
+            rate_per_h: wanted false alarms in an hour [1/h].
+            gain_hz: gain K_0 of the observer [1/s]; that of the configuration if None.
+            torque: whether `tau_motor` is a `sample` at the tick, or the `mean` over the interval before it.
+
+        Raises:
+            DataError: the samples are too few or never change, or the rate of alarms is above what they can hold.
+            ConfigError: the limb is unknown, or a number is not accepted.
+        """
+        numbers = lab()
+        description = robot.description
+        limb = limb_of(description.layout, limb)
+        gain_hz = numbers.observer.gain_hz if gain_hz is None else gain_hz
+        sampling = Sampling(rate_hz, gain_hz, torque, description.drives)
+        estimator = estimator_of(description, numbers.plant.gravity_m_s2, sampling, None)
+        estimate = only(estimator.estimate(samples), estimator.joints, description.layout.limb(limb))
+        absent = () if samples.swing.any() else PLANNED  # without a walking plan a leg is watched all the time
+        recording = SensedRecording(samples, ((0, len(samples)),), rate_hz, {ABSENT: absent})
+        free = OwnRecording(Path("samples"), recording, estimate)
+        calibrated = calibrate_limb([free], description, limb, "mean", rate_per_h, numbers)
+        return cls(description, estimator, thresholds_of(calibrated, rate_per_h, numbers, sampling, None))
 
     def __repr__(self) -> str:
         """Return what a notebook shows."""
@@ -334,7 +406,7 @@ class ContactFinder:
             ConfigError: limb or joints are unknown, or the limb has no shapes.
         """
         own = robot.description.layout.limb(limb) if joints is None else tuple(joints)
-        self._finder = contact.ContactLocator.of(lab().contact_point, robot.description, limb, own)
+        self._finder = contact.ContactLocator.of(lab().contact_point.numbers, robot.description, limb, own)
         self.joints = self._finder.joints
 
     def __repr__(self) -> str:

@@ -132,7 +132,7 @@ def limb_thresholds(robot: ReactingRobot, heights: Sequence[Array]) -> Array:
     scale = np.quantile(largest, numbers.scale_quantile, axis=0)
     rate_per_h = numbers.rates_per_h[robot.reaction.ours.rule]
     walked_s = len(largest) * robot.detection.window_s
-    found = calibrate((largest / scale).max(axis=1), episodes.tolist(), walked_s, rate_per_h, numbers)
+    found = calibrate((largest / scale).max(axis=1), episodes.tolist(), walked_s, rate_per_h, numbers.tail)
     return found.factor * scale
 
 

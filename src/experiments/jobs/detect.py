@@ -82,7 +82,7 @@ def _try_leg(setup: LegSetup, walks: Mapping[str, Walk], rows: Rows) -> None:
         for name, detector in settings.detectors.items():
             if detector.method == method:
                 try:
-                    calibrated = calibrate_detector(setup, name, detector, place, random)
+                    calibrated = calibrate_detector(setup, name, detector.watching, place, random)
                 except NotWatchedError as error:  # of networks that have hardly learned
                     log.warning("%s, %s is left out: %s", setup.limb, name, error)
                     continue

@@ -167,7 +167,7 @@ class CaseWalker:
         if watch.detector == FORCE_SENSORS:
             return FootWatcher(setup.gate, setup.chain(np.array([[own[1, FORCE]]]), norm=True), columns, wrenches)
         row = self.robot.detection.detectors[watch.detector]
-        watched = Watched(row)
+        watched = Watched(row.watching)
         names = watched.names(setup.joints)
         limits: list[list[float]] = []
         for phase in range(1, row.phases + 1):

@@ -59,7 +59,7 @@ class ReactingRobot:
     @property
     def watched(self) -> Watched:
         """What our detector watches."""
-        return Watched(self.detection.detectors[self.reaction.ours.detector])
+        return Watched(self.detection.detectors[self.reaction.ours.detector].watching)
 
     @cached_property
     def base(self) -> BaseForce:

@@ -16,6 +16,10 @@ MCAP = ".mcap"  # ending of what Foxglove opens
 # Of files that people pass on, too: what the C library accepts (src/runtime/cursor.h) lies further out.
 RATE_HZ = (1.0, 100_000.0)
 GAIN_HZ = (0.1, 5000.0)
+# Of a joint for which a robot's file or model has no limit or no rotor.
+TORQUE_LIMIT_NM = 100.0
+SPEED_LIMIT_RAD_S = 10.0
+ARMATURE_KG_M2 = 0.0
 
 
 def observe_parser() -> argparse.ArgumentParser:
@@ -176,15 +180,18 @@ def import_parser() -> argparse.ArgumentParser:
     parser.add_argument("--out", type=Path, help="the table (default: FILE's name with .yaml, here)")
     parser.add_argument("--force", action="store_true", help="replace a table that exists")
     parser.add_argument(
-        "--torque-limit", type=float, default=100.0, help="of joints without one [N m] (default: %(default)s)"
+        "--torque-limit", type=float, default=TORQUE_LIMIT_NM, help="of joints without one [N m] (default: %(default)s)"
     )
     parser.add_argument(
-        "--speed-limit", type=float, default=10.0, help="of joints without one [rad/s] (default: %(default)s)"
+        "--speed-limit",
+        type=float,
+        default=SPEED_LIMIT_RAD_S,
+        help="of joints without one [rad/s] (default: %(default)s)",
     )
     parser.add_argument(
         "--armature",
         type=float,
-        default=0.0,
+        default=ARMATURE_KG_M2,
         help="rotor inertia of joints without one, behind the gear [kg m^2] (default: %(default)s)",
     )
     parser.add_argument(

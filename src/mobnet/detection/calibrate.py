@@ -36,9 +36,9 @@ from mobnet.estimation.own import (
     refuse_twice,
     without_friction,
 )
+from mobnet.kernel.detecting import Signal
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.given import given_robot
-from mobnet.settings.detection import Signal
 from mobnet.settings.lab import Lab, load_lab
 
 log = logging.getLogger(__name__)

@@ -16,7 +16,7 @@ from mobnet.detection.gate import Spans, episodes_of, largest
 from mobnet.detection.signals import MEAN, STD, Watched, slopes_of, whitening_of
 from mobnet.detection.thresholds import HOUR_S, Calibrated, calibrate
 from mobnet.detection.watch import LegRecording, LegSetup, LimbSetup
-from mobnet.settings.detection import DetectorSettings
+from mobnet.kernel.detecting import WatchedSignals
 
 NEVER = "the leg is watched in none of the swings that calibrate; some are needed in which it is"
 
@@ -92,7 +92,7 @@ class CalibratedDetector:
 
 
 def calibrate_detector(
-    setup: LegSetup, name: str, detector: DetectorSettings, place: QuietWalk, random: QuietWalk
+    setup: LegSetup, name: str, detector: WatchedSignals, place: QuietWalk, random: QuietWalk
 ) -> CalibratedDetector:
     """Calibrate a detector on the first swings of quiet walks, by the paper's rule [5.3] and for rates.
 
@@ -155,7 +155,7 @@ def rate_scales(
     seen = swing_ratios(walk.legs, chain, walk.signals(watched))[: walk.first]
     episodes = episodes_of((one.episodes or one.segments, one.swings) for one in walk.legs)[: walk.first]
     rates = numbers.rates_per_h.items()
-    return scales, {kind: calibrate(seen, episodes, walk.hours * HOUR_S, rate, numbers) for kind, rate in rates}
+    return scales, {kind: calibrate(seen, episodes, walk.hours * HOUR_S, rate, numbers.tail) for kind, rate in rates}
 
 
 def swing_ratios(legs: Sequence[LegRecording], chain: Chain, signals: Sequence[Array]) -> Array:
@@ -199,7 +199,7 @@ def quiet_rows(setup: LegSetup, calibrated: CalibratedDetector, walk: QuietWalk)
         yield FreeSwing(calibrated.name, setup.limb, walk.scenario, part, terrain, seed, number, *numbers)
 
 
-def check_signals(setup: LimbSetup, detector: DetectorSettings, walk: QuietWalk) -> None:
+def check_signals(setup: LimbSetup, detector: WatchedSignals, walk: QuietWalk) -> None:
     """Raise a DataError if a signal has the same number in all samples of a recording."""
     names = [f"{kind}.{joint}" for kind in detector.signals for joint in setup.joints]
     for one, signals in zip(walk.legs, walk.signals(Watched(detector)), strict=True):

@@ -49,7 +49,7 @@ def tried_on_pushes(tried: Sequence[DetectorCandidate], gain_hz: float, settings
     planted = plant(first.found.setup, nominal, gain_hz, first.found.limbs, poses, pushing_of(settings), SEED)
     counts = list[int]()
     for one in tried:
-        watched = watched_signal(one.found.signal, settings)
+        watched = watched_signal(one.found.signal)
         estimates = [Estimate(own.estimate.tau_ext, own.estimate.std) for own in one.own]
         setup = one.found.setup
         limbs = one.found.limbs

@@ -15,9 +15,9 @@ from numpy.typing import NDArray
 from mobnet.core.arrays import Array
 from mobnet.core.errors import ConfigError, DataError, not_accepted
 from mobnet.detection.surface import Carrier, Surface, carried_by, surface_of
+from mobnet.kernel.detecting import ContactNumbers
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.nominal import NominalModel
-from mobnet.settings.detection import ContactPoint
 
 LEAST = 1.0  # force for which the cone still has a width [N]
 
@@ -30,33 +30,33 @@ LEAST = 1.0  # force for which the cone still has a width [N]
 # -2 log p = const - h^T f + log det(A P), A = B^T J C^-1 J^T B + P^-1, f = A^-1 h, h = B^T J C^-1 tau, (a)
 #
 # the residual of weighted least squares, and what is paid for a force that goes far to fit (docs/notes/contact.md).
-def explain(wrenches: Array, weight: Array, seen: Array, settings: ContactPoint) -> tuple[Array, Array]:
+def explain(wrenches: Array, weight: Array, seen: Array, numbers: ContactNumbers) -> tuple[Array, Array]:
     """Return -2 log p of (a) at k points (k,), infinite where no force presses there, and the forces (k, 3) [N].
 
     Args:
         wrenches: B^T of each point, its first force into the surface (k, 3, 6) [N, N m].
         weight: J C^-1 J^T of each point's link (k, 6, 6).
         seen: J C^-1 tau of each point's link (k, 6).
-        settings: friction, and the size of forces.
+        numbers: friction, and the size of forces.
     """
     inner = wrenches @ weight @ wrenches.transpose(0, 2, 1)
     pulled = (wrenches @ seen[:, :, None])[..., 0]
     # The cone is two standard deviations wide. Its width follows the force into the surface: that of the best force
     # without friction, and then that of the best one in the cone that follows.
-    pressing = pulled[:, 0] / (inner[:, 0, 0] + settings.force_n**-2)
-    known = _known(pressing, settings)
+    pressing = pulled[:, 0] / (inner[:, 0, 0] + numbers.force_n**-2)
+    known = _known(pressing, numbers)
     force, _ = _solved(inner + np.eye(3) * known[:, :, None], pulled)
-    known = _known(force[:, 0], settings)
+    known = _known(force[:, 0], numbers)
     force, determinant = _solved(inner + np.eye(3) * known[:, :, None], pulled)
     cost = np.log(determinant) - np.log(known).sum(axis=1) - (pulled * force).sum(axis=1)
-    holds = np.linalg.norm(force[:, 1:], axis=1) <= settings.friction * force[:, 0]
+    holds = np.linalg.norm(force[:, 1:], axis=1) <= numbers.friction * force[:, 0]
     return np.where(holds, cost, np.inf), force
 
 
-def _known(pressing: Array, settings: ContactPoint) -> Array:
+def _known(pressing: Array, numbers: ContactNumbers) -> Array:
     """Return the diagonal of P^-1 of points where forces (k,) [N] press, (k, 3) [1/N^2]."""
-    width = settings.friction / 2.0 * np.maximum(pressing, LEAST)
-    return np.stack([np.full(len(pressing), settings.force_n), width, width], axis=1) ** -2
+    width = numbers.friction / 2.0 * np.maximum(pressing, LEAST)
+    return np.stack([np.full(len(pressing), numbers.force_n), width, width], axis=1) ** -2
 
 
 def _solved(matrix: Array, right: Array) -> tuple[Array, Array]:
@@ -96,21 +96,21 @@ class ContactLocator:
     """Finds contacts with the bodies of a limb from torques of some joints.
 
     Attributes:
-        settings: section `contact_point`.
+        numbers: of the surface, of forces and of errors.
         robot: the robot.
         nominal: its model.
         joints: names of the joints whose torques it takes (n,).
         surface: where something can touch the limb.
     """
 
-    settings: ContactPoint
+    numbers: ContactNumbers
     robot: RobotDescription
     nominal: NominalModel
     joints: tuple[str, ...]
     surface: Surface
 
     @classmethod
-    def of(cls, settings: ContactPoint, robot: RobotDescription, limb: str, joints: Sequence[str]) -> "ContactLocator":
+    def of(cls, numbers: ContactNumbers, robot: RobotDescription, limb: str, joints: Sequence[str]) -> "ContactLocator":
         """Return a finder of contacts with the bodies that a limb moves.
 
         Joints are those of the limb. On a floating base those of the base and of the standing leg tell much more,
@@ -120,8 +120,8 @@ class ContactLocator:
             ConfigError: limb or joints are unknown, or the limb has no shapes.
         """
         robot.layout.columns(joints)
-        surface = surface_of(robot, limb, settings.spacing_m)
-        return cls(settings, robot, NominalModel(robot), tuple(joints), surface)
+        surface = surface_of(robot, limb, numbers.spacing_m)
+        return cls(numbers, robot, NominalModel(robot), tuple(joints), surface)
 
     def locate(
         self, q: NDArray[Any], tau: NDArray[Any], std: NDArray[Any], standing: Sequence[str] = ()
@@ -146,14 +146,14 @@ class ContactLocator:
         jacobians = [self._jacobian(carrier) for carrier in self.surface.carriers]
         weight = np.array([jacobian @ inverse @ jacobian.T for jacobian in jacobians])[self.surface.shape]
         seen = np.array([jacobian @ inverse @ tau for jacobian in jacobians])[self.surface.shape]
-        cost, force = explain(self.surface.wrenches, weight, seen, self.settings)
+        cost, force = explain(self.surface.wrenches, weight, seen, self.numbers)
         return self._named(cost, force) if np.isfinite(cost).any() else None
 
     def _named(self, cost: Array, force: Array) -> Contact:
         """Return the contact from -2 log p of each point (k,) and the forces there (k, 3)."""
         surface = self.surface
         probable = surface.patch.area * np.exp((cost.min() - cost) / 2.0)
-        likely = np.argsort(-probable, kind="stable")[: self.settings.candidates]
+        likely = np.argsort(-probable, kind="stable")[: self.numbers.candidates]
         share = probable[likely] / probable[likely].sum()
         solids = surface.shape[likely]
         axes, origins = map(np.array, zip(*map(self._placed, surface.carriers), strict=True))
@@ -185,7 +185,7 @@ class ContactLocator:
 
     def _covariance(self, std: Array, standing: Sequence[str]) -> Array:
         """Return the covariance (n, n) of what torques hold beside the contact: errors, and what the ground does."""
-        numbers = self.settings
+        numbers = self.numbers
         units = [self.robot.layout.unit(joint) for joint in self.joints]
         floor = np.where(np.array(units) == "N", numbers.error_n, numbers.error_nm)
         ground = np.repeat([numbers.ground_n, numbers.ground_nm], 3)

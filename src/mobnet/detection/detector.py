@@ -20,8 +20,8 @@ from mobnet.detection.chain import Chain, ChainState, advance_chain, chain_state
 from mobnet.detection.gate import Gate, Spans, advance_held, gate_state, make_gate, run_gate
 from mobnet.detection.leg import Leg, make_leg
 from mobnet.detection.signals import Watched
+from mobnet.kernel.detecting import GateNumbers
 from mobnet.robot.description import RobotDescription
-from mobnet.settings import detection as settings
 
 ALARM_RATIO = 1.0  # of a signal to its threshold: above it there is a collision
 
@@ -56,7 +56,7 @@ class LegGate:
     foot: int
 
     @classmethod
-    def of(cls, numbers: settings.SwingGate, robot: RobotDescription, limb: str, rate_hz: float) -> "LegGate":
+    def of(cls, numbers: GateNumbers, robot: RobotDescription, limb: str, rate_hz: float) -> "LegGate":
         """Return the gate of a leg at a rate of samples [Hz]; a ConfigError names a limb that is no leg."""
         # Recordings hold the signals of the feet that the robot has, in the order of FEET.
         leg = make_leg(robot, limb)

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from mobnet.core.arrays import Array
 from mobnet.core.compilation import HeldValue, compiled
 from mobnet.detection.leg import Leg, foot_load, sole_height
-from mobnet.settings import detection as settings
+from mobnet.kernel.detecting import GateNumbers
 
 STATE = np.dtype(
     [
@@ -40,7 +40,7 @@ class Gate(NamedTuple):
     hold: int  # samples for which it must last
 
 
-def make_gate(numbers: settings.SwingGate, rate_hz: float) -> Gate:
+def make_gate(numbers: GateNumbers, rate_hz: float) -> Gate:
     """Return the gate at a rate of samples [Hz]."""
     # Lift-off is counted in samples and the landing in seconds, since the plan moves the landing within a swing.
     lift_off, hold = (max(1, round(time_s * rate_hz)) for time_s in (numbers.lift_off_s, numbers.contact_s))

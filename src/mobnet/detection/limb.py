@@ -19,9 +19,10 @@ from mobnet.detection.points import axis_forces, found_forces
 from mobnet.detection.signals import RATIO, STD, Watched
 from mobnet.detection.thresholds import Calibrated
 from mobnet.detection.watch import LegRecording, LegSetup, LimbSetup, read_estimate
+from mobnet.kernel.detecting import Signal, WatchedSignals
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.nominal import NominalModel
-from mobnet.settings.detection import Detection, DetectorSettings, Signal
+from mobnet.settings.detection import Detection
 from mobnet.settings.lab import Lab
 
 WANTED = "wanted"  # the only rule of thresholds
@@ -92,9 +93,9 @@ class LimbCalibration:
         return float(np.exp(np.mean(np.log(self.least[finite] / other.least[finite]))))
 
 
-def watched_signal(signal: Signal, settings: Lab) -> Watched:
+def watched_signal(signal: Signal) -> Watched:
     """Return what a detector of a limb watches: one signal of an estimate."""
-    return Watched(DetectorSettings(method=settings.detection.gate.method, signals=(signal,)))
+    return Watched(WatchedSignals((signal,)))
 
 
 def calibrate_limb(
@@ -117,7 +118,7 @@ def calibrate_limb(
     own_way = {"scale_quantile": settings.robotlog.scale_quantile, "on_average": settings.robotlog.on_average}
     detection = _with_thresholds(settings.detection, rates_per_h={WANTED: rate_per_h}, **own_way)
     setup = setup_of(detection, robot, limb, own[0].read.rate_hz, walks=walks)
-    watched = watched_signal(signal, settings)
+    watched = watched_signal(signal)
     if isinstance(setup, LegSetup):
         return _calibrate_leg(setup, watched, own)
     return _calibrate_always(setup, watched, own, settings)

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from mobnet.core.arrays import Array
 from mobnet.core.errors import DataError
 from mobnet.core.estimator import Estimate
-from mobnet.settings.detection import DetectorSettings, Signal
+from mobnet.kernel.detecting import Signal, WatchedSignals
 
 MEAN = "mean"
 STD = "std"
@@ -27,13 +27,13 @@ class Watched:
     """What a detector watches.
 
     Attributes:
-        detector: its row.
+        detector: its signals.
         slopes: of each signal, by which share it grows with each metre of a step ahead and to the side, and with each
             radian of a turn, (m, 3) [1/m, 1/m, 1/rad]; None where thresholds are the same for every command.
         whitening: matrix (m, m) of `whitening_of`, where the length of all signals is watched.
     """
 
-    detector: DetectorSettings
+    detector: WatchedSignals
     slopes: Array | None = None
     whitening: Array | None = None
 

@@ -9,9 +9,10 @@ from mobnet.detection.always import setup_of
 from mobnet.detection.signals import Watched
 from mobnet.detection.watch import LegSetup, LimbSetup
 from mobnet.estimation.own import OwnNetwork, Sampling, check_drives
+from mobnet.kernel.detecting import WatchedSignals
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.table_file import flow
-from mobnet.settings.detection import Detection, DetectorSettings
+from mobnet.settings.detection import Detection
 from mobnet.settings.lab import load_section
 from mobnet.settings.limb_thresholds import LimbThresholds
 
@@ -45,7 +46,7 @@ def sampling_of(found: LimbThresholds) -> Sampling:
 
 def watched_of(found: LimbThresholds) -> Watched:
     """Return what a detector with these thresholds watches."""
-    return Watched(DetectorSettings(method=found.method, signals=(found.signal,)))
+    return Watched(WatchedSignals((found.signal,)))
 
 
 def setup_with(found: LimbThresholds, detection: Detection, robot: RobotDescription) -> LimbSetup:

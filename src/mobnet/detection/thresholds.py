@@ -14,7 +14,7 @@ import numpy as np
 
 from mobnet.core.arrays import Array
 from mobnet.core.errors import DataError, not_accepted
-from mobnet.settings.detection import Thresholds
+from mobnet.kernel.detecting import TailNumbers
 
 HOUR_S = 3600.0
 SHAPES = (-0.5, 0.5)  # of the law, between which its moments can be trusted
@@ -96,7 +96,7 @@ def _moments(over: Array) -> tuple[float, float]:
 
 
 def calibrate(
-    largest: Array, episodes: Sequence[int], duration_s: float, rate_per_h: float, settings: Thresholds
+    largest: Array, episodes: Sequence[int], duration_s: float, rate_per_h: float, numbers: TailNumbers
 ) -> Calibrated:
     """Return the multiple of the scales for a wanted rate of false alarms.
 
@@ -105,13 +105,13 @@ def calibrate(
         episodes: the episode of each swing (k,); swings of one episode are drawn together.
         duration_s: time that was walked [s].
         rate_per_h: wanted rate [1/h].
-        settings: least number of swings, share of the tail, resamples and confidence.
+        numbers: least number of swings, share of the tail, resamples and confidence.
 
     Raises:
         DataError: there are too few swings, they do not differ, or the rate is more than the tail holds.
     """
-    if len(largest) < settings.least_swings:
-        needed = f"{settings.least_swings} or more are needed, some minutes of walking"
+    if len(largest) < numbers.least_swings:
+        needed = f"{numbers.least_swings} or more are needed, some minutes of walking"
         raise DataError(f"{len(largest)} swings that calibrate; {needed}")
     if not np.ptp(largest):
         value = float(largest[0])
@@ -120,17 +120,17 @@ def calibrate(
     per_h = len(largest) * HOUR_S / duration_s
     share = rate_per_h / per_h
     # Below the level there is no law: such a threshold would be a quantile of the swings, and most steps an alarm.
-    if share >= settings.tail_share:
-        most = settings.tail_share * per_h
+    if share >= numbers.tail_share:
+        most = numbers.tail_share * per_h
         raise DataError(not_accepted("rate", f"{rate_per_h:g} per hour", [f"below {most:.0f}, the tail of the swings"]))
-    tail = fit_tail(largest, settings.tail_share)
+    tail = fit_tail(largest, numbers.tail_share)
     _check_tail(largest[largest > tail.level], tail.level)
     # (D19), with the same random numbers for every detector and rate: intervals differ by the swings, not by chance.
     rng = np.random.default_rng(SEED)
-    numbers = np.asarray(episodes)
-    groups = [largest[numbers == number] for number in np.unique(numbers)]
-    others = np.array([astuple(_drawn_anew(groups, tail, settings, rng)) for _ in range(settings.resamples)])
-    if settings.on_average:
+    episode = np.asarray(episodes)
+    groups = [largest[episode == number] for number in np.unique(episode)]
+    others = np.array([astuple(_drawn_anew(groups, tail, numbers, rng)) for _ in range(numbers.resamples)])
+    if numbers.on_average:
         asked = _asked_share(share, tail, others)
         rates = _exceeded(asked, tail, others) * per_h
         expected = float(rates.mean())
@@ -138,7 +138,7 @@ def calibrate(
         asked = share
         rates = _above(np.array(tail.size(asked)), others) * per_h
         expected = tail.above(tail.size(asked)) * per_h
-    low, high = np.quantile(rates, [(1.0 - settings.confidence) / 2.0, (1.0 + settings.confidence) / 2.0])
+    low, high = np.quantile(rates, [(1.0 - numbers.confidence) / 2.0, (1.0 + numbers.confidence) / 2.0])
     return Calibrated(tail.size(asked), expected, float(low), float(high))
 
 
@@ -178,7 +178,7 @@ def _check_tail(above: Array, level: float) -> None:
         raise DataError(f"{what}; {needed}")
 
 
-def _drawn_anew(groups: Sequence[Array], tail: Tail, settings: Thresholds, rng: np.random.Generator) -> Tail:
+def _drawn_anew(groups: Sequence[Array], tail: Tail, numbers: TailNumbers, rng: np.random.Generator) -> Tail:
     """Return the law that is fitted to a walk like that of the groups of swings, drawn anew."""
     # Whole episodes: their ground and commands make swings alike, and single swings would look like more than they are.
     drawn = np.concatenate([groups[k] for k in rng.integers(0, len(groups), len(groups))])
@@ -187,7 +187,7 @@ def _drawn_anew(groups: Sequence[Array], tail: Tail, settings: Thresholds, rng: 
     uniform = rng.uniform(size=len(above))
     shape = tail.shape if abs(tail.shape) > STRAIGHT else STRAIGHT
     drawn[above] = tail.level + tail.scale * (uniform**-shape - 1.0) / shape
-    return fit_tail(drawn, settings.tail_share)
+    return fit_tail(drawn, numbers.tail_share)
 
 
 def expected_counts(calibrated: Calibrated, hours: float, confidence: float) -> tuple[int, int]:

@@ -90,7 +90,7 @@ class LegSetup(LimbSetup):
     @classmethod
     def of(cls, detection: Detection, robot: RobotDescription, limb: str, rate_hz: float) -> "LegSetup":
         """Return the setup of a leg; a ConfigError names a limb that is none."""
-        return cls(detection, robot, limb, rate_hz, LegGate.of(detection.gate, robot, limb, rate_hz))
+        return cls(detection, robot, limb, rate_hz, LegGate.of(detection.gate.numbers, robot, limb, rate_hz))
 
     @property
     def side(self) -> str:

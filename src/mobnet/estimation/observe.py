@@ -13,11 +13,11 @@ from mobnet.core.recording import Sensed, read_blocks
 from mobnet.core.store import read_array
 from mobnet.estimation.label import FootLabel, LabelState, zero_of
 from mobnet.estimation.observer import RobotObserver
+from mobnet.kernel.drive import TorqueKind
 from mobnet.kernel.low_pass import low_pass
 from mobnet.kernel.recursion import BLOCK_ROWS
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.nominal import NominalModel
-from mobnet.settings.base import TorqueKind
 
 CARRIED = ("scenario", "level", "seed")  # what a recording says of itself and its residual repeats
 

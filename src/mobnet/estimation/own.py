@@ -13,19 +13,21 @@ from mobnet.core.estimator import Estimate
 from mobnet.core.files import RUN
 from mobnet.core.joints import JointLayout
 from mobnet.core.notes import Note, Text, pair_differences, read_array_note, read_note
+from mobnet.core.options import GAIN_HZ, RATE_HZ
 from mobnet.core.recording import SensedRecording, read_sensed
 from mobnet.core.store import ARRAY, NOTE, file_of, footer_hash, read_array
 from mobnet.core.word_checks import ESTIMATE, RECORDING, check_log_folder, check_network_folder
 from mobnet.estimation.estimate import ObservedRecording, only, run_segments
 from mobnet.estimation.kinds.residual import ResidualEstimator
 from mobnet.estimation.observer import RobotObserver
+from mobnet.kernel.detecting import Target
+from mobnet.kernel.drive import TorqueKind
 from mobnet.learning.deployed.limbs import LimbNetworks, load_limb_networks
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.nominal import NominalModel
 from mobnet.robot.word_checks import limb_named
-from mobnet.settings.base import GAIN_HZ, RATE_HZ, GainHz, RateHz, TorqueKind
+from mobnet.settings.base import GainHz, RateHz
 from mobnet.settings.lab import Lab
-from mobnet.settings.methods import Target
 from mobnet.settings.robot import GroupName
 
 DRIVES = "drives"  # key of a note: digest of the friction that the observer knew

@@ -9,9 +9,10 @@ from typing import Any
 
 from mobnet.core.files import read_json
 from mobnet.core.notes import Count, FileName, Index, Note, Positive, Text, checked
-from mobnet.settings.base import GainHz, RateHz, TorqueKind
+from mobnet.kernel.detecting import Target
+from mobnet.kernel.drive import TorqueKind
+from mobnet.settings.base import GainHz, RateHz
 from mobnet.settings.limb_thresholds import LimbThresholds
-from mobnet.settings.methods import Target
 from mobnet.settings.robot import GroupName
 
 FORMAT = 1  # of the contract; another one has other keys

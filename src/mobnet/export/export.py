@@ -31,12 +31,12 @@ from mobnet.export.graph import graph_of
 from mobnet.export.model_file import RuntimeDetector, RuntimeNetwork, model_content
 from mobnet.export.session import OnnxNetwork
 from mobnet.export.trained import Trained, check_apart, contract_of, read_trained
+from mobnet.kernel.detecting import GateNumbers
+from mobnet.kernel.drive import TorqueKind
 from mobnet.learning.deployed.networks import WITHOUT_TORCH, deployed
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.given import given_robot
 from mobnet.robot.nominal import NominalModel
-from mobnet.settings.base import TorqueKind
-from mobnet.settings.detection import SwingGate
 from mobnet.settings.lab import Lab, load_lab
 from mobnet.settings.limb_thresholds import LimbThresholds
 
@@ -46,7 +46,9 @@ SAMPLES, SEED = 1000, 1  # of the random inputs on which a file is compared with
 Value = TypeVar("Value", TorqueKind, float)
 
 
-def model_of(robot: RobotDescription, contract: Contract, networks: Sequence[Trained], gate: SwingGate) -> bytes | None:
+def model_of(
+    robot: RobotDescription, contract: Contract, networks: Sequence[Trained], gate: GateNumbers
+) -> bytes | None:
     """Return the model file of a robot, whose table is what the observer knows, with networks and their contract.
 
     Where the library lacks the cell of a network there is none.
@@ -71,7 +73,7 @@ def model_of(robot: RobotDescription, contract: Contract, networks: Sequence[Tra
     return model_content(observer, parts, [_detector(one, robot, gate) for one in contract.detectors])
 
 
-def _detector(one: LimbThresholds, robot: RobotDescription, gate: SwingGate) -> RuntimeDetector:
+def _detector(one: LimbThresholds, robot: RobotDescription, gate: GateNumbers) -> RuntimeDetector:
     """Return the detector of a limb's thresholds."""
     chain = make_chain(one.low_pass_hz, one.hold_s, one.rate_hz, np.array([one.thresholds]))
     swing = LegGate.of(gate, robot, one.limb, one.rate_hz) if one.watched == "swing" else None
@@ -92,7 +94,7 @@ def export(
     robot: RobotDescription,
     run: RunTime,
     thresholds: Sequence[LimbThresholds],
-    gate: SwingGate,
+    gate: GateNumbers,
     out: Path,
 ) -> Contract:
     """Write networks, the model of the C library and their contract into a folder; return the contract.
@@ -237,7 +239,7 @@ def export_folders(
         ),
     )
     sweep(out)
-    return export(networks, robot, run_time, found, settings.detection.gate, out), networks
+    return export(networks, robot, run_time, found, settings.detection.gate.numbers, out), networks
 
 
 def run(options: Namespace) -> Iterator[str]:

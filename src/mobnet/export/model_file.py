@@ -23,14 +23,13 @@ from mobnet.detection.chain import Chain
 from mobnet.detection.detector import LegGate
 from mobnet.detection.leg import Leg
 from mobnet.estimation.observer import RobotObserver
+from mobnet.kernel.detecting import Signal, Target
 from mobnet.kernel.drive import NUMBERS, DriveParameters
 from mobnet.learning.deployed.networks import WITHOUT_TORCH
 from mobnet.learning.deployed.weights import GRU_TENSORS, WeightsNote, std_scale_of
 from mobnet.learning.features import ROTATION_NAMES
 from mobnet.learning.gates import ordered
 from mobnet.robot.nominal import NominalModel
-from mobnet.settings.detection import Signal
-from mobnet.settings.methods import Target
 
 MAGIC = b"MOBNETRT"
 VERSION = 1

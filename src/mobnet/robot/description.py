@@ -63,6 +63,7 @@ class RobotDescription:
         shapes: what the robot looks like, both sides, in colours of `tones`.
         points: where forces may be applied, both sides.
         friction: joint -> friction and errors of its drive that the observer knows; empty where it knows none.
+        notes: what a robot's file or model does not say and what was taken for it, a line each; none of a table.
     """
 
     name: str
@@ -79,6 +80,7 @@ class RobotDescription:
     shapes: tuple[ShapeRow, ...]
     points: tuple[PointRow, ...]
     friction: Mapping[str, FrictionRow] = field(default_factory=dict)
+    notes: tuple[str, ...] = ()
 
     @property
     def floating(self) -> bool:

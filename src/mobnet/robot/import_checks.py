@@ -20,12 +20,12 @@ from mobnet.core.arrays import Array
 from mobnet.core.errors import DataError
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.dynamics import bias, mass_matrix
-from mobnet.robot.import_file import read_root
 from mobnet.robot.import_inertia import balanced
+from mobnet.robot.import_links import Imported
 from mobnet.robot.import_mjcf import GRAVITY, compiled, spec_of
 from mobnet.robot.import_tree import FREE
 from mobnet.robot.import_urdf import MOMENTS
-from mobnet.robot.importing import Imported
+from mobnet.robot.importing import read_root
 from mobnet.robot.nominal import NominalModel
 
 POSES, SEED, SPEED = 5, 1, 2.0  # at which models are compared, and their largest velocity [m/s], [rad/s]

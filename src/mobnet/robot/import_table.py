@@ -6,6 +6,7 @@ import sys
 import tempfile
 from argparse import Namespace
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 from mobnet.core.child import in_child
@@ -17,40 +18,35 @@ from mobnet.core.printed import printed
 from mobnet.core.word_checks import check_robot, floats, imported_table
 from mobnet.robot.description import RobotDescription, describe
 from mobnet.robot.import_checks import differences
-from mobnet.robot.importing import BASE_LIMB, VIRTUAL, Imported, import_robot
+from mobnet.robot.import_links import Imported, values_of
+from mobnet.robot.importing import import_robot
 from mobnet.robot.table_file import flow
 from mobnet.robot.word_checks import check_limits
 from mobnet.settings.lab import load_section
 from mobnet.settings.robot import RobotTable
 
 log = logging.getLogger(__name__)
+BY_NAME = ("order", "groups", "networks")  # entries of a table with a line for each name
 EQUAL = 1e-6  # by which a table may differ from another reading of its file
+NOTE = "note: "  # how a printed line of what the file lacks begins
 SECONDS = 60.0  # that reading a file may take; that of 1 MB takes 2 s
 
 
 def table_text(found: Imported, source: str) -> str:
     """Return the YAML of a table: a line for each body and each joint."""
-    limbs = {**({BASE_LIMB: VIRTUAL} if found.floating else {}), **found.groups}
-    order = {**({"virtual": VIRTUAL} if found.floating else {}), "actuated": [row["id"] for row in found.joints]}
-    networks = {name: {"joints": [name], "Q": [name], "T": []} for name in found.groups}
+    values = values_of(found)
     lines = [
         f"# {_line(found.name)}: from {_line(source)}, by {command('robot')}. SI units; quaternions w x y z.",
         "# inertia: [xx, yy, zz, xy, xz, yz] about the centre of mass, in body axes.",
         *(f"# {_line(note)}" for note in found.notes),
-        f"name: {flow(found.name)}",
-        f"base: {'floating' if found.floating else 'fixed'}",
-        *([f"imu: {flow(found.imu)}"] if found.imu else []),
-        "order:",
-        *(f"  {key}: {flow(value)}" for key, value in order.items()),
-        "groups:",
-        *(f"  {flow(name)}: {flow(joints)}" for name, joints in limbs.items()),
-        "networks:",
-        *(f"  {flow(name)}: {flow(row)}" for name, row in networks.items()),
-        "joints:",
-        *(f"  - {flow(row)}" for row in found.joints),
-        "bodies:",
-        *(f"  - {flow(row)}" for row in found.bodies),
     ]
+    for key, value in values.items():
+        if key in BY_NAME:
+            lines += [f"{key}:", *(f"  {flow(name)}: {flow(entry)}" for name, entry in value.items())]
+        elif isinstance(value, list):
+            lines += [f"{key}:", *(f"  - {flow(row)}" for row in value)]
+        else:
+            lines.append(f"{key}: {flow(value)}")
     return "\n".join(lines) + "\n"
 
 
@@ -98,8 +94,9 @@ def read_robot(path: Path) -> RobotDescription:
         DataError: the file is no robot, a table cannot hold it, or the table differs from another reading of the file.
     """
     options = import_parser().parse_args([str(path)])
-    text, _ = in_child(lambda: made(options), SECONDS, str(path))
-    return robot_of_text(text, path)
+    text, lines = in_child(lambda: made(options), SECONDS, str(path))
+    notes = tuple(line.removeprefix(NOTE) for line in lines if line.startswith(NOTE))
+    return replace(robot_of_text(text, path), notes=notes)
 
 
 def run(options: Namespace) -> Iterator[str]:
@@ -136,7 +133,7 @@ def report_lines(robot: RobotDescription, found: Imported, path: Path) -> Iterat
             )
     yield f"{robot.name}: {robot.layout.nu} joints, {len(robot.bodies)} bodies, {robot.mass:.6g} kg, {kind} base"
     yield from (f"limb {name}: {', '.join(joints)}" for name, joints in found.groups.items())
-    yield from (f"note: {_line(note)}" for note in [*found.notes, *notes])
+    yield from (f"{NOTE}{_line(note)}" for note in [*found.notes, *notes])
     changed = ", with these changes" if any(mass.is_changed for mass in found.masses) else ""
     for reading, inertia, terms in compared:
         apart = f"mass matrix {inertia:.1e}, bias {terms:.1e} of their largest entries"

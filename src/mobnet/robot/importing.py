@@ -1,64 +1,19 @@
-"""A robot's table from a URDF or a MJCF file.
+"""A robot's table from a URDF or a MJCF file, whatever a stranger put there."""
 
-Links that no joint moves are one body with the link that carries them. What the file does not say, what a table cannot
-hold and what is changed is told line by line.
-"""
-
+import xml.etree.ElementTree as ET
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
 
-import numpy as np
-
-from mobnet.core.errors import DataError
-from mobnet.core.joints import N_VIRTUAL
-from mobnet.robot.import_base import RobotSelection, robot_of
-from mobnet.robot.import_file import KINDS, read_root
-from mobnet.robot.import_inertia import TOKEN_MASS, Mass, mass_of
+from mobnet.core.errors import DataError, not_accepted
+from mobnet.core.files import check_regular
+from mobnet.robot.import_links import Imported, import_tree, left_out
 from mobnet.robot.import_mjcf import read_mjcf
-from mobnet.robot.import_names import limbs, title_of
-from mobnet.robot.import_rows import body_rows, joint_rows
 from mobnet.robot.import_sensors import feet_of, sensors_of
-from mobnet.robot.import_tree import Joint, LinkTree, RigidBody, bodies_of
-from mobnet.robot.import_urdf import read_urdf
+from mobnet.robot.import_urdf import expanding, read_urdf
 
-VIRTUAL = [f"V{k + 1}" for k in range(N_VIRTUAL)]
-BASE_LIMB = "V"
-MOST_LINKS = 2000  # of a file
-MOST_JOINTS = 250  # of a table; the library for robots takes 255
-# A base that stands still has no momentum: its mass only has to be some mass
-STANDING = Mass(1.0, np.zeros(3), 0.01 * np.eye(3))
-
-
-@dataclass
-class Imported:
-    """Rows of a table, and what could not be read or is not taken over.
-
-    Attributes:
-        notes: lines for the user.
-        tree: the file, of the kind `kind`.
-        robot: its links that the table holds.
-        masses: those of each body, the base first.
-    """
-
-    name: str
-    bodies: list[dict[str, Any]]
-    joints: list[dict[str, Any]]
-    groups: dict[str, list[str]]
-    floating: bool
-    kind: str
-    tree: LinkTree
-    robot: RobotSelection
-    parts: list[RigidBody]
-    masses: list[Mass]
-    notes: list[str] = field(default_factory=list)
-    imu: dict[str, Any] | None = None
-
-    @property
-    def hinges(self) -> list[Joint]:
-        """The joints of the table in their order."""
-        return [body.joint for body in self.parts if body.joint is not None]
+MOST_BYTES = 64 * 2**20  # of a file; the largest of public robots has 1 MB
+MOST_LEVELS = 500  # of elements in elements; MJCF nests bodies
+KINDS = {"robot": "URDF", "mujoco": "MJCF"}  # first element of a file
 
 
 def import_robot(
@@ -78,54 +33,14 @@ def import_robot(
         DataError: the file is no robot, or no joint of it turns.
     """
     root = read_root(path)
+    kind = KINDS[root.tag]
     try:
-        tree = read_urdf(root, path) if KINDS[root.tag] == "URDF" else read_mjcf(path)
-        if len(tree.links) > MOST_LINKS:
-            raise DataError(f"{len(tree.links)} links are not accepted; accepted: at most {MOST_LINKS}")
-        found = _imported(tree, robot_of(tree, floating, locked), KINDS[root.tag], path, armature)
-        moved = [row["name"] for row, body in zip(found.bodies, found.parts, strict=True) if body.joint is not None]
-        taken = {BASE_LIMB, *VIRTUAL} if found.floating else set[str]()
-        found.joints += joint_rows(found.hinges, moved, taken, (torque_limit, speed_limit), found.notes)
-        found.groups |= limbs(found.bodies, found.joints)
-        found.notes += _further(found, floating)
+        tree = read_urdf(root, path) if kind == "URDF" else read_mjcf(path)
+        robot = import_tree(tree, kind, path.stem, floating, (torque_limit, speed_limit), armature, locked)
+        robot.notes += _further(robot, floating)
     except DataError as error:
         raise DataError(f"{path}: {error}") from None
-    return found
-
-
-def _imported(tree: LinkTree, robot: RobotSelection, kind: str, path: Path, armature: float) -> Imported:
-    """Return a robot with its bodies, and with rotors of all joints."""
-    parts = bodies_of(tree, robot.base, robot.kept, robot.held)
-    hinges = [body.joint for body in parts if body.joint is not None]
-    if not hinges:
-        raise DataError("no hinge that moves a mass; accepted: a robot whose joints turn")
-    if len(hinges) > MOST_JOINTS:
-        raise DataError(f"{len(hinges)} hinges are not accepted; accepted: at most {MOST_JOINTS}; --lock welds a joint")
-    masses = [mass_of(body, tree.links) for body in parts]
-    if robot.floating and masses[0].is_token:
-        raise DataError(f"a base that floats without mass, {parts[0].name}, is not accepted; accepted: --base fixed")
-    if not robot.floating:
-        masses[0] = STANDING
-    notes = [*tree.notes, *robot.notes, *_set_armature(hinges, armature)]
-    for mass in masses:
-        notes += mass.notes
-    without = [body.name for body, mass in zip(parts, masses, strict=True) if mass.is_token and body.parts]
-    if without:
-        notes.append(f"no mass in the file: {', '.join(without)}; {TOKEN_MASS:g} kg is taken")
-    bodies = body_rows(parts, masses, robot, notes)
-    return Imported(
-        title_of(tree.name, path.stem), bodies, [], {}, robot.floating, kind, tree, robot, parts, masses, notes
-    )
-
-
-def _set_armature(joints: Sequence[Joint], armature: float) -> Iterator[str]:
-    """Give joints without a rotor inertia another one [kg m^2], and yield what was done."""
-    without = [joint for joint in joints if joint.armature == 0.0]
-    for joint in without:
-        joint.armature = armature
-    if armature and without:
-        which = "all joints" if len(without) == len(joints) else f"{len(without)} of {len(joints)} joints"
-        yield f"armature of {which}: not in the file, {armature:g} kg m^2 is taken"
+    return robot
 
 
 def _further(found: Imported, asked: bool | None) -> Iterator[str]:
@@ -139,21 +54,43 @@ def _further(found: Imported, asked: bool | None) -> Iterator[str]:
         yield from feet_of(
             found.tree.links[found.robot.base].turn, found.parts, found.bodies, found.groups, found.joints
         )
-    yield from _left_out(found.hinges, found.tree.chains, has_imu=found.imu is not None)
+    yield from left_out(found.hinges, found.tree.chains, has_imu=found.imu is not None)
 
 
-def _left_out(joints: Sequence[Joint], chains: int, *, has_imu: bool) -> Iterator[str]:
-    """Yield what the file has and a table does not hold."""
-    lost = {"damping": any(joint.damping for joint in joints), "dry friction": any(joint.friction for joint in joints)}
-    for name, is_there in lost.items():
-        if is_there:
-            yield f"{name} of joints: not taken over; networks learn it"
-    if not any(joint.armature for joint in joints):
-        yield "armature: zero for all joints; add the rotors' inertia, reflected to the joints, where gears are high"
-    if chains:
-        yield f"{chains} equality constraints (closed chains): not taken over"
-    passive = [joint.name or f"joint {joint.index}" for joint in joints if not joint.has_motor]
-    if passive:
-        yield f"no motor in the file: {', '.join(passive)}; --lock welds what a log does not have"
-    rest = ["feet", "sole", *([] if has_imu else ["imu"]), "leg", "hands", "posture", "shapes", "points"]
-    yield f"{', '.join(rest)}: not in the file; docs/robots.md says what needs them"
+def read_root(path: Path) -> ET.Element:
+    """Return the first element of a robot's file, in the encoding that it declares.
+
+    Raises:
+        DataError: it is missing, cannot be read, is no XML, or no robot.
+    """
+    check_regular(path)
+    try:
+        with path.open("rb") as file:
+            content = file.read(MOST_BYTES + 1)
+    except OSError as error:
+        raise DataError(f"{path}: cannot be read: {error.strerror}; accepted: a URDF or MJCF file") from None
+    if len(content) > MOST_BYTES:
+        raise DataError(f"{path}: more than {MOST_BYTES // 2**20} MiB are not accepted; accepted: a URDF or MJCF file")
+    try:
+        root = _parsed(content)
+    except (ValueError, LookupError, ET.ParseError) as error:
+        made = f"a URDF, made by: {expanding(path)}" if b"<xacro:" in content else "a URDF or MJCF file"
+        raise DataError(f"{path}: {error}; accepted: {made}") from None
+    if root.tag not in KINDS:
+        accepted = [f"{kind} ({tag})" for tag, kind in KINDS.items()]
+        raise DataError(not_accepted(f"{path}: first element", root.tag, accepted))
+    return root
+
+
+def _parsed(content: bytes) -> ET.Element:
+    """Return the first element; a file that nests elements without end would end the process elsewhere."""
+    parser = ET.XMLPullParser(("start", "end"))
+    depth = 0
+    for start in range(0, len(content), 2**16):
+        parser.feed(content[start : start + 2**16])
+        for event in parser.read_events():
+            depth += 1 if event[0] == "start" else -1
+            if depth > MOST_LEVELS:
+                raise ValueError(f"more than {MOST_LEVELS} elements in each other are not accepted")
+    parser.close()
+    return ET.fromstring(content)

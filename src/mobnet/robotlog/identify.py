@@ -20,6 +20,7 @@ from mobnet.core.recording import SensedRecording
 from mobnet.core.word_checks import RECORDING, check_new_file
 from mobnet.estimation import observer
 from mobnet.estimation.own import read_log_folder
+from mobnet.kernel.drive import TorqueKind
 from mobnet.robot.description import RobotDescription, describe
 from mobnet.robot.given import given_table
 from mobnet.robot.table_file import head_of, write_table
@@ -28,7 +29,6 @@ from mobnet.robotlog.identifying.fit import JointFit, fit_joints
 from mobnet.robotlog.identifying.payload import Payload
 from mobnet.robotlog.identifying.regressors import RegressorWindows, columns_of, moved, together, windows_of
 from mobnet.robotlog.observe import converted_log
-from mobnet.settings.base import TorqueKind
 from mobnet.settings.lab import Lab, load_lab, load_section
 from mobnet.settings.parts import BodyRow, FrictionRow
 from mobnet.settings.robot import RobotTable

@@ -27,6 +27,7 @@ from mobnet.core.store import NOTE, array_writer, file_of, write_array
 from mobnet.core.word_checks import check_observe
 from mobnet.estimation import observer
 from mobnet.estimation.own import DRIVES, ESTIMATE, OBSERVER, RECORDING
+from mobnet.kernel.drive import TorqueKind
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.given import given_robot
 from mobnet.robot.nominal import NominalModel
@@ -52,7 +53,6 @@ from mobnet.robotlog.meaning import default_map, resolved, wanted_columns
 from mobnet.robotlog.pieces import pieces, root_mean_square
 from mobnet.robotlog.plot import plot_residual
 from mobnet.robotlog.wrenches import Wrenches, WrenchPoint, place_of, wrench_lines, wrenches_of, write_wrenches
-from mobnet.settings.base import TorqueKind
 from mobnet.settings.lab import load_lab, load_section
 from mobnet.settings.robotlog import LogMap, RobotLog
 

@@ -20,8 +20,8 @@ from mobnet.detection.planted import found_pushes, plant
 from mobnet.detection.signals import MEAN, RATIO
 from mobnet.detection.watch import LegRecording
 from mobnet.estimation.own import Sampling
+from mobnet.kernel.detecting import Signal
 from mobnet.robot.nominal import NominalModel
-from mobnet.settings.detection import Signal
 from mobnet.settings.lab import Lab
 
 NETWORKS = NETWORK.format(MEAN), NETWORK.format(RATIO)
@@ -91,7 +91,7 @@ def planted_check(
     estimates = [*map(Estimate, observers), *(network,) * len(NETWORKS)]
     found = dict[str, int]()
     for name, estimate in zip(names, estimates, strict=True):
-        watched = watched_signal(WATCHED[name], settings)
+        watched = watched_signal(WATCHED[name])
         low = setup.low_passed(watched.of(estimate, leg.command), segments)
         # Nothing touched the robot here: these are the lowest thresholds that raise no false alarm.
         thresholds = np.abs(low[gate.watched]).max(axis=0)

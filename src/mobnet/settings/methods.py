@@ -6,11 +6,11 @@ from typing import Annotated, Literal
 
 from pydantic import AfterValidator, JsonValue
 
+from mobnet.kernel.detecting import Target as Target
 from mobnet.settings import base
 from mobnet.settings.base import Section
 
 Networks = Annotated[tuple[base.NetworkName, ...], AfterValidator(base.distinct)]
-Target = Literal["uncertainty", "external"]
 
 
 class ObserverSettings(Section):

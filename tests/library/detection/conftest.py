@@ -10,7 +10,7 @@ from mobnet.detection.detector import LegGate
 
 @pytest.fixture(scope="session")
 def gate(settings, robot):
-    return LegGate.of(settings.detection.gate, robot, "LL", RATE_HZ)
+    return LegGate.of(settings.detection.gate.numbers, robot, "LL", RATE_HZ)
 
 
 @pytest.fixture(scope="session")

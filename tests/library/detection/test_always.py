@@ -11,11 +11,11 @@ from mobnet.detection.always import alike, always_on, always_watched, setup_of, 
 from mobnet.detection.calibration import QuietWalk, rate_scales, swing_heights
 from mobnet.detection.signals import Watched
 from mobnet.detection.watch import LegSetup
-from mobnet.settings.detection import DetectorSettings
+from mobnet.kernel.detecting import WatchedSignals
 
 RATE_HZ, SECONDS = 10.0, 1800
 RECORDINGS, RESAMPLES = 40, 60
-WATCHED = Watched(DetectorSettings(method="MOB", signals=("mean",)))
+WATCHED = Watched(WatchedSignals(signals=("mean",)))
 
 
 def slow(rng, rows, lasts_s, spread=0.25):

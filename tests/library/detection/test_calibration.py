@@ -18,7 +18,7 @@ from mobnet.detection.calibration import (
 from mobnet.detection.detector import GateSignal
 from mobnet.detection.signals import Watched, whitening_of
 from mobnet.detection.watch import LegRecording, LimbSetup
-from mobnet.settings.detection import DetectorSettings
+from mobnet.kernel.detecting import WatchedSignals
 
 RATE_HZ, ROWS = 1000.0, 1000
 
@@ -58,7 +58,7 @@ def test_the_usual_largest_is_the_median_over_parts_of_equal_length():
 def test_the_end_of_a_swing_is_in_its_last_phase(setup):
     """A phase of exactly 1 lies in none of the parts that are cut half-open."""
     walk = QuietWalk.of(setup, "", [recorded(((100, 900),), phase=1.0)], [Estimate(np.ones((ROWS, 6)))], share=1.0)
-    watched = Watched(DetectorSettings(method="MOB", signals=("mean",), phases=4))
+    watched = Watched(WatchedSignals(signals=("mean",), phases=4))
     heights = swing_heights(setup, watched, walk)
     assert heights.shape == (1, 4, 6)
     assert np.isneginf(heights[0, :3]).all()

@@ -10,16 +10,16 @@ from mobnet.core.estimator import Estimate
 from mobnet.detection.chain import make_chain
 from mobnet.detection.detector import ALARM_RATIO, LegDetector
 from mobnet.detection.signals import Watched, whitening_of
-from mobnet.settings.detection import DetectorSettings
+from mobnet.kernel.detecting import WatchedSignals
 
 STEP_S = 50e-6  # a step may take
 ROWS = {
-    "mean": DetectorSettings(method="MOB", signals=("mean",)),
-    "OR": DetectorSettings(method="MOB-Net", signals=("mean", "std")),
-    "ratio": DetectorSettings(method="MOB-Net", signals=("ratio",)),
-    "norm": DetectorSettings(method="MOB-Net", signals=("mean",), norm=True),
-    "phases": DetectorSettings(method="MOB-Net", signals=("mean", "std"), phases=8),
-    "command": DetectorSettings(method="MOB-Net", signals=("mean",), commanded=True),
+    "mean": WatchedSignals(signals=("mean",)),
+    "OR": WatchedSignals(signals=("mean", "std")),
+    "ratio": WatchedSignals(signals=("ratio",)),
+    "norm": WatchedSignals(signals=("mean",), norm=True),
+    "phases": WatchedSignals(signals=("mean", "std"), phases=8),
+    "command": WatchedSignals(signals=("mean",), commanded=True),
 }
 
 

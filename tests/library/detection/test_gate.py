@@ -71,5 +71,5 @@ def test_a_hit_from_the_front_is_no_ground(gate, walk, robot, link):
 
 def test_times_of_the_gate_are_a_sample_at_least(settings):
     """At a rate at which they are shorter than half a sample."""
-    gate = make_gate(settings.detection.gate, 1.0)
+    gate = make_gate(settings.detection.gate.numbers, 1.0)
     assert (gate.lift_off, gate.hold) == (1, 1)

@@ -24,9 +24,9 @@ from mobnet.detection.limb import OwnRecording, calibrate_limb
 from mobnet.detection.planted import PushPlan, found_pushes, plant
 from mobnet.detection.signals import Watched
 from mobnet.detection.watch import LegRecording, LimbSetup
+from mobnet.kernel.detecting import WatchedSignals
 from mobnet.kernel.low_pass import low_pass
 from mobnet.robot.nominal import NominalModel
-from mobnet.settings.detection import DetectorSettings
 
 SECONDS, RATE_HZ, GAIN_HZ, RATE_PER_H = 240, 100.0, 100.0, 60.0
 ROWS = round(SECONDS * RATE_HZ)
@@ -77,7 +77,7 @@ def test_an_estimate_without_error_finds_every_push_and_a_high_threshold_none(tr
     one = tried(1.0)
     poses = [own.read.sensed.q for own in one.own]
     planted = plant(one.found.setup, NominalModel(arm), GAIN_HZ, one.found.limbs, poses, pushing_of(quick), SEED)
-    watched, perfect = Watched(DetectorSettings(method="MOB", signals=("mean",))), [Estimate(np.zeros((ROWS, 2)))]
+    watched, perfect = Watched(WatchedSignals(signals=("mean",))), [Estimate(np.zeros((ROWS, 2)))]
     for threshold, share in ((1e-3, 1.0), (1e6, 0.0)):
         thresholds = np.full(2, threshold)
         hits = found_pushes(one.found.setup, watched, thresholds, one.found.limbs, perfect, planted)

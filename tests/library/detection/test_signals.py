@@ -6,7 +6,7 @@ import pytest
 from mobnet.core.errors import DataError
 from mobnet.core.estimator import Estimate
 from mobnet.detection.signals import Watched, slopes_of, whitening_of
-from mobnet.settings.detection import DetectorSettings
+from mobnet.kernel.detecting import WatchedSignals
 
 ESTIMATE = Estimate(np.array([[4.0, -2.0]]), np.array([[2.0, 0.5]]))
 IN_PLACE = np.array([[0.0, 0.0, 0.0, 0.7, 0.055]])
@@ -16,21 +16,21 @@ IN_PLACE = np.array([[0.0, 0.0, 0.0, 0.7, 0.055]])
     (("mean",), [4, -2]), (("std",), [2, 0.5]), (("ratio",), [2, -4]), (("mean", "std"), [4, -2, 2, 0.5]),
 ])  # fmt: skip
 def test_signals_are_those_of_the_estimate(signals, expected):
-    watched = Watched(DetectorSettings.model_validate({"method": "MOB-Net", "signals": signals}))
+    watched = Watched(WatchedSignals(signals))
     assert watched.of(ESTIMATE, IN_PLACE).tolist() == [expected]
     assert len(watched.names(["LL1", "LL2"])) == len(expected)
     assert watched.names(["LL1", "LL2"])[0] == f"{signals[0]}.LL1"
 
 
 def test_a_method_without_standard_deviations_has_no_signal_of_them():
-    watched = Watched(DetectorSettings.model_validate({"method": "MOB", "signals": ["std"]}))
+    watched = Watched(WatchedSignals(("std",)))
     with pytest.raises(DataError, match="signal 'std': the estimate has no columns std"):
         watched.of(Estimate(ESTIMATE.tau_ext), IN_PLACE)
 
 
 def test_signals_are_smaller_where_the_command_lets_one_expect_more():
     slopes = np.array([[5.0, 0.0, 0.0], [0.0, 0.0, 2.0]])
-    watched = Watched(DetectorSettings(method="MOB", signals=("mean",), commanded=True), slopes)
+    watched = Watched(WatchedSignals(signals=("mean",), commanded=True), slopes)
     turning = np.array([[-0.2, 0.1, 0.5, 0.7, 0.055]])  # one fifth of a metre back, half a radian to the left
     assert watched.of(ESTIMATE, IN_PLACE).tolist() == [[4.0, -2.0]]
     assert watched.of(ESTIMATE, turning).tolist() == [[2.0, -1.0]]
@@ -56,4 +56,4 @@ def test_whitened_signals_have_the_unit_matrix_as_second_moment():
     signals = rng.normal(size=(5000, 3)) @ np.array([[2.0, 0.5, 0.0], [0.0, 1.0, 0.3], [0.0, 0.0, 0.1]])
     white = signals @ whitening_of(signals).T
     np.testing.assert_allclose(white.T @ white / len(white), np.eye(3), atol=1e-6)
-    assert Watched(DetectorSettings(method="MOB", signals=("mean",), norm=True)).names(["LL1", "LL2"]) == ["norm"]
+    assert Watched(WatchedSignals(signals=("mean",), norm=True)).names(["LL1", "LL2"]) == ["norm"]

@@ -1,5 +1,7 @@
 """Thresholds have the rate of false alarms that they are made for, and intervals hold it as often as they say."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.stats import lognorm
@@ -15,7 +17,7 @@ PER_H = SWINGS * 3600.0 / DURATION_S
 @pytest.fixture
 def numbers(settings):
     """As configured, with fewer resamples: hundreds of walks are calibrated here."""
-    return settings.detection.thresholds.model_copy(update={"resamples": 200})
+    return replace(settings.detection.thresholds.tail, resamples=200)
 
 
 @pytest.mark.parametrize(("shape", "scale"), [(-0.2, 1.0), (0.0, 0.5), (0.2, 2.0)])
@@ -73,7 +75,7 @@ def test_the_interval_holds_the_rate_as_often_as_it_says_and_counts_of_held_out_
 def test_the_mean_rate_of_walks_whose_episodes_differ_is_nearer_to_the_wanted_one(numbers, rate_per_h, most):
     """Nearer than where a fitted law is asked for the wanted rate itself; one an hour is far beyond what was seen."""
     episodes = np.repeat(np.arange(16), 54)
-    fewer = numbers.model_copy(update={"resamples": 100})
+    fewer = replace(numbers, resamples=100)
     levels = np.exp(0.1 * np.random.default_rng(0).normal(size=20_000))  # of the episodes of all walks
     rates, plain = [], []
     for seed in range(60):
@@ -113,12 +115,12 @@ def test_a_wanted_rate_that_is_common_is_met_without_going_beyond_what_was_seen(
 ])  # fmt: skip
 def test_what_gives_no_threshold_is_told(largest, rate, text, settings):
     with pytest.raises(DataError, match=text):
-        calibrate(largest, range(len(largest)), 1000.0, rate, settings.detection.thresholds)
+        calibrate(largest, range(len(largest)), 1000.0, rate, settings.detection.thresholds.tail)
 
 
 def test_a_tail_of_which_every_second_value_differs_gives_a_threshold(settings):
     largest = np.minimum(np.arange(1.0, 301.0), 285.0)  # 30 in the tail, the last 15 of them the same
-    assert calibrate(largest, range(300), 1000.0, 1.0, settings.detection.thresholds).factor > 270.0
+    assert calibrate(largest, range(300), 1000.0, 1.0, settings.detection.thresholds.tail).factor > 270.0
 
 
 def test_a_walk_drawn_anew_without_its_rare_swings_expects_no_alarm(numbers):

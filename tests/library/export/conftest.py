@@ -28,7 +28,7 @@ def run():
 
 @pytest.fixture(scope="session")
 def gate(settings):
-    return settings.detection.gate
+    return settings.detection.gate.numbers
 
 
 @pytest.fixture(scope="session")

@@ -21,8 +21,8 @@ from mobnet.detection.detector import ALARM_RATIO, GateSignal, run_over
 from mobnet.detection.signals import Watched
 from mobnet.export.export import export
 from mobnet.export.trained import read_trained
+from mobnet.kernel.detecting import WatchedSignals
 from mobnet.learning.deployed.limbs import load_limb_networks
-from mobnet.settings.detection import DetectorSettings
 
 EXAMPLE = Path(__file__).parents[3] / "docs" / "examples" / "run_onnx.py"
 SEGMENTS = [[0, 1200], [1300, 4000]]  # between them samples are missing
@@ -43,9 +43,7 @@ def estimates(layout):
 
 def edges(estimate, signal, limits, settle):
     """Return when alarms of the project's own chain begin and end [s], which watches after the first samples."""
-    signals = Watched(DetectorSettings(method="MOB-Net", signals=(signal,))).of(
-        estimate, np.zeros((len(estimate.tau_ext), 5))
-    )
+    signals = Watched(WatchedSignals(signals=(signal,))).of(estimate, np.zeros((len(estimate.tau_ext), 5)))
     gate = GateSignal(np.arange(len(signals)) >= settle, np.zeros(len(signals)))
     chain = make_chain(15.0, 0.005, 1000.0, np.array([limits], dtype=float))
     above = run_over(chain, signals, gate).ratio > ALARM_RATIO

@@ -8,10 +8,10 @@ from mobnet.detection.chain import make_chain
 from mobnet.detection.detector import LegDetector, LegGate
 from mobnet.detection.signals import Watched
 from mobnet.estimation.recipe import build_estimator
+from mobnet.kernel.detecting import WatchedSignals
 from mobnet.reaction.handler import Handler
 from mobnet.reaction.loop import walk_with
 from mobnet.reaction.watchers import LegWatcher, LimbWatcher
-from mobnet.settings.detection import DetectorSettings
 from mobnet.simulation.simulator import Simulator
 
 RATE_HZ = 1000.0
@@ -25,8 +25,8 @@ def leg_watchers(settings, robot):
     def watcher(limb):
         detection = settings.detection
         chain = make_chain(detection.low_pass_hz, detection.hold_s, RATE_HZ, np.full((1, 6), THRESHOLD_NM))
-        gate = LegGate.of(detection.gate, robot, limb, RATE_HZ)
-        detector = LegDetector(Watched(DetectorSettings(method="MOB", signals=("mean",))), gate, chain)
+        gate = LegGate.of(detection.gate.numbers, robot, limb, RATE_HZ)
+        detector = LegDetector(Watched(WatchedSignals(signals=("mean",))), gate, chain)
         return LegWatcher(detector, robot.layout.columns(robot.layout.limb(limb)))
 
     return {limb: watcher(limb) for limb in ("LL", "RL")}
@@ -39,7 +39,7 @@ def limb_watcher(settings, robot):
     def watcher(limb):
         joints, detection = robot.layout.limb(limb), settings.detection
         chain = make_chain(detection.low_pass_hz, detection.hold_s, RATE_HZ, np.full((1, len(joints)), THRESHOLD_NM))
-        watched = Watched(DetectorSettings(method="MOB", signals=("mean",)))
+        watched = Watched(WatchedSignals(signals=("mean",)))
         return LimbWatcher(watched, chain, robot.layout.columns(joints))
 
     return watcher

@@ -7,8 +7,8 @@ from mobnet.core.estimator import Estimate
 from mobnet.core.recording import Sensed
 from mobnet.detection.chain import make_chain
 from mobnet.detection.signals import Watched
+from mobnet.kernel.detecting import WatchedSignals
 from mobnet.reaction.watchers import BaseForce, BaseWatcher, LimbWatcher
-from mobnet.settings.detection import DetectorSettings
 
 THRESHOLD, TORQUE_NM = 3.0, 12.0
 
@@ -17,7 +17,7 @@ THRESHOLD, TORQUE_NM = 3.0, 12.0
 def test_a_limb_is_watched_by_its_torque_over_the_standard_deviation(std_nm, ratio):
     """A network that is less sure of itself, as in a hard step, raises no alarm by the same torque."""
     columns = np.array([4, 5])
-    watched = Watched(DetectorSettings(method="MOB-Net", signals=("ratio",)))
+    watched = Watched(WatchedSignals(signals=("ratio",)))
     watcher = LimbWatcher(watched, make_chain(15.0, 0.005, 1000.0, np.full((1, 2), THRESHOLD)), columns)
     sample = Sensed(*(np.zeros(5) for _ in Sensed.__dataclass_fields__))
     tau = np.zeros(6)
@@ -44,7 +44,7 @@ def test_a_stretch_has_the_forces_of_its_samples(base, made_up, layout):
 
 @pytest.mark.parametrize(("push_n", "is_alarm"), [(60.0, True), (20.0, False)])
 def test_a_force_on_the_base_that_no_foot_explains_is_an_alarm(base, made_up, layout, push_n, is_alarm):
-    watched = Watched(DetectorSettings(method="MOB-Net", signals=("ratio",)))
+    watched = Watched(WatchedSignals(signals=("ratio",)))
     watcher = BaseWatcher(watched, make_chain(15.0, 0.005, 1000.0, np.full((1, 3), THRESHOLD)), base)
     sample, tau = made_up(4, 0.01).sensed[0], np.zeros(layout.nv)
     tau[0] = push_n

@@ -13,12 +13,12 @@ from mobnet.detection.signals import Watched
 from mobnet.estimation.kinds.residual import ResidualEstimator
 from mobnet.estimation.observer import RobotObserver
 from mobnet.export.model_file import RuntimeDetector, write_model_file
+from mobnet.kernel.detecting import WatchedSignals
 from mobnet.learning.deployed.limbs import LimbNetworks
 from mobnet.learning.deployed.networks import deployed
 from mobnet.learning.deployed.weights import GRU_TENSORS
 from mobnet.reaction.watchers import LimbWatcher
 from mobnet.robot.nominal import NominalModel
-from mobnet.settings.detection import DetectorSettings
 from mobnet.settings.parts import FrictionRow
 
 from .conftest import GAIN_HZ, GRAVITY, RATE_HZ, chain_of, changed, moving, network_of
@@ -97,7 +97,7 @@ def test_the_stored_push(runtime, push, published, felt):
     agree(tau[:, columns], felt.tau_ext, SINGLE)
     np.testing.assert_allclose(std[:, columns], felt.std, rtol=SINGLE)
     agree(mean[:, columns], residual[:, columns] - felt.tau_ext, SINGLE)
-    flags = detected(LegDetector(Watched(row), gate, chain), sensed, felt)
+    flags = detected(LegDetector(Watched(row.watching), gate, chain), sensed, felt)
     np.testing.assert_array_equal(alarms[:, 0, 0] > ALARM_RATIO, flags[:, 0] > ALARM_RATIO)
     assert np.any(flags[:, 0] > ALARM_RATIO)
     np.testing.assert_array_equal(alarms[:, 0, 1:], flags[:, 1:])
@@ -113,9 +113,9 @@ def test_gate_of_both_legs_on_a_walk(runtime, push, settings, foot):
         told = np.repeat(still.astype(float), 2, axis=1)
         sensed = changed(sensed, swing=told, landing=0.14 * told)
     residual, found = observer.residual(sensed), []
-    gates = {limb: LegGate.of(settings.detection.gate, push.robot, limb, RATE_HZ) for limb in ("LL", "RL")}
+    gates = {limb: LegGate.of(settings.detection.gate.numbers, push.robot, limb, RATE_HZ) for limb in ("LL", "RL")}
     row, chain = (
-        DetectorSettings(method="MOB", signals=("mean",), phases=4),
+        WatchedSignals(signals=("mean",), phases=4),
         chain_of(np.linspace(9.0, 40.0, 24).reshape(4, 6)),
     )
     for limb, gate in gates.items():
@@ -145,7 +145,7 @@ def test_networks_and_watched_limbs(runtime, observer_of, machine, cell, estimat
         moving(layout, 300),
         layout.limb(limb),
     )
-    row = DetectorSettings(method="MOB-Net", signals=("std", "ratio", "mean"))
+    row = WatchedSignals(signals=("std", "ratio", "mean"))
     chain = chain_of(np.full((1, 3 * len(columns)), 2.0))
     watching = RuntimeDetector(limb, columns, row.signals, chain)
     _, mean, std, tau, alarms = run(runtime(observer, [network], [watching]), sensed)

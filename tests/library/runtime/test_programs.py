@@ -32,7 +32,10 @@ def model(observer_of, settings, tmp_path):
         observer, cell = observer_of(machine), {"cell": "GRU", "hidden": 4}
         robot = observer.nominal.robot
         networks = [network_of(robot.layout, limb, cell, seed) for seed, limb in enumerate(LIMBS[machine])]
-        gates = {limb: LegGate.of(settings.detection.gate, robot, limb, 1000.0) for limb in robot.layout.legs.values()}
+        gates = {
+            limb: LegGate.of(settings.detection.gate.numbers, robot, limb, 1000.0)
+            for limb in robot.layout.legs.values()
+        }
         detectors = [watching(robot.layout, limb, ("ratio",), gate=gates.get(limb)) for limb in LIMBS[machine]]
         write_model_file(tmp_path / f"{machine}.bin", observer, networks, detectors)
         return tmp_path / f"{machine}.bin"
@@ -50,10 +53,10 @@ def test_the_example_prints_the_flags_of_the_project(built, push, published, fel
     csv = tmp_path / "recording.csv"
     pd.read_parquet(push.folder / "recording.parquet").astype("float64").to_csv(csv, index=False)
     header, *lines = program(make("example", built), tmp_path / "model.bin", csv)
-    alarm = LegDetector(Watched(row), gate, chain).run(gate.run(push.recording.sensed, felt.tau_ext),
+    alarm = LegDetector(Watched(row.watching), gate, chain).run(gate.run(push.recording.sensed, felt.tau_ext),
                                                        push.recording.sensed, felt)  # fmt: skip
     rows = np.flatnonzero(alarm.ratio > ALARM_RATIO)
-    names = Watched(row).names(push.joints)
+    names = Watched(row.watching).names(push.joints)
     assert header == "row,time_s,detector,signal,ratio"
     assert [line.split(",")[0] for line in lines] == [str(k) for k in rows]
     assert [line.split(",")[2:4] for line in lines] == [["LL", names[k]] for k in alarm.signal[rows]]

@@ -17,6 +17,7 @@ from made_arm import arm_log
 
 from experiments.commands.main import MODULES
 from experiments.commands.words import parse
+from mobnet.core.recording import read_sensed
 from mobnet.core.store import read_array
 from mobnet.detection.calibrate import main as calibrate
 from mobnet.detection.threshold_file import read_thresholds
@@ -179,13 +180,18 @@ def test_a_loop_over_the_samples_has_the_flags_of_the_command(made, arm, setting
 
 def test_the_examples_of_the_interface_run_on_the_files_of_the_page(made, arm, settings, monkeypatch, capsys):
     monkeypatch.chdir(made)
-    detect_in_loop, *others = re.findall(r"^```python\n(.*?)^```$", INTERFACE.read_text(), re.DOTALL | re.MULTILINE)
+    blocks = re.findall(r"^```python\n(.*?)^```$", INTERFACE.read_text(), re.DOTALL | re.MULTILINE)
+    detect_in_loop, from_model, *others = blocks
     meaning = load_section(Path("map.yaml"), LogMap)
     sensed = converted_log(Path("new.csv"), arm.layout, meaning, settings.robotlog).recording.sensed
     names = {"ticks": list(zip(sensed.q, sensed.v, sensed.tau_motor, strict=True))}
     exec(detect_in_loop, names)
     said = [line.partition(":")[0] for line in capsys.readouterr().out.splitlines()]
     assert list(dict.fromkeys(said)) == ["J2", "J1"]  # pushed in this order, as PUSHES has them
+    free = read_sensed(Path("free/recording"), arm.layout).sensed
+    names |= {"q_free": free.q, "v_free": free.v, "tau_free": free.tau_motor}
+    exec(from_model, names)  # without a network its thresholds are wider
+    assert list(dict.fromkeys(capsys.readouterr().out.splitlines())) == ["J2 is pushed", "J1 is pushed"]
     of_an_arm = [code for code in others if "humanoid" not in code]  # tests/library/package runs those of a humanoid
     for code in of_an_arm:
         exec(code, names)

@@ -172,7 +172,7 @@ class StoredPush:
         """
         setup = self._setup
         row = self.settings.detection.detectors[self.story.detector]
-        detector = LegDetector(Watched(row), setup.gate, setup.chain(self._thresholds(row)))
+        detector = LegDetector(Watched(row.watching), setup.gate, setup.chain(self._thresholds(row)))
         gate = setup.gate.run(self.recording.sensed, estimates[setup.detection.gate.method].tau_ext)
         ratio = detector.run(gate, self.recording.sensed, estimates[row.method]).ratio
         start = round(self.story.before_s * setup.rate_hz)
@@ -187,7 +187,7 @@ class StoredPush:
     def _thresholds(self, row: DetectorSettings) -> Array:
         """Return the thresholds of a detector, (phases, signals) [N m], of a ratio [-]."""
         path = self.folder / "thresholds.csv"
-        names = Watched(row).names(self.joints)
+        names = Watched(row.watching).names(self.joints)
         stored: list[Threshold] = read_detections(path, "thresholds")
         values = {(one.phase, one.signal): one.value for one in stored}
         wanted = list(product(range(1, row.phases + 1), names))

@@ -15,7 +15,6 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
-import scipy  # pyright: ignore[reportMissingTypeStubs]  # its parts are imported where they are used first
 from numpy.typing import NDArray
 
 from experiments.evaluation.number.intervals import quantile_of
@@ -90,14 +89,6 @@ def clusters_of(places: Sequence[ClusterKey]) -> NDArray[np.intp]:
     return robots if robots.any() else np.unique([place.seed for place in places], return_inverse=True)[1]
 
 
-def garwood(count: float, statistics: Statistics) -> tuple[float, float]:
-    """Return the interval of the mean of a Poisson count (Garwood 1936), which need not be a whole number."""
-    tail = (1.0 - statistics.confidence) / 2.0
-    low = float(scipy.special.gammaincinv(count, tail)) if count else 0.0
-    high = float(scipy.special.gammaincinv(count + 1.0, 1.0 - tail))
-    return low, high
-
-
 def _effects(parts: Array, places: Sequence[ClusterKey]) -> list[tuple[int, float]]:
     """Return of robots and of walks, where there are several, how many and the variance of the sum of parts (n,)."""
     robots = [place.robot for place in places]
@@ -116,11 +107,3 @@ def _effects(parts: Array, places: Sequence[ClusterKey]) -> list[tuple[int, floa
 def _squared(count: int, statistics: Statistics) -> float:
     """Return the square of Student's quantile for so many robots or walks [-]."""
     return quantile_of(count - 1, statistics.confidence) ** 2
-
-
-def wilson(value: float, count: float, statistics: Statistics) -> tuple[float, float]:
-    """Return Wilson's interval of a share of so many independent values, which need not be a whole number."""
-    square = float(scipy.special.ndtri((1.0 + statistics.confidence) / 2.0)) ** 2
-    middle = (value + square / (2.0 * count)) / (1.0 + square / count)
-    reach = (square * (value * (1.0 - value) / count + square / (4.0 * count**2))) ** 0.5 / (1.0 + square / count)
-    return (middle - reach if value > 0.0 else 0.0), (middle + reach if value < 1.0 else 1.0)

@@ -7,9 +7,9 @@ from math import factorial
 import numpy as np
 import scipy  # pyright: ignore[reportMissingTypeStubs]  # its parts are imported where they are used first
 
-from experiments.evaluation.number.clusters import garwood
 from experiments.evaluation.number.intervals import Array, RunGrid
 from experiments.evaluation.number.number import Number
+from experiments.settings.independent import garwood
 from experiments.settings.runs import Statistics
 
 
@@ -43,7 +43,7 @@ def rate_of(count: int, hours: float, statistics: Statistics) -> Number:
     """
     if hours <= 0.0:
         return Number(None, unit="1/h")
-    low, high = garwood(count, statistics)
+    low, high = garwood(count, statistics.confidence)
     return Number(count / hours, low / hours, high / hours, unit="1/h")
 
 

@@ -107,7 +107,7 @@ def watched_rows(scene: PageScene, detection: Detection, robot: RobotDescription
     gating = next(run for run in scene.runs if run.method == scene.gate)
     pair = read_pair(gating, layout)
     read = read_sensed(scene.runs[0].recording, layout)
-    gate = LegGate.of(detection.gate, robot, limb, read.rate_hz)
+    gate = LegGate.of(detection.gate.numbers, robot, limb, read.rate_hz)
     return gate.watch(read, pair.estimate[:, pair.places(layout.limb(limb))]).watched
 
 

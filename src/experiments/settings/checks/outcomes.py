@@ -5,14 +5,13 @@ happens in them. The best outcome is that of robots that are alike (docs/notes/m
 """
 
 from collections.abc import Iterator
-from math import log, sqrt
-from statistics import NormalDist
 
 from experiments.settings.catalogue import Catalogue
 from experiments.settings.claims import Cell, Claim
 from experiments.settings.counts import robots_of
 from experiments.settings.evaluation import PRODUCTS
 from experiments.settings.few_clusters import rate_ends, share_ends
+from experiments.settings.independent import garwood, wilson
 from experiments.settings.runs import Statistics
 from experiments.settings.settings import Settings
 from mobnet.core.claim_ranges import Bounds, ranges_of, within
@@ -79,24 +78,14 @@ def parts_of(count: int, clusters: int) -> list[int]:
     return [count // clusters + (k < count % clusters) for k in range(clusters)]
 
 
-def wilson(share: float, trials: float, confidence: float) -> tuple[float, float]:
-    """Return the ends of the interval of a share [-] of independent trials (Wilson 1927)."""
-    z = NormalDist().inv_cdf((1.0 + confidence) / 2.0)
-    middle = share + z**2 / (2.0 * trials)
-    reach = z * sqrt(share * (1.0 - share) / trials + z**2 / (4.0 * trials**2))
-    scale = 1.0 + z**2 / trials
-    low = 0.0 if share == 0.0 else (middle - reach) / scale
-    high = 1.0 if share == 1.0 else (middle + reach) / scale
-    return low, high
-
-
 def is_met_by_a_rate(bounds: Bounds, hours: float, clusters: int, statistics: Statistics) -> bool:
     """Return whether a count of events may have the interval of its rate within bounds [1/h], of which the lower is 0.
 
-    The best outcome is no event; of independent ones its interval has a closed form (Garwood 1936).
+    The best outcome is no event.
     """
     if clusters == 1:
-        return within((0.0, -log((1.0 - statistics.confidence) / 2.0) / hours), bounds)
+        low, high = garwood(0, statistics.confidence)
+        return within((low / hours, high / hours), bounds)
     return within(rate_ends([0] * clusters, [hours / clusters] * clusters, statistics), bounds)
 
 

@@ -17,7 +17,6 @@ from mobnet.core.files import WEIGHTS
 from mobnet.core.machine import one_thread
 from mobnet.core.place import check_extra
 from mobnet.learning.deployed.weights import GRU_TENSORS, Z_SCORES, WeightsNote, read_weights, std_scale_of
-from mobnet.settings.networks import CellKind
 
 Array = NDArray[np.float32]
 
@@ -201,7 +200,7 @@ class GruNetworks:
         return after, Prediction(mean, std)
 
 
-WITHOUT_TORCH: Mapping[CellKind, Callable[..., Deployed]] = {"GRU": GruNetwork, "constant": ConstantNetwork}
+WITHOUT_TORCH: Mapping[str, Callable[..., Deployed]] = {"GRU": GruNetwork, "constant": ConstantNetwork}
 
 
 def load_network(folder: Path) -> Deployed:

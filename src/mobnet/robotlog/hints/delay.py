@@ -8,12 +8,12 @@ from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array
 from mobnet.core.recording import Sensed
+from mobnet.kernel.drive import TorqueKind
 from mobnet.robot.dynamics import momentum_and_beta
 from mobnet.robot.nominal import NominalModel
 from mobnet.robot.wrench import feet_torque
 from mobnet.robotlog.hints.columns import held_share, listed
 from mobnet.robotlog.hints.fits import dissipation, positive_fit, quotient
-from mobnet.settings.base import TorqueKind
 from mobnet.settings.robotlog import RobotLog
 
 LEAST = 0.75  # samples below which a delay is none

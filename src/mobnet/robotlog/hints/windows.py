@@ -13,11 +13,11 @@ from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array
 from mobnet.core.recording import Sensed
+from mobnet.kernel.drive import TorqueKind
 from mobnet.robot.dynamics import momentum_and_beta
 from mobnet.robot.nominal import NominalModel
 from mobnet.robot.wrench import feet_torque
 from mobnet.robotlog.hints.fits import dry, unexplained
-from mobnet.settings.base import TorqueKind
 from mobnet.settings.robotlog import RobotLog
 
 NODES = 11  # samples of a window at which beta is taken

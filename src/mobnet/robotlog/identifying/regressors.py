@@ -23,10 +23,9 @@ from scipy.signal import butter, sosfiltfilt
 from mobnet.core.arrays import Array
 from mobnet.core.recording import Sensed, SensedRecording
 from mobnet.estimation.observer import RobotObserver
-from mobnet.kernel.drive import bent
+from mobnet.kernel.drive import TorqueKind, bent
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.nominal import NominalModel
-from mobnet.settings.base import TorqueKind
 from mobnet.settings.robotlog import Identification
 
 OVERSAMPLED = 4.0  # samples of what is fitted, over the corner of the low-pass

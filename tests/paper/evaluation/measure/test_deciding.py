@@ -18,9 +18,9 @@ from experiments.evaluation.measure.claims.verdicts import (
 )
 from experiments.evaluation.number.intervals import quantile_of
 from experiments.evaluation.number.number import Number
-from experiments.settings.checks.outcomes import wilson
 from experiments.settings.claims import Claim, MadeNumber
 from experiments.settings.evaluation import PRODUCTS
+from experiments.settings.independent import wilson
 from experiments.settings.settings import Settings
 from mobnet.core.columns import NOT_MEASURED, NOT_REPRODUCED, OPEN, OURS, SIGN_AT_LEAST, SIGN_ONLY
 

@@ -7,11 +7,12 @@ import pytest
 from paper_settings import STATISTICS
 from scipy.stats import beta
 
-from experiments.evaluation.number.clusters import ClusterKey, mean_in, rate_in, share_in, wilson
+from experiments.evaluation.number.clusters import ClusterKey, mean_in, rate_in, share_in
 from experiments.evaluation.number.intervals import quantile_of
 from experiments.evaluation.number.number import Number
 from experiments.evaluation.number.single import rate_of
 from experiments.settings.few_clusters import WIDEST, rate_ends, share_ends
+from experiments.settings.independent import wilson
 
 ROBOTS, WALKS, DRAWS = 3, 6, 400
 LEAST = 0.91  # of 400 intervals, of which 95 % hold: three standard deviations below are .917
@@ -89,7 +90,7 @@ def test_walks_taken_as_independent_would_be_covered_half_of_the_time() -> None:
     rng, held = np.random.default_rng(7), 0
     for _ in range(DRAWS):
         chance = 1.0 / (1.0 + np.exp(-effects(rng, 6, 1.5, 0.0)))
-        low, high = wilson(float(np.mean(rng.random(108) < chance)), 108, STATISTICS)
+        low, high = wilson(float(np.mean(rng.random(108) < chance)), 108, STATISTICS.confidence)
         held += low <= 0.5 <= high
     assert held / DRAWS < 0.7
 
@@ -195,6 +196,6 @@ def test_robots_that_happen_to_be_alike_make_no_interval_shorter_than_independen
     assert apart.with_ends == pytest.approx((0.0, -reach, reach))
     assert mean_in(values, places, STATISTICS, "N").low == 0.0  # no value is below zero
     _, low, high = share_in([value > 0.0 for value in values], places, STATISTICS).with_ends
-    ends = wilson(0.5, 6, STATISTICS)
+    ends = wilson(0.5, 6, STATISTICS.confidence)
     assert low < ends[0]
     assert high > ends[1]

@@ -9,11 +9,11 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from math import ceil, exp, inf, log, sqrt
 
-from experiments.evaluation.number.clusters import garwood, wilson
 from experiments.evaluation.number.intervals import quantile_of
 from experiments.evaluation.number.number import Number
 from experiments.settings.claims import MadeNumber
 from experiments.settings.evaluation import PRODUCTS
+from experiments.settings.independent import garwood, wilson
 from experiments.settings.runs import Statistics
 from mobnet.core.claim_ranges import Bounds, apart, within
 
@@ -123,9 +123,9 @@ def shrinking(
         hours = size_of(lambda size: rate_ends(value, size, statistics)[1], high)
         return Shrinking(HOURS, hours, lambda times: rate_ends(value, times * hours, statistics))
     if made.quantity == "share" or (row and row.trials and number.unit == "-"):
-        trials = size_of(lambda size: width_of(wilson(value, size, statistics)), high - low)
+        trials = size_of(lambda size: width_of(wilson(value, size, statistics.confidence)), high - low)
         kind = NETWORKS if made.quantity == "share" else TRIALS
-        return Shrinking(kind, trials, lambda times: wilson(value, times * trials, statistics))
+        return Shrinking(kind, trials, lambda times: wilson(value, times * trials, statistics.confidence))
     kind, count = runs_of(made, number)
 
     def shorter(times: float) -> float:
@@ -163,7 +163,7 @@ def size_of(made: Callable[[float], float], wanted: float) -> float:
 
 def rate_ends(rate: float, hours: float, statistics: Statistics) -> Ends:
     """Return the interval of a rate [1/h] that is found in so many hours."""
-    low, high = garwood(rate * hours, statistics)
+    low, high = garwood(rate * hours, statistics.confidence)
     return low / hours, high / hours
 
 

@@ -90,10 +90,10 @@ def contacts_of(
     joints = robot.layout.limbs(settings.limbs)
     finders: dict[tuple[str, bool], ContactLocator] = {}
     for leg in settings.legs:
-        finders[leg, False] = ContactLocator.of(numbers, robot, leg, joints)
+        finders[leg, False] = ContactLocator.of(numbers.numbers, robot, leg, joints)
         # The hit leg alone, too: its torques are fewer than the unknowns of a hit above the foot
         # (docs/notes/contact.md).
-        finders[leg, True] = ContactLocator.of(numbers, robot, leg, robot.layout.limb(leg))
+        finders[leg, True] = ContactLocator.of(numbers.numbers, robot, leg, robot.layout.limb(leg))
     for recording in dict.fromkeys(run.recording for run in runs):
         walked = _walked(robot, joints, gain_hz, [run for run in runs if run.recording == recording])
         alarms = _alarms(settings, detections, recording)
