@@ -197,8 +197,3 @@ def markdown_table(header: Sequence[str], lines: Sequence[Line], left: int = 1) 
 def note_tex(note: str) -> str:
     """Return a note to stand under a table."""
     return rf"\par\smallskip\parbox{{\linewidth}}{{\raggedright {tex_escape(note)}}}" + "\n"
-
-
-def percent(number: Number) -> str:
-    """Return a share [-] in %, a dash where there is none."""
-    return "-" if number.value is None else f"{100.0 * number.value:.1f}"
