@@ -14,8 +14,7 @@ from pathlib import Path
 
 from experiments.evaluation.measure.estimates.scores import measure_problems
 from experiments.evaluation.measure.learning.trainings import TrainingNote, read_training, read_training_note
-from experiments.evaluation.measure.reaction.results import read_file
-from experiments.evaluation.number.rows import read_detections, read_scores
+from experiments.evaluation.number.rows import read_detections, read_scores, read_trials
 from experiments.jobs.method_problems import method_problems
 from experiments.running.accounts import AccountNote, read_account
 from experiments.running.words import KINDS, check_parser
@@ -214,7 +213,7 @@ def _rows(path: Path, against: Against) -> str:
     if kind == "scores":
         return f"scores, {len(read_scores(path))} rows"
     if kind == "trials":
-        return f"walks into obstacles, {len(read_file(path))} rows"
+        return f"walks into obstacles, {len(read_trials(path))} rows"
     return f"{kind} of detectors, {len(read_detections(path, kind))} rows"
 
 

@@ -11,7 +11,7 @@ from experiments.evaluation.number.intervals import MEAN, Formula, RunGrid, summ
 from experiments.evaluation.number.number import Number
 from experiments.evaluation.number.rows import read_scores
 from experiments.settings.fleet import FIRST_SEED
-from experiments.settings.runs import Mean, Runs, Statistics
+from experiments.settings.runs import Runs, Statistics
 from mobnet.core.columns import Score
 from mobnet.core.errors import ConfigError, DataError
 from mobnet.core.joints import JointLayout
@@ -125,42 +125,8 @@ def read_lookup(paths: Iterable[Path], statistics: Statistics) -> Lookup:
     return Lookup(statistics, found)
 
 
-@dataclass(frozen=True)
-class Column:
-    """A column of a table: the mean over its joints and its metrics, of which there is mostly one each.
-
-    Attributes:
-        name: its name.
-        unit: that of the joints' torques.
-        joints: limb and name of each joint, (n,).
-        metrics: names of the metrics; empty where each row of the table names its own.
-    """
-
-    name: str
-    unit: str
-    joints: tuple[tuple[str, str], ...]
-    metrics: tuple[str, ...] = ()
-
-
-def columns_of(layout: JointLayout, items: Sequence[str | Mean]) -> list[Column]:
-    """Return the columns that a table's configuration asks for, such as those of Table 6.
-
-    An item is a joint, a limb for its joints one by one, or a mean over some of both.
-    """
-    columns: list[Column] = []
-    for item in items:
-        if isinstance(item, str):
-            columns += [column_of(layout, joint, [joint], ()) for joint in members(layout, item)]
-        else:
-            joints: list[str] = []
-            for name in item.joints:
-                joints += members(layout, name)
-            columns.append(column_of(layout, item.name, joints, item.metrics))
-    return columns
-
-
-def column_of(layout: JointLayout, name: str, joints: Sequence[str], metrics: Sequence[str]) -> Column:
-    """Return a column of some joints, whose torques must be all in N m or all in N.
+def places_of(layout: JointLayout, name: str, joints: Sequence[str]) -> list[tuple[str, str]]:
+    """Return limb and name of some joints, over which a mean is taken: torques must be all in N m or all in N.
 
     Raises:
         ConfigError: a joint is unknown, or the units differ.
@@ -169,8 +135,7 @@ def column_of(layout: JointLayout, name: str, joints: Sequence[str], metrics: Se
     units = sorted({layout.unit(joint) for joint in joints})
     if len(units) > 1:
         raise ConfigError(f"column {name!r}: a mean over {', '.join(joints)} mixes {' and '.join(units)}")
-    limbs = layout.limb_of
-    return Column(name, units[0], tuple((limbs[joint], joint) for joint in joints), tuple(metrics))
+    return [(layout.limb_of[joint], joint) for joint in joints]
 
 
 def members(layout: JointLayout, name: str) -> tuple[str, ...]:

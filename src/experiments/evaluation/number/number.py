@@ -1,6 +1,7 @@
 """A number with its interval and what the paper prints, and how numbers are written."""
 
 from dataclasses import dataclass
+from math import isnan
 
 from experiments.settings.published import PublishedTable
 
@@ -70,12 +71,17 @@ class Number:
         return self.text(digits), self.interval(digits)
 
 
+def is_missing(value: float | None) -> bool:
+    """Return whether there is no number: None, or NaN as in a frame."""
+    return value is None or isnan(value)
+
+
 def number_text(value: float | None, digits: int = 2) -> str:
-    """Return a number with fixed digits and no minus before zero, or a dash where there is none.
+    """Return a number with fixed digits and no minus before zero, or a dash where there is none: None, or NaN.
 
     A number from `LARGEST` on has one digit after the point and a power of ten.
     """
-    if value is None:
+    if value is None or isnan(value):
         return "-"
     if abs(value) >= LARGEST:
         return f"{value:.1e}"
@@ -84,7 +90,7 @@ def number_text(value: float | None, digits: int = 2) -> str:
 
 def interval_text(low: float | None, high: float | None, digits: int = 2) -> str:
     """Return an interval in brackets, or nothing where there is none."""
-    return "" if low is None or high is None else f"[{number_text(low, digits)}, {number_text(high, digits)}]"
+    return "" if is_missing(low) or is_missing(high) else f"[{number_text(low, digits)}, {number_text(high, digits)}]"
 
 
 def published_row(table: PublishedTable, place: str, method: str) -> dict[str, float | None]:

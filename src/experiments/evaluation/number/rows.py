@@ -12,6 +12,7 @@ from mobnet.core.columns import Score
 from mobnet.core.detections import FILES, PARTS, UNNAMED
 from mobnet.core.errors import ConfigError, refuse_lines
 from mobnet.core.files import write_text
+from mobnet.core.reactions import Trial
 from mobnet.core.rows import csv_text, parse_field, read_rows, read_texts, refuse_rows
 
 KEY = attrgetter(*(field.name for field in fields(Score) if field.name != "value"))  # what names a score, unit last
@@ -88,6 +89,27 @@ def _score_faults(rows: Sequence[Score]) -> Iterator[Fault]:
         # a limb with forces and torques has two means of what has no unit of a joint, such as %
         if first != k and not (row.joint == "avg" and len(metric.units) == 1):
             yield k, "row", ", ".join(map(str, key[:-1])), f"once; it stands in line {first + 2} already"
+
+
+def read_trials(path: Path) -> list[Trial]:
+    """Read walks into obstacles, or without one, from a file.
+
+    Raises:
+        DataError: the file is missing or damaged, or a row is not accepted; one line for each fault.
+    """
+    rows = read_rows(path, Trial)
+    refuse_rows(path, _trial_faults(rows))
+    return rows
+
+
+def _trial_faults(rows: Sequence[Trial]) -> Iterator[Fault]:
+    """Yield numbers below zero, and reactions that come before their alarm."""
+    for k, row in enumerate(rows):
+        for name, value in vars(row).items():
+            if isinstance(value, int | float) and value < 0:
+                yield k, name, value, "0 or more"
+        if row.reacted_s is not None and (row.alarm_s is None or row.alarm_s > row.reacted_s):
+            yield k, "alarm_s", row.alarm_s, f"at most reacted_s, {row.reacted_s}"
 
 
 def write_csv(path: Path, columns: Sequence[str], rows: Iterable[Sequence[Field]]) -> None:

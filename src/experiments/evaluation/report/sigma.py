@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from experiments.evaluation.figures.further.sigma_courses import sigma_figure
-from experiments.evaluation.number.grid import read_lookup
+from experiments.evaluation.number.frames import read_scores
 from experiments.evaluation.tables.further.sigma_table import sigma_table
 from experiments.settings.measures import Sigma
 from experiments.settings.runs import Statistics
@@ -22,7 +22,7 @@ def sigma(
     figure_dir: Path,
 ) -> None:
     """Write sigma.csv, .tex and .md, and sigma.pdf, .png and .csv."""
-    lookup = read_lookup(scores, statistics)
+    read = read_scores(*scores)
     share = learning.calibration_share
-    sigma_table(settings, layout, lookup, share, table_dir)
-    sigma_figure(settings, lookup, share, figure_dir)
+    sigma_table(settings, layout, read, statistics, share, table_dir)
+    sigma_figure(settings, read, statistics, share, figure_dir)

@@ -2,11 +2,11 @@
 
 import gzip
 from collections.abc import Iterator, Sequence
-from dataclasses import astuple
 from pathlib import Path
 
-from experiments.evaluation.measure.reaction.results import read_trials
+from experiments.evaluation.number.frames import read_trials
 from experiments.evaluation.number.rows import Field
+from experiments.evaluation.tables.layout import records_of
 from experiments.plan.detection import Detections
 from experiments.plan.reactions import Reactions
 from mobnet.core.detections import Collision, Detected
@@ -50,8 +50,7 @@ def write_single_rows(detections: Detections, reactions: Reactions, cases: Seque
     Raises:
         DataError: a file is missing or damaged.
     """
-    walks = [astuple(row) for row in read_trials(reactions, cases)]
-    _write(out / FOLDER / WALKS, TRIALS, walks)
+    _write(out / FOLDER / WALKS, TRIALS, records_of(read_trials(reactions, cases), TRIALS))
     _write(out / FOLDER / COLLISIONS, COLUMNS, list(_collisions(detections)))
 
 

@@ -1,8 +1,10 @@
 """Columns of tables are joints, limbs joint by joint, and means over joints of one unit."""
 
+from itertools import product
+
 import pytest
 
-from experiments.evaluation.number.grid import Column, columns_of
+from experiments.evaluation.number.scored import columns_of
 from experiments.settings.runs import Mean
 from mobnet.core.errors import ConfigError
 from mobnet.core.joints import JointLayout
@@ -10,14 +12,17 @@ from mobnet.core.joints import JointLayout
 
 def test_a_limb_is_its_joints_one_by_one(layout: JointLayout) -> None:
     columns = columns_of(layout, ["W", "LL3", "V1"])
-    assert [column.name for column in columns] == ["W1", "W2", "W3", "LL3", "V1"]
-    assert columns[3:] == [Column("LL3", "N m", (("LL", "LL3"),)), Column("V1", "N", (("V", "V1"),))]
+    assert list(columns["column"]) == ["W1", "W2", "W3", "LL3", "V1"]
+    assert columns.to_numpy().tolist()[3:] == [["LL3", "N m", "LL", "LL3", ""], ["V1", "N", "V", "V1", ""]]
 
 
 def test_a_mean_is_over_limbs_and_joints_and_perhaps_metrics(layout: JointLayout) -> None:
     metrics = ("rmse_push_1", "rmse_push_2")
-    (column,) = columns_of(layout, [Mean(name="avg W+LA1", joints=("W", "LA1"), metrics=metrics)])
-    assert column == Column("avg W+LA1", "N m", (("W", "W1"), ("W", "W2"), ("W", "W3"), ("LA", "LA1")), metrics)
+    column = columns_of(layout, [Mean(name="avg W+LA1", joints=("W", "LA1"), metrics=metrics)])
+    joints = [("W", "W1"), ("W", "W2"), ("W", "W3"), ("LA", "LA1")]
+    assert column.to_numpy().tolist() == [
+        ["avg W+LA1", "N m", *joint, metric] for joint, metric in product(joints, metrics)
+    ]
 
 
 @pytest.mark.parametrize(

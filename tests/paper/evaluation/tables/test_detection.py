@@ -5,15 +5,25 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pandas as pd
 import pytest
 from csv_files import check_golden, markdown_cells, read_table
 from made_detections import write_detections
 
-from experiments.evaluation.measure.detection.results import only_one, sign_test, smallest_force, tries_of
-from experiments.evaluation.number.number import Number
+from experiments.evaluation.measure.detection.results import (
+    ALL,
+    CELLS,
+    hits_of,
+    only_one,
+    sign_test,
+    smallest_force,
+    with_all,
+)
+from experiments.evaluation.number.frames import HITS, rows_of
 from experiments.evaluation.tables.further.found_by_rate import chance_text, found_by_rate, gain_text
 from experiments.settings.settings import Settings
 from mobnet.core.detections import COLLISION, READINGS, WALKING
+from mobnet.core.errors import DataError
 
 Make = Callable[..., Path]
 
@@ -149,11 +159,36 @@ def test_rates_of_false_alarms_have_what_is_found_and_a_sentence(made: Make) -> 
     assert sentence in table.with_suffix(".md").read_text()
 
 
-def test_the_same_collisions_are_compared_pair_by_pair(tmp_path: Path) -> None:
-    detections = write_detections(tmp_path / "detection", ("robot_1", "robot_2"))
-    tries = tries_of(detections, ["robot_1", "robot_2"], "collisions", "LL", COLLISION)
-    assert only_one(tries["MOB-Net-OR"], tries["MOB-Net-sigma"]) == {"robot_1": (12, 0), "robot_2": (12, 0)}
-    assert only_one(tries["MOB"], tries["MOB-Net-sigma"]) == {"robot_1": (0, 12), "robot_2": (0, 12)}
+@pytest.fixture
+def hits(settings: Settings, tmp_path: Path) -> pd.DataFrame:
+    """What detectors say of the collisions of two made-up robots."""
+    section = settings.evaluation.found_by_rate.model_copy(update={"levels": ("robots",)})
+    return hits_of(section, write_detections(tmp_path / "d", ("robot_1", "robot_2")), "collisions", [COLLISION])
+
+
+def test_the_same_collisions_are_compared_pair_by_pair(hits: pd.DataFrame) -> None:
+    first, second, third = (rows_of(hits, detector=name) for name in ("MOB-Net-OR", "MOB-Net-sigma", "MOB"))
+    twelve = {"first": 12, "second": 0}
+    assert only_one(first, second).to_dict("index") == {"robot_1": twelve, "robot_2": twelve}
+    twelve = {"first": 0, "second": 12}
+    assert only_one(third, second).to_dict("index") == {"robot_1": twelve, "robot_2": twelve}
+
+
+def test_hits_have_the_columns_of_their_schema_and_cells_keep_their_order_with_all_of_them(hits: pd.DataFrame) -> None:
+    assert {name: str(hits[name].dtype) for name in HITS if name not in ("detector", "kind")} == {
+        name: kind for name, (kind, _, _) in HITS.items() if name not in ("detector", "kind")
+    }
+    every = with_all(hits)
+    assert [cell for cell, _ in every.groupby("cell", observed=False)] == [*CELLS, ALL]
+    assert len(rows_of(every, cell=ALL)) == len(hits)
+
+
+def test_a_detector_of_a_collision_that_is_not_there_is_refused(settings: Settings, tmp_path: Path) -> None:
+    detections = write_detections(tmp_path / "d", ("robot_1",))
+    kept = detections["robot_1"]["collisions"].read_text().splitlines()[:-1]
+    detections["robot_1"]["collisions"].write_text("\n".join(kept) + "\n")
+    with pytest.raises(DataError, match=r"detected.csv: number: 24 is not accepted; accepted: collisions of walk 101"):
+        hits_of(settings.evaluation.links, detections, "collisions", [COLLISION])
 
 
 def test_a_difference_of_pairs_has_an_exact_probability() -> None:
@@ -182,7 +217,7 @@ def test_pairs_and_shares_at_a_counted_rate_stand_in_the_table(settings: Setting
 
 
 def test_the_sentence_names_the_best_detector_beside_the_papers() -> None:
-    shares = {"other": [Number(0.5), Number(0.9)], "paper": [Number(0.25), Number(1.0)]}
+    shares = {"other": [0.5, 0.9], "paper": [0.25, 1.0]}
     text = gain_text([1.0, 10.0], shares, "paper")
     assert "finds 50.0 or 90.0 % of these collisions with other, the detector that finds most at 1" in text
     assert text.endswith("; paper finds 25.0 or 100.0 %.")

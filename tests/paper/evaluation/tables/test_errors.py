@@ -1,16 +1,16 @@
 """Tables of errors: the means asked for, beside the paper's numbers, in the paper's order."""
 
 from collections.abc import Callable
-from dataclasses import replace
 from pathlib import Path
 
+import pandas as pd
 import pytest
 from csv_files import GOLDEN, check_golden, read_table, write_rows
 
-from experiments.evaluation.number.grid import Column
+from experiments.evaluation.number.laws import fields_of
 from experiments.evaluation.number.number import Number, published_row, published_value
-from experiments.evaluation.tables.layout import GAP, RULE
-from experiments.evaluation.tables.paper.error_table import TableLook, TableRow, table_lines, write_error_table
+from experiments.evaluation.tables.layout import GAP, RULE, Line
+from experiments.evaluation.tables.paper.error_table import table_lines, write_error_table
 from experiments.settings.published import Floor
 from experiments.settings.settings import Settings
 from experiments.settings.tables import ErrorTable
@@ -139,35 +139,46 @@ def test_tables_of_the_repository_label_every_row_and_find_its_printed_numbers(s
 
 
 TABLE = ErrorTable.model_construct(header=("Set", "Level"))
-LOOK = TableLook(TABLE, False, None, 0.95)
 
 
-def row(labels: tuple[str, ...], method: str = "MOB", *, value: float | None = 2.0, level: str = "ideal") -> TableRow:
-    """Return a row of W1 [N m], V1 [N] and an average [N m], one more each."""
-    numbers = {
-        Column(name, unit, ()): Number(value and value + k, 1.0, 9.0, unit, 0.5)
-        for k, (name, unit) in enumerate([("W1", "N m"), ("V1", "N"), ("avg", "N m")])
-    }
-    return TableRow(labels, ("walk", level, method), "rmse", numbers)
+def row(
+    labels: tuple[str, ...], method: str = "MOB", *, value: float | None = 2.0, level: str = "ideal"
+) -> pd.DataFrame:
+    """Return the numbers of a line: W1 [N m], V1 [N] and an average [N m], one more each."""
+    line = {"labels": labels, "scenario": "walk", "level": level, "method": method, "short": False, "truth": ""}
+    rows: list[dict[str, object]] = []
+    for k, (name, unit) in enumerate([("W1", "N m"), ("V1", "N"), ("avg", "N m")]):
+        number = Number(value and value + k, 1.0, 9.0, unit, 0.5)
+        rows.append({**line, "column": name, "joint": name, "metric": "rmse", **fields_of(number)})
+    return pd.DataFrame(rows)
 
 
-def text(folder: Path, ending: str, rows: list[TableRow], look: TableLook) -> str:
+def table(*rows: pd.DataFrame) -> pd.DataFrame:
+    """Return the numbers of a table, line by line."""
+    return pd.concat([own.assign(line=k) for k, own in enumerate(rows)], ignore_index=True)
+
+
+def lines(*rows: pd.DataFrame, floor: Floor | None = None) -> list[Line]:
+    """Return the lines of text of a table."""
+    return table_lines(TABLE, table(*rows), False, floor, 0.95)
+
+
+def text(folder: Path, ending: str, *rows: pd.DataFrame, settings: ErrorTable = TABLE, robot: bool = False) -> str:
     """Return a table's text."""
-    write_error_table(folder / "t", rows, look)
+    write_error_table(folder / "t", table(*rows), settings, robot, None, 0.95)
     return (folder / f"t.{ending}").read_text()
 
 
 def test_a_label_stands_once_and_a_rule_where_the_first_changes() -> None:
-    rows = [row(("a", "x")), row(("a", "x"), "MOB-Net"), row(("a", "y")), row(("b", "y"))]
-    lines = table_lines(rows, LOOK)
-    firsts = [line if isinstance(line, str) else line[:3] for line in lines if isinstance(line, str) or line[2]]
+    shown = lines(row(("a", "x")), row(("a", "x"), "MOB-Net"), row(("a", "y")), row(("b", "y")))
+    firsts = [line if isinstance(line, str) else line[:3] for line in shown if isinstance(line, str) or line[2]]
     assert firsts == [
         ["a", "x", "MOB"], GAP, ["", "", "MOB-Net"], GAP, ["", "y", "MOB"], RULE, ["b", "y", "MOB"],
     ]  # fmt: skip
 
 
 def test_ours_stands_above_the_interval_and_the_papers_number() -> None:
-    ours, interval, paper = table_lines([row(("a", "x"))], LOOK)
+    ours, interval, paper = lines(row(("a", "x")))
     assert ours == ["a", "x", "MOB", "ours", "2.00", "3.00", "4.00"]
     assert interval == ["", "", "", "95%", *["[1.00, 9.00]"] * 3]
     assert paper == ["", "", "", "original", *["0.50"] * 3]
@@ -175,16 +186,17 @@ def test_ours_stands_above_the_interval_and_the_papers_number() -> None:
 
 def test_errors_against_the_raw_truth_stand_above_the_papers_and_further_methods_have_no_interval() -> None:
     full = row(("a", "x"))
-    raw = {column: replace(number, value=7.0) for column, number in full.numbers.items()}
-    lines = table_lines([replace(full, raw=raw), replace(full, raw=raw, short=True)], LOOK)
-    assert [line[3] for line in lines if not isinstance(line, str)] == [
+    raw = full.assign(truth="_raw", value=7.0)
+    first = pd.concat([full, raw])
+    shown = lines(first, first.assign(short=True))
+    assert [line[3] for line in shown if not isinstance(line, str)] == [
         "ours", "95%", "raw truth", "original", "ours", "raw truth", "original",
     ]  # fmt: skip
-    assert lines[2] == ["", "", "", "raw truth", "7.00", "7.00", "7.00"]
+    assert shown[2] == ["", "", "", "raw truth", "7.00", "7.00", "7.00"]
 
 
 def test_numbers_of_a_robot_are_told_from_simulated_ones(tmp_path: Path) -> None:
-    made = text(tmp_path, "md", [row(("a", "x"))], replace(LOOK, robot=True))
+    made = text(tmp_path, "md", row(("a", "x")), robot=True)
     assert "| ours, simulated | 2.00" in made
     assert "| original, robot | 0.50" in made
 
@@ -192,17 +204,17 @@ def test_numbers_of_a_robot_are_told_from_simulated_ones(tmp_path: Path) -> None
 def test_only_averages_after_the_floor_carry_an_increase() -> None:
     floor = Floor(level="noise", method="MOB")
     rows = [row(("a", "x")), row(("a", "y"), level="noise"), row(("a", "z"), value=7.0)]
-    texts = [line[-1] for line in table_lines(rows, replace(LOOK, floor=floor)) if line[3] in ("ours", "original")]
+    texts = [line[-1] for line in lines(*rows, floor=floor) if line[3] in ("ours", "original")]
     assert texts == ["4.00", "0.50", "4.00", "0.50", "9.00 (+5.00)", "0.50 (+0.00)"]
 
 
 def test_a_number_that_is_missing_is_a_dash() -> None:
-    lines = table_lines([row(("a", "x"), value=None)], replace(LOOK, floor=Floor(level="ideal", method="MOB")))
-    assert lines[0] == ["a", "x", "MOB", "ours", "-", "-", "-"]
+    shown = lines(row(("a", "x"), value=None), floor=Floor(level="ideal", method="MOB"))
+    assert shown[0] == ["a", "x", "MOB", "ours", "-", "-", "-"]
 
 
 def test_parts_of_a_wide_table_hold_every_column_once_and_stack_intervals(tmp_path: Path) -> None:
-    tex = text(tmp_path, "tex", [row(("a", "x"))], replace(LOOK, settings=TABLE.model_copy(update={"parts": ("V1",)})))
+    tex = text(tmp_path, "tex", row(("a", "x")), settings=TABLE.model_copy(update={"parts": ("V1",)}))
     heads = [line for line in tex.splitlines() if line.startswith("Set")]
     assert heads == [r"Set & Level & Method &  & W1 \\", r"Set & Level & Method &  & V1 [N] & avg \\"]
     assert r" &  &  & 95\% from & 1.00 & 1.00 \\" in tex
@@ -212,7 +224,7 @@ def test_parts_of_a_wide_table_hold_every_column_once_and_stack_intervals(tmp_pa
 
 
 def test_methods_may_be_called_otherwise_and_labels_be_none(tmp_path: Path) -> None:
-    table = TABLE.model_copy(update={"header": (), "names": {"MOB-Net": "MOB-Net with RTE"}})
-    made = text(tmp_path, "md", [row((), "MOB-Net"), row((), "MOB")], replace(LOOK, settings=table))
+    settings = TABLE.model_copy(update={"header": (), "names": {"MOB-Net": "MOB-Net with RTE"}})
+    made = text(tmp_path, "md", row((), "MOB-Net"), row((), "MOB"), settings=settings)
     assert "| MOB-Net with RTE | ours |" in made
     assert "| MOB | ours |" in made

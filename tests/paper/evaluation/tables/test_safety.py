@@ -1,13 +1,15 @@
 """The table of what a reaction is worth: who falls, how hard obstacles push, and reactions to nothing."""
 
-from dataclasses import replace
+from dataclasses import fields, replace
 
 import pytest
 from csv_files import check_golden
 from made_trials import EARLY, HIT, LEANS, write_trials
 from paper_settings import settings_at
 
-from experiments.evaluation.measure.reaction.results import groups_of, is_early, outcome_of, read_trials
+from experiments.evaluation.measure.reaction.results import EARLY as IS_EARLY
+from experiments.evaluation.measure.reaction.results import with_measures
+from experiments.evaluation.number.frames import TRIALS, frame_of, read_trials
 from experiments.evaluation.tables.further.safety import safety
 from mobnet.core.errors import DataError
 from mobnet.core.rows import read_texts
@@ -100,22 +102,37 @@ def test_nothing_that_happened_is_a_table_too(table):
     assert cells["foot", "MOB-Net-pushed-ratio", "first_peak"]["value"] == ""
 
 
-def test_groups_keep_the_order_of_the_files():
-    assert [key[:2] for key in groups_of(ROWS)] == [
+def test_lines_keep_the_order_of_the_files(table):
+    cells, _ = table(ROWS)
+    assert list(dict.fromkeys(key[:2] for key in cells)) == [
         ("foot", "MOB-Net-pushed-ratio"),
         ("foot", "none"),
+        ("foot, in swing", "MOB-Net-pushed-ratio"),
         ("knee", "MOB-Net-pushed-ratio"),
+        ("knee, in swing", "MOB-Net-pushed-ratio"),
     ]
 
 
-def test_early_is_what_comes_before_the_contact():
-    assert [is_early(row) for row in (HIT, EARLY, LEANS)] == [False, True, False]
-    assert is_early(replace(HIT, reacted_s=3.9, alarm_s=3.9))
+def measures_of(*rows):
+    return with_measures(frame_of(rows, TRIALS), SETTINGS.evaluation.safety)
 
 
-def test_an_outcome_counts_walks_and_contacts():
-    outcome = outcome_of(ROWS[:3], SETTINGS.evaluation.safety, SETTINGS.evaluation.statistics)
-    assert (outcome.walks, outcome.touched) == (3, 2)
+def test_early_is_what_comes_before_the_contact_and_says_nothing_about_it():
+    before = replace(HIT, reacted_s=3.9, alarm_s=3.9)
+    measures = measures_of(HIT, EARLY, before)
+    assert measures[IS_EARLY].tolist() == [False, True, True]
+    assert measures["touched"].tolist() == [True, False, False]
+    assert measures["first_peak"].notna().tolist() == [True, False, False]
+
+
+def test_who_does_not_react_is_never_early_nor_late():
+    measures = measures_of(LEANS)
+    assert measures[IS_EARLY].isna().all()
+    assert measures["noticed"].isna().all()
+
+
+def test_a_schema_has_the_columns_of_its_file():
+    assert list(TRIALS) == [field.name for field in fields(type(HIT))]
 
 
 @pytest.mark.parametrize(("row", "text"), [

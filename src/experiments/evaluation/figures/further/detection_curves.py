@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.colors import to_hex, to_rgb
 from matplotlib.figure import Figure
@@ -15,20 +16,19 @@ from matplotlib.lines import Line2D
 from experiments.evaluation.figures.style import LOOKS, Look, beside, entitle, legend, save_figure
 from experiments.evaluation.measure.detection.results import (
     MS,
-    Detections,
-    Try,
     alarms_in,
-    found_share,
+    found_at,
     hours_per_swing,
     owners,
-    rows_of,
-    tries_of,
 )
-from experiments.evaluation.number.clusters import ClusterKey, share_in
+from experiments.evaluation.number.clusters import share_in
+from experiments.evaluation.number.frames import read_detection, read_hits, rows_of
+from experiments.evaluation.number.laws import share
 from experiments.evaluation.number.number import Number
+from experiments.plan.detection import Detections
 from experiments.settings.detection_tables import DetectionCurves
 from experiments.settings.runs import Statistics
-from mobnet.core.detections import COLLISION, HELD_OUT, UNPUSHED, CurvePoint, FreeSwing, Promise
+from mobnet.core.detections import COLLISION, HELD_OUT, UNPUSHED
 from mobnet.core.style import styled
 from mobnet.settings.detection import Detection
 
@@ -78,29 +78,31 @@ def detection_curves(
     The area is the probability that a collision's largest signal lies above that of a swing which nothing pushes, with
     the interval of Hanley and McNeil (1982, Radiology 143).
     """
-    names = owners(detections, settings.level, detection.levels)
+    robots = owners(detections, settings.level, detection.levels)
     leg = settings.leg
-    points = {robot: rows_of(detections, [robot], "curves", CurvePoint, leg=leg) for robot in names}
-    promises = rows_of(detections, names, "promises", Promise, leg=leg)
-    swings = rows_of(detections, names, "swings", FreeSwing, leg=leg, scenario=detection.random, part=HELD_OUT)
-    between = {robot: rows_of(detections, [robot], "swings", FreeSwing, leg=leg, part=UNPUSHED) for robot in names}
-    hits = tries_of(detections, names, detection.collisions, leg, COLLISION)
-    sweep = tries_of(detections, names, detection.sweep, leg, settings.kind)
+    points = rows_of(read_detection(detections, robots, "curves"), leg=leg)
+    promises = rows_of(read_detection(detections, robots, "promises"), leg=leg)
+    swings = rows_of(read_detection(detections, robots, "swings"), leg=leg)
+    held_out = rows_of(swings, scenario=detection.random, part=HELD_OUT)
+    between = rows_of(swings, part=UNPUSHED)
+    every_hit = rows_of(read_hits(detections, robots), leg=leg)
+    hits = rows_of(every_hit, scenario=detection.collisions, kind=COLLISION)
+    sweep = rows_of(every_hit, scenario=detection.sweep, kind=settings.kind)
     courses = list[DetectorLine]()
     rows = []
-    for name in (name for name in settings.detectors if name in hits):
-        quiet = [row for row in swings if row.detector == name]
-        hours = len(quiet) * hours_per_swing([row for row in promises if row.detector == name])
-        own: dict[str, list[CurvePoint]] = {}
-        for robot, found in points.items():
-            own[robot] = [row for row in found if row.detector == name]
+    for name in settings.detectors:
+        hit = rows_of(hits, detector=name)
+        if hit.empty:
+            continue
+        quiet = rows_of(held_out, detector=name)
+        hours = len(quiet) * hours_per_swing(rows_of(promises, detector=name))
+        own = rows_of(points, detector=name)
         courses += _over_rates(name, own, quiet, hours, statistics)
         courses += _at_promise(name, own, quiet, hours, detection.thresholds.rates_per_h[COLLISION], statistics)
-        courses.append(_over_force(name, sweep[name], settings.force_bins, statistics))
-        courses.append(_without_hit(name, between, statistics))
-        hit = np.array([one.detected.ratio for one in hits[name]])
-        area = area_of(hit, np.array([row.ratio for row in quiet]), statistics)
-        rows.append((AREA, settings.level, name, None, *area.with_ends, len(hits[name]), "-"))
+        courses.append(_over_force(name, rows_of(sweep, detector=name), settings.force_bins, statistics))
+        courses.append(_without_hit(name, rows_of(between, detector=name), statistics))
+        area = area_of(hit["ratio"].to_numpy(), quiet["ratio"].to_numpy(), statistics)
+        rows.append((AREA, settings.level, name, None, *area.with_ends, len(hit), "-"))
     for one in courses:
         unit = "ms" if one.panel.startswith(DELAY) else "-"
         for x, number, count in zip(one.x, one.numbers, one.counts, strict=True):
@@ -109,17 +111,13 @@ def detection_curves(
 
 
 def _over_rates(
-    name: str,
-    points: Mapping[str, Sequence[CurvePoint]],
-    quiet: Sequence[FreeSwing],
-    hours: float,
-    statistics: Statistics,
+    name: str, points: pd.DataFrame, quiet: pd.DataFrame, hours: float, statistics: Statistics
 ) -> list[DetectorLine]:
     """Return the found share and the mean delay [ms] at multiples of the thresholds, over the false alarms [1/h].
 
-    The points are those of each robot.
+    The points are those of all robots.
     """
-    factors = sorted({row.factor for rows in points.values() for row in rows})
+    factors = sorted(points["factor"].unique().tolist())
     factors = [factor for factor in factors if alarms_in(quiet, factor) <= RATE_MOST * hours]
     quiet_at = next((k for k, factor in enumerate(factors) if not alarms_in(quiet, factor)), len(factors))
     factors = factors[: quiet_at + 1]  # higher thresholds only find less
@@ -128,8 +126,8 @@ def _over_rates(
     delays = list[Number]()
     counts = list[int]()
     for factor in factors:
-        share, delay, count = _at_factor(points, factor, statistics)
-        shares.append(share)
+        found, delay, count = _at_factor(points, factor, statistics)
+        shares.append(found)
         delays.append(delay)
         counts.append(count)
     return [DetectorLine(FOUND, name, rates, shares, counts), DetectorLine(DELAY, name, rates, delays, counts)]
@@ -137,67 +135,51 @@ def _over_rates(
 
 def _at_promise(
     name: str,
-    points: Mapping[str, Sequence[CurvePoint]],
-    quiet: Sequence[FreeSwing],
+    points: pd.DataFrame,
+    quiet: pd.DataFrame,
     hours: float,
     promised_per_h: float,
     statistics: Statistics,
 ) -> list[DetectorLine]:
     """Return the found share and the mean delay [ms] by the thresholds for a promised rate, at what was counted [1/h].
 
-    The points are those of each robot; the nearest multiple of the thresholds to 1 counts.
+    The points are those of all robots; the nearest multiple of the thresholds to 1 counts.
     """
-    factors = {row.factor for rows in points.values() for row in rows}
-    nearest = min(factors, key=lambda factor: abs(np.log(factor)))
-    share, delay, count = _at_factor(points, nearest, statistics)
+    nearest = min(points["factor"].unique().tolist(), key=lambda factor: abs(np.log(factor)))
+    found, delay, count = _at_factor(points, nearest, statistics)
     rate = [_rate(quiet, nearest, hours)]
     lines: list[DetectorLine] = []
-    for panel, number in ((FOUND, share), (DELAY, delay)):
+    for panel, number in ((FOUND, found), (DELAY, delay)):
         lines.append(DetectorLine(SET[panel].format(promised_per_h), name, rate, [number], [count]))
     return lines
 
 
-def _rate(quiet: Sequence[FreeSwing], factor: float, hours: float) -> float:
+def _rate(quiet: pd.DataFrame, factor: float, hours: float) -> float:
     """Return the false alarms at a multiple of the thresholds [1/h]."""
     return alarms_in(quiet, factor) / hours if hours else 0.0
 
 
-def _at_factor(
-    points: Mapping[str, Sequence[CurvePoint]], factor: float, statistics: Statistics
-) -> tuple[Number, Number, int]:
+def _at_factor(points: pd.DataFrame, factor: float, statistics: Statistics) -> tuple[Number, Number, int]:
     """Return found share [-] and mean delay [ms] at a multiple of the thresholds, and of how many collisions."""
-    own = [(robot, row) for robot, rows in points.items() for row in rows if row.factor == factor]
-    found = sum(row.found for _, row in own)
-    count = sum(row.collisions for _, row in own)
-    flags: list[bool] = []
-    places: list[ClusterKey] = []
-    for robot, row in own:
-        flags += [True] * row.found + [False] * (row.collisions - row.found)
-        # A point is of all walks of a robot together: one cluster.
-        places += [ClusterKey(robot, 0)] * row.collisions
-    late = MS * sum(row.delay_sum_s for _, row in own) / found if found else None
-    return share_in(flags, places, statistics), Number(late, unit="ms"), count
+    own = rows_of(points, factor=factor)
+    found = int(own["found"].sum())
+    late = MS * float(own["delay_sum_s"].sum()) / found if found else None
+    flags, places = found_at(own)
+    return share_in(flags, places, statistics), Number(late, unit="ms"), len(flags)
 
 
-def _without_hit(name: str, swings: Mapping[str, Sequence[FreeSwing]], statistics: Statistics) -> DetectorLine:
-    """Return the share of each robot's swings without a hit in which a detector has an alarm, by the paper's rule."""
-    flags: list[bool] = []
-    places: list[ClusterKey] = []
-    for robot, rows in swings.items():
-        own = [row for row in rows if row.detector == name]
-        flags += [row.ratio_largest > 1.0 for row in own]
-        places += [ClusterKey(robot, row.seed) for row in own]
-    return DetectorLine(NO_HIT, name, [0.0], [share_in(flags, places, statistics)], [len(flags)])
+def _without_hit(name: str, swings: pd.DataFrame, statistics: Statistics) -> DetectorLine:
+    """Return the share of the swings without a hit in which a detector has an alarm, by the paper's rule."""
+    alarms = swings.assign(alarm=swings["ratio_largest"] > 1.0)
+    return DetectorLine(NO_HIT, name, [0.0], [share("alarm", statistics)(alarms)], [len(alarms)])
 
 
-def _over_force(name: str, tries: Sequence[Try], bins: int, statistics: Statistics) -> DetectorLine:
+def _over_force(name: str, hits: pd.DataFrame, bins: int, statistics: Statistics) -> DetectorLine:
     """Return the found share in bins of the largest force with as many collisions each, over their mean force [N]."""
-    ordered = sorted(tries, key=lambda one: one.collision.force_n)
-    parts = [list(part) for part in np.array_split(np.array(ordered, dtype=object), bins) if len(part)]
-    x: list[float] = []
-    for part in parts:
-        x.append(float(np.mean([one.collision.force_n for one in part])))
-    shares = [found_share(part, statistics) for part in parts]
+    ordered = hits.sort_values("force_n", kind="stable")
+    parts = [ordered.iloc[rows] for rows in np.array_split(np.arange(len(ordered)), bins) if len(rows)]
+    x = [float(part["force_n"].mean()) for part in parts]
+    shares = [share("found", statistics)(part) for part in parts]
     return DetectorLine(FORCE, name, x, shares, [len(part) for part in parts])
 
 

@@ -1,23 +1,24 @@
 """Standard deviations by their own size, and how long an error stays: coverage, error over sigma, autocorrelation."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import product
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter, StrMethodFormatter
 
 from experiments.evaluation.figures.style import Look, entitle, legend, looks, save_figure
 from experiments.evaluation.measure.estimates.sigma import COVER, MEMORY, STD
-from experiments.evaluation.number.grid import Lookup
+from experiments.evaluation.number.laws import number_from
 from experiments.evaluation.number.number import Number
 from experiments.evaluation.number.rows import Field
+from experiments.evaluation.number.scored import asked_of, numbers_of
 from experiments.settings.measures import Sigma
-from experiments.settings.runs import LimbRuns
+from experiments.settings.runs import Statistics
 from mobnet.core.columns import SIGMA
 from mobnet.core.style import PAGE_INCH, styled
 
@@ -36,6 +37,7 @@ NAME: dict[str, Any] = {
     "va": "center",
     "fontsize": 7,
 }  # of a thin grey line
+SIZE, COVERED, ERROR_OF = f"{STD}_part_{{}}", f"{COVER}_part_{{}}", "rmse_part_{}"  # metrics of a part
 DIAGONAL = "error = sigma"
 GUIDE = {"color": "0.7", "linewidth": 0.6, "linestyle": "-", "zorder": 0}  # where sigma would be true
 
@@ -62,36 +64,40 @@ class SigmaLine:
             yield self.panel, self.test, self.method, self.limb, float(x), *number.with_ends, *number.spread
 
 
-def sigma_figure(settings: Sigma, lookup: Lookup, share: float, figure_dir: Path) -> None:
+def sigma_figure(settings: Sigma, scores: pd.DataFrame, statistics: Statistics, share: float, figure_dir: Path) -> None:
     """Write coverage of a nominal share [-], error [N m] and autocorrelation [-] of tests like the training data."""
     known = {title: test for title, test in settings.tests.items() if title not in settings.against}
+    metrics = [MEMORY.format(lag) for lag in settings.lags_ms]
+    for pattern in (SIZE, COVERED, ERROR_OF):
+        metrics += [pattern.format(part) for part in parts_of(settings)]
+    averages = numbers_of(scores, asked_of(known.items(), metrics), statistics)
     courses: list[SigmaLine] = []
-    for title, test in known.items():
-        for method, limb in product(test.methods, test.limbs):
-            courses += courses_of(settings, lookup, (title, test), method, limb)
+    for (title, method, limb), own in averages.groupby(["title", "method", "limb"], sort=False):
+        numbers = {row["metric"]: number_from(row) for row in own.to_dict("records")}
+        courses += courses_of(settings, numbers, str(title), str(method), str(limb))
     rows = [row for course in courses for row in course.rows()]
     save_figure(draw_sigma(courses, share), figure_dir / "sigma", SIGMA, rows)
 
 
 def courses_of(
-    settings: Sigma, lookup: Lookup, titled: tuple[str, LimbRuns], method: str, limb: str
+    settings: Sigma, numbers: Mapping[str, Number], title: str, method: str, limb: str
 ) -> Iterator[SigmaLine]:
-    """Yield the lines of a limb of a method in a test, those whose numbers are all there."""
-    title, test = titled
-
-    def numbers(pattern: str, keys: Sequence[int]) -> list[Number]:
-        return [lookup.average(test, method, limb, pattern.format(key)) for key in keys]
-
-    parts = list(range(1, settings.parts + 1))
-    sizes = numbers(STD + "_part_{}", parts)
+    """Yield the lines of a limb of a method in a test, those whose numbers, by their metric, are all there."""
+    parts = parts_of(settings)
+    sizes = [numbers[SIZE.format(part)] for part in parts]
     found = {
-        COVERAGE: (parts, numbers(COVER + "_part_{}", parts)),
-        ERROR: ([number.value or 0.0 for number in sizes], numbers("rmse_part_{}", parts)),
-        CORRELATION: (settings.lags_ms, numbers(MEMORY, settings.lags_ms)),
+        COVERAGE: (parts, [numbers[COVERED.format(part)] for part in parts]),
+        ERROR: ([number.value or 0.0 for number in sizes], [numbers[ERROR_OF.format(part)] for part in parts]),
+        CORRELATION: (settings.lags_ms, [numbers[MEMORY.format(lag)] for lag in settings.lags_ms]),
     }
     for panel, (x, own) in found.items():
         if all(number.value is not None for number in (*sizes, *own)):
             yield SigmaLine(panel, title, method, limb, x, own)
+
+
+def parts_of(settings: Sigma) -> list[int]:
+    """Return the numbers of the parts of the samples, from small to large standard deviations."""
+    return list(range(1, settings.parts + 1))
 
 
 @styled

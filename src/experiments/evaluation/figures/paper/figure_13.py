@@ -8,7 +8,8 @@ from matplotlib.axes import Axes
 
 from experiments.evaluation.figures.drawing.robot import draw_robot, lowest, place_of, projection
 from experiments.evaluation.figures.style import beside, entitle, save_figure
-from experiments.evaluation.measure.detection.results import Detections, rows_of
+from experiments.evaluation.number.rows import read_detections
+from experiments.plan.detection import Detections
 from experiments.settings.detection_tables import Figure13
 from mobnet.core.columns import PUSH, named
 from mobnet.core.detections import Collision
@@ -49,7 +50,7 @@ def figure_13(
     """Write Figure 13 as PDF, SVG, PNG and CSV: the first collision of each cell, when its force is largest."""
     description = dressed(describe(robot), looks)
     rows = []
-    found = rows_of(detections, [settings.level], "collisions", Collision)
+    found = read_detections(detections[settings.level]["collisions"], "collisions")
     figure, axes = beside(len(settings.cells), HEIGHT_INCH)
     for k, (axis, cell) in enumerate(zip(axes, settings.cells, strict=True)):
         hit = first_of(found, detection.collisions, settings.leg, cell)

@@ -4,13 +4,15 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 from matplotlib.figure import Figure
 
 from experiments.evaluation.figures.style import Look, beside, entitle, legend, looks, save_figure
-from experiments.evaluation.measure.detection.results import MS, Detections, owners, rows_of
+from experiments.evaluation.measure.detection.results import MS, owners
+from experiments.evaluation.number.frames import read_detection, rows_of
 from experiments.evaluation.number.rows import Field
+from experiments.plan.detection import Detections
 from experiments.settings.detection_tables import Figure14
-from mobnet.core.detections import Collision
 from mobnet.core.style import styled
 from mobnet.settings.detection import Detection
 
@@ -24,10 +26,10 @@ GREY = Look("0.35")
 def figure_14(settings: Figure14, detection: Detection, detections: Detections, figure_dir: Path) -> None:
     """Write Figure 14 as PDF, SVG, PNG and CSV: histograms of the collisions, those of a level's robots together."""
     found = {}
-    own_leg = {"scenario": detection.collisions, "leg": settings.leg}
     for level in settings.levels:
-        names = owners(detections, level, settings.levels)
-        found[level.replace("_", " ")] = quantities(rows_of(detections, names, "collisions", Collision, **own_leg))
+        collisions = read_detection(detections, owners(detections, level, settings.levels), "collisions")
+        own = rows_of(collisions, scenario=detection.collisions, leg=settings.leg)
+        found[level.replace("_", " ")] = quantities(own)
     edges: dict[str, np.ndarray] = {}
     for name in LABELS:  # one set of bins for all levels, whose histograms lie over one another
         pooled = np.concatenate([own[name] for own in found.values()])
@@ -43,12 +45,12 @@ def figure_14(settings: Figure14, detection: Detection, detections: Detections, 
     save_figure(draw_histograms(found, edges), figure_dir / "figure_14", COLUMNS, rows)
 
 
-def quantities(collisions: Sequence[Collision]) -> dict[str, np.ndarray]:
+def quantities(collisions: pd.DataFrame) -> dict[str, np.ndarray]:
     """Return the largest force [N], the impulse [N s] and the contact time [ms] of collisions (n,)."""
     return {
-        "largest force": np.array([row.force_n for row in collisions]),
-        "impulse": np.array([row.impulse_ns for row in collisions]),
-        "contact time": np.array([MS * (row.end_s - row.start_s) for row in collisions]),
+        "largest force": collisions["force_n"].to_numpy(),
+        "impulse": collisions["impulse_ns"].to_numpy(),
+        "contact time": (MS * (collisions["end_s"] - collisions["start_s"])).to_numpy(),
     }
 
 

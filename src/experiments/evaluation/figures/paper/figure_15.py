@@ -9,8 +9,8 @@ from matplotlib.figure import Figure
 
 from experiments.evaluation.figures.drawing.curves import mark_flag
 from experiments.evaluation.figures.style import beside, entitle, legend, looks, save_figure
-from experiments.evaluation.measure.detection.results import Detections, rows_of
-from experiments.evaluation.number.rows import Field
+from experiments.evaluation.number.rows import Field, read_detections
+from experiments.plan.detection import Detections
 from experiments.settings.detection_tables import Figure15
 from mobnet.core.columns import PUSH, STD, SWING, foot_of, named
 from mobnet.core.detections import Collision, Threshold
@@ -45,13 +45,11 @@ def figure_15(
     figure_dir: Path,
 ) -> None:
     """Write Figure 15 as PDF, SVG, PNG and CSV: the first collision of each cell."""
-    collisions = rows_of(detections, [settings.level], "collisions", Collision)
-    signal = f"{STD}.{settings.joint}"
-    found = {
-        row.detector: row.value
-        for row in rows_of(detections, [settings.level], "thresholds", Threshold, leg=settings.leg, signal=signal)
-        if (row.kind, row.phase) == (settings.kind, 1)
-    }
+    files = detections[settings.level]
+    collisions: list[Collision] = read_detections(files["collisions"], "collisions")
+    of_phase: list[Threshold] = read_detections(files["thresholds"], "thresholds")
+    asked = settings.leg, f"{STD}.{settings.joint}", settings.kind, 1
+    found = {row.detector: row.value for row in of_phase if (row.leg, row.signal, row.kind, row.phase) == asked}
     thresholds = {method: found[name] for method, name in settings.detectors.items()}
     courses = [
         _course(settings, detection, layout, collisions, cell, recordings, estimates, thresholds)

@@ -4,6 +4,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
@@ -17,9 +18,9 @@ from experiments.evaluation.measure.reaction.results import (
     in_swing,
     outcome_of,
     printed_of,
-    read_trials,
     trials_of,
 )
+from experiments.evaluation.number.frames import read_trials
 from experiments.evaluation.number.number import Number
 from experiments.evaluation.number.rows import Field
 from experiments.plan.reactions import Reactions
@@ -27,7 +28,6 @@ from experiments.settings.published import PublishedContacts
 from experiments.settings.reaction_tables import Figure16
 from experiments.settings.runs import Statistics
 from mobnet.core.arrays import Array
-from mobnet.core.reactions import Trial
 from mobnet.core.store import read_array
 from mobnet.core.style import styled
 from mobnet.settings.reaction import Reaction, watches_of
@@ -63,7 +63,7 @@ def figure_16(
     for case in settings.cases:
         ours = trials_of(trials, case, reaction.ours)
         titles = case, SWING.format(case)
-        numbers[case] = [outcome_of(own, settings, statistics).numbers for own in (ours, in_swing(ours))]
+        numbers[case] = [outcome_of(own, settings, statistics) for own in (ours, in_swing(ours))]
         forces[case] = force_of(courses[case], settings)
         rows += [
             (case, "force", float(t), float(f), None, None, "N", None) for t, f in zip(*forces[case][:2], strict=True)
@@ -79,14 +79,14 @@ def figure_16(
 
 
 def late_falls(
-    trials: Sequence[Trial], case: str, reaction: Reaction, settings: Figure16, statistics: Statistics
+    trials: pd.DataFrame, case: str, reaction: Reaction, settings: Figure16, statistics: Statistics
 ) -> dict[float, Number]:
     """Return how long our reaction waits [s] -> the share of walks of a case with a fall."""
     found = dict[float, Number]()
     for watch in sorted(watches_of(reaction, case), key=lambda watch: watch.wait_s):
         own = trials_of(trials, case, watch)
-        if own and (watch.detector, watch.rule) == (reaction.ours.detector, reaction.ours.rule):
-            found[watch.wait_s] = outcome_of(own, settings, statistics).numbers[FALLS]
+        if len(own) and (watch.detector, watch.rule) == (reaction.ours.detector, reaction.ours.rule):
+            found[watch.wait_s] = outcome_of(own, settings, statistics)[FALLS]
     return found
 
 

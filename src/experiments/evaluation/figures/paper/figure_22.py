@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
@@ -12,14 +13,14 @@ from matplotlib.figure import Figure
 from experiments.evaluation.figures.drawing.robot import draw_scene, projection, solids_of
 from experiments.evaluation.figures.drawing.solids import outline_of
 from experiments.evaluation.figures.style import entitle, save_figure
-from experiments.evaluation.measure.reaction.results import read_trials, trials_of
+from experiments.evaluation.measure.reaction.results import trials_of
+from experiments.evaluation.number.frames import read_trials, rows_of
 from experiments.evaluation.number.rows import Field
 from experiments.plan.reactions import Reactions
 from experiments.settings.reaction_tables import Figure22
 from mobnet.core.arrays import Array
 from mobnet.core.course import StoredCourse, read_course
 from mobnet.core.joints import JointLayout
-from mobnet.core.reactions import Trial
 from mobnet.core.style import PAGE_INCH, styled
 from mobnet.robot.description import RobotDescription, describe, dressed
 from mobnet.settings.data import Obstacle
@@ -45,10 +46,12 @@ GHOST = {"facecolors": "0.88", "edgecolors": "none", "zorder": 1.0}  # of the ro
 
 @dataclass(frozen=True)
 class ShownWalk:
-    """A walk of a case: what is said of all of its kind, what came of it and its course."""
+    """A walk of a case with a robot: what is said of all of its kind, whether it ends in a fall, and its course."""
 
     title: str
-    trial: Trial
+    case: str
+    level: str
+    fell: bool
     course: StoredCourse
 
     @property
@@ -81,7 +84,7 @@ def figure_22(
     rows = list[list[Field]]()
     figure, grid = rows_of_pictures(len(shown), len(settings.moments_s) + 2)
     for k, (axes, walk) in enumerate(zip(grid, shown, strict=True)):
-        case = walk.trial.case
+        case = walk.case
         view = projection(*settings.views_deg[case])
         moments = moments_of(walk.course, settings)
         for axis, (moment, at) in zip(axes, moments.items(), strict=True):
@@ -89,8 +92,7 @@ def figure_22(
             time_s = (at - walk.first) / walk.course.note["rate_hz"]
             axis.text(0.0, 0.0, said_of(walk, moment, at, time_s), transform=axis.transAxes, va="top")
             places = (walk.course.q[at][:3], walk.course.point[at], walk.course.force[at])
-            fell = int(walk.trial.fell_s is not None)
-            rows.append([case, moment, time_s, *np.concatenate(places).tolist(), walk.trial.level, fell])
+            rows.append([case, moment, time_s, *np.concatenate(places).tolist(), walk.level, int(walk.fell)])
         entitle(axes[0], k, walk.title)
     save_figure(figure, figure_dir / "figure_22", COLUMNS, rows)
 
@@ -112,28 +114,29 @@ def rows_of_pictures(rows: int, columns: int) -> tuple[Figure, Sequence[Sequence
     return figure, figure.subplots(rows, columns, squeeze=False, gridspec_kw=edges).tolist()
 
 
-def walks_of(case: str, trials: Sequence[Trial], stems: Sequence[Path], layout: JointLayout) -> Iterator[ShownWalk]:
+def walks_of(case: str, trials: pd.DataFrame, stems: Sequence[Path], layout: JointLayout) -> Iterator[ShownWalk]:
     """Yield the first stored walk of a case that ends without a fall and the first that falls, where there are such.
 
     The trials are all of the case, of which each stored course is one.
     """
-    fallen = [trial for trial in trials if trial.fell_s is not None]
-    stored = [(course, trial_of(course, trials)) for course in (read_course(stem, layout) for stem in stems)]
+    fallen = int(trials["fell_s"].notna().sum())
     counts = {
-        False: f"{len(trials) - len(fallen)} of {len(trials)} walks end without a fall",
-        True: f"{len(fallen)} of {len(trials)} walks end in a fall",
+        False: f"{len(trials) - fallen} of {len(trials)} walks end without a fall",
+        True: f"{fallen} of {len(trials)} walks end in a fall",
     }
+    courses = [read_course(stem, layout) for stem in stems]
     for fell, count in counts.items():
-        found = [(course, trial) for course, trial in stored if (trial.fell_s is not None) == fell]
-        for course, trial in found[:1]:
-            robot = trial.level.replace("_", " ")
-            yield ShownWalk(f"{case}: {count}; this one is that of {robot}", trial, course)
+        found = [course for course in courses if has_fallen(course, trials) == fell]
+        for course in found[:1]:
+            level = course.note["level"]
+            robot = level.replace("_", " ")
+            yield ShownWalk(f"{case}: {count}; this one is that of {robot}", case, level, fell, course)
 
 
-def trial_of(course: StoredCourse, trials: Sequence[Trial]) -> Trial:
-    """Return what came of a stored walk."""
-    place = course.note["level"], course.note["seed"]
-    return next(trial for trial in trials if (trial.level, trial.seed) == place)
+def has_fallen(course: StoredCourse, trials: pd.DataFrame) -> bool:
+    """Return whether a stored walk ends in a fall."""
+    trial = rows_of(trials, level=course.note["level"], seed=course.note["seed"])
+    return bool(trial["fell_s"].notna().iloc[0])
 
 
 def moments_of(course: StoredCourse, settings: Figure22) -> dict[str, int]:

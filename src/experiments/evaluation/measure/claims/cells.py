@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from experiments.evaluation.measure.learning.trainings import MEASURES, TrainedNetwork, read_trainings, sound
-from experiments.evaluation.number.grid import Wanted, column_of, members, robots_of, run_grid
+from experiments.evaluation.number.grid import Wanted, members, places_of, robots_of, run_grid
 from experiments.evaluation.number.intervals import RunGrid
 from experiments.evaluation.number.number import Number
 from experiments.evaluation.number.rows import read_scores
@@ -70,8 +70,8 @@ class Evidence:
         joints: list[str] = []
         for name in listed(names):
             joints += members(self.layout, name)
-        # A mean over torques and forces has no unit: `column_of` refuses it.
-        places = column_of(self.layout, ", ".join(joints), joints, metrics).joints
+        # A mean over torques and forces has no unit: `places_of` refuses it.
+        places = places_of(self.layout, ", ".join(joints), joints)
         grids: list[RunGrid] = []
         for limb, joint in places:
             for metric in metrics:

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from experiments.evaluation.measure.detection.results import rows_of
+from experiments.evaluation.number.rows import read_detections
 from experiments.jobs.collisions import Hit, hits_of
 from experiments.plan.detection import Detections
 from experiments.plan.runs import Run
@@ -110,10 +110,12 @@ def _alarms(settings: ContactPoints, detections: Detections, recording: Path) ->
     """Return what the detector says of the collisions of some legs in a recording that it finds."""
     level = recording.parent.name
     seed = int(recording.name.removeprefix("s"))
-    held = {"scenario": settings.scenario, "detector": settings.detector, "kind": settings.kind}
-    rows = rows_of(detections, [level], "detected", Detected, **held)
-    found = [row for row in rows if row.seed == seed and row.leg in settings.legs and row.delay_s is not None]
-    return {(row.leg, row.number): row for row in found}
+    asked = settings.scenario, settings.detector, settings.kind, seed
+    alarms: dict[tuple[str, int], Detected] = {}
+    for row in read_detections(detections[level]["detected"], "detected"):
+        if (row.scenario, row.detector, row.kind, row.seed) == asked and row.delay_s is not None:
+            alarms[row.leg, row.number] = row
+    return alarms
 
 
 def _walked(robot: RobotDescription, joints: Sequence[str], gain_hz: float, runs: Sequence[Run]) -> CollisionWalk:

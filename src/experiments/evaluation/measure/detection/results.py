@@ -1,58 +1,26 @@
 """What detectors found, read from the files of robots: the robots of a level are taken together."""
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
 from itertools import product
-from typing import TypeVar
 
 import numpy as np
+import pandas as pd
 
-from experiments.evaluation.number.clusters import ClusterKey, mean_in, share_in
-from experiments.evaluation.number.number import Number
+from experiments.evaluation.number.clusters import ClusterKey, mean_in
+from experiments.evaluation.number.frames import ordered, read_detection, read_hits
+from experiments.evaluation.number.number import Number, interval_text, is_missing, number_text
 from experiments.plan.detection import Detections
 from experiments.settings.detection_tables import AlarmTable, SmallestForce
 from experiments.settings.runs import Statistics
 from mobnet.core.arrays import Array
-from mobnet.core.detections import Collision, CurvePoint, Detected, FreeSwing, Promise
 from mobnet.core.errors import DataError, not_accepted
-from mobnet.core.rows import read_rows
 
-Row = TypeVar("Row")
 MS = 1000.0
 LINKS, DIRECTIONS = ("foot", "ankle", "knee"), ("front", "side")  # in the paper's order
 CELLS = tuple(f"{link} {direction}" for link, direction in product(LINKS, DIRECTIONS))
 ALL = "all"  # cells together
 HALF = 0.5  # share of the collisions whose force ranks detectors
 HALVES, STEPS = 120, 24  # laws along the force for one half, and along the steepness
-
-
-@dataclass(frozen=True)
-class Try:
-    """A collision of a robot and what a detector said of it."""
-
-    robot: str
-    collision: Collision
-    detected: Detected
-
-    @property
-    def place(self) -> ClusterKey:
-        """The robot and the walk, which collisions have in common."""
-        return ClusterKey(self.robot, self.collision.seed)
-
-    @property
-    def cell(self) -> str:
-        """What was hit from where."""
-        return f"{self.collision.link} {self.collision.direction}"
-
-    @property
-    def is_found(self) -> bool:
-        """Whether the detector found it."""
-        return self.detected.delay_s is not None
-
-    @property
-    def named(self) -> str:
-        """What the detector says was hit from where; empty where it found nothing."""
-        return f"{self.detected.link} {self.detected.direction}".strip()
 
 
 def owners(detections: Detections, level: str, levels: Sequence[str]) -> list[str]:
@@ -67,55 +35,47 @@ def owners(detections: Detections, level: str, levels: Sequence[str]) -> list[st
     return found
 
 
-def rows_of(detections: Detections, names: Sequence[str], file: str, kind: type[Row], /, **held: str) -> list[Row]:
-    """Return the rows of a file of some robots whose fields hold what is given."""
-    found: list[Row] = []
-    for name in names:
-        for row in read_rows(detections[name][file], kind):
-            if all(getattr(row, field) == value for field, value in held.items()):
-                found.append(row)
-    return found
-
-
-def tries_of(detections: Detections, names: Sequence[str], scenario: str, leg: str, kind: str) -> dict[str, list[Try]]:
-    """Return what each detector said of the collisions of a leg in a scenario, by a rule of thresholds."""
-    found: dict[str, list[Try]] = {}
-    for name in names:
-        rows = rows_of(detections, [name], "collisions", Collision, scenario=scenario, leg=leg)
-        collisions = {(row.seed, row.number): row for row in rows}
-        for row in rows_of(detections, [name], "detected", Detected, scenario=scenario, leg=leg, kind=kind):
-            found.setdefault(row.detector, []).append(Try(name, collisions[row.seed, row.number], row))
-    return found
-
-
-def shown_tries(
-    settings: AlarmTable, detections: Detections, scenario: str, kind: str
-) -> Iterator[tuple[str, dict[str, list[Try]]]]:
-    """Yield each level of a table with what those of its detectors that were tried said, as `tries_of` does."""
+def read_of_leg(settings: AlarmTable, detections: Detections, name: str) -> pd.DataFrame:
+    """Return the rows of a file of detectors for a table: its levels, leg and detectors, in its order of them."""
+    parts: list[pd.DataFrame] = []
     for level in settings.levels:
-        tries = tries_of(detections, owners(detections, level, settings.levels), scenario, settings.leg, kind)
-        yield level, {name: tries[name] for name in settings.detectors if name in tries}
+        robots = owners(detections, level, settings.levels)
+        parts.append(read_detection(detections, robots, name).assign(level=level))
+    rows = pd.concat(parts, ignore_index=True)
+    return ordered(rows[rows["leg"] == settings.leg], level=settings.levels, detector=settings.detectors)
 
 
-def found_share(tries: Sequence[Try], statistics: Statistics) -> Number:
-    """Return the share of collisions that a detector finds [-], with its interval."""
-    return share_of(tries, lambda one: one.is_found, statistics)
+def hits_of(settings: AlarmTable, detections: Detections, scenario: str, kinds: Sequence[str]) -> pd.DataFrame:
+    """Return what the detectors of a table said of the collisions in a scenario, by some rules of thresholds.
+
+    Beside columns `HITS` there are `level`, `cell` and `named`, what was hit from where and what the detector names,
+    and times [ms]: `delay_ms` and `perfect_ms` from the beginning on, `onset_ms` from when the force exceeds that of
+    the second definition of a beginning. Level, kind, detector and cell are in the order of the table.
+    """
+    parts: list[pd.DataFrame] = []
+    for level in settings.levels:
+        robots = owners(detections, level, settings.levels)
+        parts.append(read_hits(detections, robots).assign(level=level))
+    hits = pd.concat(parts, ignore_index=True)
+    hits = hits[(hits["scenario"] == scenario) & (hits["leg"] == settings.leg)]
+    hits = ordered(hits, level=settings.levels, kind=kinds, detector=settings.detectors)
+    hits["cell"] = pd.Categorical(hits["link"] + " " + hits["direction"], list(CELLS))
+    hits["named"] = (hits["named_link"] + " " + hits["named_direction"]).str.strip()
+    hits["delay_ms"] = MS * hits["delay_s"]
+    hits["perfect_ms"] = MS * hits["perfect_s"]
+    hits["onset_ms"] = MS * (hits["delay_s"] - (hits["onset_s"] - hits["start_s"]))
+    return hits
 
 
-def share_of(tries: Sequence[Try], is_so: Callable[[Try], bool], statistics: Statistics) -> Number:
-    """Return the share of collisions of which something holds [-], with its interval over robots and walks."""
-    return share_in([is_so(one) for one in tries], [one.place for one in tries], statistics)
+def with_all(hits: pd.DataFrame) -> pd.DataFrame:
+    """Return the hits, and all of them again as those of all cells together.
 
-
-def mean_of(tries: Sequence[Try], value_of: Callable[[Try], float | None], statistics: Statistics) -> Number:
-    """Return the mean of times of collisions [ms] that have one [s], with its interval over robots and walks."""
-    found = [(MS * value, one.place) for one in tries if (value := value_of(one)) is not None]
-    return mean_in([value for value, _ in found], [place for _, place in found], statistics, "ms")
-
-
-def delay_of(one: Try) -> float | None:
-    """Return the delay of a collision that was found [s]."""
-    return one.detected.delay_s
+    Both parts have the same cells: a concatenation of others would lose their order.
+    """
+    cells = [*CELLS, ALL]
+    own = hits.assign(cell=hits["cell"].cat.set_categories(cells))
+    every = hits.assign(cell=pd.Categorical([ALL] * len(hits), cells))
+    return pd.concat([own, every], ignore_index=True)
 
 
 def median_of(values: Sequence[float], statistics: Statistics, unit: str) -> Number:
@@ -132,25 +92,26 @@ def median_of(values: Sequence[float], statistics: Statistics, unit: str) -> Num
     return Number(float(np.median(values)), low, high, unit=unit)
 
 
-def hours_per_swing(promises: Sequence[Promise]) -> float:
+def hours_per_swing(promises: pd.DataFrame) -> float:
     """Return how long a swing of a walk takes [h], the other leg's and the steps between included."""
-    return sum(row.hours for row in promises) / max(sum(row.swings for row in promises), 1)
+    return float(promises["hours"].sum()) / max(int(promises["swings"].sum()), 1)
 
 
-def alarms_in(swings: Sequence[FreeSwing], over: float = 1.0) -> int:
+def alarms_in(swings: pd.DataFrame, over: float = 1.0) -> int:
     """Return in how many swings a signal lies above a multiple of the threshold for one false alarm an hour."""
-    return sum(row.ratio > over for row in swings)
+    return int((swings["ratio"] > over).sum())
 
 
-def only_one(first: Sequence[Try], second: Sequence[Try]) -> dict[str, tuple[int, int]]:
-    """Return robot -> how many collisions the first detector alone finds, and the second one alone."""
-    found = {(one.place, one.collision.number): one.is_found for one in second}
-    pairs: dict[str, tuple[int, int]] = {}
-    for one in first:
-        alone, other = pairs.get(one.robot, (0, 0))
-        by_second = found[one.place, one.collision.number]
-        pairs[one.robot] = alone + (one.is_found and not by_second), other + (by_second and not one.is_found)
-    return pairs
+def only_one(first: pd.DataFrame, second: pd.DataFrame) -> pd.DataFrame:
+    """Return how many collisions of each robot the first detector alone finds, and the second one: `first`, `second`.
+
+    The index has the robots.
+    """
+    of = ["robot", "seed", "number"]
+    pairs = first.merge(second, on=of, suffixes=("", "_by_second"), validate="1:1")
+    pairs["first"] = pairs["found"] & ~pairs["found_by_second"]
+    pairs["second"] = pairs["found_by_second"] & ~pairs["found"]
+    return pairs.groupby("robot", sort=False)[["first", "second"]].sum()
 
 
 def sign_test(first: int, second: int) -> float:
@@ -165,18 +126,26 @@ def sign_test(first: int, second: int) -> float:
     return float(binomtest(first, first + second).pvalue)
 
 
-def at_counted_rate(
-    points: Mapping[str, Sequence[CurvePoint]], quiet: Sequence[FreeSwing], hours: float, rate_per_h: float
-) -> dict[str, CurvePoint]:
-    """Return robot -> what a detector finds at the lowest thresholds with at most a counted rate of false alarms [1/h].
+def at_counted_rate(points: pd.DataFrame, quiet: pd.DataFrame, hours: float, rate_per_h: float) -> pd.DataFrame:
+    """Return what a detector finds at the lowest thresholds with at most a counted rate of false alarms [1/h].
 
     Points are those of each robot at multiples of its thresholds, and false alarms are counted in swings of all of
     them, which took so many hours. It is empty where all thresholds have more.
     """
-    for factor in sorted({row.factor for rows in points.values() for row in rows}):
+    for factor in sorted(points["factor"].unique()):
         if alarms_in(quiet, factor) <= rate_per_h * hours:
-            return {robot: row for robot, rows in points.items() for row in rows if row.factor == factor}
-    return {}
+            return points[points["factor"] == factor]
+    return points.iloc[:0]
+
+
+def found_at(points: pd.DataFrame) -> tuple[list[bool], list[ClusterKey]]:
+    """Return whether each collision behind some points is found, and its cluster: all walks of a robot together."""
+    flags: list[bool] = []
+    places: list[ClusterKey] = []
+    for robot, found, count in points[["robot", "found", "collisions"]].itertuples(index=False):
+        flags += [True] * found + [False] * (count - found)
+        places += [ClusterKey(robot, 0)] * count
+    return flags, places
 
 
 # The found share is a logistic function of the logarithm of the force. Of many such laws, with forces for one half and
@@ -207,20 +176,18 @@ def smallest_force(force: Array, found: Array, settings: SmallestForce, statisti
     return Number(value, max(low, least), min(high, most), unit="N")
 
 
-def half_force(tries: Sequence[Try], settings: SmallestForce, statistics: Statistics) -> Number:
+def half_force(hits: pd.DataFrame, settings: SmallestForce, statistics: Statistics) -> Number:
     """Return the largest force of collisions of which a detector finds one half [N]: the mean over robots.
 
     Its interval is over robots; of one robot it has none. Where one robot's lies below or above all forces that were
     tried there is no number, but that end as `low` or as `high`.
     """
     of_half = settings.model_copy(update={"share": HALF})
-    robots = sorted({one.robot for one in tries})
+    robots: list[str] = []
     found: list[Number] = []
-    for robot in robots:
-        own = [one for one in tries if one.robot == robot]
-        force = np.array([one.collision.force_n for one in own])
-        is_found = np.array([one.is_found for one in own], dtype=np.float64)
-        found.append(smallest_force(force, is_found, of_half, statistics))
+    for robot, own in hits.groupby("robot"):
+        robots.append(str(robot))
+        found.append(force_of(own, of_half, statistics))
     values = [number.value for number in found if number.value is not None]
     if values and len(values) == len(found):
         return mean_in(values, [ClusterKey(robot, 0) for robot in robots], statistics, "N")
@@ -232,11 +199,21 @@ def half_force(tries: Sequence[Try], settings: SmallestForce, statistics: Statis
     return Number(None, min(least, default=None), None, unit="N")
 
 
-def force_text(number: Number) -> str:
+def force_of(hits: pd.DataFrame, settings: SmallestForce, statistics: Statistics) -> Number:
+    """Return the force of which a share of some hits is found [N], as `smallest_force` does; none of no hit."""
+    if hits.empty:
+        return Number(None, unit="N")
+    found = hits["found"].to_numpy(np.float64)
+    return smallest_force(hits["force_n"].to_numpy(), found, settings, statistics)
+
+
+def force_text(value: float | None, low: float | None, high: float | None) -> str:
     """Return a force with its interval as text; where it lies beyond all that were tried, beyond which of them."""
-    if number.value is None:
-        return f"< {number.low:.0f}" if number.low is not None else f"> {number.high:.0f}" if number.high else "-"
-    return f"{number.text(0)} {number.interval(0)}".strip()
+    if not is_missing(value):
+        return f"{number_text(value, 0)} {interval_text(low, high, 0)}".strip()
+    if not is_missing(low):
+        return f"< {low:.0f}"
+    return f"> {high:.0f}" if not is_missing(high) else "-"
 
 
 def quantiles(values: Array, weights: Array, shares: tuple[float, ...]) -> list[float]:

@@ -4,10 +4,12 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from experiments.evaluation.measure.estimates.changed import FLAGGED, FREE, KNOWN
-from experiments.evaluation.number.grid import read_lookup
-from experiments.evaluation.tables.rows import ViewColumn, average, by_limb, measured, share_percent
+from experiments.evaluation.number.frames import read_scores
+from experiments.evaluation.number.scored import asked_of, numbers_of
+from experiments.evaluation.tables.look import ShownColumn, average, by_limb, percent, write_look
 from experiments.settings.measures import Changed
 from experiments.settings.runs import Statistics
+from mobnet.core.columns import METHODS
 from mobnet.core.joints import JointLayout
 from mobnet.settings.networks import Learning
 
@@ -23,14 +25,14 @@ def changed(
     table_dir: Path,
 ) -> None:
     """Write changed.csv, with every joint and intervals, and changed.tex and .md: means over the joints of a limb."""
-    lookup = read_lookup(scores, statistics)
+    asked = asked_of(settings.tests.items(), [ERROR, KNOWN, FREE, FLAGGED], layout)
+    rows = numbers_of(read_scores(*scores), asked, statistics)
     interval = f"{learning.calibration_share:.0%}"
-    rows = measured(lookup, layout, list(settings.tests.items()), [ERROR, KNOWN, FREE, FLAGGED])
     below = f"windows below {settings.least_share:.0%} [%]"
     columns = [
-        ViewColumn("RMSE [N m]", average(ERROR)),
-        ViewColumn(f"errors in {interval} [%]", average(KNOWN), text=share_percent),
-        ViewColumn(f"free swings in {interval} [%]", average(FREE), text=share_percent),
-        ViewColumn(below, average(FLAGGED), text=share_percent),
+        ShownColumn("RMSE [N m]", average(ERROR)),
+        ShownColumn(f"errors in {interval} [%]", average(KNOWN), text=percent),
+        ShownColumn(f"free swings in {interval} [%]", average(FREE), text=percent),
+        ShownColumn(below, average(FLAGGED), text=percent),
     ]
-    rows.write(table_dir / "changed", by_limb("Robot", columns))
+    write_look(table_dir / "changed", rows, METHODS, by_limb("Robot", columns), rows[rows["value"].notna()])

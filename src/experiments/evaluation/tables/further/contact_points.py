@@ -6,10 +6,11 @@ from pathlib import Path
 import numpy as np
 
 from experiments.evaluation.measure.detection.contact_points import NAMED, NOTHING, ContactDeviation, contacts_of
-from experiments.evaluation.measure.detection.results import ALL, CELLS, Detections, median_of
+from experiments.evaluation.measure.detection.results import ALL, CELLS, median_of
 from experiments.evaluation.number.number import Number
 from experiments.evaluation.number.rows import Field
 from experiments.evaluation.tables.layout import RULE, Line, Table, write_table
+from experiments.plan.detection import Detections
 from experiments.plan.runs import Run
 from experiments.settings.detection_tables import ContactPoints
 from experiments.settings.runs import Statistics

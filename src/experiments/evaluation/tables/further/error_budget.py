@@ -1,28 +1,29 @@
 """What an observer's error is made of: its error with every source on, and how much goes with one of them off."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 
 from experiments.evaluation.compare.rmse import PERCENT
-from experiments.evaluation.number.grid import Column, Wanted, columns_of, run_grid
-from experiments.evaluation.number.intervals import Array, Formula, RunGrid, summarise
-from experiments.evaluation.number.number import Number
-from experiments.evaluation.number.rows import Field, read_scores
-from experiments.evaluation.tables.layout import RULE, Line, Table, write_table
+from experiments.evaluation.number.frames import ordered, read_scores
+from experiments.evaluation.number.intervals import Array, Formula
+from experiments.evaluation.number.laws import measured
+from experiments.evaluation.number.number import Number, interval_text, number_text
+from experiments.evaluation.number.scored import columns_of, number_of, runs_of
+from experiments.evaluation.tables.layout import RULE, Line, Table, records_of, write_table
 from experiments.settings.runs import Statistics
-from experiments.settings.tables import BudgetRow, ErrorBudget
-from mobnet.core.columns import ERRORS, Score
+from experiments.settings.tables import ErrorBudget
+from mobnet.core.columns import ERRORS, RUN
 from mobnet.core.joints import JointLayout
 
 METRIC = "rmse"
 GONE = "gone"
 DIGITS = {METRIC: 2, GONE: 0}
 SIGN = {METRIC: "", GONE: " %"}
-
-Cells = Mapping[tuple[str, str, str, str], Number]  # scenario, level, method, METRIC or GONE
+PLACE = ["column", "label"]  # of a number: a joint or a mean, and the test
 
 
 def error_budget(
@@ -36,36 +37,39 @@ def error_budget(
 
     The first test of `settings` has every source on.
     """
-    rows = read_scores(*scores)
-    parts = columns_of(layout, settings.joints)
-    budgets = {part: cells_of(part, settings.tests, rows, statistics) for part in parts}
-    records: list[tuple[Field, ...]] = []
-    for part, cells in budgets.items():
-        for (*run, metric), ours in cells.items():
-            records.append((*run, part.name, metric, *ours.with_ends, *ours.spread, ours.unit, None))
-    first, *others = (test.label for test in settings.tests)
+    tests = pd.DataFrame([(test.label, test.scenario, test.level, *test.methods) for test in settings.tests])
+    tests.columns = ["label", *RUN]
+    columns = columns_of(layout, settings.joints)
+    cells = tests.merge(columns, how="cross").assign(metric=METRIC)
+    runs = ordered(runs_of(read_scores(*scores), cells), label=list(tests["label"]))
+    numbers = numbers_of(runs, statistics)
+    first, *others = tests["label"]
     header = ["Joint", "Unit", first]
     for label in others:
         header += [label, GONE]
-    lines = budget_lines(budgets, statistics.confidence)
-    write_table(table_dir / "error_budget", Table(ERRORS, records, header, lines, left=2))
+    rows = numbers.assign(joint=numbers["column"], metric=numbers["quantity"], label=numbers["label"].astype(str))
+    rows = rows.merge(tests, how="left", on="label")
+    joints = columns["column"].value_counts()
+    means = list(joints[joints > 1].index)
+    lines = budget_lines(numbers, means, statistics.confidence)
+    write_table(table_dir / "error_budget", Table(ERRORS, records_of(rows, ERRORS), header, lines, left=2))
 
 
-def cells_of(part: Column, tests: Sequence[BudgetRow], scores: Sequence[Score], statistics: Statistics) -> Cells:
-    """Return, test by test, the RMSE [N m] of a joint or a mean and the share [%] of the square that a source makes."""
-    full: list[RunGrid] = []
-    gone = Formula(share_left, lambda left: PERCENT * (1.0 - left), positive=True)
-    cells = {}
-    for test in tests:
-        run = test.scenario, test.level, test.methods[0]
-        wanted = [Wanted(run[0], limb, *run[1:], joint, METRIC) for limb, joint in part.joints]
-        grids = [run_grid(scores, each) for each in wanted]
-        cells[*run, METRIC] = summarise(grids, statistics, unit=part.unit)
-        if full:
-            squares = [replace(grid, values=grid.values**2) for grid in (*full, *grids)]
-            cells[*run, GONE] = summarise(squares, statistics, gone, "%")
-        full = full or grids
-    return cells
+def numbers_of(runs: pd.DataFrame, statistics: Statistics) -> pd.DataFrame:
+    """Return the RMSE [N m] of each joint or mean, test by test, and the share [%] of its square that is gone."""
+    every = runs[runs["label"] == runs["label"].iloc[0]]
+    one_off = runs[runs["label"] != runs["label"].iloc[0]]
+    gone_of = Formula(share_left, lambda left: PERCENT * (1.0 - left), positive=True)
+
+    def gone(own: pd.DataFrame) -> Number:
+        full = every[every["column"] == own["column"].iloc[0]]
+        squares = pd.concat([full, own])
+        squares["value"] = squares["value"] ** 2
+        return replace(number_of(squares, statistics, gone_of), unit="%")
+
+    errors = measured(runs, PLACE, {METRIC: lambda own: number_of(own, statistics)})
+    shares = measured(one_off, PLACE, {GONE: gone})
+    return pd.concat([errors, shares]).sort_values(PLACE, kind="stable", ignore_index=True)
 
 
 def share_left(means: Array) -> Array:
@@ -74,14 +78,17 @@ def share_left(means: Array) -> Array:
     return after.sum(axis=0, keepdims=True) / before.sum(axis=0, keepdims=True)
 
 
-def budget_lines(budgets: Mapping[Column, Cells], confidence: float) -> list[Line]:
+def budget_lines(numbers: pd.DataFrame, means: Sequence[str], confidence: float) -> list[Line]:
     """Return the lines of text, RMSE [N m] and share gone [%] in turn; intervals and a rule below each mean."""
     lines: list[Line] = []
-    for part, cells in budgets.items():
-        own = [(metric, ours) for (*_, metric), ours in cells.items()]
-        lines.append([part.name, part.unit, *(ours.text(DIGITS[metric]) + SIGN[metric] for metric, ours in own)])
-        if len(part.joints) > 1:
-            if own[0][1].low is not None:
-                lines.append([f"{confidence:.0%}", "", *(ours.interval(DIGITS[metric]) for metric, ours in own)])
+    for name, own in numbers.groupby("column", observed=True):
+        texts: list[str] = []
+        intervals: list[str] = []
+        for metric, value, low, high in own[["quantity", "value", "low", "high"]].itertuples(index=False):
+            texts.append(number_text(value, DIGITS[metric]) + SIGN[metric])
+            intervals.append(interval_text(low, high, DIGITS[metric]))
+        lines.append([str(name), own["unit"].iloc[0], *texts])
+        if name in means:
+            lines += [[f"{confidence:.0%}", "", *intervals]] if intervals[0] else []
             lines.append(RULE)
     return lines[:-1] if lines[-1] == RULE else lines

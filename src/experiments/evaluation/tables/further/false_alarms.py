@@ -1,25 +1,20 @@
 """False alarms of detectors: what was promised, and what was measured in walks that calibrated nothing."""
 
-from collections import Counter
-from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from experiments.evaluation.measure.detection.results import (
-    ALL,
-    Detections,
-    alarms_in,
-    hours_per_swing,
-    owners,
-    rows_of,
-)
+import pandas as pd
+
+from experiments.evaluation.measure.detection.results import ALL, hours_per_swing, read_of_leg
+from experiments.evaluation.number.frames import rows_of
+from experiments.evaluation.number.laws import fields_of
 from experiments.evaluation.number.number import Number
-from experiments.evaluation.number.rows import Field
 from experiments.evaluation.number.single import rate_of
-from experiments.evaluation.tables.rows import NumberRow, Rows, View, ViewColumn
+from experiments.evaluation.tables.look import Row, ShownColumn, TableLook, write_look
+from experiments.plan.detection import Detections
 from experiments.settings.detection_tables import AlarmTable
 from experiments.settings.runs import Statistics
 from mobnet.core.columns import DETECTION
-from mobnet.core.detections import CALIBRATION, COLLISION, HELD_OUT, LARGEST, UNPUSHED, WALKING, FreeSwing, Promise
+from mobnet.core.detections import CALIBRATION, COLLISION, HELD_OUT, LARGEST, UNPUSHED, WALKING
 from mobnet.detection.thresholds import Calibrated, expected_counts
 from mobnet.settings.detection import Detection
 
@@ -29,7 +24,6 @@ WITHIN = "within"
 KEPT = "kept"
 RANDOM, BETWEEN, COUNTED = "random", "between pushes", "held out"  # cells; the last one is the first two together
 PLACE = "in place"
-Counted = tuple[Sequence[FreeSwing], Sequence[Promise]]  # of a robot
 OVER = {LARGEST: "ratio_largest", WALKING: "ratio_walking"}  # rule without a promise -> the numbers over its thresholds
 
 
@@ -43,114 +37,97 @@ def false_alarms(
     `within` says whether a number of false alarms was measured that the promised interval allows, `kept` whether the
     interval of the measured rate holds the promised one, which is stricter.
     """
-    rows = Rows(DETECTION)
-    for level in settings.levels:
-        leg = settings.leg
-        robots = {name: _robot(detections, name, leg) for name in owners(detections, level, settings.levels)}
-        for name in settings.detectors:
-            own: list[Counted] = []
-            for swings, promises in robots.values():
-                of_detector = [row for row in promises if row.detector == name]
-                if of_detector:
-                    own.append(([row for row in swings if row.detector == name], of_detector))
-            if own:
-                place = {"level": level, "title": level.replace("_", " "), "detector": name, "leg": leg}
-                _add_rates(rows, place, own, detection, statistics)
+    every_promise = read_of_leg(settings, detections, "promises")
+    every_swing = read_of_leg(settings, detections, "swings")
+    parts: list[pd.DataFrame] = []
+    for (level, name), promises in every_promise.groupby(["level", "detector"], observed=True):
+        swings = rows_of(every_swing, level=level, detector=name)
+        swings = swings[swings["robot"].isin(promises["robot"])]
+        rates = rates_of(promises, in_cells(swings, detection), statistics)
+        title = str(level).replace("_", " ")
+        parts.append(rates.assign(level=str(level), title=title, detector=str(name), leg=settings.leg))
     share = f"{statistics.confidence:.0%}"
-    columns = [
-        ViewColumn("promised", _of(COLLISION, ALL, PROMISED), 1, ends=share),
-        ViewColumn("counted", _of(COLLISION, COUNTED), 1, ends=share),
-        ViewColumn("kept", _of(COLLISION, COUNTED, KEPT), text=_yes_or_no),
-        ViewColumn("pushes", _of(COLLISION, BETWEEN), 1),
-        ViewColumn("random: there", _of(WALKING, RANDOM), 0),
-        ViewColumn("pushes", _of(WALKING, BETWEEN), 0),
-        ViewColumn("in place: there", _of(LARGEST, PLACE), 0),
-        ViewColumn("random", _of(LARGEST, RANDOM), 0),
-        ViewColumn("pushes", _of(LARGEST, BETWEEN), 0),
+    shown = [
+        ShownColumn("promised", _of(COLLISION, ALL, PROMISED), 1, ends=share),
+        ShownColumn("counted", _of(COLLISION, COUNTED), 1, ends=share),
+        ShownColumn("kept", _of(COLLISION, COUNTED, KEPT), text=_yes_or_no, none="no"),
+        ShownColumn("pushes", _of(COLLISION, BETWEEN), 1),
+        ShownColumn("random: there", _of(WALKING, RANDOM), 0),
+        ShownColumn("pushes", _of(WALKING, BETWEEN), 0),
+        ShownColumn("in place: there", _of(LARGEST, PLACE), 0),
+        ShownColumn("random", _of(LARGEST, RANDOM), 0),
+        ShownColumn("pushes", _of(LARGEST, BETWEEN), 0),
     ]
     # the level stands in every line, and a rule between levels
-    view = View({"title": "Level", "detector": "Detector"}, columns, blocks=("level",))
-    rows.write(table_dir / "false_alarms", view)
+    look = TableLook({"title": "Level", "detector": "Detector"}, shown, blocks=("level",))
+    write_look(table_dir / "false_alarms", pd.concat(parts, ignore_index=True), DETECTION, look)
 
 
-def _of(kind: str, cell: str, quantity: str = MEASURED) -> dict[str, Field]:
-    """Return the fields of a number of a detector."""
+def _of(kind: object, cell: object, quantity: str = MEASURED) -> dict[str, object]:
+    """Return the columns of a number of a detector."""
     return {"kind": kind, "cell": cell, "quantity": quantity}
 
 
-def _yes_or_no(row: NumberRow) -> str:
+def _yes_or_no(row: Row) -> str:
     """Return whether the promise is kept."""
-    return "yes" if row.number.value else "no"
+    return "yes" if row["value"] else "no"
 
 
-def cells_of(swings: Sequence[FreeSwing], detection: Detection) -> dict[str, list[FreeSwing]]:
-    """Return the swings by where they were made: in random walking, on each ground, in place, and between pushes.
+def in_cells(swings: pd.DataFrame, detection: Detection) -> pd.DataFrame:
+    """Return each swing once for each `cell` that it is part of: random walking, a ground, in place, between pushes.
 
     What is held out is random walking and the swings between pushes together: a leg that was hit goes on walking.
     """
-    held = [row for row in swings if row.part == HELD_OUT]
-    random = [row for row in held if row.scenario == detection.random]
-    grounds: dict[str, list[FreeSwing]] = {}
-    for row in random:
-        grounds.setdefault(f"random on {row.terrain}", []).append(row)
-    between = [row for row in swings if row.part == UNPUSHED]
-    return {
-        COUNTED: random + between,
+    held = rows_of(swings, part=HELD_OUT)
+    random = rows_of(held, scenario=detection.random)
+    between = rows_of(swings, part=UNPUSHED)
+    grounds = {f"random on {terrain}": own for terrain, own in random.groupby("terrain", sort=False)}
+    cells = {
+        COUNTED: pd.concat([random, between]),
         RANDOM: random,
         **grounds,
-        PLACE: [row for row in held if row.scenario == detection.place],
+        PLACE: rows_of(held, scenario=detection.place),
         BETWEEN: between,
-        CALIBRATION: [row for row in swings if row.part == CALIBRATION and row.scenario == detection.random],
+        CALIBRATION: rows_of(swings, part=CALIBRATION, scenario=detection.random),
     }
+    placed = pd.concat([own.assign(cell=cell) for cell, own in cells.items()], ignore_index=True)
+    return placed.assign(cell=pd.Categorical(placed["cell"], list(cells)))
 
 
-def _robot(detections: Detections, name: str, leg: str) -> Counted:
-    """Return the swings and the promises of a robot, of all detectors of a leg."""
-    swings = rows_of(detections, [name], "swings", FreeSwing, leg=leg)
-    return swings, rows_of(detections, [name], "promises", Promise, leg=leg)
+def rates_of(promises: pd.DataFrame, swings: pd.DataFrame, statistics: Statistics) -> pd.DataFrame:
+    """Return the rates of a detector [1/h], by rule of thresholds and where they were counted, with their intervals.
 
+    Promises are those of each robot; swings stand in their cells.
+    """
+    rows: list[dict[str, object]] = []
 
-def _add_rates(
-    rows: Rows, place: Mapping[str, Field], robots: Sequence[Counted], detection: Detection, statistics: Statistics
-) -> None:
-    """Add the rates of a detector [1/h], by rule of thresholds and where they were counted."""
-    swing_h = hours_per_swing([row for _, promises in robots for row in promises])
-    kinds = [row.kind for row in robots[0][1]]
-    for kind in kinds:
-        own = [row for _, promises in robots for row in promises if row.kind == kind]
-        promised = _promised(own)
-        rows.add(promised, **place, **_of(kind, ALL, PROMISED), count=sum(row.swings for row in own))
-        counts, totals = Counter[str](), Counter[str]()
-        for swings, promises in robots:
-            # Ratios are over the threshold for one false alarm an hour, of which that of another kind is a multiple,
-            # another one on each robot.
-            factors = {row.kind: row.factor for row in promises}
-            over = factors[kind] / factors[COLLISION]
-            for cell, walked in cells_of(swings, detection).items():
-                counts[cell] += alarms_in(walked, over)
-                totals[cell] += len(walked)
-        for cell, total in totals.items():
-            hours = total * swing_h
-            measured = rate_of(counts[cell], hours, statistics)
-            rows.add(measured, **place, **_of(kind, cell), count=counts[cell])
+    def add(number: Number, kind: object, cell: object, quantity: str, count: int) -> None:
+        rows.append({**_of(kind, cell, quantity), **fields_of(number), "count": count})
+
+    swing_h = hours_per_swing(promises)
+    factors = promises.pivot(index="robot", columns="kind", values="factor")
+    for kind, own in promises.groupby("kind", sort=False):
+        rate, low, high = own[["rate_per_h", "low", "high"]].mean()
+        promised = Number(rate, low, high, unit="1/h")
+        add(promised, kind, ALL, PROMISED, int(own["swings"].sum()))
+        # Ratios are over the threshold for one false alarm an hour, of which that of another kind is a multiple,
+        # another one on each robot.
+        over = swings["robot"].map(factors[kind] / factors[COLLISION])
+        alarms = swings.assign(alarm=swings["ratio"] > over)
+        for cell, walked in alarms.groupby("cell", observed=False):
+            count = int(walked["alarm"].sum())
+            hours = len(walked) * swing_h
+            measured = rate_of(count, hours, statistics)
+            add(measured, kind, cell, MEASURED, count)
             if cell in (COUNTED, RANDOM, BETWEEN):
-                within = Number(_is_within(promised, hours, counts[cell], statistics))
-                rows.add(within, **place, **_of(kind, cell, WITHIN), count=total)
-                rows.add(Number(_is_kept(promised, measured)), **place, **_of(kind, cell, KEPT), count=total)
-    every = cells_of([row for swings, _ in robots for row in swings], detection)
-    for kind, field in OVER.items():
-        for cell, walked in every.items():
-            alarms = sum(getattr(row, field) > 1.0 for row in walked)
-            measured = rate_of(alarms, len(walked) * swing_h, statistics)
-            rows.add(measured, **place, **_of(kind, cell), count=alarms)
-
-
-def _promised(promises: Sequence[Promise]) -> Number:
-    """Return the mean of the rates that robots' detectors promise [1/h], with that of the intervals."""
-    rate = _mean([row.rate_per_h for row in promises])
-    low = _mean([row.low for row in promises])
-    high = _mean([row.high for row in promises])
-    return Number(rate, low, high, unit="1/h")
+                within = _is_within(promised, hours, count, statistics)
+                add(Number(within), kind, cell, WITHIN, len(walked))
+                add(Number(_is_kept(promised, measured)), kind, cell, KEPT, len(walked))
+    for kind, column in OVER.items():
+        for cell, walked in swings.groupby("cell", observed=False):
+            count = int((walked[column] > 1.0).sum())
+            add(rate_of(count, len(walked) * swing_h, statistics), kind, cell, MEASURED, count)
+    return pd.DataFrame(rows)
 
 
 def _is_within(promised: Number, hours: float, alarms: int, statistics: Statistics) -> float:
@@ -164,7 +141,3 @@ def _is_kept(promised: Number, measured: Number) -> float:
     """Return 1 where the interval of a measured rate holds the promised one, else 0."""
     low, value, high = measured.low or 0.0, promised.value or 0.0, measured.high or 0.0
     return float(low <= value <= high)
-
-
-def _mean(values: Sequence[float]) -> float:
-    return sum(values) / len(values)

@@ -3,10 +3,14 @@
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
+import pandas as pd
+
 from experiments.evaluation.measure.estimates.changed import FLAGS, HOUR_S, WATCHED
-from experiments.evaluation.number.grid import AVERAGE, Lookup, Wanted, read_lookup
+from experiments.evaluation.number.frames import read_scores, rows_of
+from experiments.evaluation.number.laws import fields_of
+from experiments.evaluation.number.scored import AVERAGE
 from experiments.evaluation.number.single import rate_of
-from experiments.evaluation.tables.rows import Rows, View, ViewColumn, field_text
+from experiments.evaluation.tables.look import ShownColumn, TableLook, column, write_look
 from experiments.settings.measures import Changed
 from experiments.settings.runs import LegRuns, Statistics
 from experiments.settings.tables import Hourly
@@ -30,17 +34,17 @@ def hourly(
 ) -> None:
     """Write hourly.csv, .tex and .md: how often a robot falls and the check is wrong, counted and in an hour [1/h]."""
     tests = {title: changed.tests[title] for title in settings.known}
-    rows = Rows(HOURLY)
-    for event, walked, method, hours, count in (*falls(walks), *flags(read_lookup(scores, statistics), tests)):
-        found = rate_of(count, hours, statistics)
-        rows.add(found, event=event, walks=walked, method=method, hours=hours, count=count)
-    columns = [
-        ViewColumn("Hours", text=field_text("hours", ".2f")),
-        ViewColumn("Events", text=field_text("count")),
-        ViewColumn("In an hour", ends=f"{statistics.confidence:.0%}"),
+    rows: list[dict[str, object]] = []
+    for event, walked, method, hours, count in (*falls(walks), *flags(read_scores(*scores), tests)):
+        found = fields_of(rate_of(count, hours, statistics))
+        rows.append({**found, "event": event, "walks": walked, "method": method, "hours": hours, "count": count})
+    shown = [
+        ShownColumn("Hours", text=column("hours", ".2f")),
+        ShownColumn("Events", text=column("count")),
+        ShownColumn("In an hour", ends=f"{statistics.confidence:.0%}"),
     ]
     labels = {"event": "Event", "walks": "Walks", "method": "Method"}
-    rows.write(table_dir / "hourly", View(labels, columns))
+    write_look(table_dir / "hourly", pd.DataFrame(rows), HOURLY, TableLook(labels, shown))
 
 
 def falls(walks: Mapping[str, Sequence[Path]]) -> Iterator[Counted]:
@@ -51,13 +55,13 @@ def falls(walks: Mapping[str, Sequence[Path]]) -> Iterator[Counted]:
         yield FALL, title, "", hours, sum(note["falls"] for note in notes)
 
 
-def flags(lookup: Lookup, tests: Mapping[str, LegRuns]) -> Iterator[Counted]:
+def flags(scores: pd.DataFrame, tests: Mapping[str, LegRuns]) -> Iterator[Counted]:
     """Yield the flagged windows of each method that has standard deviations, test by test and in all of them."""
     methods: list[str] = []
     for test in tests.values():
         methods += test.methods
     for method in dict.fromkeys(methods):
-        found = {title: totals(lookup, test, method) for title, test in tests.items() if method in test.methods}
+        found = {title: totals(scores, test, method) for title, test in tests.items() if method in test.methods}
         kept = {title: own for title, own in found.items() if own[0] > 0.0}
         for title, (hours, count) in kept.items():
             yield FLAG, title, method, hours, count
@@ -66,13 +70,9 @@ def flags(lookup: Lookup, tests: Mapping[str, LegRuns]) -> Iterator[Counted]:
             yield FLAG, ALL, method, hours, round(count)
 
 
-def totals(lookup: Lookup, test: LegRuns, method: str) -> tuple[float, int]:
+def totals(scores: pd.DataFrame, test: LegRuns, method: str) -> tuple[float, int]:
     """Return for how long a method was watched in a test [h], and how many windows were flagged, over all runs."""
-    hours: list[float] = []
-    counts: list[float] = []
-    for limb in test.limbs:
-        watched = Wanted(test.scenario, limb, test.level, method, AVERAGE, WATCHED)
-        flagged = Wanted(test.scenario, limb, test.level, method, AVERAGE, FLAGS)
-        hours += [row.value for row in lookup.scores.get(watched, ())]
-        counts += [row.value for row in lookup.scores.get(flagged, ())]
-    return sum(hours), round(sum(counts))
+    own = rows_of(scores, scenario=test.scenario, level=test.level, method=method, joint=AVERAGE)
+    own = own[own["limb"].isin(test.limbs)]
+    hours, count = (float(rows_of(own, metric=metric)["value"].sum()) for metric in (WATCHED, FLAGS))
+    return hours, round(count)

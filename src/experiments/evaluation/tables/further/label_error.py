@@ -4,9 +4,9 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 
-from experiments.evaluation.number.number import Number
-from experiments.evaluation.tables.rows import Rows, View, ViewColumn
+from experiments.evaluation.tables.look import ShownColumn, TableLook, write_look
 from experiments.settings.tables import LabelError
 from mobnet.core.arrays import Array
 from mobnet.core.columns import EXTERNAL_LP, FEET, LABEL_ERROR, foot_of, named
@@ -52,14 +52,14 @@ def label_error(
             square = (torque[:, columns] - truth) ** 2
             for phase, rows in zip(PHASES, (np.ones_like(air), air, ~air), strict=True):
                 found[owner, label, phase] = np.sqrt(square[rows].mean(axis=0))
-    rows = Rows(LABEL_ERROR)
-    for (owner, label, phase), values in found.items():
-        for joint, value in with_mean(joints, values):
-            rows.add(Number(value, unit="N m"), robot=owner, label=label, phase=phase, joint=joint)
-    columns = [ViewColumn(joint, {"phase": WALK, "joint": joint}) for joint in (*joints, AVERAGE)]
-    columns += [ViewColumn(f"{AVERAGE}, {phase}", {"phase": phase, "joint": AVERAGE}) for phase in (SWING, GROUND)]
-    view = View({"robot": "Robot", "label": "Label"}, columns, blocks=("robot",))
-    rows.write(table_dir / "label_error", view)
+    errors: list[tuple[str, str, str, str, float]] = []
+    for place, values in found.items():
+        errors += [(*place, joint, value) for joint, value in with_mean(joints, values)]
+    rows = pd.DataFrame(errors, columns=["robot", "label", "phase", "joint", "value"]).assign(unit="N m")
+    shown = [ShownColumn(joint, {"phase": WALK, "joint": joint}) for joint in (*joints, AVERAGE)]
+    shown += [ShownColumn(f"{AVERAGE}, {phase}", {"phase": phase, "joint": AVERAGE}) for phase in (SWING, GROUND)]
+    look = TableLook({"robot": "Robot", "label": "Label"}, shown, blocks=("robot",))
+    write_look(table_dir / "label_error", rows, LABEL_ERROR, look)
 
 
 def with_mean(joints: Sequence[str], values: Array) -> list[tuple[str, float]]:

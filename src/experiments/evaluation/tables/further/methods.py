@@ -1,23 +1,26 @@
 """Table of all methods, test by test: errors against both truths, and what is gained over estimating nothing."""
 
-from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from collections.abc import Sequence
 from pathlib import Path
 
+import pandas as pd
+
 from experiments.evaluation.compare.rmse import RAW
-from experiments.evaluation.number.grid import AVERAGE, Lookup, Wanted, read_lookup
-from experiments.evaluation.number.number import Number
+from experiments.evaluation.number.frames import read_scores
+from experiments.evaluation.number.intervals import MEAN
+from experiments.evaluation.number.laws import measured
+from experiments.evaluation.number.number import Number, interval_text, number_text
 from experiments.evaluation.number.quantities import CUT
-from experiments.evaluation.number.rows import Field
-from experiments.evaluation.tables.layout import Line, Table, in_blocks, long_table, write_table
+from experiments.evaluation.number.scored import AVERAGE, number_of, runs_of
+from experiments.evaluation.tables.layout import Line, Table, in_blocks, long_table, records_of, write_table
 from experiments.settings.runs import Statistics
 from experiments.settings.tables import MethodsRow
 from mobnet.core.columns import METHODS
 
 ZERO, SKILL = "zero", "skill"  # the method that estimates nothing, and 1 - RMSE / RMSE of it
+LABELS = {"": "RMSE", RAW: "raw truth", SKILL: SKILL}  # what is shown -> what the text calls it
 CAPTION = r"\methodscaption"  # the paper's
-Place = tuple[str, str]  # limb and joint, or its average
-Row = tuple[int, str, str]  # number of the test, method, metric or SKILL
+PLACE = ["row", "place"]  # of a number
 
 
 def methods(settings: Sequence[MethodsRow], statistics: Statistics, scores: Sequence[Path], table_dir: Path) -> None:
@@ -26,72 +29,63 @@ def methods(settings: Sequence[MethodsRow], statistics: Statistics, scores: Sequ
     The error is against the low-passed truth, as the paper's, and against the raw one. The skill is 1 - RMSE / rms of
     the low-passed truth, whose root mean square is the RMSE of estimating nothing.
     """
-    lookup = read_lookup(scores, statistics)
-    rows: dict[Row, dict[Place, Number]] = {}
-    known: dict[Place, None] = {}
-    for k, test in enumerate(settings):
-        asked = places_of(test)
-        known |= dict.fromkeys(asked)
-        for method in test.methods:
-            for metric in metrics_of(test, method):
-                numbers = {place: number_of(lookup, test, method, metric, place) for place in asked}
-                rows[k, method, metric] = numbers
-    places = list(known)
-    records: list[tuple[Field, ...]] = []
-    for (k, method, metric), own in rows.items():
-        test = settings[k]
-        for place, ours in own.items():
-            if ours.value is not None:
-                numbers = *ours.with_ends, *ours.spread
-                records.append((test.scenario, test.level, method, *place, metric, *numbers, ours.unit))
-    header = ["Test", "Method", "", *(f"{limb} {joint}" if joint == AVERAGE else joint for limb, joint in places)]
-    lines = method_lines(settings, rows, places, statistics.confidence)
+    asked = asked_of(settings)
+
+    def law(runs: pd.DataFrame) -> Number:
+        return number_of(runs, statistics, CUT if runs["what"].iloc[0] == SKILL else MEAN)
+
+    numbers = measured(runs_of(read_scores(*scores), asked, may_lack=True), PLACE, {"number": law})
+    # Of a skill both errors are asked for, the method's first.
+    rows = asked.drop_duplicates(PLACE).merge(numbers, on=PLACE)
+    rows.loc[rows["what"] == SKILL, ["metric", "unit"]] = SKILL, "-"
+    places = rows[["limb", "joint"]].drop_duplicates()
+    heads = [f"{limb} {joint}" if joint == AVERAGE else joint for limb, joint in places.itertuples(index=False)]
+    header = ["Test", "Method", "", *heads]
+    lines = method_lines(rows, pd.MultiIndex.from_frame(places), statistics.confidence)
     tex = long_table("lll" + "r" * len(places), CAPTION, header, lines)
+    records = records_of(rows[rows["value"].notna()], METHODS)
     write_table(table_dir / "methods", Table(METHODS, records, header, lines, left=3), tex)
 
 
-def places_of(test: MethodsRow) -> list[Place]:
+def asked_of(settings: Sequence[MethodsRow]) -> pd.DataFrame:
+    """Return what is asked for: `row` by `row` of the table, a test, a method and what is shown of it; by `place`.
+
+    That is errors, and skill where estimating nothing is one of the test's methods.
+    """
+    asked: list[dict[str, object]] = []
+    row = 0
+    for test in settings:
+        for method in test.methods:
+            has_skill = ZERO in test.methods and method != ZERO
+            for what in ("", RAW, SKILL) if has_skill else ("", RAW):
+                row += 1
+                for place, (limb, joint) in enumerate(places_of(test)):
+                    metric = test.metric + (RAW if what == RAW else "")
+                    of = {"row": row, "place": place, "what": what, "limb": limb, "joint": joint, "metric": metric}
+                    for name in (method, ZERO) if what == SKILL else (method,):
+                        asked.append({**of, "scenario": test.scenario, "level": test.level, "method": name})
+    return pd.DataFrame(asked)
+
+
+def places_of(test: MethodsRow) -> list[tuple[str, str]]:
     """Return the limbs and joints that a test asks for, limb by limb."""
-    places: list[Place] = []
+    places: list[tuple[str, str]] = []
     for limb, joints in test.columns.items():
         places += [(limb, joint) for joint in joints]
     return places
 
 
-def metrics_of(test: MethodsRow, method: str) -> list[str]:
-    """Return what is shown of a method in a test: errors, and skill where estimating nothing is one of its methods."""
-    return [test.metric, test.metric + RAW, *([SKILL] if ZERO in test.methods and method != ZERO else [])]
-
-
-def number_of(lookup: Lookup, test: MethodsRow, method: str, metric: str, place: Place) -> Number:
-    """Return an error [N m] or the skill [-] of a method at a place, with its interval; none where it has none."""
-    limb, joint = place
-    if metric != SKILL:
-        return lookup.number([Wanted(test.scenario, limb, test.level, method, joint, metric)])
-    pair = [Wanted(test.scenario, limb, test.level, name, joint, test.metric) for name in (method, ZERO)]
-    if not lookup.number(pair[1:]).value:
-        return Number(None)
-    return replace(lookup.number(pair, CUT), unit="-")
-
-
-def method_lines(
-    settings: Sequence[MethodsRow],
-    rows: Mapping[Row, Mapping[Place, Number]],
-    places: Sequence[Place],
-    confidence: float,
-) -> list[Line]:
+def method_lines(rows: pd.DataFrame, places: pd.MultiIndex, confidence: float) -> list[Line]:
     """Return the rows of text, test by test: errors [N m] with intervals, errors against the raw truth, and skill.
 
     A test that does not ask for a place, a limb and a joint, has a dash there.
     """
     blocks: dict[tuple[str, str], list[list[str]]] = {}
-    for (k, method, metric), own in rows.items():
-        test = settings[k]
-        name = f"{test.scenario}, {test.level}".replace("_", " ")
-        numbers = [own.get(place, Number(None)) for place in places]
-        lines = blocks.setdefault((name, method), [])
-        label = "RMSE" if metric == test.metric else "raw truth" if metric.endswith(RAW) else SKILL
-        lines.append([label, *(number.text() for number in numbers)])
-        if metric == test.metric and any(number.low is not None for number in numbers):
-            lines.append([f"{confidence:.0%}", *(number.interval() for number in numbers)])
+    for _, own in rows.groupby("row"):
+        scenario, level, method, what = own[["scenario", "level", "method", "what"]].iloc[0]
+        lines = blocks.setdefault((f"{scenario}, {level}".replace("_", " "), method), [])
+        numbers = own.set_index(["limb", "joint"]).reindex(places)
+        lines.append([LABELS[what], *map(number_text, numbers["value"])])
+        if not what and own["low"].notna().any():
+            lines.append([f"{confidence:.0%}", *map(interval_text, numbers["low"], numbers["high"])])
     return in_blocks(blocks.items(), nested=True)

@@ -4,24 +4,26 @@ How far a reading is from the paper is one number for each limb, and one for all
 paper)|), 1 where they agree. A factor, because joints differ by a hundred; of each joint, because an average hides it.
 """
 
-import math
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from experiments.evaluation.number.grid import Column, Wanted, columns_of, number_of
+import numpy as np
+import pandas as pd
+
+from experiments.evaluation.number.frames import read_scores
+from experiments.evaluation.number.laws import fields_of, measured
 from experiments.evaluation.number.number import Number, number_text, published_row
-from experiments.evaluation.number.rows import read_scores
-from experiments.evaluation.tables.layout import RULE, Line, Table, write_table
+from experiments.evaluation.number.scored import columns_of, number_of, runs_of
+from experiments.evaluation.tables.layout import RULE, Line, Table, records_of, write_table
 from experiments.settings.published import PublishedTable
 from experiments.settings.runs import Statistics
 from experiments.settings.tables import NoiseTable
-from mobnet.core.columns import ERRORS
+from mobnet.core.columns import ERRORS, RUN
 from mobnet.core.joints import JointLayout
 
 METRIC = "rmse"
 FACTOR = "factor"
 ALL = "all"
-Readings = Mapping[str, tuple[Sequence[Number], Mapping[str, Number]]]  # label -> errors by joint, factors by limb
 
 
 def noise(
@@ -37,53 +39,47 @@ def noise(
     Raises:
         DataError: a run that the table needs is missing.
     """
-    read = read_scores(*scores)
-    columns = columns_of(layout, settings.joints)
-    readings = {}
     # A reading of the noise is a level of its own, with one method.
-    records = []
-    for test in settings.tests:
-        run = test.scenario, test.level, test.methods[0]
-        paper: dict[str, float | None] = {}
-        for table, place in settings.paper.items():
-            paper |= published_row(printed[table], place, run[2])
-        wanted: list[Wanted] = []
-        for column in columns:
-            wanted += [Wanted(run[0], limb, *run[1:], joint) for limb, joint in column.joints]
-        errors = [number_of(read, [one], statistics, published=paper.get(one.joint)) for one in wanted]
-        by_limb = factors(columns, errors)
-        readings[test.label] = errors, by_limb
-        named = [*((one.joint, METRIC) for one in wanted), *((limb, FACTOR) for limb in by_limb)]
-        numbers = [*errors, *by_limb.values()]
-        records += [
-            (*run, name, metric, *ours.with_ends, *ours.spread, ours.unit, ours.published)
-            for (name, metric), ours in zip(named, numbers, strict=True)
-        ]
-    header = ["Joint", "Unit", "Paper", *readings]
-    write_table(table_dir / "noise", Table(ERRORS, records, header, noise_lines(columns, readings), left=2))
+    readings = pd.DataFrame([(test.label, test.scenario, test.level, *test.methods) for test in settings.tests])
+    readings.columns = ["label", *RUN]
+    cells = readings.merge(columns_of(layout, settings.joints), how="cross").assign(metric=METRIC)
+    runs = runs_of(read_scores(*scores), cells)
+    place = ["cell", "label", *RUN, "limb", "joint", "metric"]
+    errors = measured(runs, place, {METRIC: lambda own: number_of(own, statistics)})
+    paper: dict[str, float | None] = {}
+    for table, printed_at in settings.paper.items():
+        paper |= published_row(printed[table], printed_at, readings["method"].iloc[0])
+    errors["published"] = errors["joint"].map(paper).astype(float)
+    found = factors(errors)
+    rows = pd.concat([errors, found.assign(joint=found["limb"], metric=FACTOR)])
+    rows = pd.concat([rows[rows["label"] == label] for label in readings["label"]])
+    header = ["Joint", "Unit", "Paper", *readings["label"]]
+    lines = noise_lines(errors, found)
+    write_table(table_dir / "noise", Table(ERRORS, records_of(rows, ERRORS), header, lines, left=2))
 
 
-def factors(columns: Sequence[Column], errors: Sequence[Number]) -> dict[str, Number]:
-    """Return limb -> exp(mean |ln(ours / paper)|) [-] of errors, one for each column, and ALL -> that of all joints."""
-    logs: dict[str, list[float]] = {}
-    for column, ours in zip(columns, errors, strict=True):
-        if ours.value and ours.published:
-            logs.setdefault(column.joints[0][0], []).append(abs(math.log(ours.value / ours.published)))
-    logs[ALL] = [each for own in logs.values() for each in own]
-    return {limb: Number(math.exp(sum(own) / len(own))) for limb, own in logs.items() if own}
+def factors(errors: pd.DataFrame) -> pd.DataFrame:
+    """Return a row for each reading and limb, and for all joints: exp(mean |ln(ours / paper)|) [-] of its errors."""
+    known = errors[(errors["value"] > 0) & (errors["published"] > 0)]
+    known = known.assign(log=np.abs(np.log(known["value"] / known["published"])))
+    found: list[dict[str, object]] = []
+    for run, reading in known.groupby(["label", *RUN], sort=False):
+        logs = {str(limb): own["log"].mean() for limb, own in reading.groupby("limb", sort=False)}
+        logs[ALL] = reading["log"].mean()
+        for limb, log in logs.items():
+            factor = fields_of(Number(float(np.exp(log))))
+            found.append({**dict(zip(["label", *RUN], run, strict=True)), "limb": limb, **factor})
+    return pd.DataFrame(found, columns=["label", *RUN, "limb", *fields_of(Number(None))])
 
 
-def noise_lines(columns: Sequence[Column], readings: Readings) -> list[Line]:
+def noise_lines(errors: pd.DataFrame, found: pd.DataFrame) -> list[Line]:
     """Return the lines of text, a joint each and a rule between limbs, then the factors."""
     lines: list[Line] = []
-    before = columns[0].joints[0][0]
-    for column, own in zip(columns, zip(*(errors for errors, _ in readings.values()), strict=True), strict=True):
-        limb = column.joints[0][0]
-        lines += [RULE] if limb != before else []
-        lines.append([column.name, column.unit, number_text(own[0].published), *(ours.text() for ours in own)])
-        before = limb
-    lines.append(RULE)
-    found = [of for _, of in readings.values()]
-    for limb in found[0]:
-        lines.append([f"factor, {limb}", "-", "", *(of[limb].text() for of in found)])
+    for _, limb in errors.groupby("limb", sort=False):
+        for joint, own in limb.groupby("joint", sort=False):
+            unit, published = own[["unit", "published"]].iloc[0]
+            lines.append([str(joint), unit, number_text(published), *map(number_text, own["value"])])
+        lines.append(RULE)
+    for limb, own in found.groupby("limb", sort=False):
+        lines.append([f"factor, {limb}", "-", "", *map(number_text, own["value"])])
     return lines

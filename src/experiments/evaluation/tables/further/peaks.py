@@ -3,13 +3,15 @@
 from collections.abc import Sequence
 from pathlib import Path
 
+import pandas as pd
+
 from experiments.evaluation.measure.estimates.peaks import BOUND, DELAY, OBSERVER, SHARE
-from experiments.evaluation.number.grid import Lookup, read_lookup
-from experiments.evaluation.number.number import Number
-from experiments.evaluation.tables.layout import Table, in_blocks, write_table
-from experiments.evaluation.tables.rows import measured
+from experiments.evaluation.number.frames import read_scores, rows_of
+from experiments.evaluation.number.number import interval_text, number_text
+from experiments.evaluation.number.scored import AVERAGE, asked_of, numbers_of
+from experiments.evaluation.tables.layout import Table, in_blocks, records_of, write_table
 from experiments.settings.measures import Peaks
-from experiments.settings.runs import LimbRuns, Statistics
+from experiments.settings.runs import Statistics
 from mobnet.core.columns import METHODS
 from mobnet.core.joints import JointLayout
 
@@ -24,27 +26,33 @@ def peaks(
     A number is the mean over walks and networks of that of a walk; in the texts also the mean over the joints of a limb
     that the pushes turn. A delay is a lower bound, ">", where any of them ends with its window.
     """
-    lookup = read_lookup(scores, statistics)
     tests = [(test.scenario.replace("_", " "), test) for test in settings.tests]
-    confidence = f"{statistics.confidence:.0%}"
-    header = ["Push", "Limb", "Method", "Share", confidence, "Delay [ms]", confidence]
-    rows = measured(lookup, layout, tests, [SHARE, DELAY, DELAY + OBSERVER, BOUND])
+    asked = asked_of(tests, [SHARE, DELAY, DELAY + OBSERVER, BOUND], layout)
+    rows = numbers_of(read_scores(*scores), asked, statistics)
+    averages = rows_of(rows, joint=AVERAGE)
     blocks: list[tuple[list[str], list[list[str]]]] = []
     for title, test in tests:
-        blocks += [([title, limb], lines_of(lookup, test, limb)) for limb in test.limbs]
-    write_table(table_dir / "peaks", Table(METHODS, rows.records, header, in_blocks(blocks), left=3))
+        blocks += [([title, limb], lines_of(rows_of(averages, title=title, limb=limb))) for limb in test.limbs]
+    confidence = f"{statistics.confidence:.0%}"
+    header = ["Push", "Limb", "Method", "Share", confidence, "Delay [ms]", confidence]
+    records = records_of(rows[rows["value"].notna()], METHODS)
+    write_table(table_dir / "peaks", Table(METHODS, records, header, in_blocks(blocks), left=3))
 
 
-def lines_of(lookup: Lookup, test: LimbRuns, limb: str) -> list[list[str]]:
+def lines_of(averages: pd.DataFrame) -> list[list[str]]:
     """Return a line of texts for each method, below one of the observer's low-pass alone, which has all of a push."""
-    lines = [[REFERENCE, "1", "", *texts_of(lookup.average(test, test.methods[0], limb, DELAY + OBSERVER), 1)]]
-    for method in test.methods:
-        share, delay, bound = (lookup.average(test, method, limb, name) for name in (SHARE, DELAY, BOUND))
-        late, ends = texts_of(delay, 1)
-        lines.append([method, *texts_of(share, 2), f">{late}" if bound.value else late, ends])
+    lines: list[list[str]] = []
+    for method, own in averages.groupby("method", sort=False):
+        numbers = dict(own.set_index("metric").iterrows())
+        if not lines:
+            lines.append([REFERENCE, "1", "", *texts_of(numbers[DELAY + OBSERVER], 1)])
+        late, ends = texts_of(numbers[DELAY], 1)
+        is_bound = float(numbers[BOUND]["value"]) > 0
+        share = texts_of(numbers[SHARE], 2)
+        lines.append([str(method), *share, f">{late}" if is_bound else late, ends])
     return lines
 
 
-def texts_of(number: Number, digits: int) -> tuple[str, str]:
+def texts_of(number: pd.Series, digits: int) -> tuple[str, str]:
     """Return a number and its interval as text with fixed digits."""
-    return number.text(digits), number.interval(digits)
+    return number_text(number["value"], digits), interval_text(number["low"], number["high"], digits)

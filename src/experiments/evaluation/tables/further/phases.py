@@ -5,10 +5,12 @@ from pathlib import Path
 
 from experiments.evaluation.compare.masks import MOVING, STUCK
 from experiments.evaluation.compare.scene import STANCE, SWINGING, TOUCH_DOWN
-from experiments.evaluation.number.grid import read_lookup
-from experiments.evaluation.tables.rows import ViewColumn, average, by_limb, measured
+from experiments.evaluation.number.frames import read_scores
+from experiments.evaluation.number.scored import asked_of, numbers_of
+from experiments.evaluation.tables.look import ShownColumn, average, by_limb, write_look
 from experiments.settings.measures import Phases
 from experiments.settings.runs import Statistics
+from mobnet.core.columns import METHODS
 from mobnet.core.joints import JointLayout
 
 WHOLE = "rmse"
@@ -19,9 +21,8 @@ def phases(
     settings: Phases, layout: JointLayout, statistics: Statistics, scores: Sequence[Path], table_dir: Path
 ) -> None:
     """Write phases.csv, with every joint and intervals, and phases.tex and .md: RMSE [N m] in parts of a walk."""
-    lookup = read_lookup(scores, statistics)
     tests = [(test.scenario.replace("_", " "), test) for test in settings.tests]
     shown = {WHOLE: "all", **{f"{WHOLE}_{part}": head for part, head in PARTS.items()}}
-    rows = measured(lookup, layout, tests, list(shown))
-    columns = [ViewColumn(head, average(metric)) for metric, head in shown.items()]
-    rows.write(table_dir / "phases", by_limb("Test", columns))
+    rows = numbers_of(read_scores(*scores), asked_of(tests, list(shown), layout), statistics)
+    columns = [ShownColumn(head, average(metric)) for metric, head in shown.items()]
+    write_look(table_dir / "phases", rows, METHODS, by_limb("Test", columns), rows[rows["value"].notna()])

@@ -1,7 +1,8 @@
 """What a reaction is worth: falls, forces and impulses of robots that walk into obstacles."""
 
-from collections.abc import Iterator, Sequence
 from pathlib import Path
+
+import pandas as pd
 
 from experiments.evaluation.measure.detection.results import MS
 from experiments.evaluation.measure.reaction.results import (
@@ -9,6 +10,7 @@ from experiments.evaluation.measure.reaction.results import (
     BASE_WITHIN,
     EARLY,
     FALLS,
+    GROUP,
     HEAVY,
     IMPULSE,
     MEDIAN,
@@ -16,20 +18,20 @@ from experiments.evaluation.measure.reaction.results import (
     PEAK,
     SWING,
     WITHIN,
-    groups_of,
     in_swing,
-    outcome_of,
+    outcome_laws,
     printed_of,
-    read_trials,
     trials_of,
+    with_measures,
 )
-from experiments.evaluation.tables.rows import Rows, View, ViewColumn, field_text
+from experiments.evaluation.number.frames import read_trials, rows_of
+from experiments.evaluation.number.laws import measured
+from experiments.evaluation.tables.look import ShownColumn, TableLook, column, write_look
 from experiments.plan.reactions import Reactions
 from experiments.settings.published import PublishedContacts
 from experiments.settings.reaction_tables import Safety
 from experiments.settings.runs import Statistics
 from mobnet.core.columns import SAFETY
-from mobnet.core.reactions import Trial
 from mobnet.settings.reaction import Reaction
 
 
@@ -47,52 +49,41 @@ def safety(
     the alarm [ms] and directions are of walks that met the obstacle before any reaction. Where the obstacle is in front
     of a leg, our detector has a second row, of contacts that begin in mid-swing. Intervals are over robots and walks.
     """
-    rows = Rows(SAFETY)
-    trials = read_trials(reactions, settings.cases)
-    for case, title, group in rows_of(trials, settings, reaction):
-        outcome = outcome_of(group, settings, statistics)
-        first = group[0]
-        late = f"{first.detector}, {MS * first.wait_s:.0f} ms later"
-        place = {
-            "case": title,
-            "detector": first.detector,
-            "thresholds": first.rule,
-            "wait_s": first.wait_s,
-            "line": late if first.wait_s else first.detector,
-            "walks": outcome.walks,
-            "touched": outcome.touched,
-        }
-        hit = f"{outcome.touched} of {outcome.walks}"
-        for measure, number in outcome.numbers.items():
-            printed = printed_of(published, case, measure)
-            rows.add(number, **place, hit=hit, measure=measure, published=printed)
+    trials = with_measures(read_trials(reactions, settings.cases), settings)
+    trials = in_lines(trials, settings, reaction)
+    place = ["row", "title", *GROUP]
+    rows = measured(trials, place, outcome_laws(statistics))
+    rows["walks"] = rows["count"]
+    rows["touched"] = rows["row"].map(trials.groupby("row")["touched"].sum())
+    rows["published"] = [printed_of(published, str(row.case), str(row.quantity)) for row in rows.itertuples()]
+    rows["hit"] = rows["touched"].astype(str) + " of " + rows["walks"].astype(str)
+    late = rows["detector"] + (MS * rows["wait_s"]).map(", {:.0f} ms later".format)
+    rows["line"] = rows["detector"].where(rows["wait_s"] == 0.0, late)
+    rows = rows.drop(columns="case").rename(columns={"title": "case", "rule": "thresholds", "quantity": "measure"})
     share = f"{statistics.confidence:.0%}"
-    columns = [
-        ViewColumn("touched", text=field_text("hit")),
-        ViewColumn("falls", {"measure": FALLS}, ends=share),
-        ViewColumn("peak [N]", {"measure": PEAK}, 0, ends=share),
-        ViewColumn("impulse [N s]", {"measure": IMPULSE}, 1, ends=share),
-        ViewColumn("median", {"measure": MEDIAN}, 1),
-        ViewColumn(f"over {settings.heavy_ns:g}", {"measure": HEAVY}),
-        ViewColumn("noticed", {"measure": NOTICED}),
-        ViewColumn("alarm [ms]", {"measure": ALARM}, 0),
-        ViewColumn(f"{settings.within_deg:g} deg", {"measure": WITHIN}),
-        ViewColumn("by (24)", {"measure": BASE_WITHIN}),
-        ViewColumn("early", {"measure": EARLY}),
+    shown = [
+        ShownColumn("touched", text=column("hit")),
+        ShownColumn("falls", {"measure": FALLS}, ends=share),
+        ShownColumn("peak [N]", {"measure": PEAK}, 0, ends=share),
+        ShownColumn("impulse [N s]", {"measure": IMPULSE}, 1, ends=share),
+        ShownColumn("median", {"measure": MEDIAN}, 1),
+        ShownColumn(f"over {settings.heavy_ns:g}", {"measure": HEAVY}),
+        ShownColumn("noticed", {"measure": NOTICED}),
+        ShownColumn("alarm [ms]", {"measure": ALARM}, 0),
+        ShownColumn(f"{settings.within_deg:g} deg", {"measure": WITHIN}),
+        ShownColumn("by (24)", {"measure": BASE_WITHIN}),
+        ShownColumn("early", {"measure": EARLY}),
     ]
     labels = {"case": "Case", "line": "Detector", "thresholds": "thresholds"}
-    rows.write(table_dir / "safety", View(labels, columns, blocks=("case",)))
+    write_look(table_dir / "safety", rows, SAFETY, TableLook(labels, shown, blocks=("case",)))
 
 
-def rows_of(
-    trials: Sequence[Trial], settings: Safety, reaction: Reaction
-) -> Iterator[tuple[str, str, Sequence[Trial]]]:
-    """Yield case, its name in the table, and the walks of each row."""
-    groups = groups_of(trials)
+def in_lines(trials: pd.DataFrame, settings: Safety, reaction: Reaction) -> pd.DataFrame:
+    """Return each walk in every line of the table that it is part of: `row` numbers them, `title` names the case."""
+    parts: list[pd.DataFrame] = []
     for case in settings.cases:
-        own = [group for group in groups.values() if group[0].case == case]
-        for group in own:
-            yield case, case, group
-        watched = in_swing(trials_of(trials, case, reaction.ours))
-        if watched:
-            yield case, SWING.format(case), watched
+        parts.append(rows_of(trials, case=case).assign(title=case))
+        parts.append(in_swing(trials_of(trials, case, reaction.ours)).assign(title=SWING.format(case)))
+    lines = pd.concat(parts, ignore_index=True)
+    # Lines stand in the order in which their walks come.
+    return lines.assign(row=lines.groupby(["title", *GROUP], sort=False).ngroup())

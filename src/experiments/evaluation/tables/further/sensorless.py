@@ -2,17 +2,21 @@
 
 from pathlib import Path
 
+import pandas as pd
+
 from experiments.evaluation.measure.reaction.results import (
     FALLEN,
+    GROUP,
     POWER,
     REACTED,
     TRACKING,
     VELOCITY,
-    groups_of,
-    read_trials,
-    walked_of,
+    walked_laws,
+    with_walked,
 )
-from experiments.evaluation.tables.rows import NumberRow, Rows, View, ViewColumn, field_text
+from experiments.evaluation.number.frames import read_trials
+from experiments.evaluation.number.laws import measured
+from experiments.evaluation.tables.look import Row, ShownColumn, TableLook, column, write_look
 from experiments.plan.reactions import Reactions
 from experiments.settings.reaction_tables import Sensorless
 from experiments.settings.runs import Statistics
@@ -28,32 +32,26 @@ def sensorless(settings: Sensorless, statistics: Statistics, reactions: Reaction
     base's velocity [mm/s] and of the joints of the leg that swings [mrad], and the power of the motors [W]. Intervals
     are over robots and walks.
     """
-    rows = Rows(SENSORLESS)
-    for (case, detector, rule, _, wrench, fed), trials in groups_of(read_trials(reactions, settings.cases)).items():
-        walked = walked_of(trials, statistics)
-        place = {
-            "case": case,
-            "wrench": wrench,
-            "detector": detector,
-            "thresholds": rule,
-            "feed_forward": fed,
-            "hours": walked.hours,
-            "walks": len(trials),
-        }
-        for event, count in walked.events.items():
-            rows.add(walked.rates[event], **place, event=event, events=count)
-        for name, mean in walked.means.items():
-            rows.add(mean, **place, event=name, events=None)
+    trials = with_walked(read_trials(reactions, settings.cases))
+    trials["row"] = trials.groupby(GROUP, sort=False).ngroup()  # in the order of the files
+    rows = measured(trials, ["row", *GROUP], walked_laws(statistics))
+    of_row = trials.groupby("row")
+    rows["hours"] = rows["row"].map(of_row["hours"].sum())
+    rows["walks"] = rows["count"]
+    counts = of_row[[FALLEN, REACTED]].sum().stack()
+    places = pd.MultiIndex.from_frame(rows[["row", "quantity"]])
+    rows["events"] = counts.reindex(places).to_numpy()
+    rows = rows.rename(columns={"rule": "thresholds", "quantity": "event"})
     share = f"{statistics.confidence:.0%}"
-    columns = [
-        ViewColumn("minutes", text=_minutes),
-        ViewColumn("falls", {"event": FALLEN}, text=field_text("events")),
-        ViewColumn("in an hour", {"event": FALLEN}, 1, ends=share),
-        ViewColumn("reactions", {"event": REACTED}, text=field_text("events")),
-        ViewColumn("in an hour", {"event": REACTED}, 1, ends=share),
-        ViewColumn("base's velocity [mm/s]", {"event": VELOCITY}, 1),
-        ViewColumn("swing leg [mrad]", {"event": TRACKING}, 1),
-        ViewColumn("power [W]", {"event": POWER}, 1),
+    shown = [
+        ShownColumn("minutes", text=_minutes),
+        ShownColumn("falls", {"event": FALLEN}, text=column("events", ".0f")),
+        ShownColumn("in an hour", {"event": FALLEN}, 1, ends=share),
+        ShownColumn("reactions", {"event": REACTED}, text=column("events", ".0f")),
+        ShownColumn("in an hour", {"event": REACTED}, 1, ends=share),
+        ShownColumn("base's velocity [mm/s]", {"event": VELOCITY}, 1),
+        ShownColumn("swing leg [mrad]", {"event": TRACKING}, 1),
+        ShownColumn("power [W]", {"event": POWER}, 1),
     ]
     labels = {
         "case": "Case",
@@ -62,9 +60,9 @@ def sensorless(settings: Sensorless, statistics: Statistics, reactions: Reaction
         "thresholds": "thresholds",
         "feed_forward": "fed",
     }
-    rows.write(table_dir / "sensorless", View(labels, columns, left=4))
+    write_look(table_dir / "sensorless", rows, SENSORLESS, TableLook(labels, shown, left=4))
 
 
-def _minutes(row: NumberRow) -> str:
+def _minutes(row: Row) -> str:
     """Return for how long the robots of a row walked [min]."""
-    return f"{MINUTES * float(row.place['hours'] or 0.0):.1f}"
+    return f"{MINUTES * row['hours']:.1f}"

@@ -1,19 +1,24 @@
 """Table of standard deviations in parts of a walk, and outside of the training data."""
 
+from collections.abc import Mapping
 from pathlib import Path
+
+import pandas as pd
 
 from experiments.evaluation.compare.masks import MOVING, PUSHED, STUCK
 from experiments.evaluation.compare.scene import STANCE, SWINGING, TOUCH_DOWN
 from experiments.evaluation.measure.estimates.sigma import COVER, EXCURSION, STD
-from experiments.evaluation.number.grid import AVERAGE, Lookup, Wanted
 from experiments.evaluation.number.intervals import RATIO
-from experiments.evaluation.number.number import Number
-from experiments.evaluation.tables.rows import NumberRow, ViewColumn, average, by_limb, measured, share_percent
+from experiments.evaluation.number.laws import measured
+from experiments.evaluation.number.scored import AVERAGE, asked_of, number_of, numbers_of, runs_of
+from experiments.evaluation.tables.look import ShownColumn, average, by_limb, percent, write_look
 from experiments.settings.measures import Sigma
-from experiments.settings.runs import Runs
+from experiments.settings.runs import LimbRuns, Statistics
+from mobnet.core.columns import METHODS
 from mobnet.core.joints import JointLayout
 
 ERROR = "rmse"
+ERROR_PUSHED = "rmse_pushed"  # in the windows around pushes
 RISES = ("sigma, times", "error, times")
 PARTS = {
     "": "all",
@@ -26,7 +31,9 @@ PARTS = {
 }
 
 
-def sigma_table(settings: Sigma, layout: JointLayout, lookup: Lookup, share: float, table_dir: Path) -> None:
+def sigma_table(
+    settings: Sigma, layout: JointLayout, scores: pd.DataFrame, statistics: Statistics, share: float, table_dir: Path
+) -> None:
     """Write sigma.csv, with every joint and intervals, and sigma.tex and .md: means over the joints of a limb.
 
     Columns are the share [%] of errors within the interval of a nominal share [-] in parts of a walk, how long an
@@ -39,44 +46,43 @@ def sigma_table(settings: Sigma, layout: JointLayout, lookup: Lookup, share: flo
     metrics += [ERROR, EXCURSION]
     for k in range(1, settings.parts + 1):
         metrics += [f"{name}_part_{k}" for name in (STD, ERROR, COVER)]
-    tests = list(settings.tests.items())
-    rows = measured(lookup, layout, tests, metrics)
-    for title, test in tests:
-        if title in settings.against:
-            for method in test.methods:
-                for limb in test.limbs:
-                    rises = rises_of(settings, lookup, title, method, limb)
-                    for metric, number in zip(RISES, rises, strict=True):
-                        rows.show(number, title=title, limb=limb, method=method, metric=metric)
-    columns: list[ViewColumn] = []
+    numbers = numbers_of(scores, asked_of(settings.tests.items(), metrics, layout), statistics)
+    rows = pd.concat([numbers, rises_of(settings, numbers, scores, statistics)], ignore_index=True)
+    shown: list[ShownColumn] = []
     for part, head in PARTS.items():
-        columns.append(ViewColumn(head if part else f"{share:.0%} {head}", average(COVER + part), text=share_percent))
-    columns.append(ViewColumn("excursion [ms]", average(EXCURSION), digits=0))
-    columns += [ViewColumn(head, {"metric": head}, text=_rise_text) for head in RISES]
-    rows.write(table_dir / "sigma", by_limb("Test", columns))
+        shown.append(ShownColumn(head if part else f"{share:.0%} {head}", average(COVER + part), text=percent))
+    shown.append(ShownColumn("excursion [ms]", average(EXCURSION), digits=0))
+    # A test that is compared with no other one has no rise.
+    shown += [ShownColumn(head, {"metric": head}, none="") for head in RISES]
+    filed = numbers[numbers["value"].notna()]
+    write_look(table_dir / "sigma", rows, METHODS, by_limb("Test", shown), filed)
 
 
-def _rise_text(row: NumberRow) -> str:
-    """Return a factor as text, nothing in a test that is compared with no other."""
-    return row.number.text() if row.place else ""
-
-
-def rises_of(settings: Sigma, lookup: Lookup, title: str, method: str, limb: str) -> list[Number]:
+def rises_of(settings: Sigma, numbers: pd.DataFrame, scores: pd.DataFrame, statistics: Statistics) -> pd.DataFrame:
     """Return by which factors sigma and error exceed those of the test that is like the training data [-].
 
     Where a test has pushes, sigma counts while they act and the error in the windows around them.
     """
-    test = settings.tests[title]
-    like = settings.tests[settings.against[title]]
-    pushed = lookup.average(test, method, limb, f"{STD}_{PUSHED}").value is not None
-    pairs = [(f"{STD}_{PUSHED}", STD), ("rmse_pushed", ERROR)] if pushed else [(STD, STD), (ERROR, ERROR)]
-    rises: list[Number] = []
-    for own, other in pairs:
-        wanted = [cell(test, method, limb, own), cell(like, method, limb, other)]
-        rises.append(lookup.number(wanted, RATIO))
-    return rises
+    asked: list[dict[str, object]] = []
+    averages = numbers[numbers["joint"] == AVERAGE].set_index(["title", "limb", "method", "metric"])["value"]
+    for title, like in settings.against.items():
+        test = settings.tests[title]
+        for method in test.methods:
+            for limb in test.limbs:
+                pushed = pd.notna(averages[title, limb, method, f"{STD}_{PUSHED}"])
+                pairs = [(f"{STD}_{PUSHED}", STD), (ERROR_PUSHED, ERROR)] if pushed else [(STD, STD), (ERROR, ERROR)]
+                for rise, (own, other) in zip(RISES, pairs, strict=True):
+                    place = {"title": title, "limb": limb, "method": method, "rise": rise}
+                    asked.append({**place, **cell(test, own)})
+                    asked.append({**place, **cell(settings.tests[like], other)})
+    if not asked:
+        return numbers.iloc[:0]
+    runs = runs_of(scores, pd.DataFrame(asked), may_lack=True)
+    place = ["title", "limb", "method", "rise"]
+    rises = measured(runs, place, {"rise": lambda own: number_of(own, statistics, RATIO)})
+    return rises.rename(columns={"rise": "metric"})
 
 
-def cell(test: Runs, method: str, limb: str, metric: str) -> Wanted:
-    """Return the average of a metric over a limb."""
-    return Wanted(test.scenario, limb, test.level, method, AVERAGE, metric)
+def cell(test: LimbRuns, metric: str) -> Mapping[str, str]:
+    """Return what is asked for of a test: the average of a metric over the joints of a limb."""
+    return {"scenario": test.scenario, "level": test.level, "joint": AVERAGE, "metric": metric}

@@ -1,63 +1,28 @@
 """Tables of errors beside the printed numbers: a row is a method in a test, a column a joint or a mean."""
 
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
-from itertools import islice, pairwise, product
+from collections.abc import Sequence
+from itertools import pairwise
 from pathlib import Path
 
+import pandas as pd
+
 from experiments.evaluation.compare.rmse import RAW
-from experiments.evaluation.measure.estimates.scores import AVERAGE
-from experiments.evaluation.number.grid import Column, Wanted, columns_of, number_of
-from experiments.evaluation.number.number import Number, number_text, published_row
-from experiments.evaluation.number.rows import Field, read_scores
-from experiments.evaluation.tables.layout import PART, Line, Table, in_blocks, text_table, write_table
+from experiments.evaluation.number.frames import read_scores
+from experiments.evaluation.number.laws import measured
+from experiments.evaluation.number.number import interval_text, is_missing, number_text, published_value
+from experiments.evaluation.number.scored import AVERAGE, columns_of, number_of, runs_of
+from experiments.evaluation.tables.layout import PART, Line, Table, in_blocks, records_of, text_table, write_table
 from experiments.settings.published import Floor, PublishedTable
 from experiments.settings.runs import Statistics
 from experiments.settings.tables import ErrorTable
-from mobnet.core.columns import ERRORS, Score
+from mobnet.core.columns import ERRORS, RUN
 from mobnet.core.joints import JointLayout
 
 # Where they simulated, and where they measured.
 OURS, PAPER = ("ours", "ours, simulated"), ("original", "original, robot")
 RAW_LABEL = "raw truth"  # of the line of errors against it
 ERROR = "rmse"  # how metrics begin that are such errors
-
-
-@dataclass(frozen=True)
-class TableRow:
-    """A method in a test.
-
-    Attributes:
-        labels: what stands before the method, such as the uncertainty level, (k,).
-        run: scenario, level and method.
-        metric: of columns that have none of their own.
-        numbers: column -> its number [N m], V1..V3 [N], or the metric's unit.
-        raw: the same against the truth before the low-pass; empty where the metric is no error.
-        short: whether intervals are left out of the text.
-    """
-
-    labels: tuple[str, ...]
-    run: tuple[str, str, str]
-    metric: str
-    numbers: Mapping[Column, Number]
-    raw: Mapping[Column, Number] = field(default_factory=dict)
-    short: bool = False
-
-
-@dataclass(frozen=True)
-class TableLook:
-    """How a table is laid out.
-
-    Attributes:
-        robot: whether the printed numbers were measured on the robot.
-        floor: level and method of the row that later averages are compared with, or None.
-        confidence: of the intervals, a share [-].
-    """
-
-    settings: ErrorTable
-    robot: bool
-    floor: Floor | None
-    confidence: float
+PLACE = ["line", "truth", "column"]  # of a number: its method in a test, the ending of its metrics, its column
 
 
 def error_table(
@@ -75,150 +40,142 @@ def error_table(
         DataError: a run that the table needs is missing.
         ConfigError: a column is not well formed.
     """
-    columns = columns_of(layout, settings.columns)
-    read = read_scores(*scores)
-    rows = list[TableRow]()
+    cells = cells_of(settings, columns_of(layout, settings.columns))
+    numbers = numbers_of(cells, read_scores(*scores), statistics)
+    numbers["published"] = [
+        published_value(published, str(row.paper), str(row.method), str(row.column))
+        if published and row.paper and not row.truth
+        else None
+        for row in numbers.itertuples()
+    ]
+    robot, floor = (published.robot, published.floor) if published else (False, None)
+    write_error_table(table_dir / name, numbers, settings, robot, floor, statistics.confidence)
+
+
+def cells_of(settings: ErrorTable, columns: pd.DataFrame) -> pd.DataFrame:
+    """Return what a table asks for, a row for each method in a test, truth, column, joint and metric."""
+    lines: list[dict[str, object]] = []
     for test in settings.rows:
         for method in (*test.methods, *test.further):
-            run = test.scenario, test.level, method
-            printed = published_row(published, test.paper, method) if published and test.paper else {}
-            own = [score for score in read if (score.scenario, score.level, score.method) == run]
-            numbers = numbers_of(columns, run, test.metric, own, statistics, printed)
-            # only errors have a second truth to be taken against, and the paper prints none against it
-            errors = [column for column in columns if is_error(column.metrics or (test.metric,))]
-            raw = numbers_of(errors, run, test.metric, own, statistics, {}, RAW)
-            known = {column: number for column, number in raw.items() if number.value is not None}
-            rows.append(TableRow(test.labels, run, test.metric, numbers, known, method in test.further))
-    robot, floor = (published.robot, published.floor) if published else (False, None)
-    write_error_table(table_dir / name, rows, TableLook(settings, robot, floor, statistics.confidence))
+            run = dict(zip(RUN, (test.scenario, test.level, method), strict=True))
+            is_short = method in test.further
+            line = {"labels": test.labels, "paper": test.paper or "", "short": is_short, "own_metric": test.metric}
+            lines.append({"line": len(lines), **run, **line})
+    cells = pd.DataFrame(lines).merge(columns, how="cross")
+    cells["metric"] = cells["metric"].where(cells["metric"] != "", cells["own_metric"])
+    # Only errors have a second truth to be taken against.
+    cells["is_error"] = cells["metric"].str.startswith(ERROR)
+    are_errors = cells.groupby(["line", "column"], observed=True)["is_error"].transform("all")
+    raw = cells[are_errors].assign(truth=RAW, metric=cells["metric"] + RAW)
+    both = pd.concat([cells.assign(truth=""), raw])
+    return both.sort_values("line", kind="stable", ignore_index=True)
 
 
-def write_error_table(stem: Path, rows: Sequence[TableRow], look: TableLook) -> None:
-    """Write a table of errors; in TeX one that is wider than a page becomes some, one below the other."""
-    records: list[Sequence[Field]] = []
-    for row in rows:
-        records += records_of(row, row.numbers)
-        records += records_of(row, row.raw, RAW)
-    names = [column.name for column in rows[0].numbers]
-    texts = []
-    for first, end in pairwise([0, *map(names.index, look.settings.parts), len(names)]):
-        part = [replace(row, numbers=cut(row.numbers, first, end), raw=cut(row.raw, first, end)) for row in rows]
-        header = header_of(part[0], look)
+def numbers_of(cells: pd.DataFrame, scores: pd.DataFrame, statistics: Statistics) -> pd.DataFrame:
+    """Return a row for each number of a table [N m], V1..V3 [N], or the metric's unit.
+
+    There is none where a test is too short for what is asked, such as a push; against the raw truth the row is left
+    out, too.
+    """
+    walked = pd.MultiIndex.from_frame(cells[[*RUN]]).isin(pd.MultiIndex.from_frame(scores[[*RUN]]))
+    measures = [*RUN, "metric"]
+    held = pd.MultiIndex.from_frame(cells[measures]).isin(pd.MultiIndex.from_frame(scores[measures]))
+    cells = cells.assign(lacks=walked & ~held)
+    of_number = cells.groupby(PLACE, observed=True)
+    is_there = ~of_number["lacks"].transform("any")
+    metrics = of_number["metric"].agg(lambda names: "+".join(names.unique())).rename("metric")
+    runs = runs_of(scores, cells[is_there])
+    errors = measured(runs, PLACE, {"error": lambda own: number_of(own, statistics)}).drop(columns="published")
+    asked = cells.drop_duplicates(PLACE).drop(columns="metric")
+    numbers = asked.merge(metrics, on=PLACE).merge(errors, how="left", on=PLACE)
+    numbers["unit"] = numbers["unit"].fillna(numbers["torque_unit"])
+    return numbers[(numbers["truth"] == "") | numbers["value"].notna()]
+
+
+def write_error_table(
+    stem: Path, numbers: pd.DataFrame, settings: ErrorTable, robot: bool, floor: Floor | None, confidence: float
+) -> None:
+    """Write a table of errors; in TeX one that is wider than a page becomes some, one below the other.
+
+    Args:
+        stem: path without an ending.
+        numbers: a row for each number, as `numbers_of` returns them, with the paper's.
+        settings: of the table.
+        robot: whether the printed numbers were measured on the robot.
+        floor: level and method of the row that later averages are compared with, or None.
+        confidence: of the intervals, a share [-].
+    """
+    names = list(numbers["column"].unique())
+    texts: list[str] = []
+    for first, end in pairwise([0, *map(names.index, settings.parts), len(names)]):
+        part = numbers[numbers["column"].isin(names[first:end])]
+        header = header_of(settings, part)
         align = "l" * (len(header) - end + first) + "r" * (end - first)
-        texts.append(text_table(align, header, table_lines(part, look, stacked=bool(look.settings.parts))))
-    header = header_of(rows[0], look)
-    lines = table_lines(rows, look)
+        lines = table_lines(settings, part, robot, floor, confidence, stacked=bool(settings.parts))
+        texts.append(text_table(align, header, lines))
+    header = header_of(settings, numbers)
+    lines = table_lines(settings, numbers, robot, floor, confidence)
+    records = records_of(numbers.rename(columns={"joint": "first_joint", "column": "joint"}), ERRORS)
     write_table(stem, Table(ERRORS, records, header, lines, len(header) - len(names)), PART.join(texts))
 
 
-def records_of(row: TableRow, numbers: Mapping[Column, Number], ending: str = "") -> Iterator[Sequence[Field]]:
-    """Yield the rows of CSV of a method in a test; the ending chooses the truth, as that of `cell_of`."""
-    for column, ours in numbers.items():
-        metrics = "+".join(name + ending for name in column.metrics or (row.metric,))
-        yield (*row.run, column.name, metrics, *ours.with_ends, *ours.spread, ours.unit, ours.published)
-
-
-def cut(numbers: Mapping[Column, Number], first: int, end: int) -> dict[Column, Number]:
-    """Return the numbers of some columns, counted from 0 on [N m]."""
-    return dict(islice(numbers.items(), first, end))
-
-
-def numbers_of(
-    columns: Sequence[Column],
-    run: tuple[str, str, str],
-    metric: str,
-    scores: Sequence[Score],
-    statistics: Statistics,
-    printed: Mapping[str, float | None],
-    ending: str = "",
-) -> dict[Column, Number]:
-    """Return the number of each column [N m], as `cell_of` does; `printed` is a column's name -> the paper's number."""
-    numbers = {}
-    for column in columns:
-        numbers[column] = cell_of(column, run, metric, scores, statistics, printed.get(column.name), ending)
-    return numbers
-
-
-def cell_of(
-    column: Column,
-    run: tuple[str, str, str],
-    metric: str,
-    scores: Sequence[Score],
-    statistics: Statistics,
-    published: float | None,
-    ending: str = "",
-) -> Number:
-    """Return the number of a column [N m] over the runs of a method in a test; none where a run has too few pushes.
-
-    The ending chooses the truth that errors are taken against.
-    """
-    metrics = tuple(name + ending for name in column.metrics or (metric,))
-    held = {score.metric for score in scores}
-    if held and not held.issuperset(metrics):
-        return Number(None, unit=column.unit, published=published)
-    scenario, level, method = run
-    wanted = []
-    for (limb, joint), name in product(column.joints, metrics):
-        wanted.append(Wanted(scenario, limb, level, method, joint, name))
-    return number_of(scores, wanted, statistics, published=published)
-
-
-def is_error(metrics: Sequence[str]) -> bool:
-    """Return whether all of some metrics are errors that are measured against the raw truth, too."""
-    return all(name.startswith(ERROR) for name in metrics)
-
-
-def header_of(row: TableRow, look: TableLook) -> list[str]:
+def header_of(settings: ErrorTable, numbers: pd.DataFrame) -> list[str]:
     """Return the heads of the columns; where torques [N m] and forces stand side by side, forces have their unit."""
-    units = {column.name: number.unit for column, number in row.numbers.items()}
-    mixed = len(set(units.values())) > 1
-    heads = [f"{name} [N]" if mixed and unit == "N" else name for name, unit in units.items()]
-    return [*look.settings.header, "Method", "", *heads]
+    units = numbers.drop_duplicates("column").set_index("column")["unit"]
+    is_mixed = units.nunique() > 1
+    heads = [f"{name} [N]" if is_mixed and unit == "N" else str(name) for name, unit in units.items()]
+    return [*settings.header, "Method", "", *heads]
 
 
-def table_lines(rows: Sequence[TableRow], look: TableLook, stacked: bool = False) -> list[Line]:
+def table_lines(
+    settings: ErrorTable,
+    numbers: pd.DataFrame,
+    robot: bool,
+    floor: Floor | None,
+    confidence: float,
+    *,
+    stacked: bool = False,
+) -> list[Line]:
     """Return the lines of text [N m], row by row; a rule stands where the first label changes.
 
     `stacked`: whether the ends of an interval stand one below the other.
     """
-    blocks = []
+    blocks: list[tuple[Sequence[str], list[list[str]]]] = []
     over = None
-    for row in rows:
-        blocks.append((row.labels, row_lines(row, over, look, stacked)))
-        if look.floor and row.run[1:] == (look.floor.level, look.floor.method):
-            over = row
+    for _, row in numbers.groupby("line"):
+        first = row.iloc[0]
+        ours = row[row["truth"] == ""]
+        lines = row_lines(ours, row[row["truth"] == RAW], over, robot, f"{confidence:.0%}", stacked=stacked)
+        method = str(settings.names.get(first["method"], first["method"]))
+        blocks.append((first["labels"], [["" if k else method, *line] for k, line in enumerate(lines)]))
+        if floor and (first["level"], first["method"]) == (floor.level, floor.method):
+            over = ours
     return in_blocks(blocks, nested=True)
 
 
-def row_lines(row: TableRow, over: TableRow | None, look: TableLook, stacked: bool) -> list[list[str]]:
+def row_lines(
+    ours: pd.DataFrame, raw: pd.DataFrame, over: pd.DataFrame | None, robot: bool, share: str, *, stacked: bool
+) -> list[list[str]]:
     """Return a method's lines [N m]: ours, its interval, ours against the raw truth, and the paper's, if it has any."""
-    ours = list(row.numbers.values())
-    share = f"{look.confidence:.0%}"
-    lines = [[OURS[look.robot], *with_increase(row, over, "value")]]
-    if not row.short and any(number.low is not None for number in ours):
-        lines += (
-            [
-                [f"{share} from", *(number_text(number.low) for number in ours)],
-                [f"{share} to", *(number_text(number.high) for number in ours)],
-            ]
-            if stacked
-            else [[share, *(number.interval() for number in ours)]]
-        )
-    if row.raw:
-        lines.append([RAW_LABEL, *(number_text(number.value) for number in row.raw.values())])
-    if any(number.published is not None for number in ours):
-        lines.append([PAPER[look.robot], *with_increase(row, over, "published")])
-    method = look.settings.names.get(row.run[2], row.run[2])
-    return [["" if k else method, *line] for k, line in enumerate(lines)]
+    lines = [[OURS[robot], *with_increase(ours, over, "value")]]
+    if not ours["short"].any() and ours["low"].notna().any():
+        if stacked:
+            lines.append([f"{share} from", *map(number_text, ours["low"])])
+            lines.append([f"{share} to", *map(number_text, ours["high"])])
+        else:
+            lines.append([share, *map(interval_text, ours["low"], ours["high"])])
+    if len(raw):
+        lines.append([RAW_LABEL, *map(number_text, raw["value"])])
+    if ours["published"].notna().any():
+        lines.append([PAPER[robot], *with_increase(ours, over, "published")])
+    return lines
 
 
-def with_increase(row: TableRow, over: TableRow | None, name: str) -> list[str]:
+def with_increase(row: pd.DataFrame, over: pd.DataFrame | None, name: str) -> list[str]:
     """Return the numbers of a row [N m]; its average carries the increase over a floor, as the paper prints it."""
-    texts = []
-    for column, number in row.numbers.items():
-        value = getattr(number, name)
-        base = over and getattr(over.numbers[column], name)
-        texts.append(number_text(value))
-        if column.name == AVERAGE and value is not None and base is not None:
-            texts[-1] += f" ({value - base:+.2f})"
-    return texts
+    texts = dict(zip(row["column"], map(number_text, row[name]), strict=True))
+    if over is not None and AVERAGE in texts:
+        value, base = (own.set_index("column")[name][AVERAGE] for own in (row, over))
+        if not is_missing(value) and not is_missing(base):
+            texts[AVERAGE] += f" ({value - base:+.2f})"
+    return list(texts.values())

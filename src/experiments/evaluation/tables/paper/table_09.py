@@ -1,25 +1,17 @@
 """Table 9: collisions of a leg that detectors find, and how late."""
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from itertools import product
+from collections.abc import Iterator, Mapping
 from pathlib import Path
+from typing import Any
 
-from experiments.evaluation.measure.detection.results import (
-    ALL,
-    CELLS,
-    MS,
-    Detections,
-    Try,
-    delay_of,
-    force_text,
-    found_share,
-    half_force,
-    mean_of,
-    shown_tries,
-)
-from experiments.evaluation.number.number import Number, number_text, published_row
-from experiments.evaluation.number.rows import Field
-from experiments.evaluation.tables.layout import PART, RULE, Line, Table, text_table, write_table
+import pandas as pd
+
+from experiments.evaluation.measure.detection.results import ALL, CELLS, force_text, half_force, hits_of, with_all
+from experiments.evaluation.number.frames import rows_of
+from experiments.evaluation.number.laws import mean, measured, share
+from experiments.evaluation.number.number import Number, interval_text, is_missing, number_text, published_row
+from experiments.evaluation.tables.layout import PART, RULE, Line, Table, records_of, text_table, write_table
+from experiments.plan.detection import Detections
 from experiments.settings.detection_tables import ReadingTable, SmallestForce
 from experiments.settings.published import PublishedTable
 from experiments.settings.runs import Statistics
@@ -33,8 +25,10 @@ ONSET = "delay_onset"
 PERFECT = "perfect_delay"
 HALF_FORCE = "half_force"  # quantity of the pushes of all sizes
 DETECTED, DELAY_MS = "detected", "delay_ms"  # places of the paper's numbers
+TIMES = {DELAY: "delay_ms", ONSET: "onset_ms", PERFECT: "perfect_ms"}  # quantity -> column of hits
 TRIED = 10  # collisions of each cell in the paper
-Tries = Mapping[str, Sequence[Try]]  # by detector
+IN_CELLS = "cells"  # the mean over cells, in place of a cell
+PLACE = ["level", "kind", "detector", "leg"]
 
 
 def table_09(
@@ -53,31 +47,27 @@ def table_09(
     same thresholds, on the same collisions. Totals near all collisions rank no detectors: beside them is the force of
     which one half is found, from pushes of all sizes. Rows of a level are by each rule of thresholds.
     """
-    rows: list[Sequence[Field]] = []
+    hits = hits_of(settings, detections, detection.collisions, settings.kinds)
+    sweep = hits_of(settings, detections, detection.sweep, settings.kinds)
+    rows = numbers_of(hits, sweep, smallest_force, statistics)
+    rows["published"] = [
+        printed_value(published, str(row.detector), str(row.cell), str(row.quantity))
+        for row in rows.itertuples(index=False)
+    ]
     lines: list[Line] = []
     taus: list[str] = []
     force_taus: list[str] = []
-    tried: dict[tuple[str, str], tuple[Tries, Tries]] = {}  # level, rule -> collisions, and pushes of all sizes
-    for kind in settings.kinds:
-        swept = dict(shown_tries(settings, detections, detection.sweep, kind))
-        for level, shown in shown_tries(settings, detections, detection.collisions, kind):
-            tried[level, kind] = shown, swept[level]
-    for level, kind in product(settings.levels, settings.kinds):
-        shown, swept_here = tried[level, kind]
-        title = f"{level.replace('_', ' ')}, {READINGS.get(kind, kind)}"
+    for (level, kind), shown in rows.groupby(["level", "kind"], observed=True):
+        title = f"{str(level).replace('_', ' ')}, {READINGS.get(str(kind), kind)}"
         lines += [RULE] if lines else []
-        halves: dict[str, Number] = {}
-        for name, own in shown.items():
-            of_all_sizes = swept_here.get(name, [])
-            halves[name] = half_force(of_all_sizes, smallest_force, statistics)
-            place = level, name, settings.leg, kind
-            rows += _rows(place, own, statistics, published)
-            rows.append((*place, ALL, HALF_FORCE, *halves[name].with_ends, len(of_all_sizes), "N", None))
-            lines += _lines(title, name, own, halves[name], statistics, published)
-        shares = {name: len([one for one in own if one.is_found]) / len(own) for name, own in shown.items()}
-        weakness = {name: -_rank(number) for name, number in halves.items() if swept_here.get(name)}
-        taus.append(f"{order_text(shares, published)} ({title})")
-        force_taus.append(f"{order_text(weakness, published)} ({title})")
+        for name, own in shown.groupby("detector", observed=True):
+            lines.append([title, str(name), "ours", *our_texts(own)])
+            lines += printed_lines(published, str(name))
+        totals = rows_of(shown, cell=ALL, quantity=FOUND).set_index("detector")["value"]
+        halves = rows_of(shown, cell=ALL, quantity=HALF_FORCE)
+        ranks = {str(row.detector): -_rank(row.value, row.low) for row in halves[halves["count"] > 0].itertuples()}
+        taus.append(f"{order_text(dict(zip(totals.index.astype(str), totals, strict=True)), published)} ({title})")
+        force_taus.append(f"{order_text(ranks, published)} ({title})")
     cells = list(map(_initials, CELLS))
     leading = ["Level, normal walking", "Detector", ""]
     found = [*cells, "all", f"{statistics.confidence:.0%}", "half [N]"]
@@ -93,8 +83,37 @@ def table_09(
     delay_lines = [line if isinstance(line, str) else [*line[: len(leading)], *line[end:]] for line in lines]
     above = text_table("lll" + "r" * len(found), [*leading, *found], found_lines)
     below = text_table("lll" + "r" * len(delays), [*leading, *delays], delay_lines)
-    table = Table(DETECTION, rows, [*leading, *found, *delays], lines, left=len(leading), note=note)
+    header = [*leading, *found, *delays]
+    table = Table(DETECTION, records_of(rows, DETECTION), header, lines, left=len(leading), note=note)
     write_table(table_dir / "table_09", table, above + PART + below)
+
+
+def numbers_of(
+    hits: pd.DataFrame, sweep: pd.DataFrame, smallest_force: SmallestForce, statistics: Statistics
+) -> pd.DataFrame:
+    """Return a row for each number of a detector: found shares [-], delays [ms], and forces of half [N] of a sweep."""
+    in_cells = with_all(hits)
+    by_cell = [measured(in_cells, PLACE, {FOUND: share("found", statistics)}, each="cell")]
+    for quantity, column in TIMES.items():
+        timed = in_cells.assign(timed=in_cells["found"] & in_cells[column].notna())
+        by_cell.append(measured(timed, PLACE, {quantity: mean(column, "ms", statistics)}, each="cell", of="timed"))
+    _, delays, *_ = by_cell
+    # The paper's average is that of its four cells, however many collisions each of them found.
+    averages = delays[delays["cell"] != ALL].groupby(PLACE, observed=True)["value"].agg(["mean", "count"])
+    # With the types of the other parts, as a concatenation would else lose the order of detectors.
+    averages = averages.reset_index().rename(columns={"mean": "value"}).astype(delays.dtypes[PLACE].to_dict())
+
+    def force(own: pd.DataFrame) -> Number:
+        return half_force(own, smallest_force, statistics)
+
+    both = pd.concat([hits.assign(swept=False), sweep.assign(swept=True)])
+    halves = measured(both, PLACE, {HALF_FORCE: force}, of="swept")
+    parts = [
+        pd.concat(by_cell).sort_index(kind="stable"),
+        averages.assign(cell=IN_CELLS, quantity=DELAY, unit="ms"),
+        halves.assign(cell=ALL),
+    ]
+    return pd.concat(parts).sort_values(PLACE, kind="stable", ignore_index=True)
 
 
 def _initials(cell: str) -> str:
@@ -110,86 +129,45 @@ def order_text(strengths: Mapping[str, float], published: PublishedTable) -> str
     return number_text(float(kendalltau(ours, list(totals.values())).statistic) if len(ours) > 1 else None)
 
 
-def _rank(force: Number) -> float:
+def _rank(value: Any, low: Any) -> float:
     """Return a force [N], or that it lies below or above all that were tried."""
-    if force.value is not None:
-        return force.value
-    return 0.0 if force.low is not None else float("inf")
+    if value is None or is_missing(value):
+        return float("inf") if is_missing(low) else 0.0
+    return value
 
 
-def _in_cells(tries: Sequence[Try]) -> dict[str, list[Try]]:
-    found = {}
-    for cell in CELLS:
-        found[cell] = [one for one in tries if one.cell == cell]
-    return found
+def printed_value(published: PublishedTable, detector: str, cell: str, quantity: str) -> float | None:
+    """Return what the paper prints: a share [-] of a cell or of all, a delay of a cell or the mean of these [ms]."""
+    if quantity == FOUND:
+        count = published_row(published, DETECTED, detector).get(cell)
+        return None if count is None else count / (TRIED * (len(CELLS) if cell == ALL else 1))
+    if quantity == DELAY and cell != ALL:
+        return published_row(published, DELAY_MS, detector).get(ALL if cell == IN_CELLS else cell)
+    return None
 
 
-def _onset_delay(one: Try) -> float | None:
-    """Return the delay from when the force exceeds that of the second definition of a beginning [s]."""
-    late = one.detected.delay_s
-    onset = one.collision.onset_s
-    return None if late is None or onset is None else late - (onset - one.collision.start_s)
+def our_texts(rows: pd.DataFrame) -> list[str]:
+    """Return what a detector finds in each cell, half of which forces, and how late."""
+    delays = rows_of(rows, quantity=DELAY).set_index("cell")
+    total = rows_of(rows, quantity=FOUND, cell=ALL).iloc[0]
+    half = rows_of(rows, quantity=HALF_FORCE).iloc[0]
+    counts = [str(delays.loc[cell, "count"]) for cell in CELLS]
+    all_found = f"{delays.loc[ALL, 'count']}/{total['count']}"
+    interval = interval_text(total["low"], total["high"])
+    late = [*delays.loc[[*CELLS, IN_CELLS, ALL], "value"]]
+    late += [rows_of(rows, quantity=quantity, cell=ALL)["value"].iloc[0] for quantity in (PERFECT, ONSET)]
+    texts = [number_text(time, 1) for time in late]
+    return [*counts, all_found, interval, force_text(half["value"], half["low"], half["high"]), *texts]
 
 
-DELAYS: Mapping[str, Callable[[Try], float | None]] = {  # of a collision that was found [s]
-    DELAY: delay_of,
-    ONSET: _onset_delay,
-    PERFECT: lambda one: one.detected.perfect_s,
-}
-
-
-def _delays(tries: Sequence[Try], quantity: str = DELAY) -> list[float]:
-    """Return delays of the collisions that were found [ms], one of `DELAYS`."""
-    found = [DELAYS[quantity](one) for one in tries if one.is_found]
-    return [MS * delay for delay in found if delay is not None]
-
-
-def _rows(
-    detector: tuple[str, str, str, str], tries: Sequence[Try], statistics: Statistics, published: PublishedTable
-) -> Iterator[Sequence[Field]]:
-    """Yield the rows of a detector, which is told by level, name, leg and rule of thresholds."""
-    printed = {place: published_row(published, place, detector[1]) for place in (DETECTED, DELAY_MS)}
-    for cell, own in {**_in_cells(tries), ALL: list(tries)}.items():
-        place = *detector, cell
-        count = TRIED * (len(CELLS) if cell == ALL else 1)
-        of_paper = printed[DETECTED].get(cell)
-        found = found_share(own, statistics)
-        share = None if of_paper is None else of_paper / count
-        yield (*place, FOUND, *found.with_ends, len(own), "-", share)
-        for quantity, delay in DELAYS.items():
-            values = _delays(own, quantity)
-            number = mean_of([one for one in own if one.is_found], delay, statistics)
-            paper = printed[DELAY_MS].get(cell) if quantity == DELAY and cell != ALL else None
-            yield (*place, quantity, *number.with_ends, len(values), "ms", paper)
-    # The paper's average is that of its four cells, however many collisions each of them found.
-    cells = [mean for own in _in_cells(tries).values() if (mean := _mean(_delays(own)))]
-    average = sum(cells) / len(cells) if cells else None
-    yield (*detector, "cells", DELAY, average, None, None, len(cells), "ms", printed[DELAY_MS].get(ALL))
-
-
-def _lines(
-    title: str, name: str, tries: Sequence[Try], half: Number, statistics: Statistics, published: PublishedTable
-) -> Iterator[Line]:
-    """Yield what a detector finds in each cell, half of which forces, and how late; below it what the paper prints."""
-    in_cells = _in_cells(tries)
-    counts = [str(len(_delays(own))) for own in in_cells.values()]
-    total = found_share(tries, statistics)
-    all_found = f"{len(_delays(tries))}/{len(tries)}"
-    means = [_mean(_delays(own)) for own in in_cells.values()]
-    known = [mean for mean in means if mean is not None]
-    further = [_mean(known), *(_mean(_delays(tries, quantity)) for quantity in (DELAY, PERFECT, ONSET))]
-    delays = [number_text(mean, 1) for mean in (*means, *further)]
-    yield [title, name, "ours", *counts, all_found, total.interval(), force_text(half), *delays]
+def printed_lines(published: PublishedTable, name: str) -> Iterator[Line]:
+    """Yield what the paper prints of a detector, if it does."""
     printed, late = (published_row(published, place, name) for place in (DETECTED, DELAY_MS))
     if printed and late:
         weighted = [(printed[cell] or 0.0, late[cell]) for cell in CELLS]
         found = sum(count for count, _ in weighted)
-        mean = sum(count * (delay or 0.0) for count, delay in weighted) / found if found else None
+        mean_ms = sum(count * (delay or 0.0) for count, delay in weighted) / found if found else None
         numbers = [number_text(printed[cell], 0) for cell in CELLS]
         total_text = f"{number_text(printed[ALL], 0)}/{TRIED * len(CELLS)}"
         paper = [number_text(late[cell], 1) for cell in (*CELLS, ALL)]
-        yield ["", "", "original", *numbers, total_text, "", "", *paper, number_text(mean, 1), "", ""]
-
-
-def _mean(values: Sequence[float]) -> float | None:
-    return sum(values) / len(values) if values else None
+        yield ["", "", "original", *numbers, total_text, "", "", *paper, number_text(mean_ms, 1), "", ""]

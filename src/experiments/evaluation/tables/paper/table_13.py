@@ -1,24 +1,27 @@
 """Table 13: thresholds of a leg's joints by the paper's rule, for each detector."""
 
-from collections import defaultdict
 from collections.abc import Sequence
 from itertools import product
 from pathlib import Path
 from statistics import geometric_mean
 
-from experiments.evaluation.measure.detection.results import Detections, owners, rows_of
+import pandas as pd
+
+from experiments.evaluation.measure.detection.results import owners
+from experiments.evaluation.number.frames import read_detection
 from experiments.evaluation.number.number import number_text, published_row
-from experiments.evaluation.number.rows import Field
-from experiments.evaluation.tables.layout import OUTSIDE, Table, in_blocks, write_table
+from experiments.evaluation.tables.layout import OUTSIDE, Table, in_blocks, records_of, write_table
+from experiments.plan.detection import Detections
 from experiments.settings.detection_tables import ThresholdTable
 from experiments.settings.published import PublishedTable
 from mobnet.core.columns import DETECTION
-from mobnet.core.detections import READINGS, Threshold
+from mobnet.core.detections import READINGS
 from mobnet.core.joints import JointLayout
 from mobnet.detection.signals import MEAN, RATIO, STD
 
 THRESHOLD = "threshold_nm"  # place of the paper's numbers
 QUANTITY = "threshold"
+PLACE = ["level", "detector", "leg", "kind", "cell"]  # of a threshold; its cell is signal and phase
 
 
 def table_13(
@@ -30,31 +33,18 @@ def table_13(
     their geometric mean over the paper's. Below those of one detector is its ratio by joint, by the reading that sized
     the robots. The CSV has the thresholds of all detectors of both legs and by all rules.
     """
-    rows: list[tuple[Field, ...]] = []
-    blocks: list[tuple[list[str], list[list[str]]]] = []
+    rows = thresholds_of(settings, published, detections)
     joints = layout.limb(settings.leg)
+    signals = [f"{kind}.{joint} 1" for joint, kind in product(joints, (MEAN, STD, RATIO))]
+    means = rows[rows["leg"] == settings.leg].set_index(["level", "detector", "kind", "cell"])["value"]
+    blocks: list[tuple[list[str], list[list[str]]]] = []
     for level in settings.levels:
-        names = owners(detections, level, settings.levels)
-        found: dict[tuple[str, ...], list[Threshold]] = defaultdict(list)
-        for row in rows_of(detections, names, "thresholds", Threshold):
-            found[row.detector, row.leg, row.kind, f"{row.signal} {row.phase}"].append(row)
-        means: dict[tuple[str, ...], float] = {}
-        for key, own in found.items():
-            values = [row.value for row in own]
-            means[key] = sum(values) / len(values)
-            paper = published_row(published, THRESHOLD, key[0]).get(own[0].signal.partition(".")[2])
-            is_shown = key[1] == settings.leg and key[2] in settings.kinds
-            ends = min(values), max(values), len(values)
-            rows.append((level, *key, QUANTITY, means[key], *ends, own[0].unit, paper if is_shown else None))
         lines: list[list[str]] = []
         for name in settings.detectors:
             printed = published_row(published, THRESHOLD, name)
             for place, rule in enumerate(settings.kinds):
-                values: list[float] = []
-                for joint, kind in product(joints, (MEAN, STD, RATIO)):
-                    key = name, settings.leg, rule, f"{kind}.{joint} 1"
-                    if key in means:
-                        values.append(means[key])
+                keys = [(level, name, rule, signal) for signal in signals]
+                values = [float(means[key]) for key in keys if key in means.index]
                 sizes: list[float] = []
                 for ours, joint in zip(values, joints if printed else (), strict=False):
                     if theirs := printed[joint]:
@@ -67,7 +57,28 @@ def table_13(
                 lines.append(["", "original", *(number_text(printed[joint]) for joint in joints), ""])
         blocks.append(([level.replace("_", " ")], lines))
     header = ["Level", "Detector", "", *(f"{joint} [N m]" for joint in joints), "over original"]
-    write_table(table_dir / "table_13", Table(DETECTION, rows, header, in_blocks(blocks), left=3))
+    table = Table(DETECTION, records_of(rows, DETECTION), header, in_blocks(blocks), left=3)
+    write_table(table_dir / "table_13", table)
+
+
+def thresholds_of(settings: ThresholdTable, published: PublishedTable, detections: Detections) -> pd.DataFrame:
+    """Return the thresholds of all detectors: their mean over the robots of a level, with the least and the most."""
+    parts: list[pd.DataFrame] = []
+    for level in settings.levels:
+        robots = owners(detections, level, settings.levels)
+        parts.append(read_detection(detections, robots, "thresholds").assign(level=level))
+    own = pd.concat(parts, ignore_index=True)
+    own["cell"] = own["signal"] + " " + own["phase"].astype(str)
+    groups = own.groupby(PLACE, sort=False)
+    rows = groups["value"].agg(["mean", "min", "max", "count"]).reset_index()
+    rows = rows.rename(columns={"mean": "value", "min": "low", "max": "high"})
+    rows = rows.assign(quantity=QUANTITY, unit=groups["unit"].first().to_numpy())
+    printed: list[float | None] = []
+    for row in rows.itertuples():
+        is_shown = row.leg == settings.leg and row.kind in settings.kinds
+        joint = str(row.cell).split(" ")[0].partition(".")[2]
+        printed.append(published_row(published, THRESHOLD, str(row.detector)).get(joint) if is_shown else None)
+    return rows.assign(published=pd.Series(printed, index=rows.index))
 
 
 def mean_text(ratios: Sequence[float]) -> str:

@@ -1,0 +1,221 @@
+"""Files of rows as pandas frames, checked as they are read: the columns of each with type, unit and meaning.
+
+A frame is tidy: a row is one observation, and other columns say what its numbers are of. docs/frames.md has these
+columns for readers. A missing number is NaN, as in pandas, where the rows of a file have None.
+"""
+
+# pandas has no complete types, which the strict rules of this folder ask for.
+# pyright: standard
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+import pandas as pd
+
+from experiments.evaluation.number.rows import read_detections
+from experiments.evaluation.number.rows import read_scores as score_rows
+from experiments.evaluation.number.rows import read_trials as trial_rows
+from mobnet.core.errors import DataError, not_accepted
+
+TEXT, WHOLE, REAL = "str", "int64", "float64"
+Schema = Mapping[str, tuple[str, str, str]]  # column -> its type, unit and meaning
+
+SCORES: Schema = {
+    "scenario": (TEXT, "", "the test"),
+    "level": (TEXT, "", "the plant: a level of uncertainty, or `robots`"),
+    "method": (TEXT, "", "what estimates"),
+    "network_seed": (WHOLE, "", "the network; 0 without one; on a robot that of the robot"),
+    "test_seed": (WHOLE, "", "the walk"),
+    "limb": (TEXT, "", "the limb"),
+    "joint": (TEXT, "", "a joint of it, or `avg`, the mean over those of one unit"),
+    "metric": (TEXT, "", "what is measured, such as `rmse`"),
+    "value": (REAL, "column `unit`", "the number of the run"),
+    "unit": (TEXT, "", "its unit"),
+}
+COLLISIONS: Schema = {
+    "scenario": (TEXT, "", "the walks"),
+    "seed": (WHOLE, "", "the walk"),
+    "number": (WHOLE, "", "the collision of a walk, counted from 1"),
+    "push": (TEXT, "", "the push"),
+    "leg": (TEXT, "", "the leg that is hit"),
+    "link": (TEXT, "", "the link that is hit"),
+    "direction": (TEXT, "", "from where"),
+    "start_s": (REAL, "s", "when it begins"),
+    "onset_s": (REAL, "s", "when its force exceeds `detection.onset_n`"),
+    "end_s": (REAL, "s", "when it ends"),
+    "force_n": (REAL, "N", "its largest force"),
+    "impulse_ns": (REAL, "N s", "its impulse"),
+    "swing_share": (REAL, "-", "share of the swing at which it begins"),
+}
+DETECTED: Schema = {
+    "scenario": (TEXT, "", "the walks"),
+    "seed": (WHOLE, "", "the walk"),
+    "leg": (TEXT, "", "the leg that is hit"),
+    "number": (WHOLE, "", "the collision of a walk, counted from 1"),
+    "detector": (TEXT, "", "the detector"),
+    "kind": (TEXT, "", "the rule of its thresholds"),
+    "ratio": (REAL, "-", "its largest signal over the threshold"),
+    "delay_s": (REAL, "s", "time from the beginning to the alarm; missing where it finds nothing"),
+    "perfect_s": (REAL, "s", "that of an estimate without error at the same thresholds"),
+    "signal": (TEXT, "", "what crosses its threshold first"),
+    "link": (TEXT, "", "the link that it names; empty where it finds nothing, as the next one"),
+    "direction": (TEXT, "", "from where, as it says"),
+    "named_n": (REAL, "N", "the force that it names"),
+}
+HIT = ["scenario", "seed", "leg", "number"]  # what names a collision of a robot
+NAMED = {"link": "named_link", "direction": "named_direction"}  # columns of DETECTED -> their names among hits
+HITS: Schema = {
+    "robot": (TEXT, "", "the robot, or the level of the plant"),
+    **{NAMED.get(name, name): told for name, told in DETECTED.items()},
+    **{name: told for name, told in COLLISIONS.items() if name not in HIT},
+    "found": ("bool", "", "whether the detector has an alarm"),
+}
+SWINGS: Schema = {
+    "detector": (TEXT, "", "the detector"),
+    "leg": (TEXT, "", "the leg that swings"),
+    "scenario": (TEXT, "", "the walks"),
+    "part": (TEXT, "", "`calibration`, `held out`, or `unpushed`: between the collisions of a walk"),
+    "terrain": (TEXT, "", "the ground"),
+    "seed": (WHOLE, "", "the walk"),
+    "number": (WHOLE, "", "the swing of a walk, counted from 1"),
+    "ratio": (REAL, "-", "largest signal over the threshold for one false alarm an hour"),
+    "ratio_largest": (REAL, "-", "over the paper's threshold, from walking in place"),
+    "ratio_walking": (REAL, "-", "over that from random walking"),
+}
+PROMISES: Schema = {
+    "detector": (TEXT, "", "the detector"),
+    "leg": (TEXT, "", "the leg"),
+    "kind": (TEXT, "", "the rule of its thresholds"),
+    "swings": (WHOLE, "", "how many swings calibrated them"),
+    "hours": (REAL, "h", "of walking"),
+    "factor": (REAL, "-", "multiple of the scales of its signals"),
+    "rate_per_h": (REAL, "1/h", "false alarms that are promised"),
+    "low": (REAL, "1/h", "the ends of their interval"),
+    "high": (REAL, "1/h", ""),
+}
+THRESHOLDS: Schema = {
+    "detector": (TEXT, "", "the detector"),
+    "leg": (TEXT, "", "the leg"),
+    "kind": (TEXT, "", "the rule of its thresholds"),
+    "signal": (TEXT, "", "the signal"),
+    "phase": (WHOLE, "", "the phase of the swing, counted from 1"),
+    "value": (REAL, "column `unit`", "the threshold"),
+    "unit": (TEXT, "", "its unit"),
+}
+CURVES: Schema = {
+    "detector": (TEXT, "", "the detector"),
+    "leg": (TEXT, "", "the leg"),
+    "factor": (REAL, "-", "multiple of its thresholds"),
+    "found": (WHOLE, "", "collisions that it finds at it"),
+    "collisions": (WHOLE, "", "how many there are"),
+    "delay_sum_s": (REAL, "s", "sum of the delays of those that it finds"),
+}
+TRIALS: Schema = {
+    "case": (TEXT, "", "what is walked, a key of `reaction.cases`"),
+    "level": (TEXT, "", "the robot"),
+    "seed": (WHOLE, "", "the walk"),
+    "detector": (TEXT, "", "the detector; `none` where the robot does not react"),
+    "rule": (TEXT, "", "the rule of its thresholds"),
+    "wait_s": (REAL, "s", "how long the reaction waits after an alarm"),
+    "wrench": (TEXT, "", "of the feet that the controller gets: `sensed` or `estimated`"),
+    "feed_forward": (REAL, "-", "share of the learned torque that motors make up for"),
+    "walked_s": (REAL, "s", "how long the robot walks as told, watched"),
+    "velocity_rmse_m_s": (REAL, "m/s", "error of the base's velocity in this time"),
+    "tracking_rmse_rad": (REAL, "rad", "error of the joints of the leg that swings"),
+    "power_w": (REAL, "W", "mean power of the motors"),
+    "contact_s": (REAL, "s", "the first contact; missing without one, as is all of what did not happen"),
+    "in_swing": (REAL, "", "1 if the contact began in mid-swing, else 0; missing where no leg is in front"),
+    "alarm_s": (REAL, "s", "the alarm"),
+    "limb": (TEXT, "", "the limb that was watched"),
+    "reacted_s": (REAL, "s", "the reaction"),
+    "angle_deg": (REAL, "deg", "angle between the reaction and the force of the obstacle"),
+    "base_angle_deg": (REAL, "deg", "the same of the unexpected force on the base, (24)"),
+    "first_peak_n": (REAL, "N", "largest force of the first contact"),
+    "first_impulse_ns": (REAL, "N s", "its impulse"),
+    "peak_n": (REAL, "N", "largest force"),
+    "impulse_ns": (REAL, "N s", "impulse of all contacts"),
+    "contacts": (WHOLE, "", "number of contacts"),
+    "fell_s": (REAL, "s", "the fall"),
+    "stopped": (WHOLE, "", "1 if the robot stands at the end"),
+}
+DETECTION: Mapping[str, Schema] = {  # file of a robot's detectors -> its columns
+    "collisions": COLLISIONS,
+    "detected": DETECTED,
+    "swings": SWINGS,
+    "promises": PROMISES,
+    "thresholds": THRESHOLDS,
+    "curves": CURVES,
+}
+
+
+def frame_of(rows: Sequence[object], schema: Schema) -> pd.DataFrame:
+    """Return rows of a dataclass as a frame with the columns of a schema."""
+    columns: dict[str, pd.Series] = {}
+    for name, (kind, _, _) in schema.items():
+        columns[name] = pd.Series([getattr(row, name) for row in rows], dtype=kind)
+    return pd.DataFrame(columns)
+
+
+def read_scores(*paths: Path) -> pd.DataFrame:
+    """Read errors of runs from files, one for each test and level: columns `SCORES`, one file after another.
+
+    Raises:
+        DataError: a file is missing or damaged, or a row is not accepted; one line for each fault.
+    """
+    return frame_of(score_rows(*paths), SCORES)
+
+
+def read_detection(files: Mapping[str, Mapping[str, Path]], robots: Sequence[str], name: str) -> pd.DataFrame:
+    """Read a file of the detectors of some robots: `robot`, and the columns that `DETECTION` has by the file's name.
+
+    Raises:
+        DataError: a file is missing or damaged, or a row is not accepted; one line for each fault.
+    """
+    parts = [frame_of(read_detections(files[robot][name], name), DETECTION[name]) for robot in robots]
+    return pd.concat(parts, keys=list(robots), names=["robot"]).reset_index("robot").reset_index(drop=True)
+
+
+def read_hits(files: Mapping[str, Mapping[str, Path]], robots: Sequence[str]) -> pd.DataFrame:
+    """Read what the detectors of some robots said of each collision: columns `HITS`, a row for each rule of thresholds.
+
+    Raises:
+        DataError: a file is missing or damaged, or a detector saw a collision that is not among the robot's.
+    """
+    said = read_detection(files, robots, "detected").rename(columns=NAMED)
+    hits = said.merge(read_detection(files, robots, "collisions"), how="left", on=["robot", *HIT], validate="m:1")
+    lost = hits[hits["push"].isna()]
+    if len(lost):
+        robot, number, seed = lost[["robot", "number", "seed"]].iloc[0]
+        raise DataError(f"{files[robot]['detected']}: {not_accepted('number', number, [f'collisions of walk {seed}'])}")
+    return hits.assign(found=hits["delay_s"].notna())[list(HITS)]
+
+
+def read_trials(files: Mapping[str, Mapping[str, Path]], cases: Sequence[str]) -> pd.DataFrame:
+    """Read the walks of all robots in some cases, case by case: columns `TRIALS`, and the level again as `robot`.
+
+    Raises:
+        DataError: a file is missing or damaged, or a row is not accepted; one line for each fault.
+    """
+    parts: list[pd.DataFrame] = []
+    for case in cases:
+        parts += [frame_of(trial_rows(own[case]), TRIALS) for own in files.values()]
+    trials = pd.concat(parts, ignore_index=True)
+    return trials.assign(robot=trials["level"])
+
+
+def rows_of(rows: pd.DataFrame, **held: object) -> pd.DataFrame:
+    """Return the rows whose columns hold what is given."""
+    for name, value in held.items():
+        rows = rows[rows[name] == value]
+    return rows
+
+
+def ordered(rows: pd.DataFrame, **orders: Sequence[str]) -> pd.DataFrame:
+    """Return the rows whose columns have one of some values; groups by these columns stand in the order given.
+
+    A later `pd.concat` keeps the order only where both parts have all values of a column in common.
+    """
+    for name, order in orders.items():
+        rows = rows[rows[name].isin(order)]
+        rows = rows.assign(**{name: pd.Categorical(rows[name], list(order))})
+    return rows
