@@ -53,6 +53,7 @@ from mobnet.settings.reading import Problem
 
 WRITTEN = (".snakemake", ".cache")  # Snakemake and packages write there
 FOLLOWER_LOG = Path(".cache") / "wandb_live.log"
+DOCS = "docs"  # the target
 FIRST = {"collect": 0, "motion": 10, "observe": 30, "estimate": 30}  # rule -> priority where sets are let go
 OTHERS = 20
 
@@ -81,6 +82,7 @@ class WorkflowRun:
         self._started_s = time.time()
         self._workflow = workflow
         self._root = root
+        self._folder = Path.cwd()  # of results and of what Snakemake writes: the project, or that of --directory
         self._python = sys.executable
         self._interrupts = interrupts
         # The words are meant for these rules neither in a job nor in a module of others.
@@ -105,10 +107,10 @@ class WorkflowRun:
     def _take_words(self) -> Any:
         """Keep other runs out, and return the words of the call as Snakemake takes them apart."""
         for name in WRITTEN:
-            check_folder(self._root / name)
+            check_folder(self._folder / name)
         if not only_looks(sys.argv[1:]):
-            hold_folder(self._root, sys.argv[1:])
-            end_orphans(self._root)
+            hold_folder(self._folder, sys.argv[1:])
+            end_orphans(self._folder)
         refuse_twice(sys.argv[1:])
         watch_output()
         words, _ = get_argument_parser().parse_known_args(sys.argv[1:])
@@ -134,6 +136,8 @@ class WorkflowRun:
         """End with one line where a word of the call names no target and no rule, once there are rules."""
         if self._words is None:
             return
+        if DOCS in self._targets and self._folder != self._root:
+            sys.exit(f"{DOCS}: the pages are made in the folder of the project alone; leave --directory out")
         rules = list(self._workflow.rules)
         fault = next(faults_of_words(self._words, rules, self.plan.shown, self.settings.scales), None)
         if fault:
@@ -165,7 +169,7 @@ class WorkflowRun:
         results = self.plan.folders.results
         jobs = list(self._workflow.dag.needrun_jobs())
         try:
-            sweep_project(self._root)  # no other run goes on here
+            sweep_project(self._folder)  # no other run goes on here
             record_precision(results, self._precision)
             record_stacks(self.settings, results)
             record_begun(self._begun, self.plan.kept(str(output) for job in jobs for output in job.output))
@@ -216,7 +220,7 @@ class WorkflowRun:
         had: dict[str, dict[str, int]] = {}
         for job in self._workflow.dag.needrun_jobs():
             had[str(job.log)] = {name: job.resources.get(name) for name in LIMITED}
-        for line in failed_jobs(self._root, self._started_s, had):
+        for line in failed_jobs(self._folder, self._started_s, had):
             _say(line)
 
 

@@ -10,6 +10,7 @@ INTERRUPTS = Interrupts() if workflow.is_main_process else None
 
 from experiments.plan.files import TRAINED
 from experiments.plan.products import shown as report_of
+from experiments.plan.project import project_file
 from experiments.plan.room import Sizes
 from experiments.plan.sheets import Sheets
 from experiments.running.environment import quieten

@@ -4,7 +4,7 @@
 rule deviations:
     # What differs from the paper, for its text.
     input:
-        markdown="docs/deviations.md",
+        markdown=project_file("docs/deviations.md"),
     output:
         "<tables>/deviations.tex",
     log:
@@ -59,11 +59,11 @@ rule compute:
 rule paper:
     # The paper; its PDF only where there is TeX.
     input:
-        main="paper/main.tex",
-        references="paper/refs.bib",
+        main=project_file("paper/main.tex"),
+        references=project_file("paper/refs.bib"),
         tables=expand("<tables>/{table}.tex", table=[*PLAN.tables, "numbers", "captions", "deviations"]),
         compute="<results>/compute.tex",
-        trial="docs/trials/factorial.tex",
+        trial=project_file("docs/trials/factorial.tex"),
         figures=expand("<figures>/{figure}.pdf", figure=PLAN.drawn),
     output:
         [flagged(name) for name in PLAN.product("paper").outputs],

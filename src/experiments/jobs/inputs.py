@@ -57,10 +57,14 @@ def placed(named: Any, files: Iterable[str]) -> Any:
 
 
 def place_of(name: Path, files: Iterable[str]) -> Path:
-    """Return where a job has a file, an array without its ending, a file of a set, or the folder of a network."""
+    """Return where a job has a file, an array without its ending, a file of a set, or the folder of these."""
     known = list(files)
     for part in (name, Path(f"{name}{ARRAY}"), name / WEIGHTS, *name.parents[:-1]):
         for file in known:
             if file == str(part) or file.endswith(f"/{part}"):
                 return Path(file.removesuffix(str(part)) + str(name))
+    for file in known:
+        folder = str(Path(file).parent)
+        if folder.endswith(f"/{name}"):
+            return Path(folder)
     return name

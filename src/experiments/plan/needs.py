@@ -12,6 +12,7 @@ from typing import Any, TypeVar
 from experiments.plan.detection import Detections, all_detections, detection_files
 from experiments.plan.files import Files, SweptSize
 from experiments.plan.parts import PageScene
+from experiments.plan.project import project_file
 from experiments.plan.reactions import Reactions, all_reactions, courses_of, courses_of_robots
 from experiments.plan.runs import Run
 from experiments.settings.asked import tests_in
@@ -329,7 +330,7 @@ def printed_tables(files: Files, section: Any) -> Mapping[str, PublishedTable]:
 @need
 def kept_file(_: Files, section: Any) -> Path:
     """Return the file of the repository that a section shows."""
-    return Path(section.data)
+    return project_file(section.data)
 
 
 def explore_needs(files: Files) -> dict[str, object]:

@@ -15,7 +15,7 @@ from experiments.plan.call import Call
 from experiments.plan.detection import level_of_detectors
 from experiments.plan.files import PLANT, SETS, Files, made_by_jobs
 from experiments.plan.jobs import Jobs
-from experiments.plan.products import CAPTIONS, TEMPLATES, Folders, Product, Products
+from experiments.plan.products import CAPTIONS, Folders, Product, Products, caption_of, templates
 from experiments.plan.reactions import courses_of, is_pushed
 from experiments.plan.sets import sets_left
 from experiments.plan.trials import trial_products
@@ -71,7 +71,7 @@ def documentation(files: Files) -> Iterator[Product]:
         "documents": [*map(Path, ROOT), *_found(DOCUMENTS), *_found(EXAMPLES)],
         "captions": [*_found(f"{CAPTIONS}/figures/*.rst"), *_found(f"{CAPTIONS}/tables/*.rst")],
         "modules": modules,
-        "templates": [TEMPLATES / name for name in CLAIMS_PAGE],
+        "templates": templates(CLAIMS_PAGE),
     }
     out = files.shared / "docs"
     settings = files.settings
@@ -192,7 +192,7 @@ class Plan:
 
     def title(self, figure: str) -> str:
         """Return the first line of a figure's caption, or its name."""
-        path = CAPTIONS / "figures" / f"{figure}.rst"
+        path = caption_of("figures", figure)
         return path.read_text(encoding="utf-8").partition("\n")[0] if path.is_file() else figure
 
     def made_by(self, rule: str) -> list[str]:

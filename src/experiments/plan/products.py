@@ -11,6 +11,7 @@ from experiments.plan.demo import FOLDER, demo_needs, demo_outputs
 from experiments.plan.detection import all_detections
 from experiments.plan.files import Files, made_by_jobs
 from experiments.plan.needs import explore_needs, needs_of
+from experiments.plan.project import project_file
 from experiments.settings.claims import numbers_of
 from experiments.settings.evaluation import ENTRIES, PRODUCTS, Evaluation, row_of
 from experiments.settings.products import MadeBy
@@ -22,12 +23,9 @@ EVALUATION = "experiments.evaluation"
 SCRIPT = ROOT / "workflow" / "scripts" / "product.py"  # that makes any product
 PAPER = "tables.paper"  # modules of the tables that the paper has
 TEMPLATES = Path("src/experiments/evaluation/report/templates")  # inputs of rules: the code hash reads Python only
-EXPLORE = tuple(
-    TEMPLATES / name
-    for name in (
-        "explore.html", "page.html", "explore.css", "explore_data.js", "explore_numbers.js", "explore_pose.js",
-        "explore_robot.js", "explore_plots.js", "explore_state.js", "explore.js",
-    )
+EXPLORE = (
+    "explore.html", "page.html", "explore.css", "explore_data.js", "explore_numbers.js", "explore_pose.js",
+    "explore_robot.js", "explore_plots.js", "explore_state.js", "explore.js",
 )  # fmt: skip
 TABLE, FIGURE = ("csv", "tex", "md"), ("pdf", "svg", "png", "csv")  # endings of a table's and of a figure's files
 COUNTED = ("claims_summary", "claims_tolerance")  # tables of what the table of claims holds
@@ -38,6 +36,7 @@ TESTS = (  # scenario and level of those whose errors the lists of trainings sho
     "changed_walk/*",
 )  # fmt: skip
 MAIN_TABLES = ("legs", "limbs", "detectors")  # of the paper's main text, made with its numbers
+PAPER_SOURCES = {"main": "paper/main.tex", "references": "paper/refs.bib"}
 KEPT_TABLE = Path("docs/trials/factorial")  # a table of a trial that the paper shows and takes numbers from
 LOOKED_THROUGH = ("accounts", "results", "beside")  # arguments that are folders, of whatever stands there then
 KEPT = "kept"  # parameter of a figure that shows a file of the repository
@@ -234,7 +233,7 @@ class Products:
         numbers = {
             "train": self.files.training_size("walk"),
             "table_csvs": csvs,
-            "further_csvs": [*(tables / f"{name}.csv" for name in quoted()), KEPT_TABLE.with_suffix(".csv")],
+            "further_csvs": [*(tables / f"{name}.csv" for name in quoted()), project_file(f"{KEPT_TABLE}.csv")],
             "captions": self._captions(),
             "compared": self.settings.evaluation.main_tables,
             "sources": [tables / f"{name}.csv" for name in sources(self.settings.evaluation)],
@@ -243,10 +242,11 @@ class Products:
         }
         written = [tables / "numbers.tex", tables / "captions.tex", *made, *map(self.folders.caption, self._captions())]
         yield self._report_product("numbers", numbers, written)
-        yield self._report_product("deviations", {"markdown": Path("docs/deviations.md")}, [tables / "deviations.tex"])
+        deviations = {"markdown": project_file("docs/deviations.md")}
+        yield self._report_product("deviations", deviations, [tables / "deviations.tex"])
         networks = {"folders": self.files.all_networks()}
         names = ("runs.html", "page.html", "page.css", "runs.css", "page.js", "runs.js", "overlay.js")
-        parts = [TEMPLATES / name for name in names]
+        parts = templates(names)
         tests: list[tuple[str, str]] = []
         for pattern in TESTS:
             tests += [pair for pair in self.files.scored if fnmatch("/".join(pair), pattern)]
@@ -256,7 +256,7 @@ class Products:
         push = demo_needs(self.files)
         yield self._report_product("demo_data", push, [results / FOLDER / name for name in demo_outputs(push)])
         scenes = explore_needs(self.files)
-        yield self._report_product("explore", {**scenes, "templates": EXPLORE}, [results / "explore.html"])
+        yield self._report_product("explore", {**scenes, "templates": templates(EXPLORE)}, [results / "explore.html"])
 
     def _report(self) -> Iterator[Product]:
         """Yield what looks at all other products: compute, the paper, the pages of the report and the manifest."""
@@ -267,11 +267,11 @@ class Products:
         compute = [results / f"compute.{ending}" for ending in TABLE]
         yield self._report_product("compute", accounts, compute)
         names = (*self.table_names, "numbers", "captions", "deviations")
-        texts = [*(tables / f"{name}.tex" for name in names), compute[1], KEPT_TABLE.with_suffix(".tex")]
-        sources = {"main": Path("paper/main.tex"), "references": Path("paper/refs.bib"), "tables": texts}
+        texts = [*(tables / f"{name}.tex" for name in names), compute[1], project_file(f"{KEPT_TABLE}.tex")]
+        sources = {name: project_file(path) for name, path in PAPER_SOURCES.items()}
         figures = [self.folders.figures / f"{picture}.pdf" for picture in self.drawn]
         built = [paper / "build.json", *([paper / "main.pdf"] if self.with_pdf else [])]
-        yield self._report_product("paper", {**sources, "figures": figures}, built)
+        yield self._report_product("paper", {**sources, "tables": texts, "figures": figures}, built)
         listed = [*(tables / f"{name}.md" for name in self.table_names), results / "compute.md"]
         pages = [results / "pages" / f"{path.stem}.html" for path in listed]
         told = [found.caption for page in pages if (found := shown(str(page)))]
@@ -285,22 +285,22 @@ class Products:
     def _first_page(self) -> dict[str, object]:
         """Return what the page on which the report opens needs, and the templates of all pages."""
         names = ("page.html", "page.css", "page.js", "bar.html", "index.css", "claims.css", "claims.js")
-        parts = [TEMPLATES / name for name in names]
+        parts = templates(names)
         return {
             "pictures": [
-                (self.folders.figures / f"{name}.png", self.folders.caption(CAPTIONS / "figures" / f"{name}.rst"))
+                (self.folders.figures / f"{name}.png", self.folders.caption(caption_of("figures", name)))
                 for name in self.figure_names
                 if row_of(self.settings.evaluation, name).pictured
             ],
-            "first": CAPTIONS / "start" / "index.rst",
-            "templates": {name: TEMPLATES / f"{name}.html" for name in ("table", "claims", "index")},
+            "first": caption_of("start", "index"),
+            "templates": {name: project_file(TEMPLATES / f"{name}.html") for name in ("table", "claims", "index")},
             "read": [*parts, *(self.folders.tables / f"{name}.csv" for name in ("claims", *HEADLINE))],
         }
 
     def _captions(self) -> list[Path]:
         """Return the captions of all tables and figures that have one, for the paper and the report."""
-        files = _files(CAPTIONS / "tables", [*self.table_names, "compute", KEPT_TABLE.name], ["rst"])
-        files += _files(CAPTIONS / "figures", [*self.drawn, STILL], ["rst"])
+        files = [caption_of("tables", name) for name in (*self.table_names, "compute", KEPT_TABLE.name)]
+        files += [caption_of("figures", name) for name in (*self.drawn, STILL)]
         return [path for path in files if path.is_file()]
 
     def _report_product(self, name: str, needs: Mapping[str, object], outputs: list[Path]) -> Product:
@@ -366,13 +366,23 @@ def _files(folder: Path, names: Iterable[str], endings: Iterable[str]) -> list[P
     return found
 
 
+def templates(names: Iterable[str]) -> list[Path]:
+    """Return templates of pages by their names."""
+    return [project_file(TEMPLATES / name) for name in names]
+
+
+def caption_of(kind: str, name: str) -> Path:
+    """Return the file of a caption of the project, whether or not it is there."""
+    return project_file(CAPTIONS / kind / f"{name}.rst")
+
+
 def shown(file: str) -> Shown | None:
     """Return how the report shows a file; None if it does not."""
     path = Path(file)
     heading = HEADINGS.get(path.name, HEADINGS.get(path.suffix))
     if heading is None:
         return None
-    caption = CAPTIONS / heading / f"{path.stem}.rst"
+    caption = caption_of(heading, path.stem)
     if not caption.is_file():
         return Shown(heading, path.stem, None)
     return Shown(heading, caption.read_text(encoding="utf-8").splitlines()[0], caption)

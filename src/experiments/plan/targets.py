@@ -39,6 +39,8 @@ def faults_of_words(words: Any, rules: Rules, shown: Sequence[str], scales: Iter
                 yield not_accepted(f"{typed(option)}: rule", name, names)
     for name in words.set_scatter:
         yield not_accepted("--set-scatter", name, ())
+    if words.default_storage_provider:  # files have other names there, which Snakemake checks itself
+        return
     for option in OF_RULES_AND_FILES:
         for name in getattr(words, option) or ():
             if name not in names and not is_made(name, rules):
