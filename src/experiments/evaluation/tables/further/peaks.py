@@ -7,7 +7,7 @@ import pandas as pd
 
 from experiments.evaluation.measure.estimates.peaks import BOUND, DELAY, OBSERVER, SHARE
 from experiments.evaluation.number.frames import read_scores, rows_of
-from experiments.evaluation.number.number import interval_text, number_text
+from experiments.evaluation.number.number import interval_text, is_missing, number_text
 from experiments.evaluation.number.scored import AVERAGE, asked_of, numbers_of
 from experiments.evaluation.tables.layout import Table, in_blocks, records_of, write_table
 from experiments.settings.measures import Peaks
@@ -47,7 +47,8 @@ def lines_of(averages: pd.DataFrame) -> list[list[str]]:
         if not lines:
             lines.append([REFERENCE, "1", "", *texts_of(numbers[DELAY + OBSERVER], 1)])
         late, ends = texts_of(numbers[DELAY], 1)
-        is_bound = float(numbers[BOUND]["value"]) > 0
+        bound = numbers[BOUND]["value"]
+        is_bound = not is_missing(bound) and bound > 0
         share = texts_of(numbers[SHARE], 2)
         lines.append([str(method), *share, f">{late}" if is_bound else late, ends])
     return lines
