@@ -192,14 +192,20 @@ def test_notes_are_few_and_named_by_their_subjects():
     assert [path for path in NOTES if not re.match(r"# [A-Z]", path.read_text())] == []
 
 
-def test_the_table_of_old_numbers_leads_to_each_anchor_once():
+def test_the_table_of_old_numbers_leads_to_the_anchor_of_each_that_the_changelog_cites():
     rows = re.findall(r"^\| (\d{4}) \| \[[^]]+\]\((\w+\.md)#note-(\d{4})\) \|$", NUMBERED.read_text(), re.MULTILINE)
     assert [number for number, _, anchor in rows if number != anchor] == []
-    placed = [(path.name, number) for path in NOTES for number in ANCHOR.findall(path.read_text())]
-    assert sorted((name, number) for number, name, _ in rows) == sorted(placed)
-    unused = re.findall(r"\d{4}", NUMBERED.read_text().rsplit("\n\n", 1)[1])
-    numbers = sorted(int(number) for number in [*unused, *(number for number, _, _ in rows)])
-    assert numbers == list(range(1, 49))
+    placed = {(path.name, number) for path in NOTES for number in ANCHOR.findall(path.read_text())}
+    assert {(name, number) for number, name, _ in rows} <= placed
+    cited = " ".join(CITED.findall((ROOT / "CHANGELOG.md").read_text()))
+    assert sorted(number for number, _, _ in rows) == sorted(set(re.findall(r"\d{4}", cited)))
+
+
+def test_no_anchor_of_an_old_number_is_dead():
+    linked = {number for path in CITING for number in re.findall(r"#note-(\d{4})\b", path.read_text(encoding="utf-8"))}
+    placed = [number for path in NOTES for number in ANCHOR.findall(path.read_text())]
+    assert len(placed) == len(set(placed))
+    assert set(placed) - linked == set()
 
 
 def test_every_number_and_every_file_of_a_note_that_is_named_anywhere_leads_somewhere():
