@@ -186,7 +186,9 @@ def read_hits(files: Mapping[str, Mapping[str, Path]], robots: Sequence[str]) ->
     lost = hits[hits["push"].isna()]
     if len(lost):
         robot, number, seed = lost[["robot", "number", "seed"]].iloc[0]
-        raise DataError(f"{files[robot]['detected']}: {not_accepted('number', int(number), [f'collisions of walk {seed}'])}")
+        raise DataError(
+            f"{files[robot]['detected']}: {not_accepted('number', int(number), [f'collisions of walk {seed}'])}"
+        )
     return hits.assign(found=hits["delay_s"].notna())[list(HITS)]
 
 

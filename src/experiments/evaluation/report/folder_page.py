@@ -1,6 +1,6 @@
-"""The page of the folder of published results, which a code host shows: each table and figure, title and files.
+"""What a code host shows of the published results: a page of the folder, and title and caption above each table.
 
-`./reproduce snapshot` writes it; `python -m experiments.evaluation.report.folder_page` writes it where a title changed.
+`./reproduce snapshot` writes both; `python -m experiments.evaluation.report.folder_page` does where a caption changed.
 """
 
 import logging
@@ -8,7 +8,7 @@ import sys
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from experiments.evaluation.report.site.results import PAPER, Item, items_of
+from experiments.evaluation.report.site.results import PAPER, Item, items_of, with_head
 from mobnet.core.errors import MobnetError
 from mobnet.core.files import write_text
 
@@ -21,7 +21,7 @@ HEAD = """# Published results
 
 What the run of the newest version in the [CHANGELOG](../../CHANGELOG.md) found: each table and figure by its title,
 with its files. Commands wrote this folder, `./reproduce snapshot` first; nothing in it is edited by hand, and
-`provenance.json` says what was made after the run. `./reproduce docs` makes pages of it with captions and claims.
+`provenance.json` says what was made after the run. `./reproduce docs` makes pages of it with claims.
 `./reproduce draw` draws figures as SVG and PDF from the numbers here; those that show more than their numbers are made
 by a run.
 """
@@ -99,8 +99,11 @@ def _tables(items: Sequence[Item], results: Path) -> Iterator[str]:
 
 
 def write_page(results: Path = RESULTS, captions: Path = CAPTIONS) -> None:
-    """Write the page into a folder of published results; captions are those of a folder."""
+    """Write the page, and heads of tables, into a folder of published results; captions are those of a folder."""
     found = [path for kind in ("figures", "tables") for path in sorted((captions / kind).glob("*.rst"))]
+    for item in items_of(results, found):
+        if not item.is_figure:
+            write_text(item.shown, with_head(item))
     write_text(results / PAGE, folder_page(results, found))
 
 

@@ -8,6 +8,7 @@ import pytest
 from links import broken
 
 from experiments.evaluation.report.folder_page import FIRST, PAGE, RUN, folder_page, write_page
+from experiments.evaluation.report.site.results import items_of, with_head
 
 REPO = Path(__file__).parents[4]
 PUBLISHED = REPO / "docs" / "results"
@@ -45,9 +46,28 @@ def test_items_are_grouped_by_kind_and_by_whose_they_are(results: Path) -> None:
     assert "explore.html" not in page
 
 
+def test_a_table_has_its_title_and_caption_above_its_rows_once(results: Path) -> None:
+    table = results / "table_05.md"
+    table.write_text("| a |\n| --- |\n| 1.25 |\n\nA note.\n")
+    for _ in range(2):
+        write_page(results, results.parent)
+        assert table.read_text() == "# Title of table_05 (ours)\n\nText.\n\n| a |\n| --- |\n| 1.25 |\n\nA note.\n"
+
+
+def captions() -> list[Path]:
+    """Return the captions of tables and figures."""
+    return [path for kind in ("figures", "tables") for path in sorted((REPO / f"workflow/report/{kind}").iterdir())]
+
+
+def test_every_published_table_has_its_title_and_caption() -> None:
+    tables = [item for item in items_of(PUBLISHED, captions()) if not item.is_figure]
+    assert {item.shown for item in tables} == {*PUBLISHED.glob("*.md")} - {PUBLISHED / PAGE}
+    for item in tables:
+        assert item.shown.read_text() == with_head(item), AGAIN
+
+
 def test_the_published_page_is_that_of_the_published_files_and_captions() -> None:
-    captions = [path for kind in ("figures", "tables") for path in sorted((REPO / f"workflow/report/{kind}").iterdir())]
-    assert (PUBLISHED / PAGE).read_text() == folder_page(PUBLISHED, captions), AGAIN
+    assert (PUBLISHED / PAGE).read_text() == folder_page(PUBLISHED, captions()), AGAIN
     assert list(broken([PUBLISHED / PAGE])) == []
 
 

@@ -16,6 +16,7 @@ PLACE = "docs/results"
 FIGURES = "figures"  # folder of their captions and of the CSVs of their numbers
 PRINTED = re.compile(r"\b(Table|Figure) (\d+)")
 PAPER = re.compile(r"(table|figure)_\d")
+FIRST_ROW = re.compile(r"^\|", re.MULTILINE)
 ALL_CLAIMS = "claims"
 CLAIMS_PAGE = f"{PLACE}/all_claims.html"  # the page of the report: as a plain table the claims are 24 000 px high
 HEAD = """# Tables and figures
@@ -112,7 +113,18 @@ def _table(item: Item) -> str:
     """Return the table of an item, or the link to the page of all claims, which is no page of Sphinx."""
     if item.name == ALL_CLAIMS:
         return f'<p><a href="{Path(CLAIMS_PAGE).name}">All claims, to filter, sort and open</a></p>'
-    return read_text(item.shown).strip()
+    return table_in(read_text(item.shown)).strip()
+
+
+def table_in(text: str) -> str:
+    """Return the table of a Markdown file, and what stands below it, without what stands above."""
+    start = FIRST_ROW.search(text)
+    return text[start.start() :] if start else ""
+
+
+def with_head(item: Item) -> str:
+    """Return the Markdown of a table with its title and caption above, as a code host shows it."""
+    return f"# {item.title}\n\n{item.caption}\n\n{table_in(read_text(item.shown))}"
 
 
 def _gallery(items: Sequence[Item]) -> str:
