@@ -15,7 +15,7 @@ from mobnet.robot.description import RobotDescription
 from mobnet.robot.given import given_robot
 from mobnet.robot.nominal import NominalModel
 from mobnet.robotlog.detected import LogDetection, detect_log
-from mobnet.robotlog.flags import COLUMNS
+from mobnet.robotlog.flags import COLUMNS, pushed_rows
 from mobnet.robotlog.flags_mcap import write_mcap
 from mobnet.robotlog.plot import plot_flags
 from mobnet.robotlog.wrenches import place_of, wrench_lines, wrenches_of, write_wrenches
@@ -35,7 +35,8 @@ def write_detected(
     note = {"method": found.method, "network": network.fingerprint if network else None}
     write_estimate(out / ESTIMATE, read, made.estimate, found.joints, robot.layout, note)
     write_text(out / FLAGS, csv_text(COLUMNS, [flag.row() for flag in made.flags]))
-    plot_flags(made.observed.converted.time_s, read.segments, made.watched, made.flags, found, out / PLOT)
+    pushed = pushed_rows(made.observed.converted, found.joints)
+    plot_flags(made.observed.converted.time_s, read.segments, made.watched, made.flags, found, pushed, out / PLOT)
 
 
 def report_lines(made: LogDetection) -> Iterator[str]:

@@ -16,6 +16,7 @@ from mobnet.settings.limb_thresholds import LimbThresholds
 
 MOST_POINTS = 4000  # of a line, two for each stretch: more than a page shows
 PANEL_INCH, EDGE_INCH, BETWEEN = 1.1, 0.5, 0.5  # height of a panel, edge of the page, and gap as a share of a panel
+FOOT = 0.06  # height of the bar of a push, share of a panel
 PALE, DARK = 0.2, 0.5  # opacity of a flag in all panels, and in that of its joint
 LABELS = {"mean": "torque [N m]", "std": "sigma [N m]", "ratio": "torque / sigma [-]"}
 
@@ -65,12 +66,14 @@ def plot_flags(
     signals: Array,
     flags: Sequence[Flag],
     found: LimbThresholds,
+    pushed: NDArray[np.bool_] | None,
     stem: Path,
 ) -> None:
     """Write what is watched of a limb behind the low-pass (T, n) over time (T,) [s] as `stem.png`, a panel a joint.
 
     Thresholds are dashed on both sides of zero, flags are bands, darker in the panel of the joint that lies highest
-    above its threshold; a line is broken where a segment ends.
+    above its threshold; a line is broken where a segment ends. Where the log tells when it was pushed (T,), bars at the
+    foot of each panel show it, so that a push that was missed is seen.
     """
     from matplotlib.figure import Figure
     from matplotlib.patches import Patch
@@ -79,12 +82,15 @@ def plot_flags(
     figure = Figure(figsize=(PAGE_INCH, PANEL_INCH * count + 0.4), layout="constrained")
     axes = figure.subplots(count, 1, squeeze=False, sharex=True)[:, 0]
     step = max(1, len(signals) // MOST_POINTS)
+    pushes = [] if pushed is None else stretches(pushed, tuple(segments), 0)
     for k, (axis, joint, threshold) in enumerate(zip(axes, found.joints, found.thresholds, strict=True)):
         for number, (start, end) in enumerate(segments):
             times, values = _peaks(time_s[start:end], signals[start:end, k], step)
             axis.plot(times, values, linewidth=0.7, color="C0", label=None if number else "estimate")
         for side in (1.0, -1.0) if found.signal != "std" else (1.0,):
             axis.axhline(side * threshold, linewidth=0.7, linestyle="--", color="0.3", label=_once("threshold", side))
+        for start, end in pushes:
+            axis.axvspan(time_s[start], time_s[end - 1], ymax=FOOT, color="0.2", linewidth=1.0)
         for flag in flags:
             alpha = DARK if flag.joint == joint else PALE
             axis.axvspan(flag.start_s, flag.end_s, color="C3", alpha=alpha, linewidth=1.0)
@@ -96,7 +102,9 @@ def plot_flags(
         Patch(color="C3", alpha=alpha, label=label)
         for alpha, label in ((DARK, "flag, highest at this joint"), (PALE, "flag, highest at another joint"))
     ]
-    axes[0].legend(handles=[*lines, *bands], loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=4, frameon=False)
+    if pushes:
+        bands.append(Patch(color="0.2", label="push"))
+    axes[0].legend(handles=[*lines, *bands], loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=5, frameon=False)
     axes[-1].set_xlabel("time [s]")
     settle(figure)
     with atomic_path(stem.with_suffix(".png")) as temporary:

@@ -8,7 +8,7 @@ import pytest
 from matplotlib.figure import Figure
 
 from mobnet.robot.description import describe
-from mobnet.robotlog.plot import MOST_POINTS, plot_residual
+from mobnet.robotlog.plot import FOOT, MOST_POINTS, plot_flags, plot_residual
 from mobnet.settings.lab import load_section
 from mobnet.settings.robot import RobotTable
 
@@ -16,17 +16,23 @@ ROWS = 100_000
 
 
 @pytest.fixture
-def line(tmp_path, monkeypatch):
-    """Return a function of a residual (T, 2) in two segments that draws it and returns the line of the first joint."""
-    layout = describe(load_section(Path("tests/data/arm.yaml"), RobotTable)).layout
-    drawn = list[Figure]()
+def drawn(monkeypatch):
+    """The figures that are saved."""
+    figures = list[Figure]()
     save = Figure.savefig
 
     def kept(figure, *args, **kwargs):
-        drawn.append(figure)
+        figures.append(figure)
         save(figure, *args, **kwargs)
 
     monkeypatch.setattr(Figure, "savefig", kept)
+    return figures
+
+
+@pytest.fixture
+def line(tmp_path, drawn):
+    """Return a function of a residual (T, 2) in two segments that draws it and returns the line of the first joint."""
+    layout = describe(load_section(Path("tests/data/arm.yaml"), RobotTable)).layout
 
     def draw(residual):
         half = len(residual) // 2
@@ -51,3 +57,18 @@ def test_a_short_log_is_drawn_sample_by_sample_and_broken_between_its_segments(l
     xy = line(residual)
     np.testing.assert_array_equal(np.flatnonzero(np.isnan(xy[:, 1])), [100, 201])
     np.testing.assert_array_equal(xy[~np.isnan(xy[:, 1]), 1], residual[:, 0])
+
+
+def test_pushes_that_the_log_tells_are_seen_below_the_flags(drawn, tmp_path):
+    time_s = np.arange(100) / 100.0
+    found = SimpleNamespace(joints=("J1", "J2"), thresholds=(1.0, 2.0), signal="mean")
+    pushed = np.zeros(100, dtype=bool)
+    pushed[20:31] = True
+
+    def bars(pushed):
+        plot_flags(time_s, ((0, 100),), np.zeros((100, 2)), (), found, pushed, tmp_path / "flags")
+        return [[patch.get_bbox().bounds for patch in axis.patches] for axis in drawn[-1].axes]
+
+    assert bars(None) == [[], []]
+    for (bar,) in bars(pushed):
+        assert bar == pytest.approx((0.2, 0.0, 0.1, FOOT))

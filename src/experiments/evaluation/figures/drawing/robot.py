@@ -16,7 +16,7 @@ from mobnet.robot.description import RobotDescription
 from mobnet.settings.data import Obstacle, ObstaclePart
 from mobnet.settings.parts import ShapeRow
 
-PAD = "#E3B7A0"
+PAD, OPACITY = "#E3B7A0", 0.55  # of obstacles, through which a leg that touches them is seen
 FORCE = "#D55E00"
 ARROW_M_N = 0.002  # length of an arrow for each newton
 AXES = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
@@ -100,4 +100,4 @@ def solid_of(part: ObstaclePart, place: Sequence[float]) -> Solid:
     else:
         reach = part.size[1] * np.array(AXES[part.axis])
         own = {"size": part.size[:1], "segment": (*(np.array(part.pos) - reach), *(np.array(part.pos) + reach))}
-    return Solid(ShapeRow.model_construct(**{**like, **own}), np.eye(3), np.asarray(place), PAD)
+    return Solid(ShapeRow.model_construct(**{**like, **own}), np.eye(3), np.asarray(place), PAD, OPACITY)

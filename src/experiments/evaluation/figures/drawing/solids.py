@@ -47,12 +47,14 @@ class Solid:
         rotation: orientation of the body (3, 3).
         position: origin of the body (3,) [m].
         colour: in Matplotlib's terms.
+        opacity: of its faces; 1 hides what is behind.
     """
 
     shape: ShapeRow
     rotation: Array
     position: Array
     colour: Any
+    opacity: float = 1.0
 
     @cached_property
     def ends(self) -> Array:
@@ -87,9 +89,14 @@ class Solid:
 def draw_solids(axis: Axes, solids: Iterable[Solid], view: Array, zorder: float = 2.0) -> None:
     """Draw solids into axes in metres, the farther ones first; the view (3, 3) is that of `projection`."""
     found = sorted(solids, key=lambda solid: float((solid.ends @ view[2]).mean()))
-    polygons = [polygon for solid in found for polygon in polygons_of(solid, view)]
-    corners, colours, lines, widths = zip(*polygons, strict=True)
-    drawn = PolyCollection(corners, facecolors=colours, edgecolors=lines, linewidths=widths, zorder=zorder)
+    polygons: list[Polygon] = []
+    faces: list[tuple[float, ...]] = []
+    for solid in found:
+        own = list(polygons_of(solid, view))
+        polygons += own
+        faces += [(*polygon.colour, solid.opacity) for polygon in own]
+    corners, _, lines, widths = zip(*polygons, strict=True)
+    drawn = PolyCollection(corners, facecolors=faces, edgecolors=lines, linewidths=widths, zorder=zorder)
     axis.add_collection(drawn, autolim=False)
     axis.set_aspect("equal")
     axis.set_axis_off()

@@ -39,6 +39,7 @@ MARKERS, COLOURS = "os^v", ("black", "0.55")  # of cases
 REACTION = LOOKS["MOB-Net"].colour  # the reaction is that of a method with MOB-Net
 BARS = {"all contacts": "0.6", "begun in mid-swing": "0.85"}  # label -> shade, as they stand beside each other
 WIDTH = 0.4  # of a bar, where cases are 1 apart
+LONG, ROOM = 1.5, 1.1  # an interval that many times as long as the next one is cut; room above the others
 APART_MS = 4.0  # so that intervals of two cases do not cover each other
 
 
@@ -147,27 +148,40 @@ def draw_late(axis: Axes, late: Mapping[str, Mapping[float, Number]]) -> None:
             "color": COLOURS[k % len(COLOURS)],
             "markersize": 3,
             "linewidth": 0.8,
+            "linestyle": "none",  # few walks at each delay: a line would show a course that nothing was measured of
         }
         axis.errorbar(waits, value, [value - low, high - value], label=case, capsize=2.0, **look)
-    axis.set(xlabel="delay [ms]", ylabel="share of walks", ylim=(-0.05, 1.05))
+    axis.set(xlabel="late by [ms]", ylabel="share of walks", ylim=(-0.05, 1.05))
 
 
 def draw_means(axis: Axes, numbers: Mapping[str, Sequence[Number]], published: PublishedContacts, name: str) -> None:
-    """Draw the means of each case with their intervals, one bar for each of BARS, and the paper's as a dot."""
+    """Draw the means of each case with their intervals, one bar for each of BARS, and the paper's as a dot.
+
+    An interval much longer than all others ends at the edge, with its end as text: else nothing else could be read.
+    """
     places = np.arange(len(numbers))
+    values, lows, highs = np.array(
+        [[own[k].range for own in numbers.values()] for k in range(len(BARS))], dtype=np.float64
+    ).transpose(2, 0, 1)
     for k, (label, shade) in enumerate(BARS.items()):
-        value, low, high = np.array([own[k].range for own in numbers.values()], dtype=np.float64).T
         axis.bar(
             places + (k - (len(BARS) - 1) / 2) * WIDTH,
-            value,
+            values[k],
             WIDTH,
             color=shade,
             edgecolor="black",
             linewidth=0.4,
             label=label,
-            yerr=[value - low, high - value],
+            yerr=[values[k] - lows[k], highs[k] - values[k]],
             error_kw={"linewidth": 0.8, "capsize": 2.0},
         )
     printed = [printed_of(published, case, name) for case in numbers]
     axis.plot(places, [np.nan if one is None else one for one in printed], "kD", markersize=3, label="original")
     axis.set_xticks(places, list(numbers))
+    *_, second, longest = sorted(highs[np.isfinite(highs)]) or (0.0, 0.0)
+    if longest > LONG * second:
+        top = ROOM * second
+        axis.set_ylim(0.0, top)
+        k, case = np.argwhere(highs == longest)[0]
+        place = places[case] + (k - (len(BARS) - 1) / 2) * WIDTH
+        axis.annotate(f"to {longest:.0f}", (place, top), (-3.0, 0.0), textcoords="offset points", va="top", ha="right")
