@@ -8,6 +8,7 @@ import numpy as np
 
 from mobnet.core.estimator import Estimate
 from mobnet.core.recording import read_sensed
+from mobnet.detection.numbers import watched_signals
 from mobnet.detection.signals import Watched
 from mobnet.detection.watch import LegSetup
 from mobnet.estimation.recipe import build_estimator
@@ -62,6 +63,6 @@ class DemoPush:
         """The filters of the detector, with the thresholds of the published run."""
         with (DATA / "thresholds.csv").open() as file:
             values = {(int(row["phase"]), row["signal"]): float(row["value"]) for row in csv.DictReader(file)}
-        names = Watched(self.row.watching).names(self.joints)
+        names = Watched(watched_signals(self.row)).names(self.joints)
         limits = [[values[phase, name] for name in names] for phase in range(1, self.row.phases + 1)]
         return self.setup.chain(np.array(limits))

@@ -29,6 +29,7 @@ from mobnet.detection.contact import Contact
 from mobnet.detection.detector import ALARM_RATIO, LegDetector
 from mobnet.detection.limb import OwnRecording, calibrate_limb
 from mobnet.detection.limb_report import thresholds_of
+from mobnet.detection.numbers import contact_numbers
 from mobnet.detection.threshold_file import check_thresholds, read_thresholds, sampling_of, setup_with, watched_of
 from mobnet.detection.watch import LegSetup
 from mobnet.estimation.estimate import only
@@ -406,7 +407,7 @@ class ContactFinder:
             ConfigError: limb or joints are unknown, or the limb has no shapes.
         """
         own = robot.description.layout.limb(limb) if joints is None else tuple(joints)
-        self._finder = contact.ContactLocator.of(lab().contact_point.numbers, robot.description, limb, own)
+        self._finder = contact.ContactLocator.of(contact_numbers(lab().contact_point), robot.description, limb, own)
         self.joints = self._finder.joints
 
     def __repr__(self) -> str:

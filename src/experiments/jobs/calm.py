@@ -21,6 +21,7 @@ from mobnet.core.reactions import FORCE_SENSORS
 from mobnet.core.recording import Recording, Sensed, read_recording
 from mobnet.core.rows import csv_text
 from mobnet.detection.calibration import unit_of
+from mobnet.detection.numbers import tail_numbers
 from mobnet.detection.thresholds import calibrate
 from mobnet.detection.watch import LegSetup
 from mobnet.reaction.watchers import some
@@ -132,7 +133,7 @@ def limb_thresholds(robot: ReactingRobot, heights: Sequence[Array]) -> Array:
     scale = np.quantile(largest, numbers.scale_quantile, axis=0)
     rate_per_h = numbers.rates_per_h[robot.reaction.ours.rule]
     walked_s = len(largest) * robot.detection.window_s
-    found = calibrate((largest / scale).max(axis=1), episodes.tolist(), walked_s, rate_per_h, numbers.tail)
+    found = calibrate((largest / scale).max(axis=1), episodes.tolist(), walked_s, rate_per_h, tail_numbers(numbers))
     return found.factor * scale
 
 

@@ -22,6 +22,7 @@ from mobnet.core.recording import Sensed
 from mobnet.core.rows import csv_text, read_rows
 from mobnet.core.store import write_array
 from mobnet.detection.detector import LegDetector
+from mobnet.detection.numbers import watched_signals
 from mobnet.detection.signals import Watched
 from mobnet.detection.watch import LegSetup
 from mobnet.reaction.handler import Handler, Watcher
@@ -167,7 +168,7 @@ class CaseWalker:
         if watch.detector == FORCE_SENSORS:
             return FootWatcher(setup.gate, setup.chain(np.array([[own[1, FORCE]]]), norm=True), columns, wrenches)
         row = self.robot.detection.detectors[watch.detector]
-        watched = Watched(row.watching)
+        watched = Watched(watched_signals(row))
         names = watched.names(setup.joints)
         limits: list[list[float]] = []
         for phase in range(1, row.phases + 1):

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from experiments.plan.parts import MethodRun
 from mobnet.core.estimator import TorqueEstimator, once
+from mobnet.detection.numbers import watched_signals
 from mobnet.detection.signals import Watched
 from mobnet.detection.watch import LegSetup
 from mobnet.estimation.observe import observer_of
@@ -59,7 +60,7 @@ class ReactingRobot:
     @property
     def watched(self) -> Watched:
         """What our detector watches."""
-        return Watched(self.detection.detectors[self.reaction.ours.detector].watching)
+        return Watched(watched_signals(self.detection.detectors[self.reaction.ours.detector]))
 
     @cached_property
     def base(self) -> BaseForce:

@@ -357,7 +357,10 @@ class Evaluation(Section):
             "figures.paper.figure_13:figure_13", needs={"detections": "detections", "recordings": "struck"}, figure=True
         ),
     ]
-    figure_14: Annotated[Figure14, MadeBy("figures.paper.figure_14:figure_14", needs=DETECTIONS, figure=True)]
+    figure_14: Annotated[
+        Figure14,
+        MadeBy("figures.paper.figure_14:figure_14", needs=DETECTIONS, published="section_5_3", figure=True),
+    ]
     figure_15: Annotated[
         Figure15,
         MadeBy(

@@ -105,6 +105,14 @@ class PublishedContact(Section):
     momentum_ns: Positive = Field(le=1000)
 
 
+class PublishedCollisions(Section):
+    """Section 5.3: means of the collisions of a leg. It gives none of the force."""
+
+    printed: Text
+    impulse_ns: Positive
+    contact_ms: Positive
+
+
 class PublishedContacts(Section):
     """Section 5.4: means of five collisions with a fixed obstacle."""
 
@@ -126,4 +134,5 @@ class Published(Section):
     data: PublishedData
     uncertainty: PublishedUncertainty
     kinds: PublishedKinds
+    section_5_3: PublishedCollisions
     section_5_4: PublishedContacts

@@ -13,6 +13,7 @@ from mobnet.core.errors import DataError
 from mobnet.core.estimator import Estimate
 from mobnet.detection.chain import Chain
 from mobnet.detection.gate import Spans, episodes_of, largest
+from mobnet.detection.numbers import tail_numbers
 from mobnet.detection.signals import MEAN, STD, Watched, slopes_of, whitening_of
 from mobnet.detection.thresholds import HOUR_S, Calibrated, calibrate
 from mobnet.detection.watch import LegRecording, LegSetup, LimbSetup
@@ -155,7 +156,9 @@ def rate_scales(
     seen = swing_ratios(walk.legs, chain, walk.signals(watched))[: walk.first]
     episodes = episodes_of((one.episodes or one.segments, one.swings) for one in walk.legs)[: walk.first]
     rates = numbers.rates_per_h.items()
-    return scales, {kind: calibrate(seen, episodes, walk.hours * HOUR_S, rate, numbers.tail) for kind, rate in rates}
+    return scales, {
+        kind: calibrate(seen, episodes, walk.hours * HOUR_S, rate, tail_numbers(numbers)) for kind, rate in rates
+    }
 
 
 def swing_ratios(legs: Sequence[LegRecording], chain: Chain, signals: Sequence[Array]) -> Array:

@@ -22,6 +22,7 @@ from mobnet.core.printed import printed
 from mobnet.core.word_checks import check_export
 from mobnet.detection.chain import make_chain
 from mobnet.detection.detector import LegGate
+from mobnet.detection.numbers import gate_numbers
 from mobnet.detection.signals import MEAN
 from mobnet.detection.threshold_file import read_thresholds
 from mobnet.estimation.observer import RobotObserver
@@ -239,7 +240,7 @@ def export_folders(
         ),
     )
     sweep(out)
-    return export(networks, robot, run_time, found, settings.detection.gate.numbers, out), networks
+    return export(networks, robot, run_time, found, gate_numbers(settings.detection.gate), out), networks
 
 
 def run(options: Namespace) -> Iterator[str]:

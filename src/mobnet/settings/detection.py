@@ -4,7 +4,6 @@ from typing import Annotated
 
 from pydantic import AfterValidator, Field
 
-from mobnet.kernel.detecting import ContactNumbers, GateNumbers, TailNumbers, WatchedSignals
 from mobnet.kernel.detecting import Signal as Signal
 from mobnet.settings import base
 from mobnet.settings.base import Section
@@ -22,11 +21,6 @@ class SwingGate(Section):
     contact_deg: base.Real = Field(gt=0, le=90)
     contact_s: base.Real = Field(ge=0.001, le=1)
 
-    @property
-    def numbers(self) -> GateNumbers:
-        """What the gate is made with."""
-        return GateNumbers(**self.model_dump(exclude={"method"}))
-
 
 class Thresholds(Section):
     """How thresholds follow from walks that nothing pushes: by the paper's rule, and for rates of false alarms."""
@@ -41,17 +35,6 @@ class Thresholds(Section):
     resamples: base.Whole = Field(ge=50, le=100_000)
     confidence: base.Real = Field(ge=0.5, lt=1)
     rates_per_h: Annotated[dict[base.LowerName, base.Positive], Field(min_length=1)]
-
-    @property
-    def tail(self) -> TailNumbers:
-        """How thresholds for a rate are made."""
-        return TailNumbers(
-            tail_share=self.tail_share,
-            on_average=self.on_average,
-            least_swings=self.least_swings,
-            resamples=self.resamples,
-            confidence=self.confidence,
-        )
 
 
 class Sensitivity(Section):
@@ -80,11 +63,6 @@ class DetectorSettings(Section):
     norm: base.Flag = False
     phases: base.Whole = Field(default=1, ge=1, le=100)
     commanded: base.Flag = False
-
-    @property
-    def watching(self) -> WatchedSignals:
-        """What it watches."""
-        return WatchedSignals(**self.model_dump(exclude={"method"}))
 
 
 class Detection(Section):
@@ -128,8 +106,3 @@ class ContactPoint(Section):
     error_n: base.NotNegative = Field(le=1000)
     ground_n: base.Positive = Field(le=100_000)
     ground_nm: base.Positive = Field(le=100_000)
-
-    @property
-    def numbers(self) -> ContactNumbers:
-        """What contacts are sought with."""
-        return ContactNumbers(**self.model_dump())

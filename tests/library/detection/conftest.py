@@ -6,11 +6,12 @@ import pytest
 from made_swings import RATE_HZ, swinging
 
 from mobnet.detection.detector import LegGate
+from mobnet.detection.numbers import gate_numbers
 
 
 @pytest.fixture(scope="session")
 def gate(settings, robot):
-    return LegGate.of(settings.detection.gate.numbers, robot, "LL", RATE_HZ)
+    return LegGate.of(gate_numbers(settings.detection.gate), robot, "LL", RATE_HZ)
 
 
 @pytest.fixture(scope="session")

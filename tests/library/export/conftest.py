@@ -9,6 +9,7 @@ from demo_push import NETWORK, DemoPush
 from made_notes import network_note, training_note
 from safetensors.torch import save_file
 
+from mobnet.detection.numbers import gate_numbers
 from mobnet.export.contract import ObserverContract
 from mobnet.export.export import RunTime, export
 from mobnet.export.trained import read_trained
@@ -28,7 +29,7 @@ def run():
 
 @pytest.fixture(scope="session")
 def gate(settings):
-    return settings.detection.gate.numbers
+    return gate_numbers(settings.detection.gate)
 
 
 @pytest.fixture(scope="session")

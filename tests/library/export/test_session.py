@@ -10,6 +10,7 @@ from demo_push import NETWORK
 from mobnet.core.errors import DataError
 from mobnet.core.estimator import Estimate
 from mobnet.detection.detector import ALARM_RATIO, LegDetector
+from mobnet.detection.numbers import watched_signals
 from mobnet.detection.signals import Watched
 from mobnet.estimation.kinds.residual import ResidualEstimator
 from mobnet.export.session import OnnxNetwork, load_exported
@@ -41,7 +42,7 @@ def test_the_whole_recording_gives_the_same_mean_and_deviation(demo, own, lane):
 
 def test_flags_come_at_the_same_samples(demo, push):
     row, setup = push.row, push.setup
-    detector = LegDetector(Watched(row.watching), push.gate, push.chain)
+    detector = LegDetector(Watched(watched_signals(row)), push.gate, push.chain)
     sensed, wanted = push.recording.sensed, push.estimate("MOB-Net-pushed")
     found = _stepped(push, load_exported(demo, push.robot.layout))
     gate = push.gate.run(sensed, push.estimate(setup.detection.gate.method).tau_ext)

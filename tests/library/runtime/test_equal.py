@@ -9,6 +9,7 @@ from c_library import OK, Runtime, load, make
 
 from mobnet.core.estimator import Estimate
 from mobnet.detection.detector import ALARM_RATIO, GateSignal, LegDetector, LegGate, run_over
+from mobnet.detection.numbers import gate_numbers, watched_signals
 from mobnet.detection.signals import Watched
 from mobnet.estimation.kinds.residual import ResidualEstimator
 from mobnet.estimation.observer import RobotObserver
@@ -97,7 +98,7 @@ def test_the_stored_push(runtime, push, published, felt):
     agree(tau[:, columns], felt.tau_ext, SINGLE)
     np.testing.assert_allclose(std[:, columns], felt.std, rtol=SINGLE)
     agree(mean[:, columns], residual[:, columns] - felt.tau_ext, SINGLE)
-    flags = detected(LegDetector(Watched(row.watching), gate, chain), sensed, felt)
+    flags = detected(LegDetector(Watched(watched_signals(row)), gate, chain), sensed, felt)
     np.testing.assert_array_equal(alarms[:, 0, 0] > ALARM_RATIO, flags[:, 0] > ALARM_RATIO)
     assert np.any(flags[:, 0] > ALARM_RATIO)
     np.testing.assert_array_equal(alarms[:, 0, 1:], flags[:, 1:])
@@ -113,7 +114,9 @@ def test_gate_of_both_legs_on_a_walk(runtime, push, settings, foot):
         told = np.repeat(still.astype(float), 2, axis=1)
         sensed = changed(sensed, swing=told, landing=0.14 * told)
     residual, found = observer.residual(sensed), []
-    gates = {limb: LegGate.of(settings.detection.gate.numbers, push.robot, limb, RATE_HZ) for limb in ("LL", "RL")}
+    gates = {
+        limb: LegGate.of(gate_numbers(settings.detection.gate), push.robot, limb, RATE_HZ) for limb in ("LL", "RL")
+    }
     row, chain = (
         WatchedSignals(signals=("mean",), phases=4),
         chain_of(np.linspace(9.0, 40.0, 24).reshape(4, 6)),

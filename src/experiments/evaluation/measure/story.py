@@ -28,6 +28,7 @@ from mobnet.core.notes import read_array_note
 from mobnet.core.recording import SensedRecording, read_sensed
 from mobnet.core.store import NOTE, check_rate, file_of, read_array
 from mobnet.detection.detector import ALARM_RATIO, LegDetector
+from mobnet.detection.numbers import watched_signals
 from mobnet.detection.signals import Watched
 from mobnet.detection.watch import LegSetup
 from mobnet.estimation.recipe import Recipe, build_estimator
@@ -172,7 +173,7 @@ class StoredPush:
         """
         setup = self._setup
         row = self.settings.detection.detectors[self.story.detector]
-        detector = LegDetector(Watched(row.watching), setup.gate, setup.chain(self._thresholds(row)))
+        detector = LegDetector(Watched(watched_signals(row)), setup.gate, setup.chain(self._thresholds(row)))
         gate = setup.gate.run(self.recording.sensed, estimates[setup.detection.gate.method].tau_ext)
         ratio = detector.run(gate, self.recording.sensed, estimates[row.method]).ratio
         start = round(self.story.before_s * setup.rate_hz)
@@ -187,7 +188,7 @@ class StoredPush:
     def _thresholds(self, row: DetectorSettings) -> Array:
         """Return the thresholds of a detector, (phases, signals) [N m], of a ratio [-]."""
         path = self.folder / "thresholds.csv"
-        names = Watched(row.watching).names(self.joints)
+        names = Watched(watched_signals(row)).names(self.joints)
         stored: list[Threshold] = read_detections(path, "thresholds")
         values = {(one.phase, one.signal): one.value for one in stored}
         wanted = list(product(range(1, row.phases + 1), names))

@@ -80,7 +80,13 @@ def test_solids_are_seen_as_large_as_they_are(robot: WalkingRobot) -> None:
 
 
 def test_histograms_count_every_collision(settings: Settings, tmp_path: Path) -> None:
-    figure_14(settings.evaluation.figure_14, settings.detection, write_detections(tmp_path / "detection"), tmp_path)
+    figure_14(
+        settings.evaluation.figure_14,
+        settings.detection,
+        settings.published.section_5_3,
+        write_detections(tmp_path / "detection"),
+        tmp_path,
+    )
     rows = read_table(tmp_path / "figure_14.csv")
     for level in ("all uncertainty", "robots"):
         for quantity in ("largest force", "impulse", "contact time"):

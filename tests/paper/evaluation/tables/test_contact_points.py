@@ -21,6 +21,7 @@ from mobnet.core.errors import DataError
 from mobnet.core.recording import Recording, write_recording
 from mobnet.core.store import write_array
 from mobnet.detection.contact import ContactLocator
+from mobnet.detection.numbers import contact_numbers
 from mobnet.kernel.low_pass import low_pass
 from mobnet.robot.description import RobotDescription
 
@@ -36,7 +37,9 @@ def write_files(settings: Settings, robot: RobotDescription, folder: Path) -> tu
     force = np.zeros(len(sensed))
     force[START : START + LENGTH] = PEAK_N * np.sin(np.pi * np.arange(LENGTH) / LENGTH)
     q, point = sensed.q[START], next(row for row in robot.points if row.name == "left_knee_front")
-    axes, _ = ContactLocator.of(settings.contact_point.numbers, robot, "LL", layout.limb("LL")).place(q, point.body)
+    axes, _ = ContactLocator.of(contact_numbers(settings.contact_point), robot, "LL", layout.limb("LL")).place(
+        q, point.body
+    )
     push = np.zeros((len(sensed), 4))
     push[:, 1:] = -force[:, None] * axes[:, 0]
     push[force > 0.0, 0] = 1 + list(settings.scenarios["collisions"].pushes).index("collision_left_knee_front")

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pandas as pd
+from matplotlib.colors import to_rgba
 from matplotlib.figure import Figure
 
 from experiments.evaluation.figures.style import Look, beside, entitle, legend, looks, save_figure
@@ -13,18 +14,25 @@ from experiments.evaluation.number.frames import read_detection, rows_of
 from experiments.evaluation.number.rows import Field
 from experiments.plan.detection import Detections
 from experiments.settings.detection_tables import Figure14
+from experiments.settings.published import PublishedCollisions
 from mobnet.core.style import styled
 from mobnet.settings.detection import Detection
 
 COLUMNS = ("level", "quantity", "bin_from", "bin_to", "count", "mean", "least", "most", "unit", "published")
 LABELS = {"largest force": "N", "impulse": "N s", "contact time": "ms"}
-PUBLISHED = {"largest force": None, "impulse": 7.0, "contact time": 78.0}  # means, section 5.3
 HEIGHT_INCH = 2.1
 GREY = Look("0.35")
 
 
-def figure_14(settings: Figure14, detection: Detection, detections: Detections, figure_dir: Path) -> None:
+def figure_14(
+    settings: Figure14,
+    detection: Detection,
+    published: PublishedCollisions,
+    detections: Detections,
+    figure_dir: Path,
+) -> None:
     """Write Figure 14 as PDF, SVG, PNG and CSV: histograms of the collisions, those of a level's robots together."""
+    printed = {"impulse": published.impulse_ns, "contact time": published.contact_ms}
     found = {}
     for level in settings.levels:
         collisions = read_detection(detections, owners(detections, level, settings.levels), "collisions")
@@ -41,8 +49,8 @@ def figure_14(settings: Figure14, detection: Detection, detections: Detections, 
             values = own[name]
             ends = float(values.mean()), float(values.min()), float(values.max())
             for low, high, count in zip(edges[name], edges[name][1:], counts, strict=False):
-                rows.append((level, name, float(low), float(high), int(count), *ends, unit, PUBLISHED[name]))
-    save_figure(draw_histograms(found, edges), figure_dir / "figure_14", COLUMNS, rows)
+                rows.append((level, name, float(low), float(high), int(count), *ends, unit, printed.get(name)))
+    save_figure(draw_histograms(found, edges, printed), figure_dir / "figure_14", COLUMNS, rows)
 
 
 def quantities(collisions: pd.DataFrame) -> dict[str, np.ndarray]:
@@ -55,16 +63,18 @@ def quantities(collisions: pd.DataFrame) -> dict[str, np.ndarray]:
 
 
 @styled
-def draw_histograms(found: Mapping[str, Mapping[str, np.ndarray]], edges: Mapping[str, np.ndarray]) -> Figure:
+def draw_histograms(
+    found: Mapping[str, Mapping[str, np.ndarray]], edges: Mapping[str, np.ndarray], printed: Mapping[str, float]
+) -> Figure:
     """Draw a panel for each quantity; a dashed line is the paper's mean."""
     styles = dict(zip(found, (GREY, *looks(found).values()), strict=False))  # colours are those of methods
     figure, axes = beside(len(LABELS), HEIGHT_INCH)
     for k, (axis, (name, unit)) in enumerate(zip(axes, LABELS.items(), strict=True)):
         for level, own in found.items():
-            axis.hist(own[name], edges[name].tolist(), histtype="stepfilled", alpha=0.35, color=styles[level].colour)
-            axis.hist(own[name], edges[name].tolist(), histtype="step", label=level, **styles[level].line)
-        if (mean := PUBLISHED[name]) is not None:
-            axis.axvline(mean, label="mean of the original", color="black", linestyle="--", linewidth=0.8)
+            look = {"facecolor": to_rgba(styles[level].colour, 0.35), "edgecolor": styles[level].colour}
+            axis.hist(own[name], edges[name].tolist(), histtype="stepfilled", label=level, **look)
+        if name in printed:
+            axis.axvline(printed[name], label="mean of the original", color="black", linestyle="--", linewidth=0.8)
         axis.set(xlabel=f"{name} [{unit}]", ylabel="collisions")
         entitle(axis, k, name)
     legend(figure, axes)
