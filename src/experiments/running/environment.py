@@ -8,6 +8,7 @@ import re
 import shlex
 import shutil
 import sys
+import time
 from importlib.metadata import version
 from pathlib import Path
 
@@ -17,6 +18,8 @@ from mobnet.core.libraries import drop_foreign_libraries
 REFUSED = re.compile(r'[:{}"\\\x00-\x1f]')  # in the project's path: a colon parts PATH, others are signs for tools
 WRITTEN = ("results", "tables", "figures", "paper", "docs/results")  # folders in which jobs and a snapshot write
 SCRIPTS = Path(".snakemake") / "scripts"  # what Snakemake runs in a job, removed with the end of the job
+TEMPORARY = Path(".cache") / "tmp"
+DAY_S = 86_400
 ANY = "[a-z0-9_]" * 8  # what tempfile puts into the name of a file
 LONGEST_TEMPORARY = 70  # characters; the path of a Unix socket below it must not pass 108
 OLDEST = "9.25"  # Snakemake that reads the rules
@@ -116,6 +119,8 @@ def this_snakemake() -> str:
 def sweep_project(root: Path) -> None:
     """Remove what a killed run left unfinished in a project's folder; jobs that outlived it may still be writing."""
     left = list((root / SCRIPTS).glob("*"))
+    # Snakemake's own cache of sources. A dry run may stand beside this one, and none lasts a day.
+    left += [path for path in (root / TEMPORARY).glob("snakemake*") if path.stat().st_mtime < time.time() - DAY_S]
     for folder in WRITTEN:
         left += (root / folder).glob(f"**/{PARTIAL}{ANY}.*")
     for path in left:

@@ -1,6 +1,9 @@
 """Of a killed run only unfinished files are removed."""
 
-from experiments.running.environment import sweep_project
+import os
+import time
+
+from experiments.running.environment import DAY_S, sweep_project
 from mobnet.core.files import atomic_path
 
 
@@ -16,6 +19,17 @@ def test_only_unfinished_files_are_removed(tmp_path):
         (tmp_path / name).touch()
     sweep_project(tmp_path)
     assert {str(path.relative_to(tmp_path)) for path in tmp_path.rglob("*") if path.is_file()} == set(kept)
+
+
+def test_what_snakemake_left_is_removed_once_no_run_can_read_it(tmp_path):
+    old, new = (tmp_path / ".cache" / "tmp" / f"snakemake{name}" for name in ("abc", "def"))
+    for folder in (old, new):
+        folder.mkdir(parents=True)
+    before_s = time.time() - 2 * DAY_S
+    os.utime(old, (before_s, before_s))
+    sweep_project(tmp_path)
+    assert not old.exists()
+    assert new.is_dir()
 
 
 def test_what_a_job_that_outlived_its_run_is_writing_stays(tmp_path):
