@@ -7,12 +7,12 @@ columns for readers. A missing number is NaN, as in pandas, where the rows of a 
 # pandas has no complete types, which the strict rules of this folder ask for.
 # pyright: standard
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
 import pandas as pd
 
-from experiments.evaluation.number.rows import read_detections
+from experiments.evaluation.number.rows import Field, read_detections
 from experiments.evaluation.number.rows import read_scores as score_rows
 from experiments.evaluation.number.rows import read_trials as trial_rows
 from mobnet.core.errors import DataError, not_accepted
@@ -219,3 +219,9 @@ def ordered(rows: pd.DataFrame, **orders: Sequence[str]) -> pd.DataFrame:
         rows = rows[rows[name].isin(order)]
         rows = rows.assign(**{name: pd.Categorical(rows[name], list(order))})
     return rows
+
+
+def records_of(rows: pd.DataFrame, columns: Iterable[str]) -> list[list[Field]]:
+    """Return columns of a frame as rows of a CSV file, whose fields are empty where a number is missing."""
+    shown = rows[list(columns)].astype(object)
+    return shown.where(shown.notna(), None).to_numpy().tolist()

@@ -7,11 +7,11 @@ from pathlib import Path
 import pandas as pd
 
 from experiments.evaluation.compare.rmse import RAW
-from experiments.evaluation.number.frames import read_scores
+from experiments.evaluation.number.frames import read_scores, records_of
 from experiments.evaluation.number.laws import measured
 from experiments.evaluation.number.number import interval_text, is_missing, number_text, published_value
 from experiments.evaluation.number.scored import AVERAGE, columns_of, number_of, runs_of
-from experiments.evaluation.tables.layout import PART, Line, Table, in_blocks, records_of, text_table, write_table
+from experiments.evaluation.tables.layout import PART, Line, Table, in_blocks, text_table, write_table
 from experiments.settings.published import Floor, PublishedTable
 from experiments.settings.runs import Statistics
 from experiments.settings.tables import ErrorTable
