@@ -66,7 +66,9 @@ def cells_of(settings: ErrorTable, columns: pd.DataFrame) -> pd.DataFrame:
     # Only errors have a second truth to be taken against.
     cells["is_error"] = cells["metric"].str.startswith(ERROR)
     are_errors = cells.groupby(["line", "column"], observed=True)["is_error"].transform("all")
-    raw = cells[are_errors].assign(truth=RAW, metric=cells["metric"] + RAW)
+    errors = cells[are_errors]
+    # Of `errors` and not of `cells`, whose rows an empty frame would take over.
+    raw = errors.assign(truth=RAW, metric=errors["metric"] + RAW)
     both = pd.concat([cells.assign(truth=""), raw])
     return both.sort_values("line", kind="stable", ignore_index=True)
 
