@@ -138,6 +138,35 @@ TRIALS: Schema = {
     "fell_s": (REAL, "s", "the fall"),
     "stopped": (WHOLE, "", "1 if the robot stands at the end"),
 }
+NETWORKS: Schema = {
+    "method": (TEXT, "", "what learned"),
+    "seed": (WHOLE, "", "its seed; on a robot that of the robot"),
+    "parameters": (WHOLE, "", "how many numbers are learned"),
+    "samples": (WHOLE, "", "samples learned from, without those held out"),
+    "diverged": ("bool", "", "whether the training was stopped as its loss grew"),
+    "stride": (REAL, "", "samples from one step to the next in the epoch that is kept"),
+    "validation_loss": (
+        REAL,
+        "-",
+        "loss (22) of the epoch that validated best and is kept; missing without one",
+    ),
+    "validation_rmse": (REAL, "N m", "its RMSE, the mean over the joints"),
+    "windows_loss": (REAL, "-", "its loss if the network starts from a zero state a window before every sample"),
+    "last_train_loss": (REAL, "-", "loss in training of the last epoch"),
+    "last_validation_loss": (REAL, "-", "loss in validation of the last epoch"),
+}
+TRAININGS: Schema = {
+    "method": (TEXT, "", "what learned"),
+    "seed": (WHOLE, "", "its seed; on a robot that of the robot"),
+    "diverged": ("bool", "", "whether the training was stopped as its loss grew"),
+    "epoch": (WHOLE, "", "the epoch, counted from 1"),
+    "train_loss": (REAL, "-", "loss (22) in training"),
+    "validation_loss": (REAL, "-", "on the data held out"),
+    "validation_rmse": (REAL, "N m", "RMSE there, the mean over the joints; N of the base's forces"),
+    "rate": (REAL, "-", "learning rate"),
+    "gradient_norm": (REAL, "-", "mean norm of the gradient before the clip"),
+    "stride": (WHOLE, "", "samples from one step to the next"),
+}
 DETECTION: Mapping[str, Schema] = {  # file of a robot's detectors -> its columns
     "collisions": COLLISIONS,
     "detected": DETECTED,

@@ -28,7 +28,7 @@ from experiments.evaluation.figures.drawing.compared import (
     draw_stack,
 )
 from experiments.evaluation.figures.drawing.curves import FROM_LIFT_OFF
-from experiments.evaluation.figures.drawing.lines import Line, LinePanel, draw_lines
+from experiments.evaluation.figures.drawing.lines import LinePanel, draw_lines
 from experiments.evaluation.figures.drawing.method_and_robot import LIMBS, draw_method, draw_parts, position_of
 from experiments.evaluation.figures.drawing.named_bars import PAPER_LABEL, NamedBar
 from experiments.evaluation.figures.drawing.pushes import draw_hits, draw_step
@@ -242,29 +242,7 @@ def draw_18(stored: Stored, name: str) -> Figure:
 
 def draw_20(stored: Stored, name: str) -> Figure:
     """Draw errors over the size of the network and of the data."""
-    panels: list[LinePanel] = []
-    rows = stored.rows(name).rename(columns={"rmse_nm": "value", "rmse_low_nm": "low", "rmse_high_nm": "high"})
-    for panel, title in figure_20.TITLES.items():
-        own = rows[rows["panel"] == panel].sort_values(panel, kind="stable")
-        lines: list[Line] = []
-        for base, of in own.groupby("base", sort=False):
-            places = (of[panel] / figure_20.THOUSAND).tolist()
-            lines.append(Line(str(base), places, [number_from(row) for row in of.to_dict("records")]))
-        printed = own.loc[own["ratio"] == 1.0, panel]
-        upright = None if printed.empty else float(printed.iloc[0]) / figure_20.THOUSAND
-        label = figure_20.X_LABELS[panel]
-        panels.append(
-            LinePanel(
-                title,
-                label,
-                figure_20.Y_LABEL,
-                lines,
-                upright=upright,
-                upright_name=figure_20.PRINTED_NAMES[panel],
-                scale=panel,
-            )
-        )
-    return draw_lines(panels)
+    return draw_lines(figure_20.panels_of(stored.rows(name)))
 
 
 def draw_bode(stored: Stored, name: str) -> Figure:

@@ -11,8 +11,8 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from experiments.evaluation.measure.learning.trainings import MEASURES, TrainedNetwork, read_trainings, sound
-from experiments.evaluation.number.frames import read_scores
+from experiments.evaluation.measure.learning.trainings import MEASURES, read_trainings
+from experiments.evaluation.number.frames import read_scores, rows_of
 from experiments.evaluation.number.intervals import RunGrid
 from experiments.evaluation.number.number import Number
 from experiments.evaluation.number.scored import CELL, cell_text, members, places_of, robots_of, run_grid
@@ -33,12 +33,12 @@ WITH_ENDS = ("value", "ratio", "after", *ENDS)  # columns that have an interval
 
 @dataclass(frozen=True)
 class Evidence:
-    """Scores by CELL, metrics scored by scenario, level and method, trainings by method, rows of tables."""
+    """Scores by CELL, metrics scored by scenario, level and method, networks, rows of tables."""
 
     layout: JointLayout
     scores: Mapping[tuple[str, ...], pd.DataFrame]
     metrics: Mapping[tuple[str, ...], set[str]]
-    trainings: Mapping[str, Sequence[TrainedNetwork]]
+    networks: pd.DataFrame
     tables: Mapping[str, Sequence[Mapping[str, str]]] = field(default_factory=dict)
 
     def grids(self, cell: Cell) -> list[RunGrid] | None:
@@ -86,15 +86,16 @@ class Evidence:
 
     def _measured(self, method: str, metric: str) -> list[RunGrid] | None:
         """Return a measure of the trainings of a method that did not diverge, (networks, 1); None where all did."""
-        if method not in self.trainings:
-            raise DataError(not_accepted("trainings", method, self.trainings))
+        own = rows_of(self.networks, method=method)
+        if own.empty:
+            raise DataError(not_accepted("trainings", method, self.networks["method"].unique()))
         if metric == DIVERGED:
-            return [RunGrid(np.array([[float(training.diverged)] for training in self.trainings[method]]))]
-        good = sound(self.trainings[method])
-        if not good:
+            return [RunGrid(own[["diverged"]].to_numpy(dtype=np.float64))]
+        good = own[~own["diverged"]]
+        if good.empty:
             return None
-        robots = robots_of([training.seed for training in good])
-        return [RunGrid(np.array([[MEASURES[metric][0](training)] for training in good]), method, robots)]
+        robots = robots_of(good["seed"].tolist())
+        return [RunGrid(good[[MEASURES[metric][0]]].to_numpy(), method, robots)]
 
     def entry(self, cell: Cell) -> Number:
         """Return the number in a field of a table [its unit], with its interval; no number where the row has none.
@@ -172,7 +173,8 @@ def read_results(
     for place, own in read.merge(wanted, on=list(wanted)).groupby(CELL, sort=False):
         found[tuple(map(str, place))] = own
     rows = {name: read_texts(path) for name, path in (tables or {}).items()}
-    return Evidence(layout, found, metrics, read_trainings(folders), rows)
+    networks, _ = read_trainings(folders)
+    return Evidence(layout, found, metrics, networks, rows)
 
 
 def listed(names: str | Sequence[str]) -> list[str]:
