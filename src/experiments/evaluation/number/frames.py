@@ -138,6 +138,16 @@ TRIALS: Schema = {
     "fell_s": (REAL, "s", "the fall"),
     "stopped": (WHOLE, "", "1 if the robot stands at the end"),
 }
+CONTACTS: Schema = {
+    "line": (TEXT, "", "what says where: an estimate, the true torque or a guess"),
+    "cell": (TEXT, "", "the link that is hit, and from where"),
+    "error_x_m": (REAL, "m", "from the true point to the named one, in the axes of the body that is hit"),
+    "error_y_m": (REAL, "m", ""),
+    "error_z_m": (REAL, "m", ""),
+    "spread_m": (REAL, "m", "the error that it expects itself; missing of a guess, as the next two"),
+    "force": (REAL, "-", "size of the force over that of the true one, less 1"),
+    "angle_deg": (REAL, "deg", "angle between the two"),
+}
 NETWORKS: Schema = {
     "method": (TEXT, "", "what learned"),
     "seed": (WHOLE, "", "its seed; on a robot that of the robot"),

@@ -6,6 +6,7 @@
 from pathlib import Path
 
 from experiments.evaluation.number.frames import (
+    CONTACTS,
     CURVES,
     HITS,
     NETWORKS,
@@ -57,6 +58,7 @@ FRAMES: dict[str, tuple[str, Schema]] = {
     "thresholds": ('`read_detection(..., "thresholds")`: the thresholds of detectors.', THRESHOLDS),
     "curves": ('`read_detection(..., "curves")`: what detectors find at other thresholds.', CURVES),
     "trials": ("`read_trials`: walks into obstacles, and free ones, from `results/<scale>/<robot>/reactions`.", TRIALS),
+    "contacts": ("`contacts_of`: where collisions meet the legs, by estimates and by guesses.", CONTACTS),
     "networks": (
         "`read_trainings`: trained networks, from `results/<scale>/<robot>/networks`.",
         NETWORKS,
