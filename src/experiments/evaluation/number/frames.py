@@ -7,12 +7,12 @@ columns for readers. A missing number is NaN, as in pandas, where the rows of a 
 # pandas has no complete types, which the strict rules of this folder ask for.
 # pyright: standard
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
 import pandas as pd
 
-from experiments.evaluation.number.rows import read_detections
+from experiments.evaluation.number.rows import Field, read_detections
 from experiments.evaluation.number.rows import read_scores as score_rows
 from experiments.evaluation.number.rows import read_trials as trial_rows
 from mobnet.core.errors import DataError, not_accepted
@@ -138,6 +138,45 @@ TRIALS: Schema = {
     "fell_s": (REAL, "s", "the fall"),
     "stopped": (WHOLE, "", "1 if the robot stands at the end"),
 }
+CONTACTS: Schema = {
+    "line": (TEXT, "", "what says where: an estimate, the true torque or a guess"),
+    "cell": (TEXT, "", "the link that is hit, and from where"),
+    "error_x_m": (REAL, "m", "from the true point to the named one, in the axes of the body that is hit"),
+    "error_y_m": (REAL, "m", ""),
+    "error_z_m": (REAL, "m", ""),
+    "spread_m": (REAL, "m", "the error that it expects itself; missing of a guess, as the next two"),
+    "force": (REAL, "-", "size of the force over that of the true one, less 1"),
+    "angle_deg": (REAL, "deg", "angle between the two"),
+}
+NETWORKS: Schema = {
+    "method": (TEXT, "", "what learned"),
+    "seed": (WHOLE, "", "its seed; on a robot that of the robot"),
+    "parameters": (WHOLE, "", "how many numbers are learned"),
+    "samples": (WHOLE, "", "samples learned from, without those held out"),
+    "diverged": ("bool", "", "whether the training was stopped as its loss grew"),
+    "stride": (REAL, "", "samples from one step to the next in the epoch that is kept"),
+    "validation_loss": (
+        REAL,
+        "-",
+        "loss (22) of the epoch that validated best and is kept; missing without one",
+    ),
+    "validation_rmse": (REAL, "N m", "its RMSE, the mean over the joints"),
+    "windows_loss": (REAL, "-", "its loss if the network starts from a zero state a window before every sample"),
+    "last_train_loss": (REAL, "-", "loss in training of the last epoch"),
+    "last_validation_loss": (REAL, "-", "loss in validation of the last epoch"),
+}
+TRAININGS: Schema = {
+    "method": (TEXT, "", "what learned"),
+    "seed": (WHOLE, "", "its seed; on a robot that of the robot"),
+    "diverged": ("bool", "", "whether the training was stopped as its loss grew"),
+    "epoch": (WHOLE, "", "the epoch, counted from 1"),
+    "train_loss": (REAL, "-", "loss (22) in training"),
+    "validation_loss": (REAL, "-", "on the data held out"),
+    "validation_rmse": (REAL, "N m", "RMSE there, the mean over the joints; N of the base's forces"),
+    "rate": (REAL, "-", "learning rate"),
+    "gradient_norm": (REAL, "-", "mean norm of the gradient before the clip"),
+    "stride": (WHOLE, "", "samples from one step to the next"),
+}
 DETECTION: Mapping[str, Schema] = {  # file of a robot's detectors -> its columns
     "collisions": COLLISIONS,
     "detected": DETECTED,
@@ -221,3 +260,9 @@ def ordered(rows: pd.DataFrame, **orders: Sequence[str]) -> pd.DataFrame:
         rows = rows[rows[name].isin(order)]
         rows = rows.assign(**{name: pd.Categorical(rows[name], list(order))})
     return rows
+
+
+def records_of(rows: pd.DataFrame, columns: Iterable[str]) -> list[list[Field]]:
+    """Return columns of a frame as rows of a CSV file, whose fields are empty where a number is missing."""
+    shown = rows[list(columns)].astype(object)
+    return shown.where(shown.notna(), None).to_numpy().tolist()

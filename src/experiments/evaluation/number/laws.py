@@ -53,16 +53,21 @@ def fields_of(number: Number) -> dict[str, object]:
 
 
 def number_from(row: Mapping[Any, Any]) -> Number:
-    """Return the number that stands in the columns of a row, as `fields_of` writes them."""
-    value, low, high, published = (None if is_missing(row[name]) else row[name] for name in (*ENDS, "published"))
-    networks, walks = (_counts(row[name]) for name in SPREAD[:2])
-    stds = [None if is_missing(row[name]) else row[name] for name in SPREAD[2:]]
-    return Number(value, low, high, row["unit"], published, networks, walks, *stds)
+    """Return the number that stands in the columns of a row, as `fields_of` writes them; some of them may lack."""
+    names = (*ENDS, "published", *SPREAD[2:])
+    value, low, high, published, *stds = (None if is_missing(row.get(name)) else row[name] for name in names)
+    networks, walks = (_counts(row.get(name)) for name in SPREAD[:2])
+    return Number(value, low, high, row.get("unit", "-"), published, networks, walks, *stds)
 
 
-def _counts(text: str) -> tuple[int, ...]:
-    """Return the counts that stand in a column, a plus between those of several."""
-    return tuple(int(count) for count in text.split("+") if count)
+def numbers_by(rows: pd.DataFrame, by: str) -> dict[Any, Number]:
+    """Return what names a row, a value of the column `by` -> the number in it."""
+    return {row[by]: number_from(row) for row in rows.to_dict("records")}
+
+
+def _counts(text: str | float | None) -> tuple[int, ...]:
+    """Return the counts that stand in a column, a plus between those of several; NaN is an empty field of a file."""
+    return tuple(int(count) for count in text.split("+") if count) if isinstance(text, str) else ()
 
 
 def counted(column: str, value: object) -> Law:

@@ -8,12 +8,13 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 import pandas as pd
 
-from experiments.evaluation.number.grid import members, places_of, robots_of
 from experiments.evaluation.number.intervals import MEAN, Formula, RunGrid, summarise
 from experiments.evaluation.number.laws import measured
-from experiments.evaluation.number.number import Number
-from experiments.settings.runs import LimbRuns, Mean, Statistics
-from mobnet.core.errors import DataError
+from experiments.evaluation.number.number import Number, published_value
+from experiments.settings.fleet import FIRST_SEED
+from experiments.settings.published import PublishedTable
+from experiments.settings.runs import LimbRuns, Mean, Runs, Statistics
+from mobnet.core.errors import ConfigError, DataError
 from mobnet.core.joints import JointLayout
 
 AVERAGE = "avg"
@@ -32,7 +33,7 @@ def runs_of(scores: pd.DataFrame, asked: pd.DataFrame, *, may_lack: bool = False
     runs = asked.assign(cell=range(len(asked))).merge(scores, how="left", on=CELL)
     lost = runs[runs["value"].isna()]
     if len(lost) and not may_lack:
-        raise DataError(f"scores: no row for {cell_text(lost)}")
+        raise DataError(f"scores: no row for {cell_text(lost[CELL].iloc[0])}")
     return runs
 
 
@@ -52,11 +53,41 @@ def asked_of(
     return pd.DataFrame(asked, columns=["title", *CELL])
 
 
-def numbers_of(scores: pd.DataFrame, asked: pd.DataFrame, statistics: Statistics) -> pd.DataFrame:
-    """Return the mean of the runs of each row that is asked for, in the same order; of a row without a run none."""
-    runs = runs_of(scores, asked, may_lack=True)
+def numbers_of(
+    scores: pd.DataFrame, asked: pd.DataFrame, statistics: Statistics, *, may_lack: bool = True
+) -> pd.DataFrame:
+    """Return the mean of the runs of each row that is asked for, in the same order; of a row without a run none.
+
+    Raises:
+        DataError: what is asked for has no run, without `may_lack`.
+    """
+    runs = runs_of(scores, asked, may_lack=may_lack)
     numbers = measured(runs, ["cell"], {"mean": lambda own: number_of(own, statistics)})
     return pd.concat([asked.reset_index(drop=True), numbers.drop(columns="quantity")], axis=1)
+
+
+def joint_errors(
+    scores: pd.DataFrame,
+    layout: JointLayout,
+    test: Runs,
+    joints: Sequence[str],
+    metric: str,
+    statistics: Statistics,
+    published: PublishedTable,
+    place: str,
+) -> pd.DataFrame:
+    """Return the errors of joints in a test by method [N m], V1..V3 [N], joint by joint: CELL and the number.
+
+    The paper's numbers are those at a place of one of its tables. An error that was not scored has no value.
+    """
+    asked: list[tuple[str, ...]] = []
+    for joint in joints:
+        limb = layout.limb_of[joint]
+        asked += [(test.scenario, limb, test.level, method, joint, metric) for method in test.methods]
+    errors = numbers_of(scores, pd.DataFrame(asked, columns=CELL), statistics)
+    named = zip(errors["method"], errors["joint"], strict=True)
+    printed = [published_value(published, place, method, joint) for method, joint in named]
+    return errors.assign(unit=errors["joint"].map(layout.unit), published=pd.Series(printed, dtype=float))
 
 
 def run_grid(runs: pd.DataFrame) -> RunGrid:
@@ -78,12 +109,16 @@ def run_grid(runs: pd.DataFrame) -> RunGrid:
     is_twice = (seeds[:, 1:] == seeds[:, :-1]).all(axis=0).any()
     # Variances of rows and of columns need equally many walks of each network, and each run once.
     if is_twice or (counts != walks).any():
-        raise DataError(
-            f"scores: {len(runs)} rows for {cell_text(runs)}; expected one for each of networks {networks.tolist()} on"
-            f" tests {tests.tolist()}"
-        )
+        of = cell_text(runs[CELL].iloc[0])
+        expected = f"one for each of networks {networks.tolist()} on tests {tests.tolist()}"
+        raise DataError(f"scores: {len(runs)} rows for {of}; expected {expected}")
     values = runs["value"].to_numpy()[order].reshape(len(networks), -1)
     return RunGrid(values, runs["method"].iloc[0], robots)
+
+
+def robots_of(seeds: Sequence[int]) -> tuple[int, ...]:
+    """Return the robots of runs with some network seeds, where these are robots; else nothing."""
+    return tuple(seeds) if min(seeds) >= FIRST_SEED else ()
 
 
 def number_of(runs: pd.DataFrame, statistics: Statistics, formula: Formula = MEAN) -> Number:
@@ -98,9 +133,9 @@ def number_of(runs: pd.DataFrame, statistics: Statistics, formula: Formula = MEA
     return summarise(grids, statistics, formula, runs["unit"].iloc[0])
 
 
-def cell_text(runs: pd.DataFrame) -> str:
-    """Return what the first of some rows is of, as text for a message."""
-    return ", ".join(f"{name} {value!r}" for name, value in runs[CELL].iloc[0].items())
+def cell_text(place: Iterable[str]) -> str:
+    """Return what a number is of, values of CELL, as text for a message."""
+    return ", ".join(f"{name} {value!r}" for name, value in zip(CELL, place, strict=True))
 
 
 def columns_of(layout: JointLayout, items: Sequence[str | Mean]) -> pd.DataFrame:
@@ -135,3 +170,21 @@ def column_of(
     for limb, joint in places_of(layout, name, joints):
         rows += [(name, layout.unit(joint), limb, joint, metric) for metric in metrics or ("",)]
     return rows
+
+
+def places_of(layout: JointLayout, name: str, joints: Sequence[str]) -> list[tuple[str, str]]:
+    """Return limb and name of some joints, over which a mean is taken: torques must be all in N m or all in N.
+
+    Raises:
+        ConfigError: a joint is unknown, or the units differ.
+    """
+    layout.columns(joints)
+    units = sorted({layout.unit(joint) for joint in joints})
+    if len(units) > 1:
+        raise ConfigError(f"column {name!r}: a mean over {', '.join(joints)} mixes {' and '.join(units)}")
+    return [(layout.limb_of[joint], joint) for joint in joints]
+
+
+def members(layout: JointLayout, name: str) -> tuple[str, ...]:
+    """Return the joints of a limb, or the joint itself."""
+    return layout.groups.get(name, (name,))

@@ -5,7 +5,19 @@
 
 from pathlib import Path
 
-from experiments.evaluation.number.frames import CURVES, HITS, PROMISES, SCORES, SWINGS, THRESHOLDS, TRIALS, Schema
+from experiments.evaluation.number.frames import (
+    CONTACTS,
+    CURVES,
+    HITS,
+    NETWORKS,
+    PROMISES,
+    SCORES,
+    SWINGS,
+    THRESHOLDS,
+    TRAININGS,
+    TRIALS,
+    Schema,
+)
 from experiments.evaluation.tables.layout import markdown_table
 from mobnet.core.files import write_text
 
@@ -46,6 +58,12 @@ FRAMES: dict[str, tuple[str, Schema]] = {
     "thresholds": ('`read_detection(..., "thresholds")`: the thresholds of detectors.', THRESHOLDS),
     "curves": ('`read_detection(..., "curves")`: what detectors find at other thresholds.', CURVES),
     "trials": ("`read_trials`: walks into obstacles, and free ones, from `results/<scale>/<robot>/reactions`.", TRIALS),
+    "contacts": ("`contacts_of`: where collisions meet the legs, by estimates and by guesses.", CONTACTS),
+    "networks": (
+        "`read_trainings`: trained networks, from `results/<scale>/<robot>/networks`.",
+        NETWORKS,
+    ),
+    "trainings": ("`read_trainings`: the epochs of these networks.", TRAININGS),
 }
 
 

@@ -12,6 +12,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
+import pandas as pd
+
 from experiments.evaluation.figures.further.forest import STEMS, forest
 from experiments.evaluation.measure.claims.cells import Evidence
 from experiments.evaluation.measure.claims.scale import KnownMethods, control_of, scaled
@@ -66,7 +68,7 @@ def judged_again(settings: Settings, published: Path) -> list[Judged]:
             if cell.table:
                 names.add(cell.table)
     tables = {name: read_texts(published / f"{name}.csv") for name in sorted(names)}
-    evidence = Evidence(settings.layout, {}, {}, {}, tables)
+    evidence = Evidence(settings.layout, {}, {}, pd.DataFrame(), tables)
     found = [_found(row, before.get(row.name, {}), evidence, settings) for row in rows]
     scores = [score_of(row.claim, settings.methods) for row in rows]
     statistics = settings.evaluation.statistics

@@ -10,6 +10,7 @@ import sys
 import tempfile
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
+from itertools import product
 from pathlib import Path
 from typing import Any
 
@@ -27,7 +28,7 @@ from experiments.evaluation.figures.drawing.compared import (
     draw_stack,
 )
 from experiments.evaluation.figures.drawing.curves import FROM_LIFT_OFF
-from experiments.evaluation.figures.drawing.lines import Line, LinePanel, draw_lines
+from experiments.evaluation.figures.drawing.lines import LinePanel, draw_lines
 from experiments.evaluation.figures.drawing.method_and_robot import LIMBS, draw_method, draw_parts, position_of
 from experiments.evaluation.figures.drawing.named_bars import PAPER_LABEL, NamedBar
 from experiments.evaluation.figures.drawing.pushes import draw_hits, draw_step
@@ -60,8 +61,8 @@ from experiments.evaluation.measure.claims.places import statements_of
 from experiments.evaluation.measure.data.conditional import TorqueRange, even_cells
 from experiments.evaluation.measure.data.planes import Plane
 from experiments.evaluation.measure.estimates.bode import observer_response
-from experiments.evaluation.measure.estimates.run_errors import ERROR
-from experiments.evaluation.number.grid import AVERAGE
+from experiments.evaluation.number.frames import rows_of
+from experiments.evaluation.number.laws import number_from, numbers_by
 from experiments.evaluation.number.number import Number
 from experiments.evaluation.report import calibration, claims, sigma
 from experiments.evaluation.report.judge_again import judged_again
@@ -71,7 +72,7 @@ from experiments.running.words import draw_parser
 from experiments.settings.evaluation import PRODUCTS
 from experiments.settings.load import load_settings
 from experiments.settings.settings import Settings
-from mobnet.core.columns import COMMAND, TrialError
+from mobnet.core.columns import COMMAND, SPREAD, TrialError
 from mobnet.core.errors import ConfigError, DataError, not_accepted
 from mobnet.core.rows import read_rows
 from mobnet.core.style import styled
@@ -106,7 +107,7 @@ class Stored:
 
     def rows(self, name: str) -> Frame:
         """Return a figure's numbers as they are published."""
-        return pd.read_csv(self.path(name))
+        return pd.read_csv(self.path(name), dtype=dict.fromkeys(SPREAD[:2], str))  # 3, or 3+3
 
 
 def panels_of(rows: Frame) -> list[Panel]:
@@ -133,28 +134,11 @@ def pairs_of(rows: Frame, during: str = "") -> dict[str, Compared]:
     return {panel.title: compared(panel, during) for panel in panels_of(rows)}
 
 
-def number_of(row: Mapping[str, Any], column: str = "value") -> Number:
-    """Return the number in a row with its interval, and with its unit and the original's number where it has these."""
-    names = (column, "low", "high", "published")
-    value, low, high, printed = (filled(row.get(name)) for name in names)
-    return Number(value, low, high, row.get("unit", "-"), printed)
-
-
-def filled(field: Any) -> float | None:
-    """Return the number in a field, None if it is empty or there is none."""
-    return None if field is None or np.isnan(field) else float(field)
-
-
-def numbers_of(rows: Frame, *, by: str, value: str = "value") -> dict[Any, Number]:
-    """Return what names a row -> the number in it."""
-    return {row[by]: number_of(row, value) for row in rows.to_dict("records")}
-
-
 def errors_of(stored: Stored, name: str, metric: str) -> dict[str, dict[str, Number]]:
     """Return joint or limb -> method -> error in the bars of a figure."""
     rows = stored.rows(f"{name}_bars")
     own = rows[rows["metric"] == metric]
-    return {joint: numbers_of(of, by="method") for joint, of in own.groupby("joint", sort=False)}
+    return {joint: numbers_by(of, "method") for joint, of in own.groupby("joint", sort=False)}
 
 
 def draw_05(stored: Stored, name: str) -> Figure:
@@ -166,7 +150,7 @@ def draw_05(stored: Stored, name: str) -> Figure:
     for level, own in rows.groupby("level", sort=False):
         title = str(level).replace("_", " ")
         short = f", {title}" if len(own) == 1 else ""
-        for bar in bars_of(numbers_of(own, by="method"), pairs[title].rmse):
+        for bar in bars_of(numbers_by(own, "method"), pairs[title].rmse):
             bars.append(NamedBar(bar.name + short, bar.method, bar.number, bar.marks))
     return draw_stack(list(pairs.values()), bars, settings.errors_of, "RMSE over all walks", settings.joint)
 
@@ -175,7 +159,7 @@ def draw_06(stored: Stored, name: str) -> Figure:
     """Draw a step of torque on a hip."""
     joint = stored.section(name).joint
     panels = panels_of(stored.rows(name))
-    (errors,) = (numbers_of(own, by="method") for _, own in stored.rows(f"{name}_bars").groupby("joint"))
+    (errors,) = (numbers_by(own, "method") for _, own in stored.rows(f"{name}_bars").groupby("joint"))
     return draw_step(panels, bars_of(errors, compared(panels[0]).rmse), joint, "RMSE around all steps")
 
 
@@ -221,14 +205,8 @@ def draw_10(stored: Stored, name: str) -> Figure:
     title, test = list(settings.tests.items())[figure_10.PICTURES.index(name)]
     rows = stored.rows(f"{figure_10.PICTURES[0]}_bars")
     own = rows[rows["scenario"] == test.scenario]
-    errors: dict[str, dict[str, Number]] = {}
-    responses: dict[str, dict[str, Number]] = {}
-    for method, of in own.groupby("method", sort=False):
-        is_error = of["measure"] == ERROR
-        errors[str(method)] = numbers_of(of[is_error], by="push")
-        responses[str(method)] = numbers_of(of[~is_error & (of["push"] == AVERAGE)], by="measure")
-    panels = panels_of(stored.rows(name))
-    return draw_hits(figure_10.group_of(panels, title, errors, responses), settings.joint, PAPER_LABEL[True])
+    group = figure_10.group_of(panels_of(stored.rows(name)), title, own)
+    return draw_hits(group, settings.joint, PAPER_LABEL[True])
 
 
 def draw_14(stored: Stored, name: str) -> Figure:
@@ -258,53 +236,22 @@ def draw_15(stored: Stored, name: str) -> Figure:
 
 def draw_18(stored: Stored, name: str) -> Figure:
     """Draw one network for the whole body beside one for each limb."""
-    panels: list[figure_18.LimbPanel] = []
-    for scenario, rows in stored.rows(name).groupby("scenario", sort=False):
-        errors: dict[str, dict[tuple[str, str], Number]] = {}
-        for row in rows.to_dict("records"):
-            place = row["limb"], row["joint"]
-            errors.setdefault(row["method"], {})[place] = number_of(row, "rmse_nm")
-        panels.append(figure_18.panel_of(stored.section(name).panels[scenario], errors))
-    return figure_18.draw_limbs(panels, "RMSE [N m]")
+    rows = stored.rows(name).rename(columns={"rmse_nm": "value"})
+    return figure_18.draw_limbs(rows, stored.section(name).panels, "RMSE [N m]")
 
 
 def draw_20(stored: Stored, name: str) -> Figure:
     """Draw errors over the size of the network and of the data."""
-    panels: list[LinePanel] = []
-    rows = stored.rows(name).rename(columns={"rmse_low_nm": "low", "rmse_high_nm": "high"})
-    for panel, title in figure_20.TITLES.items():
-        own = rows[rows["panel"] == panel].sort_values(panel, kind="stable")
-        lines: list[Line] = []
-        for base, of in own.groupby("base", sort=False):
-            places = (of[panel] / figure_20.THOUSAND).tolist()
-            lines.append(Line(str(base), places, [number_of(row, "rmse_nm") for row in of.to_dict("records")]))
-        printed = own.loc[own["ratio"] == 1.0, panel]
-        upright = None if printed.empty else float(printed.iloc[0]) / figure_20.THOUSAND
-        label = figure_20.X_LABELS[panel]
-        panels.append(
-            LinePanel(
-                title,
-                label,
-                figure_20.Y_LABEL,
-                lines,
-                upright=upright,
-                upright_name=figure_20.PRINTED_NAMES[panel],
-                scale=panel,
-            )
-        )
-    return draw_lines(panels)
+    return draw_lines(figure_20.panels_of(stored.rows(name)))
 
 
 def draw_bode(stored: Stored, name: str) -> Figure:
     """Draw gain and phase over frequency."""
     rows = stored.rows(name)
-    answers: list[bode.Answer] = []
-    for (method, joint, quantity), own in rows.groupby(["method", "joint", "quantity"], sort=False):
-        answers.append(bode.Answer(str(method), str(joint), str(quantity), numbers_of(own, by="frequency_hz")))
     gain_hz = stored.settings.observer.gain_hz
     response = partial(observer_response, gain_hz=gain_hz, rate_hz=stored.settings.rates.data_hz)
     inch = bode.SHOWN_INCH if name == bode.bode.__name__ else bode.ALL_INCH
-    return bode.draw_bode(answers, list(rows["joint"].unique()), response, inch)
+    return bode.draw_bode(rows, list(rows["joint"].unique()), response, inch)
 
 
 def draw_calibration(stored: Stored, name: str) -> Figure:
@@ -335,14 +282,10 @@ def draw_commands(stored: Stored, name: str) -> Figure:
 
 def draw_drift(stored: Stored, name: str) -> Figure:
     """Draw pushes that last."""
-    rows = stored.rows(name)
+    rows = stored.rows(name).rename(columns={"share": "value"})
     panels: list[LinePanel] = []
-    for title in rows["panel"].unique():
-        for phase in (SWINGING, STANCE):
-            own = rows[(rows["panel"] == title) & (rows["phase"] == phase)]
-            held = {str(method): numbers_of(of, by="step", value="share") for method, of in own.groupby("method")}
-            held = {method: held[method] for method in own["method"].unique()}
-            panels.append(drift.panel_of(f"{title}, {phase}", held))
+    for title, phase in product(rows["panel"].unique(), (SWINGING, STANCE)):
+        panels.append(drift.panel_of(f"{title}, {phase}", rows_of(rows, panel=title, phase=phase)))
     return draw_lines(panels, min(drift.COLUMNS, len(panels)), drift.PANEL_INCH)
 
 
@@ -350,8 +293,7 @@ def draw_fine_tuning(stored: Stored, name: str) -> Figure:
     """Draw errors over the seconds of new data."""
     panels: list[LinePanel] = []
     for title, rows in stored.rows(name).groupby("panel", sort=False):
-        lines = [(str(label), numbers_of(own, by="seconds")) for label, own in rows.groupby("line", sort=False)]
-        panels.append(fine_tuning.panel_of(str(title), lines))
+        panels.append(fine_tuning.panel_of(str(title), rows))
     return draw_lines(panels, min(fine_tuning.COLUMNS, len(panels)), fine_tuning.PANEL_INCH)
 
 
@@ -372,7 +314,7 @@ def draw_sigma(stored: Stored, name: str) -> Figure:
     courses: list[sigma_courses.SigmaLine] = []
     names = ["panel", "test", "method", "limb"]
     for (panel, test, method, limb), own in stored.rows(name).groupby(names, sort=False):
-        numbers = [number_of(row) for row in own.to_dict("records")]
+        numbers = [number_from(row) for row in own.to_dict("records")]
         courses.append(sigma_courses.SigmaLine(panel, test, method, limb, own["x"].tolist(), numbers))
     return sigma_courses.draw_sigma(courses, stored.settings.learning.calibration_share)
 
@@ -412,7 +354,7 @@ def draw_detection(stored: Stored, name: str) -> Figure:
     courses: list[detection_curves.DetectorLine] = []
     for detector in own["detector"].unique():
         for panel, of in own[own["detector"] == detector].groupby("panel", sort=False):
-            numbers = [number_of(row) for row in of.to_dict("records")]
+            numbers = [number_from(row) for row in of.to_dict("records")]
             line = (str(panel), str(detector), of["x"].tolist(), numbers, of["count"].tolist())
             courses.append(detection_curves.DetectorLine(*line))
     return detection_curves.draw_courses(courses)

@@ -4,9 +4,8 @@ import gzip
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from experiments.evaluation.number.frames import read_trials
+from experiments.evaluation.number.frames import read_trials, records_of
 from experiments.evaluation.number.rows import Field
-from experiments.evaluation.tables.layout import records_of
 from experiments.plan.detection import Detections
 from experiments.plan.reactions import Reactions
 from mobnet.core.detections import Collision, Detected

@@ -8,14 +8,10 @@ import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from experiments.evaluation.number.number import Number, shown_name
 from experiments.evaluation.number.rows import Field, write_csv
 from mobnet.core.files import write_text
-
-if TYPE_CHECKING:  # tables without a frame need not wait for pandas
-    import pandas as pd
 
 log = logging.getLogger(__name__)
 
@@ -63,12 +59,6 @@ class Table:
     left: int = 1
     align: str = ""
     note: str = ""
-
-
-def records_of(rows: "pd.DataFrame", columns: Sequence[str]) -> list[list[Field]]:
-    """Return columns of a frame as rows of a CSV file, whose fields are empty where a number is missing."""
-    shown = rows[list(columns)].astype(object)
-    return shown.where(shown.notna(), None).to_numpy().tolist()
 
 
 def write_table(stem: Path, table: Table, tex: str = "") -> None:

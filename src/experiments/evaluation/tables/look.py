@@ -7,10 +7,10 @@ from typing import Any
 
 import pandas as pd
 
-from experiments.evaluation.number.frames import rows_of
+from experiments.evaluation.number.frames import records_of, rows_of
 from experiments.evaluation.number.number import interval_text, is_missing, number_text
 from experiments.evaluation.number.scored import AVERAGE
-from experiments.evaluation.tables.layout import Line, Table, in_blocks, records_of, write_table
+from experiments.evaluation.tables.layout import Line, Table, in_blocks, write_table
 
 KEYS = ("scenario", "level", "robot", "set", "data")  # labels with names of the configuration, whose _ is a space
 Row = Mapping[Any, Any]  # column -> value

@@ -1,15 +1,16 @@
 """Gain and phase are drawn at the lines of each joint, relative to the observer's low-pass."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from itertools import product
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 import pytest
 from csv_files import check_golden, read_table
 from numpy.typing import NDArray
 
-from experiments.evaluation.figures.further.bode import ENDS, REFERENCE, Answer, bode, draw_bode
-from experiments.evaluation.number.number import Number
+from experiments.evaluation.figures.further.bode import ENDS, REFERENCE, bode, draw_bode
 from experiments.settings.evaluation import Evaluation
 from experiments.settings.runs import LimbRuns
 from experiments.settings.settings import Settings
@@ -44,11 +45,18 @@ def half(frequency_hz: NDArray[np.float64]) -> Array:
     return np.full(len(frequency_hz), 0.5 * np.exp(-1j * np.deg2rad(10.0)))
 
 
+def answers_of(rows: Sequence[tuple[str, str, float, float, float | None, float | None]]) -> pd.DataFrame:
+    """Return what the observer makes of sines."""
+    names = ["joint", "quantity", "frequency_hz", "value", "low", "high"]
+    return pd.DataFrame(rows, columns=names).assign(method="MOB").astype(dict.fromkeys(names[2:], float))
+
+
 def test_every_joint_has_a_panel_of_gain_and_one_of_phase_with_the_reference() -> None:
-    numbers = {0.5: Number(0.9, 0.8, 1.0), 2.0: Number(0.5)}
     joints = ["LL1", "LL2", "LL3"]
-    answers = [Answer("MOB", joint, quantity, numbers) for joint in joints for quantity in ("gain", "phase")]
-    figure = draw_bode(answers, joints, half, 1.0)
+    places = list(product(joints, ("gain", "phase")))
+    slow = [(*place, 0.5, 0.9, 0.8, 1.0) for place in places]
+    fast = [(*place, 2.0, 0.5, None, None) for place in places]
+    figure = draw_bode(answers_of(slow + fast), joints, half, 1.0)
     shown = [axis for axis in figure.axes if axis.get_visible()]
     assert [axis.get_title("left") for axis in shown] == [
         "(a) LL1, gain", "(b) LL1, phase", "(c) LL2, gain", "(d) LL2, phase", "(e) LL3, gain", "(f) LL3, phase",
@@ -61,7 +69,7 @@ def test_every_joint_has_a_panel_of_gain_and_one_of_phase_with_the_reference() -
 
 
 def test_gain_and_phase_are_those_over_the_low_pass() -> None:
-    answers = [Answer("MOB", "LL1", "gain", {0.5: Number(0.5)}), Answer("MOB", "LL1", "phase", {0.5: Number(-30.0)})]
+    answers = answers_of([("LL1", "gain", 0.5, 0.5, None, None), ("LL1", "phase", 0.5, -30.0, None, None)])
     gain, phase = draw_bode(answers, ["LL1"], half, 1.0).axes
     shown = [{str(line.get_label()): line.get_ydata() for line in axis.lines} for axis in (gain, phase)]
     np.testing.assert_allclose([own["MOB"] for own in shown], [[1.0], [-20.0]])
@@ -69,5 +77,5 @@ def test_gain_and_phase_are_those_over_the_low_pass() -> None:
 
 
 def test_without_a_push_the_reference_is_drawn_alone() -> None:
-    figure = draw_bode([Answer("MOB", "LL1", "gain", {})], ["LL1"], half, 1.0)
+    figure = draw_bode(answers_of([]), ["LL1"], half, 1.0)
     assert [len(axis.lines) for axis in figure.axes if axis.get_visible()] == [1, 1]

@@ -3,11 +3,11 @@
 from collections.abc import Callable
 from pathlib import Path
 
+import pandas as pd
 import pytest
 from csv_files import check_golden, read_table
 
 from experiments.evaluation.figures.further.drift import beyond, drift
-from experiments.evaluation.number.number import Number
 from experiments.settings.evaluation import Evaluation
 from experiments.settings.runs import LimbRuns
 from experiments.settings.settings import Settings
@@ -32,6 +32,6 @@ def test_steps_stand_at_their_number_and_those_that_no_push_has_are_left_out(
 
 
 def test_shares_beyond_the_axis_are_written_in_the_panel() -> None:
-    held = {"MOB": {1: Number(1.62), 2: Number(1.0), 3: Number(-0.2)}, "MOB-Net": {1: Number(0.9)}}
+    held = pd.DataFrame({"method": ["MOB", "MOB", "MOB", "MOB-Net"], "value": [1.62, 1.0, -0.2, 0.9]})
     assert beyond(held) == "beyond: MOB 1.62, -0.20"
-    assert beyond({"MOB": {1: Number(1.3), 2: Number(0.0)}}) == ""
+    assert beyond(pd.DataFrame({"method": ["MOB", "MOB"], "value": [1.3, 0.0]})) == ""

@@ -7,14 +7,15 @@ from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 import pytest
 from csv_files import check_golden, read_table
 from paper_settings import STATISTICS
 
 from experiments.evaluation.figures.paper.figure_17 import draw_losses, figure_17
-from experiments.evaluation.measure.learning.losses import Loss, losses_of
+from experiments.evaluation.measure.learning.losses import losses_of, runs_of
 from experiments.evaluation.measure.learning.trainings import read_trainings
-from experiments.evaluation.number.number import Number
+from experiments.evaluation.number.frames import rows_of
 from experiments.settings.evaluation import Evaluation
 from mobnet.core.errors import DataError
 
@@ -24,14 +25,15 @@ MEASURES = ("training loss", "validation loss", "validation RMSE")
 
 def test_the_end_is_the_last_epoch_in_training_and_the_kept_one_in_validation(write_training: Write) -> None:
     folders = [write_training("GRU", seed, loss) for seed, loss in enumerate((-4.0, -3.0, -2.6))]
-    losses = list(losses_of("GRU", read_trainings(folders)["GRU"], STATISTICS))
-    ends = {loss.measure: loss for loss in losses if loss.epoch is None}
-    assert ends["training loss"].runs == pytest.approx((-3.75, -2.75, -2.35))
-    assert ends["validation loss"].runs == pytest.approx((-4.0, -3.0, -2.6))
-    assert ends["validation loss"].number.value == pytest.approx(-3.2)
-    low, high = ends["validation loss"].number.with_ends[1:]
-    assert low is not None
-    assert high is not None
+    runs = runs_of(*read_trainings(folders))
+    ends = rows_of(runs, at_end=True)
+    assert rows_of(ends, measure="training loss")["value"].tolist() == pytest.approx((-3.75, -2.75, -2.35))
+    assert rows_of(ends, measure="validation loss")["value"].tolist() == pytest.approx((-4.0, -3.0, -2.6))
+    losses = losses_of(runs, STATISTICS)
+    (value, low, high), *_ = rows_of(losses, at_end=True, measure="validation loss")[
+        ["value", "low", "high"]
+    ].to_numpy()
+    assert value == pytest.approx(-3.2)
     half = 4.3027 * np.std([-4.0, -3.0, -2.6], ddof=1) / 3**0.5  # Student's law with two degrees of freedom
     assert (low, high) == (pytest.approx(-3.2 - half, abs=1e-3), pytest.approx(-3.2 + half, abs=1e-3))
 
@@ -67,24 +69,17 @@ def test_a_run_that_diverged_does_not_count(tmp_path: Path, write_training: Writ
 
 
 def test_runs_of_unlike_length_are_refused(write_training: Write) -> None:
-    trainings = read_trainings([write_training("GRU", 0), write_training("GRU", 1, epochs=4)])["GRU"]
+    read = read_trainings([write_training("GRU", 0), write_training("GRU", 1, epochs=4)])
     with pytest.raises(DataError, match="GRU: runs of 3, 4 epochs"):
-        list(losses_of("GRU", trainings, STATISTICS))
+        runs_of(*read)
 
 
 def test_a_kind_has_one_row_in_all_panels_in_which_its_best_is_hollow_and_below() -> None:
     kinds = {"GRU-adam": "GRU", "LSTM-adam": "LSTM", "GRU": "GRU", "LSTM": "LSTM"}
-    numbers = {
-        "GRU-adam": Number(-3.0, -3.2, -2.8),
-        "LSTM-adam": Number(-2.0),
-        "GRU": Number(-4.0),
-        "LSTM": Number(-5.0),
-    }
-    losses = [
-        Loss(measure, method, None, 1, number, (float(number.value or 0.0),))
-        for measure in MEASURES for method, number in numbers.items()
-    ]  # fmt: skip
-    figure = draw_losses(losses, kinds)
+    numbers = {"GRU-adam": (-3.0, -3.2, -2.8), "LSTM-adam": (-2.0,) * 3, "GRU": (-4.0,) * 3, "LSTM": (-5.0,) * 3}
+    made = [(measure, method, *number) for measure in MEASURES for method, number in numbers.items()]
+    losses = pd.DataFrame(made, columns=["measure", "method", "value", "low", "high"])
+    figure = draw_losses(losses, losses, kinds)
     assert [axis.get_xlabel() for axis in figure.axes] == ["loss [-]", "loss [-]", "RMSE [N m]"]
     for axis in figure.axes:
         assert [text.get_text() for text in axis.texts] == ["-3.00", "-2.00", "-4.00", "-5.00"]

@@ -2,16 +2,17 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import replace
+from itertools import product
 from pathlib import Path
 from types import MappingProxyType, SimpleNamespace
 
 import numpy as np
+import pandas as pd
 import pytest
 from csv_files import check_golden, read_table, write_rows
 
 from experiments.evaluation.compare.rmse import PUSHED
-from experiments.evaluation.figures.paper.figure_18 import UPPER_BODY, LimbPanel, draw_limbs, figure_18, panel_of
-from experiments.evaluation.number.number import Number
+from experiments.evaluation.figures.paper.figure_18 import UPPER_BODY, draw_limbs, figure_18
 from experiments.settings.evaluation import Evaluation
 from experiments.settings.runs import PushWindow
 from experiments.settings.settings import Settings
@@ -69,13 +70,6 @@ def test_limbs_count_by_their_joints(tmp_path: Path, draw: Draw, write_limb_scor
     assert found["W", "avg"] == pytest.approx(3.0)
 
 
-def test_panel_holds_a_group_a_limb_and_a_bar_a_method() -> None:
-    errors = {(limb, joint): Number(2.0) for limb in (UPPER_BODY, "W", "RA") for joint in ("avg", "W1")}
-    panel = panel_of("ID", dict.fromkeys(MEANS, errors))
-    assert list(panel.groups) == [UPPER_BODY, "W", "RA"]
-    assert panel.bars == {method: [Number(2.0)] * 3 for method in MEANS}
-
-
 def test_only_the_time_of_pushes_counts_where_there_is_a_window(
     tmp_path: Path, draw: Draw, write_limb_scores: Write, evaluation: Evaluation
 ) -> None:
@@ -98,8 +92,15 @@ def test_a_missing_method_is_named(tmp_path: Path, draw: Draw, write_limb_scores
 
 def test_bars_have_their_heights_intervals_and_numbers_and_all_limbs_stand_apart() -> None:
     heights = {"a": [1.0, 2.0, 3.0], "b": [3.0, 4.0, 5.0]}
-    bars = {name: [Number(height, height - 0.5, height + 0.25) for height in own] for name, own in heights.items()}
-    figure = draw_limbs([LimbPanel("ID", [UPPER_BODY, "W", "RA"], bars)] * 2, "RMSE [N m]")
+    made: list[tuple[str, str, str, str, float]] = []
+    for scenario, (method, own) in product(("motion_test", "hand_wrench"), heights.items()):
+        made += [
+            (scenario, method, limb, "avg", height) for limb, height in zip((UPPER_BODY, "W", "RA"), own, strict=True)
+        ]
+        made.append((scenario, method, "W", "W1", 9.0))  # that of a joint is not drawn
+    rows = pd.DataFrame(made, columns=["scenario", "method", "limb", "joint", "value"])
+    rows = rows.assign(low=rows["value"] - 0.5, high=rows["value"] + 0.25)
+    figure = draw_limbs(rows, {"motion_test": "ID", "hand_wrench": "pushed"}, "RMSE [N m]")
     first, second = figure.axes
     assert first.get_ylim() == second.get_ylim()
     assert first.get_ylim()[0] == 0.0

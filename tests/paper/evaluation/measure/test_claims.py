@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
+import pandas as pd
 import pytest
 from paper_settings import STATISTICS
 
@@ -167,7 +168,7 @@ def test_a_cause_brings_the_number_into_the_bounds_when_it_is_taken_away(
 ) -> None:
     rows = [dict(zip(("ratio", "low", "high", "joint"), (*ends, name), strict=True))
             for name, ends in (("LL1", ours), ("LL2", without))]  # fmt: skip
-    results = Evidence(settings.layout, {}, {}, {}, {"coverage": rows})
+    results = Evidence(settings.layout, {}, {}, pd.DataFrame(), {"coverage": rows})
     claim = Claim.model_validate(CAUSED)
     found = found_of(claim, results, CONFIDENCE)
     assert judged(Row("a", "a", claim), found, OURS, CONFIDENCE).cause == text

@@ -3,17 +3,13 @@
 from collections.abc import Callable
 from pathlib import Path
 
-import numpy as np
+import pandas as pd
 import pytest
 
-from experiments.evaluation.measure.estimates.pushes import (
-    AVERAGE,
-    INCREASE,
-    PushErrors,
-    collision_errors,
-    push_metrics,
-)
-from experiments.evaluation.number.grid import Lookup, read_lookup
+from experiments.evaluation.measure.estimates.pushes import INCREASE, push_metrics, push_numbers
+from experiments.evaluation.measure.estimates.run_errors import ERROR
+from experiments.evaluation.number.frames import read_scores, rows_of
+from experiments.evaluation.number.scored import AVERAGE
 from experiments.settings.evaluation import Evaluation
 from experiments.settings.settings import Settings
 
@@ -22,46 +18,44 @@ WritePushScores = Callable[..., Path]
 
 
 @pytest.fixture
-def measure(settings: Settings, evaluation: Evaluation) -> Callable[..., PushErrors]:
-    """Return a function of (title of a test, scores) that measures its errors."""
+def measure(settings: Settings, evaluation: Evaluation) -> Callable[..., pd.DataFrame]:
+    """Return a function of (title of a test, scores) that measures its pushes."""
     figure, printed = evaluation.figure_10, settings.published.tables["figure_10"]
 
-    def errors_of(title: str, rows: Lookup) -> PushErrors:
-        return collision_errors(settings.layout, figure, figure.tests[title], printed, rows)
+    def numbers(title: str, scores: pd.DataFrame) -> pd.DataFrame:
+        return push_numbers(scores, settings.layout, figure, figure.tests[title], printed, evaluation.statistics)
 
-    return errors_of
+    return numbers
 
 
 @pytest.fixture
-def errors(
-    evaluation: Evaluation, measure: Callable[..., PushErrors], write_push_scores: WritePushScores
-) -> PushErrors:
+def errors(measure: Callable[..., pd.DataFrame], write_push_scores: WritePushScores) -> pd.DataFrame:
     """Errors of two pushes on the knee, of MEANS and a tenth more, where walking has one N m less than MEANS."""
     paths = [write_push_scores(name, MEANS) for name in ("knee_swing", "walk_test")]
-    return measure("swing knee", read_lookup(paths, evaluation.statistics))
+    return rows_of(measure("swing knee", read_scores(*paths)), measure=ERROR)
 
 
-def test_average_is_that_of_the_pushes_and_increase_is_over_walking(errors: PushErrors) -> None:
+def test_average_is_that_of_the_pushes_and_increase_is_over_walking(errors: pd.DataFrame) -> None:
     """A closed form of made-up errors."""
     for method, mean in MEANS.items():
-        assert list(errors[method]) == ["1", "2", AVERAGE, INCREASE]
-        values = [error.value for error in errors[method].values()]
-        assert values == pytest.approx([mean, 1.1 * mean, 1.05 * mean, 0.05 * mean + 1.0], rel=1e-5)
-        assert errors[method]["1"].runs == (2 if method == "MOB" else 4)
+        own = rows_of(errors, method=method)
+        assert own["push"].tolist() == ["1", "2", AVERAGE, INCREASE]
+        expected = [mean, 1.1 * mean, 1.05 * mean, 0.05 * mean + 1.0]
+        assert own["value"].tolist() == pytest.approx(expected, rel=1e-5)
+        assert own["networks"].iloc[0] == ("1" if method == "MOB" else "2")
 
 
-def test_intervals_hold_their_numbers_and_only_the_average_has_a_printed_one(errors: PushErrors) -> None:
-    for method, own in errors.items():
-        for push, error in own.items():
-            value, low, high = np.array(error.with_ends, dtype=float)
-            assert low < value < high
-            assert error.published == (6.576 if (method, push) == ("MOB-Net", AVERAGE) else None)
+def test_intervals_hold_their_numbers_and_only_the_average_has_a_printed_one(errors: pd.DataFrame) -> None:
+    assert (errors["low"] < errors["value"]).all()
+    assert (errors["value"] < errors["high"]).all()
+    printed = errors.dropna(subset="published")
+    assert printed[["method", "push", "published"]].to_numpy().tolist() == [["MOB-Net", AVERAGE, 6.576]]
 
 
 def test_pushes_are_counted_in_the_scores(
-    evaluation: Evaluation, write_push_scores: WritePushScores, measure: Callable[..., PushErrors]
+    write_push_scores: WritePushScores, measure: Callable[..., pd.DataFrame]
 ) -> None:
     paths = [write_push_scores(name, MEANS, pushes) for name, pushes in (("knee_swing", 12), ("knee_support", 0))]
-    rows = read_lookup(paths, evaluation.statistics)
-    assert push_metrics(rows, "knee_swing") == [f"rmse_push_{k}" for k in range(1, 13)]
-    assert measure("support knee", rows) == {}
+    scores = read_scores(*paths)
+    assert push_metrics(scores, "knee_swing") == [f"rmse_push_{k}" for k in range(1, 13)]
+    assert measure("support knee", scores).empty

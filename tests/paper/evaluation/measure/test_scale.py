@@ -4,6 +4,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import pandas as pd
 import pytest
 from paper_settings import STATISTICS
 
@@ -92,7 +93,7 @@ def test_the_control_has_the_verdicts_of_other_methods(configured: Settings, kno
     rows = [{**columns, "detector": name, "value": "0.95", "low": low, "high": "1.0"}
             for name, low in (("MOB", "0.9"), ("MOB-Net-OR", "0.99"))]  # fmt: skip
     claim = configured.claims["found-or"]
-    results = Evidence(configured.layout, {}, {}, {}, {str(claim.cells[0].table): rows})
+    results = Evidence(configured.layout, {}, {}, pd.DataFrame(), {str(claim.cells[0].table): rows})
     assert control_of(claim, results, STATISTICS, known) == {"MOB": "reproduced"}
     rows[0]["low"] = "0.7"
     assert control_of(claim, results, STATISTICS, known) == {"MOB": "open"}

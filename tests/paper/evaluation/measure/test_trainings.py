@@ -5,7 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from experiments.evaluation.measure.learning.trainings import read_training, read_trainings, sound
+from experiments.evaluation.measure.learning.trainings import read_training, read_trainings
+from experiments.evaluation.number.frames import NETWORKS, TRAININGS
 from mobnet.core.errors import DataError
 
 Write = Callable[..., Path]
@@ -18,18 +19,23 @@ def test_the_epoch_kept_is_the_one_that_validated_best_not_the_last(write_traini
     assert (training.method, training.seed, training.diverged) == ("GRU", 2, False)
 
 
-def test_trainings_stand_under_their_methods_in_the_order_given(write_training: Write) -> None:
+def test_networks_and_their_epochs_stand_in_the_order_given_as_their_schemas_say(write_training: Write) -> None:
     folders = [write_training(method, seed) for method in ("RNN", "GRU") for seed in (1, 0)]
-    found = read_trainings(folders)
-    seeds = [(method, [training.seed for training in trainings]) for method, trainings in found.items()]
-    assert seeds == [("RNN", [1, 0]), ("GRU", [1, 0])]
+    networks, epochs = read_trainings(folders)
+    for frame, schema in ((networks, NETWORKS), (epochs, TRAININGS)):
+        assert {name: str(kind) for name, kind in frame.dtypes.items()} == {
+            name: told[0] for name, told in schema.items()
+        }
+        runs = frame[["method", "seed"]].drop_duplicates().to_numpy().tolist()
+        assert runs == [["RNN", 1], ["RNN", 0], ["GRU", 1], ["GRU", 0]]
 
 
-def test_a_training_that_diverged_is_left_out_even_if_it_has_no_epoch(write_training: Write) -> None:
+def test_a_training_that_diverged_is_known_even_if_it_has_no_epoch(write_training: Write) -> None:
     folders = [write_training("GRU", 0), write_training("GRU", 1, epochs=0, diverged=True)]
-    trainings = read_trainings(folders)["GRU"]
-    assert [training.seed for training in sound(trainings)] == [0]
-    assert trainings[1].epochs == ()
+    networks, epochs = read_trainings(folders)
+    assert networks["diverged"].tolist() == [False, True]
+    assert networks["validation_loss"].isna().tolist() == [False, True]
+    assert epochs["seed"].unique().tolist() == [0]
 
 
 def test_a_training_without_epochs_that_did_not_diverge_is_an_error(write_training: Write) -> None:

@@ -2,16 +2,19 @@
 
 from collections.abc import Callable
 from dataclasses import replace
+from itertools import product
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 import pytest
 from csv_files import check_golden, markdown_cells, read_table, write_rows
 from made_contacts import pushed
 from made_swings import GROUND, RATE_HZ, swinging, unseen
 
-from experiments.evaluation.measure.detection.contact_points import NAMED, NOTHING, ContactDeviation, _compared
+from experiments.evaluation.measure.detection.contact_points import NAMED, NOTHING, _compared
 from experiments.evaluation.measure.detection.results import CELLS
+from experiments.evaluation.number.frames import CONTACTS
 from experiments.evaluation.tables.further.contact_points import write_contacts
 from experiments.plan.runs import Run
 from experiments.settings.settings import Settings
@@ -94,12 +97,14 @@ def test_errors_are_those_of_the_hit(made: Path) -> None:
 
 
 def test_numbers_are_medians_by_what_is_hit(settings: Settings, tmp_path: Path) -> None:
-    section, found = settings.evaluation.contact_points, list[ContactDeviation]()
+    section = settings.evaluation.contact_points
+    made: list[tuple[object, ...]] = []
     for k, title in enumerate((*section.lines, NAMED, NOTHING)):
-        said = () if title in (NAMED, NOTHING) else (0.05, -0.1, 7.0)
+        said = (None, None, None) if title in (NAMED, NOTHING) else (0.05, -0.1, 7.0)
         # errors of 3, 4 and 12 parts along the axes make 13; the seven hits of a cell have multiples of them
-        found += [ContactDeviation(title, cell, 0.001 * (k + 1) * n * np.array([3.0, -4.0, 12.0]), *said)
-                  for cell in CELLS for n in range(1, 8)]  # fmt: skip
+        for cell, n in product(CELLS, range(1, 8)):
+            made.append((title, cell, *(0.001 * (k + 1) * n * np.array([3.0, -4.0, 12.0])), *said))
+    found = pd.DataFrame(made, columns=list(CONTACTS)).astype({name: kind for name, (kind, _, _) in CONTACTS.items()})
     write_contacts(tmp_path / "contact_points", section, settings.evaluation.statistics, found)
     rows = {(row.detector, row.cell, row.quantity): row for row in read_table(tmp_path / "contact_points.csv")}
     first = rows["MOB", "ankle side", "error"]

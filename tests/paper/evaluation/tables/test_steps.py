@@ -4,25 +4,26 @@ from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 import pytest
 from csv_files import check_golden, read_table
 
 from experiments.evaluation.figures.further.commands import commands
 from experiments.evaluation.measure.data.steps import WalkedSteps, bin_edges, bin_of, in_degrees
-from experiments.evaluation.tables.further.steps import Followed, followed
+from experiments.evaluation.tables.further.steps import followed
 from experiments.settings.evaluation import Evaluation
 from experiments.settings.settings import Settings
 
 Sets = dict[str, list[Path]]
 
 
-def followed_x(settings: Settings, wanted: list[float], factor: float = 1.0) -> list[Followed]:
+def followed_x(settings: Settings, wanted: list[float], factor: float = 1.0) -> pd.DataFrame:
     """Return what came of steps of the left foot with some step x [m], a factor longer than commanded."""
     commanded = np.tile([0.0, 0.0, 0.0, 0.7, 0.05], (len(wanted), 1))
     commanded[:, 0] = wanted
     measured = commanded[:, :4] * [factor, 1.0, 1.0, 1.0]
     steps = WalkedSteps(np.zeros(len(wanted), dtype=np.intp), commanded, measured[:, 3], np.zeros((len(wanted), 0)))
-    return list(followed(steps, measured, 0, bin_edges(settings.commands, 0, 3), 0.15))
+    return followed(steps, measured, 0, bin_edges(settings.commands, 0, 3), 0.15)
 
 
 def test_ranges_are_cut_evenly_and_choices_stand_in_the_middle(settings: Settings) -> None:
@@ -58,15 +59,17 @@ def test_every_step_is_counted_once_in_every_command(
 
 def test_a_set_that_falls_short_shows_it(settings: Settings) -> None:
     rows = followed_x(settings, [0.2, 0.19, -0.15], 0.8)
-    assert [row.count for row in rows] == [1, 2]
-    assert all(row.ratio == pytest.approx(0.8) for row in rows)
-    assert [row.within for row in rows] == [0.0, 0.0]
-    assert followed_x(settings, [0.2], 1.1)[0].within == 1.0
+    assert rows["count"].tolist() == [1, 2]
+    assert rows["ratio"].tolist() == pytest.approx([0.8, 0.8])
+    assert rows["within"].tolist() == [0.0, 0.0]
+    assert followed_x(settings, [0.2], 1.1)["within"].tolist() == [1.0]
 
 
 def test_a_bin_around_zero_has_no_ratio_and_steps_in_place_are_left_out(settings: Settings) -> None:
     rows = followed_x(settings, [0.0, 0.01, -0.01, 0.2])
-    assert [(row.count, row.ratio is None) for row in rows] == [(2, True), (1, False)]
+    assert rows["count"].tolist() == [2, 1]
+    for name in ("ratio", "within"):
+        assert rows[name].isna().tolist() == [True, False]
 
 
 def test_the_table_names_a_command_once(make_table: Callable[..., Path], data_sets: Sets) -> None:

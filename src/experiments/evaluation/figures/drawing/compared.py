@@ -1,11 +1,12 @@
 """Torque of a joint by method, below it the errors on a scale of their own, below them their RMSE. Drawing only."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
@@ -14,8 +15,10 @@ from experiments.evaluation.compare.curves import Compared, Panel, TorqueCurve
 from experiments.evaluation.figures.drawing.curves import FROM_LIFT_OFF, draw_panel, table_of
 from experiments.evaluation.figures.drawing.named_bars import BAR_INCH, LINE, NamedBar, draw_named_bars
 from experiments.evaluation.figures.style import entitle, legend, looks, save_figure
+from experiments.evaluation.number.frames import records_of
+from experiments.evaluation.number.laws import numbers_by
 from experiments.evaluation.number.number import Number
-from experiments.evaluation.number.rows import Field, write_csv
+from experiments.evaluation.number.rows import write_csv
 from mobnet.core.columns import JOINT_ERRORS
 from mobnet.core.style import COLUMN_INCH, PAGE_INCH, styled
 
@@ -203,10 +206,23 @@ def draw_stack(
     return figure
 
 
-def save_compared(figure: Figure, stem: Path, panels: Sequence[Panel], errors: Iterable[Sequence[Field]]) -> None:
-    """Write a figure with the curves of panels, and beside it the errors of its bars, rows of `JOINT_ERRORS`."""
-    write_csv(stem.with_name(f"{stem.name}_bars.csv"), JOINT_ERRORS, errors)
+def with_drawn(errors: pd.DataFrame, drawn: Mapping[str, Mapping[str, float]]) -> pd.DataFrame:
+    """Return errors by joint and method with the RMSE of the curve that is drawn, joint -> method -> it [N m]."""
+    places = zip(errors["joint"], errors["method"], strict=True)
+    shown = [drawn[joint].get(method) for joint, method in places]
+    return errors.assign(rmse_drawn=pd.Series(shown, dtype=float))
+
+
+def save_compared(figure: Figure, stem: Path, panels: Sequence[Panel], errors: pd.DataFrame) -> None:
+    """Write a figure with the curves of panels, and beside it the errors of its bars, columns `JOINT_ERRORS`."""
+    write_csv(stem.with_name(f"{stem.name}_bars.csv"), JOINT_ERRORS, records_of(errors, JOINT_ERRORS))
     save_figure(figure, stem, *table_of(panels))
+
+
+def bars_by_joint(errors: pd.DataFrame, drawn: Mapping[str, Mapping[str, float]]) -> dict[str, list[NamedBar]]:
+    """Return joint -> a bar for each method; `drawn` is joint -> method -> RMSE of the curve that is drawn [N m]."""
+    groups = errors.groupby("joint", sort=False)
+    return {str(joint): bars_of(numbers_by(own, "method"), drawn.get(str(joint), {})) for joint, own in groups}
 
 
 def bars_of(numbers: Mapping[str, Number], rmse: Mapping[str, float]) -> list[NamedBar]:

@@ -1,13 +1,17 @@
 """Fine-tuning to a changed robot (section 8.2): error over the seconds of new data."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
+
+import pandas as pd
 
 from experiments.evaluation.figures.drawing.lines import Line, LinePanel, draw_lines
 from experiments.evaluation.figures.style import save_figure
-from experiments.evaluation.number.grid import Wanted, number_of
+from experiments.evaluation.measure.estimates.run_errors import ERROR
+from experiments.evaluation.number.frames import read_scores, records_of
+from experiments.evaluation.number.laws import numbers_by
 from experiments.evaluation.number.number import Number
-from experiments.evaluation.number.rows import read_scores
+from experiments.evaluation.number.scored import CELL, numbers_of
 from experiments.settings.figures import FineTuning, TunedTest
 from experiments.settings.runs import Statistics
 from mobnet.core.columns import TUNED
@@ -29,43 +33,34 @@ def fine_tuning(
 
     Two bands stand beside them: the networks before, and on the robot that they learned from.
     """
-    read = read_scores(*scores)
-    panels = []
-    rows = []
+    asked: list[tuple[str | int, ...]] = []
     for title, test in settings.tests.items():
-        found = []
-        for label, shown in shown_of(settings, seconds, test).items():
-            errors = [number_of(read, [wanted], statistics) for wanted in shown]
-            found.append((label, dict(zip(seconds, errors, strict=True))))
-            for time, wanted, error in zip(seconds, shown, errors, strict=True):
-                place = (title, label, time, wanted.scenario, wanted.level, wanted.method, wanted.joint)
-                rows.append((*place, *error.with_ends, *error.spread, error.unit))
-        panels.append(panel_of(title, found))
+        for line, time, level, method in shown_of(settings, seconds, test):
+            asked.append((title, line, time, test.scenario, settings.limb, level, method, settings.joint, ERROR))
+    cells = pd.DataFrame(asked, columns=["panel", "line", "seconds", *CELL])
+    rows = numbers_of(read_scores(*scores), cells, statistics, may_lack=False)
+    panels = [panel_of(str(title), own) for title, own in rows.groupby("panel", sort=False)]
     figure = draw_lines(panels, min(COLUMNS, len(panels)), PANEL_INCH)
-    save_figure(figure, figure_dir / "fine_tuning", TUNED, rows)
+    save_figure(figure, figure_dir / "fine_tuning", TUNED, records_of(rows, TUNED))
 
 
-def panel_of(title: str, found: Sequence[tuple[str, Mapping[int, Number]]]) -> LinePanel:
-    """Return the panel of a test: of each label the error by seconds; those that need none of these are bands."""
+def panel_of(title: str, rows: pd.DataFrame) -> LinePanel:
+    """Return the panel of a test: of each line the error by seconds; those that need none of these are bands."""
     bands: dict[str, Number] = {}
     lines: list[Line] = []
-    for label, errors in found:
-        if label in (BEFORE, KNOWN):
-            bands[label] = next(iter(errors.values()))
+    for line, own in rows.groupby("line", sort=False):
+        errors = numbers_by(own, "seconds")
+        if line in (BEFORE, KNOWN):
+            bands[str(line)] = next(iter(errors.values()))
         else:
-            lines.append(Line(label, list(errors), list(errors.values())))
+            lines.append(Line(str(line), list(errors), list(errors.values())))
     return LinePanel(title, X_LABEL, Y_LABEL, lines, bands, dodge=APART)
 
 
-def shown_of(settings: FineTuning, seconds: Sequence[int], test: TunedTest) -> dict[str, list[Wanted]]:
-    """Return line -> what is looked at for each number of seconds (n,)."""
+def shown_of(settings: FineTuning, seconds: Sequence[int], test: TunedTest) -> list[tuple[str, int, str, str]]:
+    """Return line, seconds, level and method of what is looked at, line by line."""
     (before,) = test.methods
-
-    def wanted(level: str, method: str) -> Wanted:
-        return Wanted(test.scenario, settings.limb, level, method, settings.joint)
-
-    shown = {BEFORE: [wanted(test.level, before)] * len(seconds)}
-    for label, base in test.tuned.items():
-        shown[label] = [wanted(test.level, swept_name(base, settings.sweep, time)) for time in seconds]
-    shown[KNOWN] = [wanted(test.known, before)] * len(seconds)
-    return shown
+    shown = [(BEFORE, time, test.level, before) for time in seconds]
+    for line, base in test.tuned.items():
+        shown += [(line, time, test.level, swept_name(base, settings.sweep, time)) for time in seconds]
+    return [*shown, *((KNOWN, time, test.known, before) for time in seconds)]

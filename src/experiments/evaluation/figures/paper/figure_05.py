@@ -5,12 +5,15 @@ from dataclasses import replace
 from itertools import groupby
 from pathlib import Path
 
-from experiments.evaluation.compare.curves import Panel, compared, read_cycle, without_zero
-from experiments.evaluation.figures.drawing.compared import bars_of, draw_stack, save_compared
+import pandas as pd
+
+from experiments.evaluation.compare.curves import Compared, Panel, compared, read_cycle, without_zero
+from experiments.evaluation.figures.drawing.compared import bars_of, draw_stack, save_compared, with_drawn
 from experiments.evaluation.figures.drawing.named_bars import NamedBar
-from experiments.evaluation.measure.estimates.run_errors import ERROR, error_rows, joint_errors
-from experiments.evaluation.number.grid import read_lookup
-from experiments.evaluation.number.rows import Field
+from experiments.evaluation.measure.estimates.run_errors import ERROR
+from experiments.evaluation.number.frames import read_scores
+from experiments.evaluation.number.laws import numbers_by
+from experiments.evaluation.number.scored import joint_errors
 from experiments.plan.runs import Run
 from experiments.settings.figures import Figure05
 from experiments.settings.published import PublishedTable
@@ -33,20 +36,20 @@ def figure_05(
     Its bars are errors over all walks.
     """
     joint = settings.joint
-    lookup = read_lookup(scores, statistics)
-    pairs = []
-    bars = list[NamedBar]()
-    rows = list[tuple[Field, ...]]()
+    read = read_scores(*scores)
+    pairs: list[Compared] = []
+    bars: list[NamedBar] = []
+    rows: list[pd.DataFrame] = []
     for level, own in groupby(runs, lambda run: run.level):
         pair = compared(read_panel(layout, without_zero(own), joint, start_s))
         test = Runs(scenario=settings.scenario, level=level, methods=settings.panels[level])
-        errors = joint_errors(lookup, layout, test, [joint], ERROR, published, level)
+        errors = joint_errors(read, layout, test, [joint], ERROR, statistics, published, level)
         short = f", {level.replace('_', ' ')}" if len(test.methods) == 1 else ""
         pairs.append(pair)
-        bars += [replace(bar, name=bar.name + short) for bar in bars_of(errors[joint], pair.rmse)]
-        rows += error_rows(test, ERROR, errors, {joint: pair.rmse})
+        bars += [replace(bar, name=bar.name + short) for bar in bars_of(numbers_by(errors, "method"), pair.rmse)]
+        rows.append(with_drawn(errors, {joint: pair.rmse}))
     figure = draw_stack(pairs, bars, settings.errors_of, "RMSE over all walks", joint)
-    save_compared(figure, figure_dir / "figure_05", [pair.torque for pair in pairs], rows)
+    save_compared(figure, figure_dir / "figure_05", [pair.torque for pair in pairs], pd.concat(rows))
 
 
 def read_panel(layout: JointLayout, runs: Sequence[Run], joint: str, start_s: float) -> Panel:

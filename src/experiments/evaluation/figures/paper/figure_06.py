@@ -5,11 +5,12 @@ from pathlib import Path
 
 from experiments.evaluation.compare.curves import compared, without_zero
 from experiments.evaluation.compare.rmse import PUSHED
-from experiments.evaluation.figures.drawing.compared import bars_of, save_compared
+from experiments.evaluation.figures.drawing.compared import bars_of, save_compared, with_drawn
 from experiments.evaluation.figures.drawing.pushes import draw_step
 from experiments.evaluation.measure.estimates.pushes import read_pushes
-from experiments.evaluation.measure.estimates.run_errors import error_rows, joint_errors
-from experiments.evaluation.number.grid import read_lookup
+from experiments.evaluation.number.frames import read_scores
+from experiments.evaluation.number.laws import numbers_by
+from experiments.evaluation.number.scored import joint_errors
 from experiments.plan.runs import Run
 from experiments.settings.figures import Figure06
 from experiments.settings.published import PublishedTable
@@ -35,11 +36,12 @@ def figure_06(
     """
     joint = settings.joint
     (name,) = scenarios[settings.scenario].pushes
-    errors = joint_errors(read_lookup(scores, statistics), layout, settings, [joint], PUSHED, published, settings.level)
+    read = read_scores(*scores)
+    errors = joint_errors(read, layout, settings, [joint], PUSHED, statistics, published, settings.level)
     sizes = pushes[name].torque_nm
     title = f"{f'{sizes[0]:g} N m' if sizes else 'push'} on {joint} in the swing"
     panels = read_pushes(layout, settings, without_zero(runs), title)[:1]
     drawn = compared(panels[0]).rmse if panels else {}
-    figure = draw_step(panels, bars_of(errors[joint], drawn), joint, "RMSE around all steps")
-    written = error_rows(settings, PUSHED, errors, {joint: drawn})
-    save_compared(figure, figure_dir / "figure_06", panels, written)
+    bars = bars_of(numbers_by(errors, "method"), drawn)
+    figure = draw_step(panels, bars, joint, "RMSE around all steps")
+    save_compared(figure, figure_dir / "figure_06", panels, with_drawn(errors, {joint: drawn}))

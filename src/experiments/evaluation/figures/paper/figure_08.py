@@ -5,10 +5,11 @@ from dataclasses import replace
 from pathlib import Path
 
 from experiments.evaluation.compare.curves import Compared, compared, read_cycle
-from experiments.evaluation.figures.drawing.compared import draw_leg, save_compared
-from experiments.evaluation.measure.estimates.run_errors import error_rows, joint_errors
-from experiments.evaluation.number.grid import read_lookup
+from experiments.evaluation.figures.drawing.compared import draw_leg, save_compared, with_drawn
+from experiments.evaluation.number.frames import read_scores
+from experiments.evaluation.number.laws import numbers_by
 from experiments.evaluation.number.number import Number
+from experiments.evaluation.number.scored import joint_errors
 from experiments.plan.runs import Run
 from experiments.settings.figures import Figure08
 from experiments.settings.published import PublishedTable
@@ -33,12 +34,12 @@ def figure_08(
     (method,) = settings.methods
     curves, rows = read_cycle(layout, runs, layout.limb(settings.limb), start_s)
     pairs = {joint: compared(curves.uncertainty_panel(joint, joint, rows, zero=rows.start)) for joint in curves.joints}
-    lookup = read_lookup(scores, statistics)
-    drawn = {joint: pair.rmse for joint, pair in pairs.items()}
-    errors = joint_errors(lookup, layout, settings, curves.joints, settings.metric, published, settings.place)
-    titled = [entitled(pair, method, errors[joint][method]) for joint, pair in pairs.items()]
-    written = error_rows(settings, settings.metric, errors, drawn)
-    figure = draw_leg(titled)
+    joints, metric = curves.joints, settings.metric
+    read = read_scores(*scores)
+    errors = joint_errors(read, layout, settings, joints, metric, statistics, published, settings.place)
+    numbers = numbers_by(errors, "joint")
+    figure = draw_leg([entitled(pair, method, numbers[joint]) for joint, pair in pairs.items()])
+    written = with_drawn(errors, {joint: pair.rmse for joint, pair in pairs.items()})
     save_compared(figure, figure_dir / "figure_08", [pair.torque for pair in pairs.values()], written)
 
 

@@ -4,11 +4,11 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from experiments.evaluation.compare.curves import compared, read_cycle, without_zero
-from experiments.evaluation.figures.drawing.compared import bars_of, draw_columns, save_compared
+from experiments.evaluation.figures.drawing.compared import bars_by_joint, draw_columns, save_compared, with_drawn
 from experiments.evaluation.figures.drawing.curves import FROM_LIFT_OFF
 from experiments.evaluation.figures.drawing.named_bars import PAPER_LABEL
-from experiments.evaluation.measure.estimates.run_errors import error_rows, joint_errors
-from experiments.evaluation.number.grid import read_lookup
+from experiments.evaluation.number.frames import read_scores
+from experiments.evaluation.number.scored import joint_errors
 from experiments.plan.runs import Run
 from experiments.settings.figures import Figure09
 from experiments.settings.published import PublishedTable
@@ -32,16 +32,18 @@ def figure_09(
     """
     curves, rows = read_cycle(layout, without_zero(runs), layout.limb(settings.limb), start_s)
     pairs = {joint: compared(curves.panel(joint, joint, rows, zero=rows.start)) for joint in curves.joints}
-    lookup = read_lookup(scores, statistics)
+    joints, metric = curves.joints, settings.metric
+    read = read_scores(*scores)
+    errors = joint_errors(read, layout, settings, joints, metric, statistics, published, settings.place)
     drawn = {joint: pair.rmse for joint, pair in pairs.items()}
-    errors = joint_errors(lookup, layout, settings, curves.joints, settings.metric, published, settings.place)
+    bars = bars_by_joint(errors, drawn)
     figure = draw_columns(
         [pairs[joint] for joint in settings.drawn],
-        [bars_of(errors[joint], drawn[joint]) for joint in settings.drawn],
+        [bars[joint] for joint in settings.drawn],
         [layout.unit(joint) for joint in settings.drawn],
         settings.errors_of,
         FROM_LIFT_OFF,
         PAPER_LABEL[published.robot],
     )
-    written = error_rows(settings, settings.metric, errors, drawn)
-    save_compared(figure, figure_dir / "figure_09", [pair.torque for pair in pairs.values()], written)
+    panels = [pair.torque for pair in pairs.values()]
+    save_compared(figure, figure_dir / "figure_09", panels, with_drawn(errors, drawn))

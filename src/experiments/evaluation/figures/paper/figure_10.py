@@ -4,25 +4,20 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
+import pandas as pd
+
 from experiments.evaluation.compare.curves import Panel
 from experiments.evaluation.figures.drawing.curves import table_of
 from experiments.evaluation.figures.drawing.named_bars import PAPER_LABEL, NamedBar
 from experiments.evaluation.figures.drawing.pushes import PushGroup, draw_hits
 from experiments.evaluation.figures.style import save_figure
 from experiments.evaluation.measure.estimates.peaks import DELAY, OBSERVER, SHARE
-from experiments.evaluation.measure.estimates.pushes import (
-    AVERAGE,
-    INCREASE,
-    PushErrors,
-    Responses,
-    collision_errors,
-    read_pushes,
-    responses_of,
-)
+from experiments.evaluation.measure.estimates.pushes import INCREASE, push_numbers, read_pushes
 from experiments.evaluation.measure.estimates.run_errors import ERROR
-from experiments.evaluation.number.grid import read_lookup
-from experiments.evaluation.number.number import Number
-from experiments.evaluation.number.rows import Field, write_csv
+from experiments.evaluation.number.frames import read_scores, records_of, rows_of
+from experiments.evaluation.number.laws import numbers_by
+from experiments.evaluation.number.rows import write_csv
+from experiments.evaluation.number.scored import AVERAGE
 from experiments.plan.runs import Run
 from experiments.settings.figures import Figure10
 from experiments.settings.published import PublishedTable
@@ -47,49 +42,41 @@ def figure_10(
     The first is that of the leg in the air, the second that of the leg on the ground. The title of a test leads to its
     runs, one of each method and all of one recording. Numbers of both are in one file.
     """
-    lookup = read_lookup(scores, statistics)
-    rows = list[tuple[Field, ...]]()
+    read = read_scores(*scores)
+    rows: list[pd.DataFrame] = []
     for picture, (title, test) in zip(PICTURES, settings.tests.items(), strict=False):
-        errors = collision_errors(layout, settings, test, published, lookup)
-        responses = responses_of(layout, lookup, test, settings.joint)
+        own = push_numbers(read, layout, settings, test, published, statistics)
         drawn = [run for run in runs[title] if run.method in settings.drawn]
         panels = [ours_banded(panel) for panel in read_pushes(layout, settings, drawn, f"{title} {{}}", band=True)]
-        group = group_of(panels, title, errors, responses)
-        figure = draw_hits(group, settings.joint, PAPER_LABEL[True])
+        figure = draw_hits(group_of(panels, title, own), settings.joint, PAPER_LABEL[True])
         save_figure(figure, figure_dir / picture, *table_of(panels))
-        rows += rows_of(test.scenario, errors, responses)
-    write_csv(figure_dir / "figure_10_bars.csv", PUSH_ERRORS, rows)
+        rows.append(own)
+    write_csv(figure_dir / "figure_10_bars.csv", PUSH_ERRORS, records_of(pd.concat(rows), PUSH_ERRORS))
 
 
-def group_of(panels: Sequence[Panel], title: str, errors: PushErrors, responses: Responses) -> PushGroup:
-    """Return what is drawn of a test: its curves, and of each method errors [N m], share [-] and delay [ms]."""
-    bars = [NamedBar(name, name, own[AVERAGE], marks_of(own)) for name, own in errors.items()]
-    shares = [NamedBar(name, name, responses[name][SHARE]) for name in errors]
-    delays = [NamedBar(name, name, responses[name][DELAY]) for name in errors]
-    late = next((own[DELAY + OBSERVER].value for own in responses.values() if own[DELAY + OBSERVER].value), None)
-    return PushGroup(panels, f"{title}: all hits, walks and robots", bars, shares, delays, late)
+def group_of(panels: Sequence[Panel], title: str, rows: pd.DataFrame) -> PushGroup:
+    """Return what is drawn of a test: its curves, and of its `PUSH_ERRORS` errors [N m], shares [-], delays [ms]."""
+    # Rows over all pushes are numbers, those of single ones are marks.
+    averages = rows_of(rows, push=AVERAGE)
+    errors = rows_of(rows, measure=ERROR)
+    single = errors[~errors["push"].isin([AVERAGE, INCREASE])].dropna(subset="value")
+    bars: list[NamedBar] = []
+    for method, number in numbers_by(rows_of(averages, measure=ERROR), "method").items():
+        bars.append(NamedBar(method, method, number, rows_of(single, method=method)["value"].tolist()))
+    shares = named_numbers(rows_of(averages, measure=SHARE))
+    delays = named_numbers(rows_of(averages, measure=DELAY))
+    # Where nothing pushes nothing is late.
+    late = rows_of(averages, measure=DELAY + OBSERVER)["value"].dropna()
+    late_ms = next((value for value in late if value), None)
+    return PushGroup(panels, f"{title}: all hits, walks and robots", bars, shares, delays, late_ms)
+
+
+def named_numbers(rows: pd.DataFrame) -> list[NamedBar]:
+    """Return the number of each method."""
+    return [NamedBar(method, method, number) for method, number in numbers_by(rows, "method").items()]
 
 
 def ours_banded(panel: Panel) -> Panel:
     """Return a panel with the standard deviation of its last method alone."""
     *others, ours = panel.curves
     return replace(panel, curves=[*(replace(curve, std=None) for curve in others), ours])
-
-
-def marks_of(own: Mapping[str, Number]) -> list[float]:
-    """Return a method's error in each push [N m]."""
-    return [
-        number.value for push, number in own.items() if push not in (AVERAGE, INCREASE) and number.value is not None
-    ]
-
-
-def rows_of(scenario: str, errors: PushErrors, responses: Responses) -> list[tuple[Field, ...]]:
-    """Return rows of `PUSH_ERRORS`: a method's errors by push, then its share and delay over all pushes."""
-    found: list[tuple[str, str, str, Number]] = []
-    for method, own in errors.items():
-        found += [(method, push, ERROR, error) for push, error in own.items()]
-        found += [(method, AVERAGE, measure, number) for measure, number in responses[method].items()]
-    return [
-        (scenario, method, push, measure, *number.with_ends, *number.spread, number.unit, number.published)
-        for method, push, measure, number in found
-    ]

@@ -8,13 +8,17 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from experiments.evaluation.figures.style import Look, entitle, looks, save_figure
-from experiments.evaluation.measure.learning.losses import ENDS, Loss, losses_of
-from experiments.evaluation.measure.learning.trainings import kind_of_each, read_trainings, sound
+from experiments.evaluation.measure.learning.losses import ENDS, losses_of, runs_of
+from experiments.evaluation.measure.learning.trainings import kind_of_each, read_trainings
+from experiments.evaluation.number.frames import records_of, rows_of
+from experiments.evaluation.number.laws import numbers_by
+from experiments.evaluation.number.number import Number
 from experiments.settings.figures import Figure17
 from experiments.settings.runs import Statistics
 from mobnet.core.columns import LOSSES
@@ -35,32 +39,36 @@ def figure_17(settings: Figure17, folders: Sequence[Path], statistics: Statistic
 
     Trainings that diverged are left out. The figure has those at the end, the CSV file those of every epoch too.
     """
-    trained = {method: sound(trainings) for method, trainings in read_trainings(folders).items()}
-    losses: list[Loss] = []
-    for method, runs in trained.items():
-        if runs:  # of a method whose trainings all diverged nothing is left
-            losses += losses_of(method, runs, statistics)
-    figure = draw_losses([loss for loss in losses if loss.epoch is None], kind_of_each(settings))
-    save_figure(figure, figure_dir / "figure_17", LOSSES, [loss.record() for loss in losses])
+    networks, epochs = read_trainings(folders)
+    runs = runs_of(networks[~networks["diverged"]], epochs[~epochs["diverged"]])
+    losses = losses_of(runs, statistics)
+    at_end = losses["at_end"]
+    figure = draw_losses(losses[at_end], runs[runs["at_end"]], kind_of_each(settings))
+    shown = losses.rename(columns={"value": "mean", "count": "runs"})
+    shown["epoch"] = shown["epoch"].astype("Int64").mask(at_end)
+    save_figure(figure, figure_dir / "figure_17", LOSSES, records_of(shown, LOSSES))
 
 
 @styled
-def draw_losses(losses: Sequence[Loss], kinds: Mapping[str, str]) -> Figure:
+def draw_losses(losses: pd.DataFrame, runs: pd.DataFrame, kinds: Mapping[str, str]) -> Figure:
     """Draw a panel for each measure and in it a row for each kind: the mean, its interval, and the single runs.
 
     Args:
-        losses: of methods, losses [-] and errors [N m].
+        losses: of methods, losses [-] and errors [N m] at the end, a row for each `measure` and `method`.
+        runs: those of single runs.
         kinds: method -> its kind. The method that has the kind's name, the best of it, is drawn hollow below the other.
     """
-    rows = list(dict.fromkeys(kinds[loss.method] for loss in losses))
+    rows = list(dict.fromkeys(kinds[method] for method in losses["method"]))
     styles = looks(rows)
     figure = Figure(figsize=(PAGE_INCH, ROW_INCH * max(1, len(rows)) + LABELS_INCH), layout="constrained")
     axes = figure.subplots(1, len(TITLES), sharey=True)
     for k, (axis, measure) in enumerate(zip(axes, dict.fromkeys(ENDS.values()), strict=True)):
-        for loss in (loss for loss in losses if loss.measure == measure):
-            kind = kinds[loss.method]
-            is_best = loss.method == kinds[loss.method]
-            _draw(axis, rows.index(kind) + (APART if is_best else -APART), loss, styles[kind], hollow=is_best)
+        for method, number in numbers_by(rows_of(losses, measure=measure), "method").items():
+            kind = kinds[method]
+            is_best = method == kind
+            row = rows.index(kind) + (APART if is_best else -APART)
+            single = rows_of(runs, measure=measure, method=method)["value"].tolist()
+            _draw(axis, row, number, single, styles[kind], hollow=is_best)
         axis.set_xlabel(LABELS[measure])
         axis.tick_params(axis="y", length=0.0)
         entitle(axis, k, TITLES[measure])
@@ -87,16 +95,16 @@ def _key(figure: Figure) -> None:
     figure.legend(handles=handles, loc="outside upper center", ncols=len(handles), frameon=False, borderpad=0.0)
 
 
-def _draw(axis: Axes, row: float, loss: Loss, look: Look, *, hollow: bool) -> None:
+def _draw(axis: Axes, row: float, number: Number, runs: Sequence[float], look: Look, *, hollow: bool) -> None:
     """Draw a loss [-] or an error [N m] at its place with its number."""
-    value, low, high = np.array(loss.number.range, dtype=np.float64)
+    value, low, high = np.array(number.range, dtype=np.float64)
     axis.plot([low, high], [row, row], color=look.colour, linewidth=1.6, solid_capstyle="butt")
-    axis.plot(loss.runs, [row] * len(loss.runs), color=look.colour, **STROKE)
+    axis.plot(runs, [row] * len(runs), color=look.colour, **STROKE)
     filling = "white" if hollow else look.colour
     axis.plot([value], [row], marker=look.marker, color=look.colour, markerfacecolor=filling, **MARK)
     axis.annotate(
-        loss.number.text(),
-        (max(high, *loss.runs), row),
+        number.text(),
+        (max(high, *runs), row),
         (6.0, 0.0),
         textcoords="offset points",
         va="center",

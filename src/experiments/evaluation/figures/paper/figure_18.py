@@ -1,20 +1,21 @@
 """Figure 18: one network for each limb against one network for the whole body, errors of the upper body."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from experiments.evaluation.compare.rmse import PUSHED
 from experiments.evaluation.figures.style import entitle, legend, looks, save_figure, stacked
-from experiments.evaluation.measure.estimates.scores import AVERAGE
-from experiments.evaluation.number.grid import Wanted, number_of
-from experiments.evaluation.number.number import Number
-from experiments.evaluation.number.rows import read_scores
+from experiments.evaluation.measure.estimates.run_errors import ERROR
+from experiments.evaluation.number.frames import ordered, read_scores, records_of, rows_of
+from experiments.evaluation.number.laws import measured
+from experiments.evaluation.number.number import number_text
+from experiments.evaluation.number.scored import AVERAGE, number_of, runs_of
 from experiments.settings.figures import Figure18
 from experiments.settings.runs import PushWindow, Statistics
 from mobnet.core.columns import LIMB_ERRORS
@@ -26,17 +27,7 @@ PANEL_INCH, LEGEND_INCH = 1.6, 0.35  # height of a panel and of the legend above
 APART = 1.35  # distance of the first limb from all limbs together [distances of two limbs]
 BAR_SHARE = 0.84  # of the distance of two limbs
 NUMBER_POINTS, ROOM = 6.0, 1.12  # size of a number above its bar, height of the axis over the highest bar
-Errors = dict[tuple[str, str], Number]  # limb or UPPER_BODY, joint or AVERAGE -> error [N m]
 HATCHED: Mapping[str, Any] = {"edgecolor": "white", "linewidth": 0.0}
-
-
-@dataclass(frozen=True)
-class LimbPanel:
-    """One panel, of n groups of bars: a method has a number [N m] with its interval in each of them."""
-
-    title: str
-    groups: Sequence[str]
-    bars: Mapping[str, Sequence[Number]]
 
 
 def figure_18(
@@ -51,73 +42,76 @@ def figure_18(
 
     Of a test with a window around pushes, it is that of the windows.
     """
-    read = read_scores(*scores)
-    rows = []
-    panels = []
-    for scenario, title in settings.panels.items():
-        errors = {}
-        metric = PUSHED if scenario in windows else "rmse"
+    asked = asked_of(settings, windows, layout)
+    runs = ordered(runs_of(read_scores(*scores), asked), scenario=list(settings.panels), method=settings.methods)
+    place = ["scenario", "method", "shown"]
+    numbers = measured(runs, place, {"rmse_nm": lambda own: number_of(own, statistics)})
+    places = asked[["shown", "shown_limb", "shown_joint"]].drop_duplicates("shown")
+    rows = numbers.merge(places, how="left", on="shown")
+    rows = rows.rename(columns={"shown_limb": "limb", "shown_joint": "joint"})
+    figure = draw_limbs(rows, settings.panels, "RMSE [N m]")
+    records = records_of(rows.rename(columns={"value": "rmse_nm"}), LIMB_ERRORS)
+    save_figure(figure, figure_dir / "figure_18", LIMB_ERRORS, records)
+
+
+def asked_of(settings: Figure18, windows: Mapping[str, PushWindow], layout: JointLayout) -> pd.DataFrame:
+    """Return the errors whose mean is shown: of all limbs, then of each limb and its joints, columns CELL.
+
+    `shown` numbers what is shown of a method in a test, and `shown_limb` and `shown_joint` say what it is of.
+    """
+    by_limb = {limb: layout.limb(limb) for limb in settings.limbs}
+    # Of all limbs it is the mean over their joints, not that of the limbs' means.
+    every = [(limb, joint) for limb, joints in by_limb.items() for joint in joints]
+    shown = [(UPPER_BODY, AVERAGE, every)]
+    for limb, joints in by_limb.items():
+        shown.append((limb, AVERAGE, [(limb, joint) for joint in joints]))
+        shown += [(limb, joint, [(limb, joint)]) for joint in joints]
+    asked: list[tuple[int | str, ...]] = []
+    for scenario in settings.panels:
+        metric = PUSHED if scenario in windows else ERROR
         for method in settings.methods:
-            wanted = wanted_of(settings, layout, scenario, method, metric)
-            errors[method] = {place: number_of(read, of, statistics) for place, of in wanted.items()}
-        panels.append(panel_of(title, errors))
-        for method, found in errors.items():
-            rows += [(scenario, method, *place, *error.with_ends, *error.spread) for place, error in found.items()]
-    save_figure(draw_limbs(panels, "RMSE [N m]"), figure_dir / "figure_18", LIMB_ERRORS, rows)
-
-
-def wanted_of(
-    settings: Figure18, layout: JointLayout, scenario: str, method: str, metric: str = "rmse"
-) -> dict[tuple[str, str], list[Wanted]]:
-    """Return limb and joint -> the errors whose mean is shown: of all limbs, then of each limb and its joints."""
-    whole: list[Wanted] = []
-    by_limb: dict[tuple[str, str], list[Wanted]] = {}
-    for limb in settings.limbs:
-        own = [Wanted(scenario, limb, settings.level, method, joint, metric) for joint in layout.limb(limb)]
-        whole += own  # of all limbs it is the mean over their joints, not that of the limbs' means
-        by_limb[limb, AVERAGE] = own
-        for wanted in own:
-            by_limb[limb, wanted.joint] = [wanted]
-    return {(UPPER_BODY, AVERAGE): whole, **by_limb}
-
-
-def panel_of(title: str, errors: Mapping[str, Errors]) -> LimbPanel:
-    """Return a panel: a group for all limbs and for each limb, in each a bar for each method [N m]."""
-    groups: dict[str, None] = {}
-    bars: dict[str, list[Number]] = {}
-    for method, own in errors.items():
-        averages = {limb: error for (limb, joint), error in own.items() if joint == AVERAGE}
-        groups |= dict.fromkeys(averages)
-        bars[method] = list(averages.values())
-    return LimbPanel(title, list(groups), bars)
+            for k, (limb, joint, own) in enumerate(shown):
+                asked += [(k, limb, joint, scenario, *one, settings.level, method, metric) for one in own]
+    columns = ["shown", "shown_limb", "shown_joint", "scenario", "limb", "joint", "level", "method", "metric"]
+    return pd.DataFrame(asked, columns=columns)
 
 
 @styled
-def draw_limbs(panels: Sequence[LimbPanel], y_label: str) -> Figure:
-    """Draw bars [N m] with intervals and numbers, a panel for each test; all limbs together stand apart at the left."""
-    figure, axes = stacked([y_label] * len(panels), PANEL_INCH, LEGEND_INCH)
-    for k, (axis, panel) in enumerate(zip(axes, panels, strict=True)):
-        _draw(axis, panel)
+def draw_limbs(rows: pd.DataFrame, titles: Mapping[str, str], y_label: str) -> Figure:
+    """Draw bars [N m] with intervals and numbers, a panel for each test; all limbs together stand apart at the left.
+
+    Rows have `scenario`, `method`, `limb`, `joint` and the number; those of single joints are not drawn. A scenario
+    leads to its title.
+    """
+    figure, axes = stacked([y_label] * len(titles), PANEL_INCH, LEGEND_INCH)
+    averages = rows_of(rows, joint=AVERAGE)
+    for k, (axis, (scenario, title)) in enumerate(zip(axes, titles.items(), strict=True)):
+        _draw(axis, rows_of(averages, scenario=scenario))
         axis.set_ylabel(y_label)
-        entitle(axis, k, panel.title)
+        entitle(axis, k, title)
     legend(figure, axes)
     return figure
 
 
-def _draw(axis: Axes, panel: LimbPanel) -> None:
+def _draw(axis: Axes, rows: pd.DataFrame) -> None:
     """Draw the bars [N m] of a panel."""
-    places = np.arange(len(panel.groups)) + (np.arange(len(panel.groups)) > 0) * (APART - 1.0)
-    width = BAR_SHARE / max(1, len(panel.bars))
-    styles = looks(panel.bars)
-    for k, (method, numbers) in enumerate(panel.bars.items()):
-        x = places + (k - (len(panel.bars) - 1) / 2) * width
-        value, low, high = np.array([number.range for number in numbers], dtype=np.float64).reshape(-1, 3).T
+    limbs = list(rows["limb"].unique())
+    methods = list(rows["method"].unique())
+    places = np.arange(len(limbs)) + (np.arange(len(limbs)) > 0) * (APART - 1.0)
+    width = BAR_SHARE / max(1, len(methods))
+    styles = looks(methods)
+    for k, method in enumerate(methods):
+        own = rows_of(rows, method=method)
+        x = places + (k - (len(methods) - 1) / 2) * width
+        value = own["value"].to_numpy()
+        low = own["low"].fillna(own["value"]).to_numpy()
+        high = own["high"].fillna(own["value"]).to_numpy()
         look = {"color": styles[method].colour, "hatch": styles[method].hatch, **HATCHED}
         axis.bar(x, value, 0.92 * width, label=method, **look)
         axis.vlines(x, low, high, color="black", linewidth=0.8)
-        for place, number, top in zip(x, numbers, high, strict=True):
+        for place, number, top in zip(x, value, high, strict=True):
             axis.annotate(
-                number.text(1),
+                number_text(number, 1),
                 (place, top),
                 (0.0, 1.5),
                 textcoords="offset points",
@@ -127,5 +121,5 @@ def _draw(axis: Axes, panel: LimbPanel) -> None:
             )
         # Room for the number above the highest interval of all methods.
         axis.set_ylim(0.0, max(axis.get_ylim()[1], ROOM * float(high.max(initial=0.0))))
-    axis.set_xticks(places, panel.groups)
+    axis.set_xticks(places, limbs)
     axis.tick_params(axis="x", length=0.0)

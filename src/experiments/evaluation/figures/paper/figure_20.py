@@ -3,9 +3,13 @@
 from collections.abc import Sequence
 from pathlib import Path
 
+import pandas as pd
+
 from experiments.evaluation.figures.drawing.lines import Line, LinePanel, draw_lines
 from experiments.evaluation.figures.style import save_figure
-from experiments.evaluation.measure.learning.sizes import Size, sizes_of
+from experiments.evaluation.measure.learning.sizes import sizes_of
+from experiments.evaluation.number.frames import records_of, rows_of
+from experiments.evaluation.number.laws import number_from
 from experiments.plan.runs import SweptSize
 from experiments.settings.runs import Statistics
 from mobnet.core.columns import SIZES
@@ -15,6 +19,7 @@ X_LABELS = {"parameters": "parameters [thousand]", "samples": "samples learned f
 PRINTED_NAMES = {"parameters": "network of Table 1", "samples": "all data"}  # at the grey line of each panel
 Y_LABEL = "RMSE [N m]"
 THOUSAND = 1e3
+ERROR = {"rmse_nm": "value", "rmse_low_nm": "low", "rmse_high_nm": "high"}  # columns of the error as those of a number
 
 
 def figure_20(sizes_of_networks: Sequence[SweptSize], statistics: Statistics, figure_dir: Path) -> None:
@@ -23,14 +28,15 @@ def figure_20(sizes_of_networks: Sequence[SweptSize], statistics: Statistics, fi
     The CSV file has the errors over that of the printed size too.
     """
     sizes = sizes_of(sizes_of_networks, statistics)
-    panels = []
+    save_figure(draw_lines(panels_of(sizes)), figure_dir / "figure_20", SIZES, records_of(sizes, SIZES))
+
+
+def panels_of(sizes: pd.DataFrame) -> list[LinePanel]:
+    """Return a panel for each of `TITLES` with a line for each estimator: error [N m] over the size that it varies."""
+    panels: list[LinePanel] = []
     for panel, title in TITLES.items():
-        bases = dict.fromkeys(swept.base for swept in sizes_of_networks if swept.panel == panel)
-        lines = []
-        for base in bases:
-            own = [size for size in sizes if (size.panel, size.base) == (panel, base)]
-            if own:
-                lines.append(growth_line(own, base))
+        own = rows_of(sizes, panel=panel)
+        lines = [growth_line(of, panel, str(base)) for base, of in own.groupby("base", sort=False)]
         drawn = LinePanel(
             title,
             X_LABELS[panel],
@@ -41,15 +47,16 @@ def figure_20(sizes_of_networks: Sequence[SweptSize], statistics: Statistics, fi
             scale=panel,
         )
         panels.append(drawn)
-    save_figure(draw_lines(panels), figure_dir / "figure_20", SIZES, [size.record() for size in sizes])
+    return panels
 
 
-def growth_line(own: Sequence[Size], base: str) -> Line:
+def growth_line(own: pd.DataFrame, panel: str, base: str) -> Line:
     """Return the errors (n,) [N m] of an estimator's variations over the size that their panel varies."""
-    return Line(base, [size.place / THOUSAND for size in own], [size.rmse for size in own])
+    numbers = [number_from(row) for row in own.rename(columns=ERROR).to_dict("records")]
+    return Line(base, (own[panel] / THOUSAND).tolist(), numbers)
 
 
-def printed_place(sizes: Sequence[Size], panel: str) -> float | None:
+def printed_place(sizes: pd.DataFrame, panel: str) -> float | None:
     """Return where a panel has the printed network that learned from all data [thousand]; None where it is not."""
-    places = [size.place / THOUSAND for size in sizes if size.panel == panel and size.ratio.value == 1.0]
-    return places[0] if places else None
+    places = rows_of(sizes, panel=panel, ratio=1.0)[panel].tolist()
+    return places[0] / THOUSAND if places else None

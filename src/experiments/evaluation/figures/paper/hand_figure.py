@@ -1,16 +1,23 @@
 """Figures 7 and 12, a hand that is loaded or pushed: joints of the upper body and of the base, and errors by method."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
+import pandas as pd
+
 from experiments.evaluation.compare.curves import ZERO, compared, read_curves, without_zero
-from experiments.evaluation.figures.drawing.compared import bars_of, draw_relative_columns, save_compared
-from experiments.evaluation.measure.estimates.run_errors import error_rows, joint_errors
-from experiments.evaluation.number.grid import Lookup, Wanted, read_lookup
+from experiments.evaluation.figures.drawing.compared import (
+    bars_by_joint,
+    draw_relative_columns,
+    save_compared,
+    with_drawn,
+)
+from experiments.evaluation.number.frames import ordered, read_scores
 from experiments.evaluation.number.intervals import Formula
+from experiments.evaluation.number.laws import measured
 from experiments.evaluation.number.number import Number
-from experiments.evaluation.number.rows import Field
+from experiments.evaluation.number.scored import CELL, joint_errors, number_of, runs_of
 from experiments.plan.runs import Run
 from experiments.settings.figures import HandFigure
 from experiments.settings.published import PublishedTable
@@ -49,15 +56,16 @@ def hand_figure(
         compared(curves.panel(f"{joint} [{unit}]", joint, rows, band=True), settings.called)
         for joint, unit in zip(joints, units, strict=True)
     ]
-    lookup = read_lookup(scores, statistics)
-    errors = joint_errors(lookup, layout, settings, joints, settings.metric, published, settings.place)
+    read = read_scores(*scores)
+    errors = joint_errors(read, layout, settings, joints, settings.metric, statistics, published, settings.place)
     drawn = {joint: pair.rmse for joint, pair in zip(joints, pairs, strict=True)}
-    limbs = [limb_of(layout, joint) for joint in joints]
-    relative = {limb: relative_errors(lookup, layout, settings, own) for limb, own in limbs}
-    bars = [bars_of(relative[limb], {}) for limb, _ in limbs]
-    figure = draw_relative_columns(pairs, bars, units, settings.errors_of, "time [s]", [limb for limb, _ in limbs])
-    written = error_rows(settings, settings.metric, errors, drawn)
-    written += relative_rows(settings, relative)
+    limbs = dict(limb_of(layout, joint) for joint in joints)
+    relative = relative_errors(read, layout, settings, limbs, statistics)
+    by_limb = bars_by_joint(relative, {})
+    titles = [limb_of(layout, joint)[0] for joint in joints]
+    bars = [by_limb.get(title, []) for title in titles]
+    figure = draw_relative_columns(pairs, bars, units, settings.errors_of, "time [s]", titles)
+    written = pd.concat([with_drawn(errors, drawn), relative])
     save_compared(figure, figure_dir / name, [pair.torque for pair in pairs], written)
 
 
@@ -70,33 +78,37 @@ def limb_of(layout: JointLayout, joint: str) -> tuple[str, list[str]]:
 
 
 def relative_errors(
-    lookup: Lookup, layout: JointLayout, settings: HandFigure, joints: Sequence[str]
-) -> dict[str, Number]:
-    """Return the mean error of joints by method, over that of an estimate of no torque [-]."""
-    count = len(joints)
+    scores: pd.DataFrame,
+    layout: JointLayout,
+    settings: HandFigure,
+    limbs: Mapping[str, Sequence[str]],
+    statistics: Statistics,
+) -> pd.DataFrame:
+    """Return the mean error of each limb by method, over that of an estimate of no torque [-].
 
-    def over(means: Array) -> Array:
-        return (means[:count].sum(axis=0) / means[count:].sum(axis=0))[None]
+    A limb has its joints. The columns are those of `JOINT_ERRORS` up to the paper's number, a limb in place of a joint.
+    """
+    metric = settings.metric
+    asked: list[tuple[str, ...]] = []
+    for title, joints in limbs.items():
+        for method in settings.methods:
+            for each in (method, ZERO) if method != ZERO else ():
+                for joint in joints:
+                    cell = settings.scenario, layout.limb_of[joint], settings.level, each, joint, metric
+                    asked.append((title, method, *cell))
+    runs = runs_of(scores, pd.DataFrame(asked, columns=["title", "shown", *CELL]), may_lack=True)
+    runs = ordered(runs, title=list(limbs), shown=settings.methods)
 
-    found: dict[str, Number] = {}
-    for method in settings.methods:
-        if method == ZERO:
-            continue
-        wanted = [
-            Wanted(settings.scenario, layout.limb_of[joint], settings.level, each, joint, settings.metric)
-            for each in (method, ZERO)
-            for joint in joints
-        ]
-        found[method] = replace(lookup.number(wanted, Formula(over, positive=True)), unit="-")
-    return found
+    def law(own: pd.DataFrame) -> Number:
+        return replace(number_of(own, statistics, Formula(over_zero, positive=True)), unit="-")
+
+    numbers = measured(runs, ["title", "shown"], {RELATIVE.format(metric, ZERO): law})
+    names = {"title": "joint", "shown": "method", "quantity": "metric"}
+    named = numbers.drop(columns="published").rename(columns=names)
+    return named.astype({"joint": str, "method": str}).assign(scenario=settings.scenario, level=settings.level)
 
 
-def relative_rows(settings: HandFigure, relative: dict[str, dict[str, Number]]) -> list[tuple[Field, ...]]:
-    """Return rows of `JOINT_ERRORS`, a limb in place of a joint."""
-    metric = RELATIVE.format(settings.metric, ZERO)
-    rows: list[tuple[Field, ...]] = []
-    for limb, own in relative.items():
-        for method, number in own.items():
-            of = settings.scenario, settings.level, method, limb, metric
-            rows.append((*of, *number.with_ends, *number.spread, number.unit, None, None))
-    return rows
+def over_zero(means: Array) -> Array:
+    """Return the sum of the first half of means over that of the second half, as one number [-]."""
+    count = len(means) // 2
+    return (means[:count].sum(axis=0) / means[count:].sum(axis=0))[None]

@@ -1,20 +1,23 @@
 """All results: the runs behind any number of the scores and of the trainings, and the fields of tables."""
 
+# pandas has no complete types, which the strict rules of this folder ask for.
+# pyright: standard
+
 import logging
-from collections import defaultdict
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 
-from experiments.evaluation.measure.learning.trainings import MEASURES, TrainedNetwork, read_trainings, sound
-from experiments.evaluation.number.grid import Wanted, members, places_of, robots_of, run_grid
+from experiments.evaluation.measure.learning.trainings import MEASURES, read_trainings
+from experiments.evaluation.number.frames import read_scores, rows_of
 from experiments.evaluation.number.intervals import RunGrid
 from experiments.evaluation.number.number import Number
-from experiments.evaluation.number.rows import read_scores
+from experiments.evaluation.number.scored import CELL, cell_text, members, places_of, robots_of, run_grid
 from experiments.settings.claims import Cell
-from mobnet.core.columns import Score
+from mobnet.core.columns import RUN
 from mobnet.core.errors import ConfigError, DataError, not_accepted
 from mobnet.core.joints import JointLayout
 from mobnet.core.rows import read_texts
@@ -30,12 +33,12 @@ WITH_ENDS = ("value", "ratio", "after", *ENDS)  # columns that have an interval
 
 @dataclass(frozen=True)
 class Evidence:
-    """Scores by what they are of, metrics scored by scenario, level and method, trainings by method, rows of tables."""
+    """Scores by CELL, metrics scored by scenario, level and method, networks, rows of tables."""
 
     layout: JointLayout
-    scores: Mapping[Wanted, Sequence[Score]]
+    scores: Mapping[tuple[str, ...], pd.DataFrame]
     metrics: Mapping[tuple[str, ...], set[str]]
-    trainings: Mapping[str, Sequence[TrainedNetwork]]
+    networks: pd.DataFrame
     tables: Mapping[str, Sequence[Mapping[str, str]]] = field(default_factory=dict)
 
     def grids(self, cell: Cell) -> list[RunGrid] | None:
@@ -75,21 +78,24 @@ class Evidence:
         grids: list[RunGrid] = []
         for limb, joint in places:
             for metric in metrics:
-                wanted = Wanted(scenario, limb, level, method, joint, metric)
-                grids.append(run_grid(self.scores.get(wanted, ()), wanted))
+                place = scenario, limb, level, method, joint, metric
+                if place not in self.scores:
+                    raise DataError(f"scores: no row for {cell_text(place)}")
+                grids.append(run_grid(self.scores[place]))
         return grids
 
     def _measured(self, method: str, metric: str) -> list[RunGrid] | None:
         """Return a measure of the trainings of a method that did not diverge, (networks, 1); None where all did."""
-        if method not in self.trainings:
-            raise DataError(not_accepted("trainings", method, self.trainings))
+        own = rows_of(self.networks, method=method)
+        if own.empty:
+            raise DataError(not_accepted("trainings", method, self.networks["method"].unique()))
         if metric == DIVERGED:
-            return [RunGrid(np.array([[float(training.diverged)] for training in self.trainings[method]]))]
-        good = sound(self.trainings[method])
-        if not good:
+            return [RunGrid(own[["diverged"]].to_numpy(dtype=np.float64))]
+        good = own[~own["diverged"]]
+        if good.empty:
             return None
-        robots = robots_of([training.seed for training in good])
-        return [RunGrid(np.array([[MEASURES[metric][0](training)] for training in good]), method, robots)]
+        robots = robots_of(good["seed"].tolist())
+        return [RunGrid(good[[MEASURES[metric][0]]].to_numpy(), method, robots)]
 
     def entry(self, cell: Cell) -> Number:
         """Return the number in a field of a table [its unit], with its interval; no number where the row has none.
@@ -113,8 +119,7 @@ class Evidence:
         for name in listed(cell.joint or ()):
             for joint in members(self.layout, name):
                 for metric in listed(cell.metric or METRIC):
-                    wanted = Wanted(run[0], limbs[joint], run[1], method, joint, metric)
-                    if not self.scores.get(wanted):
+                    if (run[0], limbs[joint], run[1], method, joint, metric) not in self.scores:
                         return False
         return run in self.metrics
 
@@ -154,20 +159,22 @@ def read_results(
     tables: Mapping[str, Path] | None = None,
 ) -> Evidence:  # fmt: skip
     """Read the results that cells name: of scores, of folders of one limb's trained networks, and of tables."""
-    asked: set[tuple[str | None, str | None, str | None, str]] = set()
+    asked: set[tuple[str, ...]] = set()
     for cell in cells:
         for metric in listed(cell.metric or METRIC):
-            asked.add((cell.scenario, cell.level, cell.method, metric))
-    found: dict[Wanted, list[Score]] = defaultdict(list)
-    metrics: dict[tuple[str, ...], set[str]] = defaultdict(set)
-    for path in scores:
-        for row in read_scores(path):
-            # Metrics of all runs are noted, so that a run without a metric is told from one that is missing.
-            metrics[row.scenario, row.level, row.method].add(row.metric)
-            if (row.scenario, row.level, row.method, row.metric) in asked:
-                found[Wanted(row.scenario, row.limb, row.level, row.method, row.joint, row.metric)].append(row)
+            asked.add((str(cell.scenario), str(cell.level), str(cell.method), metric))
+    wanted = pd.DataFrame(sorted(asked), columns=[*RUN, "metric"])
+    found: dict[tuple[str, ...], pd.DataFrame] = {}
+    metrics: dict[tuple[str, ...], set[str]] = {}
+    # Metrics of all runs are noted, so that a run without a metric is told from one that is missing.
+    read = read_scores(*scores)
+    for run, own in read.groupby(list(RUN), sort=False):
+        metrics[tuple(map(str, run))] = set(own["metric"])
+    for place, own in read.merge(wanted, on=list(wanted)).groupby(CELL, sort=False):
+        found[tuple(map(str, place))] = own
     rows = {name: read_texts(path) for name, path in (tables or {}).items()}
-    return Evidence(layout, found, metrics, read_trainings(folders), rows)
+    networks, _ = read_trainings(folders)
+    return Evidence(layout, found, metrics, networks, rows)
 
 
 def listed(names: str | Sequence[str]) -> list[str]:

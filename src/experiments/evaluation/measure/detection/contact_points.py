@@ -4,13 +4,17 @@ What is named is compared with the point at which the scenario pushes, which nee
 with the force behind the low-pass that delays every estimate (D22).
 """
 
+# pandas has no complete types, which the strict rules of this folder ask for.
+# pyright: standard
+
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
+import pandas as pd
 
+from experiments.evaluation.number.frames import CONTACTS
 from experiments.evaluation.number.rows import read_detections
 from experiments.jobs.collisions import Hit, hits_of
 from experiments.plan.detection import Detections
@@ -31,30 +35,10 @@ from mobnet.settings.data import Push
 from mobnet.settings.detection import ContactPoint
 
 NAMED, NOTHING = "middle of the named link", "middle of the leg"  # guesses, which name no force
+ERRORS = ("error_x_m", "error_y_m", "error_z_m")
 FORCE = named(PUSH, ("force_x", "force_y", "force_z"))
 Finders = Mapping[tuple[str, bool], ContactLocator]  # leg, and whether its torques are taken alone
 Alarms = Mapping[tuple[str, int], Detected]  # leg and number of a collision
-
-
-@dataclass(frozen=True)
-class ContactDeviation:
-    """What a line of the table says of a collision.
-
-    Attributes:
-        line: its title.
-        cell: what was hit from where.
-        error_m: from the true point to the named one, in the axes of the body that was hit (3,) [m].
-        spread_m: the error that it expects itself [m]; None of a guess, as the following.
-        force: size of the force over that of the true one, less 1 [-].
-        angle_deg: angle between the two.
-    """
-
-    line: str
-    cell: str
-    error_m: Array
-    spread_m: float | None = None
-    force: float | None = None
-    angle_deg: float | None = None
 
 
 class CollisionWalk(NamedTuple):
@@ -72,8 +56,8 @@ class CollisionWalk(NamedTuple):
 def contacts_of(
     settings: ContactPoints, numbers: ContactPoint, robot: RobotDescription, gain_hz: float,
     pushes: Mapping[str, Push], runs: Sequence[Run], detections: Detections,
-) -> Iterator[ContactDeviation]:  # fmt: skip
-    """Yield what each line of the table says of each collision that is hard enough and that the detector finds.
+) -> pd.DataFrame:  # fmt: skip
+    """Return what lines of the table say of collisions that are hard enough and that the detector finds: CONTACTS.
 
     Args:
         settings: the table.
@@ -94,6 +78,7 @@ def contacts_of(
         # The hit leg alone, too: its torques are fewer than the unknowns of a hit above the foot
         # (docs/notes/contact.md).
         finders[leg, True] = ContactLocator.of(numbers.numbers, robot, leg, robot.layout.limb(leg))
+    found: list[dict[str, object]] = []
     for recording in dict.fromkeys(run.recording for run in runs):
         walked = _walked(robot, joints, gain_hz, [run for run in runs if run.recording == recording])
         alarms = _alarms(settings, detections, recording)
@@ -103,7 +88,8 @@ def contacts_of(
             # Files of detectors number the collisions of each leg by themselves.
             alarm = alarms.get((hit.leg, count[hit.leg]))
             if alarm is not None and hit.force.max() >= settings.least_n:
-                yield from _found(settings, finders, walked, hit, pushes[hit.name].point or "", alarm)
+                found += _found(settings, finders, walked, hit, pushes[hit.name].point or "", alarm)
+    return pd.DataFrame(found, columns=list(CONTACTS)).astype({name: kind for name, (kind, _, _) in CONTACTS.items()})
 
 
 def _alarms(settings: ContactPoints, detections: Detections, recording: Path) -> Alarms:
@@ -134,8 +120,8 @@ def _walked(robot: RobotDescription, joints: Sequence[str], gain_hz: float, runs
 
 def _found(
     settings: ContactPoints, finders: Finders, walked: CollisionWalk, hit: Hit, point: str, alarm: Detected
-) -> Iterator[ContactDeviation]:  # fmt: skip
-    """Yield what each line says of a collision at a point of the robot, and then the guesses."""
+) -> Iterator[dict[str, object]]:  # fmt: skip
+    """Yield what each line says of a collision at a point of the robot, and then the guesses, as rows of CONTACTS."""
     cell = f"{hit.link} {hit.direction}"
     finder = finders[hit.leg, False]
     points = {row.name: row for row in finder.robot.points}
@@ -147,9 +133,9 @@ def _found(
         later = round(((alarm.delay_s or 0.0) + wait_s) * walked.rate_hz)
         return min(hit.rows.start + later, len(walked.force) - 1)
 
-    def error_of(place: Array, row: int) -> Array:
+    def error_of(place: Array, row: int) -> dict[str, float]:
         axes, origin = finder.place(walked.q[row], true.body)
-        return axes.T @ (place - origin) - true.pos
+        return dict(zip(ERRORS, (axes.T @ (place - origin) - true.pos).tolist(), strict=True))
 
     for title, line in settings.lines.items():
         row = row_after(settings.after_s if line.after_s is None else line.after_s)
@@ -158,14 +144,14 @@ def _found(
         # does not.
         contact = own.locate(walked.q[row], *_torques(walked, line, own, finder, row), () if line.alone else standing)
         if contact is not None:
-            said = contact.spread_m, *_compared(contact.force, walked.force[row])
-            yield ContactDeviation(title, cell, error_of(contact.place, row), *said)
+            force, angle_deg = _compared(contact.force, walked.force[row])
+            said = {"spread_m": contact.spread_m, "force": force, "angle_deg": angle_deg}
+            yield {"line": title, "cell": cell, **error_of(contact.place, row), **said}
     row = row_after(settings.after_s)
     named_body = points[f"{point.split('_')[0]}_{alarm.link}_{alarm.direction}"].body
-    yield ContactDeviation(NAMED, cell, error_of(_middle(finder, walked.q[row], [named_body]), row))
-    yield ContactDeviation(
-        NOTHING, cell, error_of(_middle(finder, walked.q[row], {s.body for s in finder.surface.shapes}), row)
-    )
+    guesses = {NAMED: [named_body], NOTHING: {shape.body for shape in finder.surface.shapes}}
+    for title, bodies in guesses.items():
+        yield {"line": title, "cell": cell, **error_of(_middle(finder, walked.q[row], bodies), row)}
 
 
 def _torques(

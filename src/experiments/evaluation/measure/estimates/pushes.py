@@ -1,72 +1,76 @@
 """Estimates around pushes on a leg (Figures 6 and 10): curves, errors of each push and over calm walking, responses."""
 
-from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from collections.abc import Sequence
 
 import numpy as np
+import pandas as pd
 
 from experiments.evaluation.compare.curves import Panel, read_curves
 from experiments.evaluation.compare.rmse import PUSH
 from experiments.evaluation.compare.windows import push_windows
 from experiments.evaluation.measure.estimates.peaks import DELAY, OBSERVER, SHARE
 from experiments.evaluation.measure.estimates.run_errors import ERROR
-from experiments.evaluation.number.grid import AVERAGE, Lookup, Wanted
-from experiments.evaluation.number.intervals import Formula
+from experiments.evaluation.number.frames import rows_of
+from experiments.evaluation.number.intervals import MEAN, Formula
+from experiments.evaluation.number.laws import measured
 from experiments.evaluation.number.number import Number, published_value
+from experiments.evaluation.number.scored import AVERAGE, number_of, runs_of
 from experiments.plan.runs import Run
 from experiments.settings.figures import Figure06, Figure10
 from experiments.settings.published import PublishedTable
-from experiments.settings.runs import PushedRuns, Runs
+from experiments.settings.runs import PushedRuns, Statistics
 from mobnet.core.columns import PUSHED, SWING, foot_of
 from mobnet.core.joints import JointLayout
 
 INCREASE = "increase"  # the mean of the errors of pushes less the error where nothing pushes
 INCREASED = Formula(lambda means: means[:-1].mean(axis=0, keepdims=True) - means[-1:])  # mean of all but the last
-PushErrors = dict[str, dict[str, Number]]  # method -> number of a push, AVERAGE or INCREASE -> error [N m]
-Responses = Mapping[
-    str, Mapping[str, Number]
-]  # method -> share of pushes [-], delay of the rise and the observer's [ms]
 
 
-def wanted_of(layout: JointLayout, test: Runs, method: str, joint: str, metric: str = ERROR) -> Wanted:
-    """Return which number of a joint of a test is wanted, an error [N m] if no metric is named."""
-    return Wanted(test.scenario, layout.limb_of[joint], test.level, method, joint, metric)
+def push_numbers(
+    scores: pd.DataFrame,
+    layout: JointLayout,
+    settings: Figure10,
+    test: PushedRuns,
+    published: PublishedTable,
+    statistics: Statistics,
+) -> pd.DataFrame:
+    """Return what is known of the pushes of a test, columns `PUSH_ERRORS`, method by method; nothing without a push.
 
-
-def collision_errors(
-    layout: JointLayout, settings: Figure10, test: PushedRuns, published: PublishedTable, lookup: Lookup
-) -> PushErrors:
-    """Return the errors of a test [N m], method by method: of each push, their average, and its increase."""
-    joint = settings.joint
-    metrics = push_metrics(lookup, test.scenario)
-    errors: PushErrors = {}
+    These are errors [N m] of each push, their average and its increase over calm walking, and for all pushes together
+    the share that the method shows [-] and the delay of its rise [ms], as `peaks` measures.
+    """
+    metrics = push_metrics(scores, test.scenario)
+    against = settings.against
+    errors = [(str(k), [metric]) for k, metric in enumerate(metrics, start=1)]
+    asked: list[tuple[str, ...]] = []
     for method in test.methods if metrics else ():
-        own = [wanted_of(layout, test, method, joint, metric) for metric in metrics]
-        calm = wanted_of(layout, settings.against, method, joint)
-        printed = published_value(published, test.scenario, method, AVERAGE)
-        errors[method] = {
-            **{str(k): lookup.number([wanted]) for k, wanted in enumerate(own, start=1)},
-            AVERAGE: replace(lookup.number(own), published=printed),
-            INCREASE: lookup.number([*own, calm], INCREASED),
-        }
-    return errors
-
-
-def push_metrics(lookup: Lookup, scenario: str) -> list[str]:
-    """Return the names of the errors of single pushes that a scenario was scored for, in order."""
-    found = {wanted.metric for wanted in lookup.scores if wanted.scenario == scenario}
-    return [PUSH.format(k) for k in range(1, len(found) + 1) if PUSH.format(k) in found]
-
-
-def responses_of(layout: JointLayout, lookup: Lookup, test: PushedRuns, joint: str) -> Responses:
-    """Return the share of the pushes that each method shows [-] and the delay of its rise [ms], as `peaks` measures."""
-    found: dict[str, dict[str, Number]] = {}
-    for method in test.methods:
-        numbers: dict[str, Number] = {}
+        for push, own in (*errors, (AVERAGE, metrics), (INCREASE, metrics)):
+            asked += [(method, push, ERROR, test.scenario, test.level, metric) for metric in own]
+        # The last of these cells is subtracted.
+        asked.append((method, INCREASE, ERROR, against.scenario, against.level, ERROR))
         for metric in (SHARE, DELAY, DELAY + OBSERVER):
-            numbers[metric] = lookup.number([wanted_of(layout, test, method, joint, metric)])
-        found[method] = numbers
-    return found
+            asked.append((method, AVERAGE, metric, test.scenario, test.level, metric))
+    place = ["method", "push", "measure"]
+    cells = pd.DataFrame(asked, columns=[*place, "scenario", "level", "metric"])
+    cells = cells.assign(limb=layout.limb_of[settings.joint], joint=settings.joint)
+    row = cells.groupby(place, sort=False).ngroup()
+    runs = runs_of(scores, cells.assign(row=row), may_lack=True)
+
+    def law(own: pd.DataFrame) -> Number:
+        formula = INCREASED if own["push"].iloc[0] == INCREASE else MEAN
+        return number_of(own, statistics, formula)
+
+    numbers = measured(runs, ["row"], {"": law}).drop(columns="published")
+    rows = pd.concat([cells[place].drop_duplicates(ignore_index=True), numbers], axis=1)
+    averages = (rows["push"] == AVERAGE) & (rows["measure"] == ERROR)
+    printed = [published_value(published, test.scenario, method, AVERAGE) for method in rows["method"]]
+    return rows.assign(scenario=test.scenario, published=pd.Series(printed, dtype=float).where(averages))
+
+
+def push_metrics(scores: pd.DataFrame, scenario: str) -> list[str]:
+    """Return the names of the errors of single pushes that a scenario was scored for, in order."""
+    found = set(rows_of(scores, scenario=scenario)["metric"])
+    return [PUSH.format(k) for k in range(1, len(found) + 1) if PUSH.format(k) in found]
 
 
 def read_pushes(

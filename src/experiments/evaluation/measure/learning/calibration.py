@@ -16,7 +16,7 @@ from experiments.evaluation.compare.pair import read_pair, read_std
 from experiments.evaluation.compare.rmse import Spans, parts
 from experiments.evaluation.compare.windows import pushed_of
 from experiments.evaluation.measure.learning.trainings import NotedCalibration, read_training_note
-from experiments.evaluation.number.grid import robots_of
+from experiments.evaluation.number.scored import robots_of
 from experiments.plan.runs import Run
 from experiments.settings.measures import CalibrationTest, Coverage
 from mobnet.core.arrays import Array

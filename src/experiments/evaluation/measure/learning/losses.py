@@ -1,17 +1,20 @@
 """Losses and errors of kinds of networks: epoch by epoch, and where a training ends, with intervals over its runs."""
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+# pandas has no complete types, which the strict rules of this folder ask for.
+# pyright: standard
 
-import numpy as np
+from collections.abc import Sequence
 
-from experiments.evaluation.measure.learning.trainings import MEASURES, TrainedNetwork
-from experiments.evaluation.number.intervals import RunGrid, summarise
+import pandas as pd
+
+from experiments.evaluation.measure.learning.trainings import MEASURES, over_networks
+from experiments.evaluation.number.frames import ordered
+from experiments.evaluation.number.laws import measured
 from experiments.evaluation.number.number import Number
 from experiments.settings.runs import Statistics
 from mobnet.core.errors import DataError
 
-COURSES = {  # fields of `columns.Epoch` -> measure
+COURSES = {  # columns of `TRAININGS` -> measure
     "train_loss": "training loss",
     "validation_loss": "validation loss",
     "validation_rmse": "validation RMSE",
@@ -21,52 +24,44 @@ ENDS = {  # of MEASURES -> its course
     "validation loss": "validation loss",
     "validation RMSE": "validation RMSE",
 }
+UNITS = {ENDS[name]: MEASURES[name][1] for name in ENDS}
+END = 0  # in place of an epoch: where a training ends
+PLACE = ["method", "at_end", "measure", "epoch"]
 
 
-@dataclass(frozen=True)
-class Loss:
-    """A loss (22) [-] or an RMSE [N m] of a kind of network, the mean over its runs: of an epoch, or None for the end.
+def runs_of(networks: pd.DataFrame, epochs: pd.DataFrame) -> pd.DataFrame:
+    """Return the losses (22) [-] and the RMSE [N m] of every epoch of runs, which did not diverge, and of their end.
 
-    At the end it is the training loss of the last epoch, or that in validation of the epoch kept. `stride` is the
-    distance between two time steps of the epoch [samples]: losses at unlike strides are those of unlike tasks. `runs`
-    are the numbers of the single runs, `unit` is theirs.
-    """
-
-    measure: str
-    method: str
-    epoch: int | None
-    stride: int
-    number: Number
-    runs: tuple[float, ...]
-
-    def record(self) -> tuple[str | float | None, ...]:
-        """Return the row of figure_17.csv."""
-        own = self.measure, self.method, len(self.runs), self.epoch, self.stride
-        return *own, *self.number.with_ends, self.number.unit
-
-
-def losses_of(method: str, trainings: Sequence[TrainedNetwork], statistics: Statistics) -> Iterator[Loss]:
-    """Yield the losses and errors of every epoch of a kind's runs, which did not diverge, and those of their end.
+    At the end, epoch `END`, it is the training loss of the last epoch, or that in validation of the epoch kept.
+    `stride` is the distance between two time steps of the epoch [samples]: losses at unlike strides are those of unlike
+    tasks.
 
     Raises:
-        DataError: the runs have different numbers of epochs.
+        DataError: the runs of a method have different numbers of epochs.
     """
-    counts = {len(training.epochs) for training in trainings}
-    if len(counts) != 1:
-        raise DataError(f"{method}: runs of {', '.join(map(str, sorted(counts)))} epochs do not make one curve")
-    for field, measure in COURSES.items():
-        for k, epoch in enumerate(trainings[0].epochs):
-            values = [float(getattr(training.epochs[k], field)) for training in trainings]
-            yield _loss(measure, method, epoch.epoch, epoch.stride, values, statistics)
+    lengths = epochs.groupby(["method", "seed"], sort=False).size()
+    for method, counts in lengths.groupby("method", sort=False):
+        if counts.nunique() > 1:
+            texts = ", ".join(map(str, sorted(counts.unique())))
+            raise DataError(f"{method}: runs of {texts} epochs do not make one curve")
+    parts: list[pd.DataFrame] = []
+    for column, measure in COURSES.items():
+        parts.append(epochs[["method", "epoch", "stride"]].assign(measure=measure, value=epochs[column], at_end=False))
+    ends = networks.assign(epoch=END)
     for name, measure in ENDS.items():
-        values = [MEASURES[name][0](training) for training in trainings]
-        yield _loss(measure, method, None, trainings[0].kept.stride, values, statistics)
+        column = MEASURES[name][0]
+        parts.append(ends[["method", "epoch", "stride"]].assign(measure=measure, value=ends[column], at_end=True))
+    return pd.concat(parts, ignore_index=True)
 
 
-def _loss(
-    measure: str, method: str, epoch: int | None, stride: int, values: Sequence[float], statistics: Statistics
-) -> Loss:
-    """Return a loss [-] or an error [N m] of some runs (n,)."""
-    unit = {ENDS[name]: unit for name, (_, unit) in MEASURES.items() if name in ENDS}[measure]
-    number = summarise([RunGrid(np.array(values)[:, None])], statistics, unit=unit)
-    return Loss(measure, method, epoch, stride, number, tuple(values))
+def losses_of(runs: pd.DataFrame, statistics: Statistics) -> pd.DataFrame:
+    """Return the mean over runs, as `runs_of` returns them, by method, of each epoch and of the end."""
+    methods: Sequence[str] = list(runs["method"].unique())
+    own = ordered(runs, method=methods, measure=list(COURSES.values()))
+
+    def law(rows: pd.DataFrame) -> Number:
+        return over_networks("value", UNITS[rows["measure"].iloc[0]], statistics)(rows)
+
+    losses = measured(own, PLACE, {"mean": law})
+    strides = own.groupby(PLACE, observed=True)["stride"].first().astype("int64")
+    return losses.merge(strides.reset_index(), how="left", on=PLACE)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from math import isclose
 from operator import attrgetter
@@ -10,10 +10,17 @@ from pathlib import Path
 from statistics import fmean
 from typing import Annotated, Any, Literal
 
+import numpy as np
+import pandas as pd
 from pydantic import Field
 
+from experiments.evaluation.number.frames import NETWORKS, TRAININGS, Schema
+from experiments.evaluation.number.intervals import RunGrid, summarise
+from experiments.evaluation.number.laws import Law
+from experiments.evaluation.number.number import Number
 from experiments.evaluation.number.rows import read_scores
 from experiments.settings.figures import Figure17
+from experiments.settings.runs import Statistics
 from mobnet.core.columns import Epoch
 from mobnet.core.epochs import read_epochs
 from mobnet.core.errors import not_accepted, refuse
@@ -22,12 +29,12 @@ from mobnet.core.notes import Count, FileName, Index, Names, Note, NotNegative, 
 from mobnet.settings.networks import CellKind
 from mobnet.settings.robot import GroupName
 
-MEASURES: Mapping[str, tuple[Callable[[TrainedNetwork], float], str]] = {  # name -> (of a training, unit)
-    "validation loss": (lambda training: training.kept.validation_loss, "-"),
-    "validation RMSE": (lambda training: training.kept.validation_rmse, "N m"),
-    "validation loss on windows": (lambda training: training.windows_loss, "-"),
-    "training loss at the end": (lambda training: training.last.train_loss, "-"),
-    "validation loss at the end": (lambda training: training.last.validation_loss, "-"),
+MEASURES: Mapping[str, tuple[str, str]] = {  # name -> column of `NETWORKS` and unit
+    "validation loss": ("validation_loss", "-"),
+    "validation RMSE": ("validation_rmse", "N m"),
+    "validation loss on windows": ("windows_loss", "-"),
+    "training loss at the end": ("last_train_loss", "-"),
+    "validation loss at the end": ("last_validation_loss", "-"),
 }
 
 DIGITS = 1e-6  # relative difference of a number that was written twice
@@ -267,18 +274,41 @@ def _calibration_faults(noted: NotedCalibration) -> Iterator[str]:
                 yield not_accepted(f"calibration.{when}.coverage", list(contained), accepted)
 
 
-def read_trainings(folders: Iterable[Path]) -> dict[str, list[TrainedNetwork]]:
-    """Return method -> its trainings, in the order given."""
-    found: dict[str, list[TrainedNetwork]] = {}
+def read_trainings(folders: Iterable[Path]) -> tuple[pd.DataFrame, pd.DataFrame]:
+    """Read trained networks: columns `NETWORKS`, and their epochs, columns `TRAININGS`; both in the order given.
+
+    Raises:
+        DataError: a file is missing or damaged, or files do not agree; one line for each fault.
+    """
+    networks: list[dict[str, Any]] = []
+    epochs: list[dict[str, Any]] = []
     for folder in folders:
         training = read_training(folder)
-        found.setdefault(training.method, []).append(training)
-    return found
+        own = {name: getattr(training, name) for name in NETWORKS if hasattr(training, name)}
+        if training.epochs:
+            kept, last = training.kept, training.last
+            own |= {name: getattr(kept, name) for name in ("stride", "validation_loss", "validation_rmse")}
+            own |= {f"last_{name}": getattr(last, name) for name in ("train_loss", "validation_loss")}
+        networks.append(own)
+        epochs += [{**own, **vars(epoch)} for epoch in training.epochs]
+    return typed(networks, NETWORKS), typed(epochs, TRAININGS)
 
 
-def sound(trainings: Sequence[TrainedNetwork]) -> list[TrainedNetwork]:
-    """Return the trainings that did not diverge."""
-    return [training for training in trainings if not training.diverged]
+def typed(rows: Sequence[Mapping[str, Any]], schema: Schema) -> pd.DataFrame:
+    """Return rows as a frame with the columns of a schema; what a row lacks is missing."""
+    columns = {name: [row.get(name) for row in rows] for name in schema}
+    return pd.DataFrame({name: pd.Series(columns[name], dtype=kind) for name, (kind, _, _) in schema.items()})
+
+
+def over_networks(column: str, unit: str, statistics: Statistics) -> Law:
+    """Return the law of the mean of a column [unit] of networks, each on one walk; there is none without a network."""
+
+    def law(own: pd.DataFrame) -> Number:
+        if own.empty:
+            return Number(None, unit=unit)
+        return summarise([RunGrid(own[[column]].to_numpy(dtype=np.float64))], statistics, unit=unit)
+
+    return law
 
 
 def kind_of_each(settings: Figure17) -> dict[str, str]:

@@ -1,15 +1,21 @@
 """Where collisions meet the legs, and with which force: errors of the point and of the force, by what is hit."""
 
-from collections.abc import Iterator, Mapping, Sequence
+# pandas has no complete types, which the strict rules of this folder ask for.
+# pyright: standard
+
+from collections.abc import Mapping, Sequence
+from itertools import product
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 
-from experiments.evaluation.measure.detection.contact_points import NAMED, NOTHING, ContactDeviation, contacts_of
+from experiments.evaluation.measure.detection.contact_points import ERRORS, NAMED, NOTHING, contacts_of
 from experiments.evaluation.measure.detection.results import ALL, CELLS, median_of
-from experiments.evaluation.number.number import Number
-from experiments.evaluation.number.rows import Field
+from experiments.evaluation.number.frames import records_of, rows_of
+from experiments.evaluation.number.laws import fields_of
 from experiments.evaluation.tables.layout import RULE, Line, Table, write_table
+from experiments.evaluation.tables.look import ShownColumn, TableLook, lines_of
 from experiments.plan.detection import Detections
 from experiments.plan.runs import Run
 from experiments.settings.detection_tables import ContactPoints
@@ -29,6 +35,14 @@ SPREAD = "spread"
 FORCE = "force"
 SIZE = "force_size"
 ANGLE = "angle"
+QUANTITIES = {
+    ERROR: "cm",
+    **{f"{ERROR}_{axis}": "cm" for axis in "xyz"},
+    SPREAD: "cm",
+    FORCE: "%",
+    SIZE: "%",
+    ANGLE: "deg",
+}
 
 
 def contact_points(
@@ -48,58 +62,55 @@ def contact_points(
     that is expected, the force over the true one less 1 [%] with and without its sign, and the angle between them.
     """
     description = describe(robot)
-    found = list(contacts_of(settings, contact_point, description, observer.gain_hz, pushes, runs, detections))
+    found = contacts_of(settings, contact_point, description, observer.gain_hz, pushes, runs, detections)
     write_contacts(table_dir / "contact_points", settings, statistics, found)
 
 
-def write_contacts(
-    stem: Path, settings: ContactPoints, statistics: Statistics, found: Sequence[ContactDeviation]
-) -> None:
+def write_contacts(stem: Path, settings: ContactPoints, statistics: Statistics, found: pd.DataFrame) -> None:
     """Write the three files of the table from what each line says of each collision."""
-    rows: list[Sequence[Field]] = []
-    lines: list[Line] = []
-    for title in (*settings.lines, NAMED, NOTHING):
-        numbers = {}
-        for cell in (*CELLS, ALL):
-            own = [one for one in found if one.line == title and cell in (one.cell, ALL)]
-            numbers[cell] = {name: median_of(values, statistics, unit) for name, unit, values in _values(own)}
-            place = settings.level, title, "+".join(settings.legs), settings.kind, cell
-            rows += [
-                (*place, name, *number.with_ends, len(own), number.unit, None) for name, number in numbers[cell].items()
-            ]
-        lines += [RULE] if title == NAMED else []
-        lines.append([title, *_texts(numbers)])
-    # the guesses are of every collision; a line has none of those in which it finds no contact
-    hit = [one.cell for one in found if one.line == NOTHING]
-    counts = [str(hit.count(cell)) for cell in CELLS]
-    lines = [["collisions", str(len(hit)), "", *counts, "", "", ""], RULE, *lines]
-    header = [
-        "Point from",
-        "error [cm]",
-        f"{statistics.confidence:.0%}",
-        *(f"{cell} [cm]" for cell in CELLS),
-        "expected [cm]",
-        "force [%]",
-        "angle [deg]",
-    ]
-    write_table(stem, Table(DETECTION, rows, header, lines))
+    found = with_quantities(found)
+    rows: list[dict[str, object]] = []
+    for title, cell in product((*settings.lines, NAMED, NOTHING), (*CELLS, ALL)):
+        # A line may have no collision of a cell, and has a row of it all the same.
+        own = rows_of(found, line=title) if cell == ALL else rows_of(found, line=title, cell=cell)
+        for quantity, unit in QUANTITIES.items():
+            number = median_of(own[quantity].dropna().tolist(), statistics, unit)
+            place = {"detector": title, "cell": cell, "quantity": quantity, "guess": title in (NAMED, NOTHING)}
+            rows.append({**place, **fields_of(number), "count": len(own)})
+    table = pd.DataFrame(rows).assign(level=settings.level, leg="+".join(settings.legs), kind=settings.kind)
+    look = look_of(statistics)
+    # The guesses are of every collision; a line has none of those in which it finds no contact.
+    hit = rows_of(found, line=NOTHING)["cell"]
+    counts = [str((hit == cell).sum()) for cell in CELLS]
+    lines: list[Line] = [["collisions", str(len(hit)), "", *counts, "", "", ""], RULE, *lines_of(table, look)]
+    write_table(stem, Table(DETECTION, records_of(table, DETECTION), look.header, lines))
 
 
-def _values(found: Sequence[ContactDeviation]) -> Iterator[tuple[str, str, list[float]]]:
-    """Yield name, unit and values of each quantity of some collisions."""
-    yield ERROR, "cm", [CM * float(np.linalg.norm(one.error_m)) for one in found]
-    for axis, name in enumerate("xyz"):
-        # rounded, as a part may be a zero that only rounding errors tell from zero
-        yield f"{ERROR}_{name}", "cm", [round(CM * abs(float(one.error_m[axis])), DIGITS) for one in found]
-    yield SPREAD, "cm", [CM * one.spread_m for one in found if one.spread_m is not None]
-    yield FORCE, "%", [PERCENT * one.force for one in found if one.force is not None]
-    yield SIZE, "%", [PERCENT * abs(one.force) for one in found if one.force is not None]
-    yield ANGLE, "deg", [one.angle_deg for one in found if one.angle_deg is not None]
+def with_quantities(found: pd.DataFrame) -> pd.DataFrame:
+    """Return CONTACTS with the quantities of the table [cm], [%], [deg]."""
+    errors = found[[*ERRORS]]
+    # Rounded, as a part may be a zero that only rounding errors tell from zero.
+    parts = {
+        f"{ERROR}_{axis}": (CM * errors[name].abs()).round(DIGITS) for axis, name in zip("xyz", ERRORS, strict=True)
+    }
+    return found.assign(
+        **parts,
+        **{
+            ERROR: CM * np.linalg.norm(found[[*ERRORS]], axis=1),
+            SPREAD: CM * found["spread_m"],
+            FORCE: PERCENT * found["force"],
+            SIZE: PERCENT * found["force"].abs(),
+            ANGLE: found["angle_deg"],
+        },
+    )
 
 
-def _texts(numbers: Mapping[str, Mapping[str, Number]]) -> list[str]:
-    """Return the cells of a line."""
-    whole = numbers[ALL]
-    cells = [numbers[cell][ERROR].text(1) for cell in CELLS]
-    others = [whole[SPREAD].text(1), whole[SIZE].text(0), whole[ANGLE].text(0)]
-    return [whole[ERROR].text(1), whole[ERROR].interval(1), *cells, *others]
+def look_of(statistics: Statistics) -> TableLook:
+    """Return what a reader sees: a line for each estimate, then for each guess."""
+    every = {"cell": ALL}
+    shown = [ShownColumn("error [cm]", {**every, "quantity": ERROR}, 1, f"{statistics.confidence:.0%}")]
+    shown += [ShownColumn(f"{cell} [cm]", {"cell": cell, "quantity": ERROR}, 1) for cell in CELLS]
+    shown.append(ShownColumn("expected [cm]", {**every, "quantity": SPREAD}, 1))
+    shown.append(ShownColumn("force [%]", {**every, "quantity": SIZE}, 0))
+    shown.append(ShownColumn("angle [deg]", {**every, "quantity": ANGLE}, 0))
+    return TableLook({"detector": "Point from"}, shown, blocks=["guess"])

@@ -3,21 +3,15 @@
 The time that a training takes is in the page of runs: tables come out the same each time.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 
-import numpy as np
+import pandas as pd
 
-from experiments.evaluation.measure.learning.trainings import (
-    MEASURES,
-    TrainedNetwork,
-    kind_of_each,
-    read_trainings,
-    sound,
-)
-from experiments.evaluation.number.intervals import RunGrid, summarise
+from experiments.evaluation.measure.learning.trainings import MEASURES, kind_of_each, over_networks, read_trainings
+from experiments.evaluation.number.frames import records_of, rows_of
+from experiments.evaluation.number.laws import fields_of, measured, numbers_by
 from experiments.evaluation.number.number import Number, number_text
-from experiments.evaluation.number.rows import Field
 from experiments.evaluation.tables.layout import GAP, RULE, Line, Table, with_intervals, write_table
 from experiments.settings.figures import Figure17
 from experiments.settings.published import PublishedKinds
@@ -41,8 +35,6 @@ HEADER = [
 ]
 LEFT = 3  # columns of text
 
-Traits = Mapping[str, Number]  # `order`, `parameters`, `runs`, `diverged` or a name of `MEASURES` -> of a kind
-
 
 def kinds(
     settings: Kinds,
@@ -57,66 +49,55 @@ def kinds(
     The kinds of Figure 17, which are the paper's, stand in an order of their own by each of its recipes; below them
     stand our own variants.
     """
-    found = read_trainings(folders)
-    variants = settings.variants
+    networks, _ = read_trainings(folders)
+    networks = networks.assign(sound=~networks["diverged"])
     kinds = kind_of_each(figure_17)
-    measured = {method: measures_of(found[method], statistics) for method in (*kinds, *variants)}
-    parts = [by_loss(methods, measured) for methods in (figure_17.methods, figure_17.best)]
+    laws = {name: over_networks(column, unit, statistics) for name, (column, unit) in MEASURES.items()}
+    measures = measured(networks, ["method"], laws, of="sound")
+    # A kind that always diverged has no loss and comes last.
+    losses = rows_of(measures, quantity=ORDERED_BY).set_index("method")["value"].astype(float)
+    parts: list[list[str]] = []
+    for methods in (figure_17.methods, figure_17.best):
+        parts.append(losses.loc[list(methods)].sort_values(kind="stable").index.to_list())
     ranks: dict[str, int] = {}
     for part in parts:
-        ordered = [method for method in part if kinds[method] in published.order]
-        ranks |= {method: k for k, method in enumerate(ordered, start=1)}
-    traits = {
-        method: {**counts(found[method], ranks.get(method), kinds.get(method, method), published), **measured[method]}
-        for method in (*parts[0], *parts[1], *variants)
-    }
-    records: list[tuple[Field, ...]] = []
-    for method, own in traits.items():
-        for quantity, number in own.items():
-            records.append((method, quantity, *number.with_ends, *number.spread, number.unit, number.published))
-    firsts = [methods[0] for methods in (parts[1], variants) if methods]
-    lines = kind_lines(traits, firsts, statistics.confidence)
+        ranked = [method for method in part if kinds[method] in published.order]
+        ranks |= {method: k for k, method in enumerate(ranked, start=1)}
+    rows: list[pd.DataFrame] = []
+    for method in (*parts[0], *parts[1], *settings.variants):
+        own = rows_of(networks, method=method)
+        counts = counts_of(own, ranks.get(method), kinds.get(method, method), published)
+        # Counts are whole numbers, and stay so beside others.
+        rows += [counts.assign(method=method), rows_of(measures, method=method).astype(object)]
+    shown = pd.concat(rows)
+    firsts = [methods[0] for methods in (parts[1], settings.variants) if methods]
+    lines = kind_lines(shown, firsts, statistics.confidence)
     align = "rrl" + "r" * (len(HEADER) - LEFT)
-    write_table(table_dir / "kinds", Table(KINDS, records, HEADER, lines, LEFT, align))
+    write_table(table_dir / "kinds", Table(KINDS, records_of(shown, KINDS), HEADER, lines, LEFT, align))
 
 
-def by_loss(methods: Sequence[str], measured: Mapping[str, Traits]) -> list[str]:
-    """Return methods in the order of their losses, lowest first; those that always diverged come last."""
-    losses = {method: measured[method][ORDERED_BY].value for method in methods}
-    return sorted(methods, key=lambda method: (losses[method] is None, losses[method] or 0.0))
-
-
-def measures_of(trainings: Sequence[TrainedNetwork], statistics: Statistics) -> Traits:
-    """Return the measures of the trainings that did not diverge [-, N m], without a number if all did."""
-    good = sound(trainings)
-    if not good:
-        return {name: Number(None, unit=unit) for name, (_, unit) in MEASURES.items()}
-    found = {}
-    for name, (measure, unit) in MEASURES.items():
-        values = np.array([[measure(run)] for run in good])
-        found[name] = summarise([RunGrid(values)], statistics, unit=unit)
-    return found
-
-
-def counts(trainings: Sequence[TrainedNetwork], rank: int | None, kind: str, published: PublishedKinds) -> Traits:
+def counts_of(networks: pd.DataFrame, rank: int | None, kind: str, published: PublishedKinds) -> pd.DataFrame:
     """Return what is counted of a kind; `rank` is its place among the kinds that the paper orders, None for others."""
-    return {
+    counts = {
         "order": Number(rank, published=published.order.get(kind)),
-        "parameters": Number(trainings[0].parameters, published=published.parameters.get(kind)),
-        "runs": Number(len(trainings)),
-        "diverged": Number(len(trainings) - len(sound(trainings))),
+        "parameters": Number(int(networks["parameters"].iloc[0]), published=published.parameters.get(kind)),
+        "runs": Number(len(networks)),
+        "diverged": Number(int(networks["diverged"].sum())),
     }
+    rows = [{"quantity": name, **fields_of(number)} for name, number in counts.items()]
+    return pd.DataFrame(rows, dtype=object)
 
 
-def kind_lines(traits: Mapping[str, Traits], firsts: Sequence[str], confidence: float) -> list[Line]:
+def kind_lines(rows: pd.DataFrame, firsts: Sequence[str], confidence: float) -> list[Line]:
     """Return the rows of text, two a kind where there are intervals, a rule above `firsts`, where a part begins."""
     lines: list[Line] = []
-    for method, own in traits.items():
+    for method, of in rows.groupby("method", sort=False):
+        own = numbers_by(of, "quantity")
         if lines:
             lines.append(RULE if method in firsts else GAP)
         order, size, runs, diverged = (own[name] for name in ("order", "parameters", "runs", "diverged"))
         ranks = [order.text(0), number_text(order.published, 0)]
         sizes = [size.text(0), number_text(size.published, 0)]
         count = runs.text(0) + (f", {diverged.text(0)} diverged" if diverged.value else "")
-        lines += with_intervals([*ranks, method, *sizes, count], [own[name] for name in MEASURES], confidence)
+        lines += with_intervals([*ranks, str(method), *sizes, count], [own[name] for name in MEASURES], confidence)
     return lines

@@ -6,13 +6,13 @@ from pathlib import Path
 import pandas as pd
 
 from experiments.evaluation.compare.rmse import RAW
-from experiments.evaluation.number.frames import read_scores
+from experiments.evaluation.number.frames import read_scores, records_of
 from experiments.evaluation.number.intervals import MEAN
 from experiments.evaluation.number.laws import measured
 from experiments.evaluation.number.number import Number, interval_text, number_text
 from experiments.evaluation.number.quantities import CUT
 from experiments.evaluation.number.scored import AVERAGE, number_of, runs_of
-from experiments.evaluation.tables.layout import Line, Table, in_blocks, long_table, records_of, write_table
+from experiments.evaluation.tables.layout import Line, Table, in_blocks, long_table, write_table
 from experiments.settings.runs import Statistics
 from experiments.settings.tables import MethodsRow
 from mobnet.core.columns import METHODS

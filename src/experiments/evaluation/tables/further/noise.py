@@ -10,11 +10,11 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from experiments.evaluation.number.frames import read_scores
+from experiments.evaluation.number.frames import read_scores, records_of
 from experiments.evaluation.number.laws import fields_of, measured
 from experiments.evaluation.number.number import Number, number_text, published_row
 from experiments.evaluation.number.scored import columns_of, number_of, runs_of
-from experiments.evaluation.tables.layout import RULE, Line, Table, records_of, write_table
+from experiments.evaluation.tables.layout import RULE, Line, Table, write_table
 from experiments.settings.published import PublishedTable
 from experiments.settings.runs import Statistics
 from experiments.settings.tables import NoiseTable

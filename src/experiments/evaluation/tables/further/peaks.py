@@ -6,10 +6,10 @@ from pathlib import Path
 import pandas as pd
 
 from experiments.evaluation.measure.estimates.peaks import BOUND, DELAY, OBSERVER, SHARE
-from experiments.evaluation.number.frames import read_scores, rows_of
+from experiments.evaluation.number.frames import read_scores, records_of, rows_of
 from experiments.evaluation.number.number import interval_text, is_missing, number_text
 from experiments.evaluation.number.scored import AVERAGE, asked_of, numbers_of
-from experiments.evaluation.tables.layout import Table, in_blocks, records_of, write_table
+from experiments.evaluation.tables.layout import Table, in_blocks, write_table
 from experiments.settings.measures import Peaks
 from experiments.settings.runs import Statistics
 from mobnet.core.columns import METHODS

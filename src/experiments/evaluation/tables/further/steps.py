@@ -1,14 +1,18 @@
 """Table of how well the feet followed the walking commands."""
 
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import astuple, dataclass
+# pandas has no complete types, which the strict rules of this folder ask for.
+# pyright: standard
+
+from collections.abc import Hashable, Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
+import pandas as pd
 
 from experiments.evaluation.measure.data.steps import UNITS, Array, WalkedSteps, bin_edges, bin_of, read_steps
-from experiments.evaluation.number.number import number_text
-from experiments.evaluation.number.rows import Field
+from experiments.evaluation.number.frames import records_of
+from experiments.evaluation.number.number import is_missing, number_text
 from experiments.evaluation.tables.layout import Table, in_blocks, write_table
 from experiments.settings.tables import Steps as StepsTable
 from mobnet.core.columns import COMMAND, STEPS
@@ -21,35 +25,6 @@ from mobnet.settings.walking import Walking
 HEADER = ["Set", "Command", "from", "to", "Steps", "Commanded", "Measured", "Ratio", "Within"]
 
 
-@dataclass(frozen=True)
-class Followed:
-    """What came of a command, in a bin of it; numbers are in the command's unit [m], [deg] or [s].
-
-    Attributes:
-        count: steps of the foot that leads.
-        commanded: mean.
-        measured: mean.
-        ratio: measured over commanded; None in a bin around zero.
-        within: share of the steps that lie within the tolerance of their own command; None in a bin around zero.
-    """
-
-    bin_from: float
-    bin_to: float
-    count: int
-    commanded: float
-    measured: float
-    ratio: float | None
-    within: float | None
-
-    def texts(self, digits: int) -> list[str]:
-        """Return the row of text."""
-        low, high, given, made = (
-            number_text(value, digits) for value in (self.bin_from, self.bin_to, self.commanded, self.measured)
-        )
-        within = "-" if self.within is None else f"{self.within:.0%}"
-        return [low, high, str(self.count), given, made, number_text(self.ratio), within]
-
-
 def steps(
     settings: StepsTable,
     robot: RobotTable,
@@ -60,27 +35,36 @@ def steps(
 ) -> None:
     """Write the table of measured against commanded steps, by bins of the command, as CSV, TeX and Markdown."""
     nominal = NominalModel(describe(robot))
-    rows: dict[tuple[str, int], list[Followed]] = {}
+    rows: list[pd.DataFrame] = []
+    blocks: list[tuple[list[str], list[list[str]]]] = []
     for name, stems in sets.items():
         found = read_steps(stems, nominal.robot.layout)
         measured = found.measured(nominal, walking.foot_spacing_m)
         for column in range(measured.shape[1]):
             edges = bin_edges(commands, column, settings.bins)
-            rows[name, column] = list(followed(found, measured, column, edges, settings.tolerance))
-    records: list[tuple[Field, ...]] = []
-    blocks: list[tuple[list[str], list[list[str]]]] = []
-    for (name, column), own in rows.items():
-        command = COMMAND[column][0]
-        unit = UNITS[column]
-        records += [(name, command, *astuple(row), unit) for row in own]
-        digits = 1 if unit == "deg" else 3
-        label = f"{command.replace('_', ' ')} [{unit}]"
-        blocks.append(([name, label], [row.texts(digits) for row in own]))
+            command, unit = COMMAND[column][0], UNITS[column]
+            own = followed(found, measured, column, edges, settings.tolerance)
+            rows.append(own.assign(set=name, command=command, unit=unit))
+            digits = 1 if unit == "deg" else 3
+            label = f"{command.replace('_', ' ')} [{unit}]"
+            blocks.append(([name, label], [texts_of(row, digits) for row in own.to_dict("records")]))
+    records = records_of(pd.concat(rows), STEPS)
     write_table(table_dir / "steps", Table(STEPS, records, HEADER, in_blocks(blocks), left=2))
 
 
-def followed(found: WalkedSteps, measured: Array, column: int, edges: Array, tolerance: float) -> Iterator[Followed]:
-    """Yield the rows of one command in one set, empty bins left out.
+def texts_of(row: Mapping[Hashable, Any], digits: int) -> list[str]:
+    """Return the cells of a bin."""
+    numbers = [number_text(row[name], digits) for name in ("bin_from", "bin_to", "commanded", "measured")]
+    within = "-" if is_missing(row["within"]) else f"{row['within']:.0%}"
+    return [*numbers[:2], str(row["count"]), *numbers[2:], number_text(row["ratio"]), within]
+
+
+def followed(found: WalkedSteps, measured: Array, column: int, edges: Array, tolerance: float) -> pd.DataFrame:
+    """Return what came of one command in one set, a row for each bin of it that has steps [m], [deg] or [s].
+
+    Beside the ends of a bin it has the `count` of steps of the foot that leads, the mean that was `commanded` and the
+    one that was `measured`, their `ratio`, and the share of the steps `within` the tolerance of their own command. A
+    bin around zero has neither of these two.
 
     Args:
         found: the steps (N,).
@@ -92,13 +76,12 @@ def followed(found: WalkedSteps, measured: Array, column: int, edges: Array, tol
     follows = found.follows(column)
     wanted = found.commanded[follows, column]
     got = measured[follows, column]
-    where = bin_of(wanted, edges)
     near = np.abs(got - wanted) <= tolerance * np.abs(wanted)
-    for k in np.unique(where):
-        own = where == k
-        low = float(edges[k])
-        high = float(edges[k + 1])
-        means = float(wanted[own].mean()), float(got[own].mean())
-        clear = low * high >= 0.0  # a bin around zero has no meaningful ratio
-        ratios = (means[1] / means[0], float(near[own].mean())) if clear else (None, None)
-        yield Followed(low, high, int(own.sum()), *means, *ratios)
+    steps = pd.DataFrame({"bin": bin_of(wanted, edges), "commanded": wanted, "measured": got, "within": near})
+    rows = steps.groupby("bin").mean()
+    low, high = edges[rows.index], edges[rows.index + 1]
+    rows = rows.assign(bin_from=low, bin_to=high, count=steps.groupby("bin").size())
+    rows["ratio"] = rows["measured"] / rows["commanded"]
+    # A bin around zero has no meaningful ratio.
+    rows.loc[low * high < 0.0, ["ratio", "within"]] = np.nan
+    return rows.reset_index(drop=True)

@@ -7,11 +7,11 @@ from pathlib import Path
 import pandas as pd
 
 from experiments.evaluation.compare.rmse import RAW
-from experiments.evaluation.number.frames import read_scores
+from experiments.evaluation.number.frames import read_scores, records_of
 from experiments.evaluation.number.laws import measured
 from experiments.evaluation.number.number import interval_text, is_missing, number_text, published_value
 from experiments.evaluation.number.scored import AVERAGE, columns_of, number_of, runs_of
-from experiments.evaluation.tables.layout import PART, Line, Table, in_blocks, records_of, text_table, write_table
+from experiments.evaluation.tables.layout import PART, Line, Table, in_blocks, text_table, write_table
 from experiments.settings.published import Floor, PublishedTable
 from experiments.settings.runs import Statistics
 from experiments.settings.tables import ErrorTable
@@ -66,8 +66,9 @@ def cells_of(settings: ErrorTable, columns: pd.DataFrame) -> pd.DataFrame:
     # Only errors have a second truth to be taken against.
     cells["is_error"] = cells["metric"].str.startswith(ERROR)
     are_errors = cells.groupby(["line", "column"], observed=True)["is_error"].transform("all")
-    raw = cells[are_errors]
-    raw = raw.assign(truth=RAW, metric=raw["metric"] + RAW)
+    errors = cells[are_errors]
+    # Of `errors` and not of `cells`, whose rows an empty frame would take over.
+    raw = errors.assign(truth=RAW, metric=errors["metric"] + RAW)
     both = pd.concat([cells.assign(truth=""), raw])
     return both.sort_values("line", kind="stable", ignore_index=True)
 

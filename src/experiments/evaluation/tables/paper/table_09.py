@@ -7,10 +7,10 @@ from typing import Any
 import pandas as pd
 
 from experiments.evaluation.measure.detection.results import ALL, CELLS, force_text, half_force, hits_of, with_all
-from experiments.evaluation.number.frames import rows_of
+from experiments.evaluation.number.frames import records_of, rows_of
 from experiments.evaluation.number.laws import mean, measured, share
 from experiments.evaluation.number.number import Number, interval_text, is_missing, number_text, published_row
-from experiments.evaluation.tables.layout import PART, RULE, Line, Table, records_of, text_table, write_table
+from experiments.evaluation.tables.layout import PART, RULE, Line, Table, text_table, write_table
 from experiments.plan.detection import Detections
 from experiments.settings.detection_tables import ReadingTable, SmallestForce
 from experiments.settings.published import PublishedTable

@@ -8,9 +8,9 @@ from statistics import geometric_mean
 import pandas as pd
 
 from experiments.evaluation.measure.detection.results import owners
-from experiments.evaluation.number.frames import read_detection
+from experiments.evaluation.number.frames import read_detection, records_of
 from experiments.evaluation.number.number import number_text, published_row
-from experiments.evaluation.tables.layout import OUTSIDE, Table, in_blocks, records_of, write_table
+from experiments.evaluation.tables.layout import OUTSIDE, Table, in_blocks, write_table
 from experiments.plan.detection import Detections
 from experiments.settings.detection_tables import ThresholdTable
 from experiments.settings.published import PublishedTable
