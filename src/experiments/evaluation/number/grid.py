@@ -10,9 +10,9 @@ import numpy as np
 from experiments.evaluation.number.intervals import MEAN, Formula, RunGrid, summarise
 from experiments.evaluation.number.number import Number
 from experiments.evaluation.number.rows import read_scores
+from experiments.records.scores import Score
 from experiments.settings.fleet import FIRST_SEED
 from experiments.settings.runs import Runs, Statistics
-from mobnet.core.columns import Score
 from mobnet.core.errors import ConfigError, DataError
 from mobnet.core.joints import JointLayout
 

@@ -67,11 +67,12 @@ from experiments.evaluation.report import calibration, claims, sigma
 from experiments.evaluation.report.judge_again import judged_again
 from experiments.evaluation.report.snapshot import DRAWN, SNAPSHOT, run_renewal
 from experiments.plan.products import EVALUATION
+from experiments.records.trial_errors import TrialError
 from experiments.running.words import draw_parser
 from experiments.settings.evaluation import PRODUCTS
 from experiments.settings.load import load_settings
 from experiments.settings.settings import Settings
-from mobnet.core.columns import COMMAND, TrialError
+from mobnet.core.columns import COMMAND
 from mobnet.core.errors import ConfigError, DataError, not_accepted
 from mobnet.core.rows import read_rows
 from mobnet.core.style import styled

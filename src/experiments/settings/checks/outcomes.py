@@ -7,6 +7,7 @@ happens in them. The best outcome is that of robots that are alike (docs/notes/m
 from collections.abc import Iterator
 
 from experiments.settings.catalogue import Catalogue
+from experiments.settings.claim_ranges import Bounds, ranges_of, within
 from experiments.settings.claims import Cell, Claim
 from experiments.settings.counts import robots_of
 from experiments.settings.evaluation import PRODUCTS
@@ -14,7 +15,6 @@ from experiments.settings.few_clusters import rate_ends, share_ends
 from experiments.settings.independent import garwood, wilson
 from experiments.settings.runs import Statistics
 from experiments.settings.settings import Settings
-from mobnet.core.claim_ranges import Bounds, ranges_of, within
 from mobnet.core.errors import misfit
 from mobnet.settings.reading import Problem
 

@@ -11,7 +11,7 @@ from experiments.settings.evaluation import PRODUCTS, measured_in
 from experiments.settings.metrics import metric_of
 from experiments.settings.runs import Mean
 from experiments.settings.settings import Settings
-from mobnet.core.columns import ERRORS
+from experiments.settings.table_columns import ERRORS
 from mobnet.core.errors import misfit, not_accepted
 from mobnet.core.joints import JointLayout, right_of, with_image
 from mobnet.settings.checks.robot import joints_above

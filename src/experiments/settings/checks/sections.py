@@ -7,6 +7,8 @@ from typing import Any
 
 from pydantic import BaseModel, ValidationError
 
+from experiments.records.collisions import READINGS
+from experiments.records.reactions import FORCE_SENSORS, NONE
 from experiments.settings.asked import RunRequest
 from experiments.settings.catalogue import Catalogue
 from experiments.settings.checks.claims import claim_problems
@@ -20,9 +22,7 @@ from experiments.settings.checks.surrogate import surrogate_problems
 from experiments.settings.checks.walking import walking_problems
 from experiments.settings.products import problems_in
 from experiments.settings.settings import Settings
-from mobnet.core.detections import READINGS
 from mobnet.core.errors import misfit
-from mobnet.core.reactions import FORCE_SENSORS, NONE
 from mobnet.settings.methods import swept_names
 from mobnet.settings.names import Use, kind_of, unknown, uses
 from mobnet.settings.networks import Learning, Network

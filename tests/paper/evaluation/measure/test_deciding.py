@@ -22,7 +22,7 @@ from experiments.settings.claims import Claim, MadeNumber
 from experiments.settings.evaluation import PRODUCTS
 from experiments.settings.independent import wilson
 from experiments.settings.settings import Settings
-from mobnet.core.columns import NOT_MEASURED, NOT_REPRODUCED, OPEN, OURS, SIGN_AT_LEAST, SIGN_ONLY
+from experiments.settings.verdicts import NOT_MEASURED, NOT_REPRODUCED, OPEN, OURS, SIGN_AT_LEAST, SIGN_ONLY
 
 CONFIDENCE = STATISTICS
 SHARES = next(name for name, row in PRODUCTS.items() if row.trials)  # a table of shares

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from experiments.evaluation.number.grid import Wanted, number_of, run_grid
+from experiments.records.scores import Score
 from experiments.settings.fleet import FIRST_SEED
 from experiments.settings.settings import Settings
-from mobnet.core.columns import Score
 from mobnet.core.errors import DataError
 
 WANTED = Wanted("forward_walk", "LL", "all_uncertainty", "MOB-Net", "avg")

@@ -16,7 +16,7 @@ from experiments.evaluation.figures.drawing.named_bars import BAR_INCH, LINE, Na
 from experiments.evaluation.figures.style import entitle, legend, looks, save_figure
 from experiments.evaluation.number.number import Number
 from experiments.evaluation.number.rows import Field, write_csv
-from mobnet.core.columns import JOINT_ERRORS
+from experiments.settings.table_columns import JOINT_ERRORS
 from mobnet.core.style import COLUMN_INCH, PAGE_INCH, styled
 
 TORQUE_INCH, ERROR_INCH, REST_INCH = 1.15, 0.85, 0.95  # height of rows, and of legend, titles and labels together

@@ -19,8 +19,8 @@ from experiments.evaluation.number.number import Number
 from experiments.evaluation.number.rows import Field
 from experiments.settings.measures import Bode
 from experiments.settings.runs import Statistics
+from experiments.settings.table_columns import RESPONSE
 from mobnet.core.arrays import Array
-from mobnet.core.columns import RESPONSE
 from mobnet.core.joints import JointLayout
 from mobnet.core.style import PAGE_INCH, STYLE, styled
 from mobnet.settings.data import Push

@@ -12,7 +12,7 @@ from experiments.evaluation.number.number import Number
 from experiments.evaluation.number.rows import Field
 from experiments.settings.measures import Drift
 from experiments.settings.runs import Runs, Statistics
-from mobnet.core.columns import DRIFT
+from experiments.settings.table_columns import DRIFT
 
 X_LABEL = "number of the step since the push began"
 Y_LABEL = "share of the push [-]"

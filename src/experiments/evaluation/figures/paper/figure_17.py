@@ -17,7 +17,7 @@ from experiments.evaluation.measure.learning.losses import ENDS, Loss, losses_of
 from experiments.evaluation.measure.learning.trainings import kind_of_each, read_trainings, sound
 from experiments.settings.figures import Figure17
 from experiments.settings.runs import Statistics
-from mobnet.core.columns import LOSSES
+from experiments.settings.table_columns import LOSSES
 from mobnet.core.style import PAGE_INCH, styled
 
 ROW_INCH, LABELS_INCH = 0.3, 0.85  # height of a kind, and of legend, titles and labels

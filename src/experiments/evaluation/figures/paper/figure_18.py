@@ -17,7 +17,7 @@ from experiments.evaluation.number.number import Number
 from experiments.evaluation.number.rows import read_scores
 from experiments.settings.figures import Figure18
 from experiments.settings.runs import PushWindow, Statistics
-from mobnet.core.columns import LIMB_ERRORS
+from experiments.settings.table_columns import LIMB_ERRORS
 from mobnet.core.joints import JointLayout
 from mobnet.core.style import styled
 

@@ -8,7 +8,7 @@ from experiments.evaluation.figures.style import save_figure
 from experiments.evaluation.measure.learning.sizes import Size, sizes_of
 from experiments.plan.runs import SweptSize
 from experiments.settings.runs import Statistics
-from mobnet.core.columns import SIZES
+from experiments.settings.table_columns import SIZES
 
 TITLES = {"parameters": "size of the network, all data", "samples": "size of the data, printed network"}
 X_LABELS = {"parameters": "parameters [thousand]", "samples": "samples learned from [thousand]"}

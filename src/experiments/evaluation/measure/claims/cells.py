@@ -13,8 +13,8 @@ from experiments.evaluation.number.grid import Wanted, members, places_of, robot
 from experiments.evaluation.number.intervals import RunGrid
 from experiments.evaluation.number.number import Number
 from experiments.evaluation.number.rows import read_scores
+from experiments.records.scores import Score
 from experiments.settings.claims import Cell
-from mobnet.core.columns import Score
 from mobnet.core.errors import ConfigError, DataError, not_accepted
 from mobnet.core.joints import JointLayout
 from mobnet.core.rows import read_texts

@@ -11,11 +11,11 @@ from math import ceil, exp, inf, log, sqrt
 
 from experiments.evaluation.number.intervals import quantile_of
 from experiments.evaluation.number.number import Number
+from experiments.settings.claim_ranges import Bounds, apart, within
 from experiments.settings.claims import MadeNumber
 from experiments.settings.evaluation import PRODUCTS
 from experiments.settings.independent import garwood, wilson
 from experiments.settings.runs import Statistics
-from mobnet.core.claim_ranges import Bounds, apart, within
 
 ROBOTS, NETWORKS, WALKS = "robots", "networks", "walks"
 TRIALS, HOURS, AS_MANY = "independent trials", "hours of walking", "times as much data"

@@ -15,10 +15,10 @@ from experiments.evaluation.number.rows import read_detections
 from experiments.jobs.collisions import Hit, hits_of
 from experiments.plan.detection import Detections
 from experiments.plan.runs import Run
+from experiments.records.collisions import Detected
 from experiments.settings.detection_tables import ContactLine, ContactPoints
 from mobnet.core.arrays import Array
 from mobnet.core.columns import EXTERNAL_LP, PUSH, named
-from mobnet.core.detections import Detected
 from mobnet.core.errors import DataError
 from mobnet.core.estimator import Estimate
 from mobnet.core.recording import read_sensed
