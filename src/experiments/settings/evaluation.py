@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import Annotated
 
-from experiments.settings import counts, table_columns
+from experiments.settings import table_columns
 from experiments.settings.detection_tables import (
     AlarmTable,
     ContactPoints,
@@ -230,7 +230,6 @@ class Evaluation(Section):
             table=True,
             quoted=8,
             columns=table_columns.HOURLY,
-            hours=counts.known_hours,
         ),
     ]
     measures: dict[base.LowerName, Measure] = {}
@@ -253,7 +252,6 @@ class Evaluation(Section):
             source=True,
             columns=table_columns.DETECTION,
             clustered=True,
-            trials=counts.collisions,
         ),
     ]
     table_13: Annotated[
@@ -283,7 +281,6 @@ class Evaluation(Section):
             quoted=16,
             columns=table_columns.SAFETY,
             clustered=True,
-            trials=counts.pushed_walks,
         ),
     ]
     sensorless: Annotated[
@@ -295,7 +292,6 @@ class Evaluation(Section):
             quoted=17,
             columns=table_columns.SENSORLESS,
             clustered=True,
-            hours=counts.free_walk_hours,
         ),
     ]
     figure_16: Annotated[
@@ -333,7 +329,6 @@ class Evaluation(Section):
             source=True,
             columns=table_columns.DETECTION,
             clustered=True,
-            trials=counts.collisions,
         ),
     ]
     smallest_force: Annotated[
@@ -402,7 +397,6 @@ class Evaluation(Section):
             needs={"networks": "first_networks"},
             table=True,
             columns=table_columns.LATENCY,
-            trials=counts.stretches,
         ),
     ]
     compute: Compute

@@ -16,11 +16,11 @@ from experiments.settings.checks.data import data_problems
 from experiments.settings.checks.detection import detection_problems, reaction_problems
 from experiments.settings.checks.learning import learning_problems
 from experiments.settings.checks.outcomes import outcome_problems
+from experiments.settings.checks.products import product_problems
 from experiments.settings.checks.results import Results
 from experiments.settings.checks.sizes import size_problems
 from experiments.settings.checks.surrogate import surrogate_problems
 from experiments.settings.checks.walking import walking_problems
-from experiments.settings.products import problems_in
 from experiments.settings.settings import Settings
 from mobnet.core.errors import misfit
 from mobnet.settings.methods import swept_names
@@ -64,11 +64,11 @@ def _fleet_faults(catalogue: Catalogue, one: RunRequest) -> Iterator[str]:
     )
 
 
-# What must hold for a single table or figure stands with its section (`experiments.settings.products.Checked`).
+# What must hold for a single table or figure stands with those of its kind (`experiments.settings.checks.products`).
 def shown_problems(catalogue: Catalogue) -> Iterator[Problem]:
     """Yield what does not fit in tables, figures and claims, and in detectors and reactions that they show."""
     results = Results(catalogue)
-    yield from problems_in(catalogue.settings.evaluation, results, ("evaluation",))
+    yield from product_problems(catalogue.settings.evaluation, results, ("evaluation",))
     yield from detection_problems(results)
     yield from reaction_problems(results)
     yield from asked_problems(catalogue)
