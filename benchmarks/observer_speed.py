@@ -25,6 +25,7 @@ from mobnet.core.joints import NQ_BASE, JointLayout
 from mobnet.core.recording import Sensed
 from mobnet.estimation.observe import observer_of
 from mobnet.estimation.observer import RobotObserver
+from mobnet.kernel.observer import MomentumObserver
 from mobnet.robot.description import describe
 from mobnet.robot.dynamics import momentum_and_beta
 from mobnet.robot.nominal import NominalModel
@@ -33,6 +34,7 @@ LEVEL = "all_uncertainty"
 SAMPLES, ROUNDS = 5000, 5
 WALK, WALK_SEED, WALK_S = "forward_walk", 0, 60.0
 OFFLINE_US, STEP_US = 3.0, 12.0  # a sample at most, of a recording at once and of the whole step
+ARM_JOINTS, ARM_US = 7, 5.0  # of an arm that is stepped from Python, and a step of it at most
 Row = dict[str, float | str]
 
 
@@ -56,7 +58,26 @@ def main() -> list[Row]:
     }
     offline, compiled = (_row(name, *pair) for name, pair in pairs.items())
     whole: Row = {"name": "observe, reading and writing included", "ours": _whole(settings), "unit": "us/sample"}
-    return [{**offline, "at_most": OFFLINE_US}, compiled, {**whole, "at_most": STEP_US}]
+    arm: Row = {"name": "a step of an arm of seven joints, from Python", "ours": _arm(), "unit": "us/sample"}
+    at_most = {**offline, "at_most": OFFLINE_US}, compiled, {**whole, "at_most": STEP_US}, {**arm, "at_most": ARM_US}
+    return list(at_most)
+
+
+def _arm() -> float:
+    """Return the processor time of a step of a fixed arm [us], the median of the turns."""
+    model = pin.Model()
+    for k in range(ARM_JOINTS):
+        model.addJoint(k, pin.JointModelRZ() if k % 2 else pin.JointModelRY(), pin.SE3.Random(), f"J{k + 1}")
+        model.appendBodyToJoint(k + 1, pin.Inertia.Random(), pin.SE3.Identity())
+    observer = MomentumObserver(model, 1000.0)
+    q, v, tau = np.random.default_rng(0).normal(size=(3, ARM_JOINTS))
+    state, times = observer.init(), list[float]()
+    for _ in range(ROUNDS + 1):
+        started = time.process_time()
+        for _ in range(SAMPLES):
+            state, _ = observer.step(state, q, v, tau)
+        times.append(time.process_time() - started)
+    return statistics.median(times[1:]) / SAMPLES * 1e6
 
 
 def _row(name: str, ours: Callable[[], Array], reference: Callable[[], Array]) -> Row:

@@ -13,7 +13,7 @@ from types import SimpleNamespace
 from typing import Any
 
 from experiments.evaluation.number.rows import write_csv
-from mobnet.core.columns import Score
+from experiments.records.scores import Score
 
 GOLDEN = Path(__file__).parent / "golden"
 

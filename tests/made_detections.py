@@ -8,22 +8,9 @@ import numpy as np
 
 from experiments.evaluation.measure.detection.results import CELLS
 from experiments.evaluation.number.rows import write_csv
+from experiments.records.collisions import UNPUSHED, Collision, CurvePoint, Detected, columns_of
 from experiments.settings.settings import Settings
-from mobnet.core.detections import (
-    CALIBRATION,
-    COLLISION,
-    HELD_OUT,
-    LARGEST,
-    UNPUSHED,
-    WALKING,
-    Collision,
-    CurvePoint,
-    Detected,
-    FreeSwing,
-    Promise,
-    Threshold,
-    columns_of,
-)
+from mobnet.core.detections import CALIBRATION, COLLISION, HELD_OUT, LARGEST, WALKING, FreeSwing, Promise, Threshold
 
 LEVELS = ("all_uncertainty", "robot_1")
 FOUND = {"MOB-Net-OR": 1.0, "MOB-Net-sigma": 0.5, "MOB": 0.0}  # detector -> share of the collisions it finds

@@ -5,10 +5,10 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from experiments.evaluation.measure.claims.cells import listed
+from experiments.records.scores import Score
 from experiments.settings.claims import Cell, Claim, numbers_of
 from experiments.settings.metrics import unit_of_metric
 from experiments.settings.tables import ErrorRow
-from mobnet.core.columns import Score
 from mobnet.core.joints import JointLayout
 
 JOINTS = [f"LL{i}" for i in range(1, 7)]

@@ -7,9 +7,9 @@ from pathlib import Path
 import numpy as np
 
 from experiments.evaluation.number.rows import write_csv
-from mobnet.core.course import course_columns
+from experiments.records.course import course_columns
+from experiments.records.reactions import NONE, TRIALS, Trial
 from mobnet.core.joints import JointLayout
-from mobnet.core.reactions import NONE, TRIALS, Trial
 from mobnet.core.store import write_array
 
 HIT = Trial(

@@ -16,30 +16,21 @@ from experiments.evaluation.measure.estimates.scores import measure_problems
 from experiments.evaluation.measure.learning.trainings import TrainingNote, read_training, read_training_note
 from experiments.evaluation.number.rows import read_detections, read_scores, read_trials
 from experiments.jobs.method_problems import method_problems
+from experiments.records.collisions import FILES as DETECTION_FILES
+from experiments.records.collisions import columns_of
+from experiments.records.reactions import TRIALS
+from experiments.records.scores import SCORES
 from experiments.running.accounts import AccountNote, read_account
 from experiments.running.words import KINDS, check_parser
 from experiments.settings.load import load_settings
-from mobnet.core.columns import (
-    EPOCHS,
-    EXTERNAL,
-    LABEL_LP,
-    RESIDUAL,
-    SCORES,
-    STD,
-    named,
-    recording_columns,
-    residual_columns,
-)
-from mobnet.core.detections import FILES as DETECTION_FILES
-from mobnet.core.detections import columns_of
-from mobnet.core.epochs import read_epochs
+from mobnet.core.columns import EXTERNAL, LABEL_LP, RESIDUAL, STD, named, recording_columns, residual_columns
+from mobnet.core.epochs import EPOCHS, read_epochs
 from mobnet.core.errors import DataError, MobnetError, not_accepted, refuse
 from mobnet.core.files import METRICS, RUN, check_regular, read_json, read_text
 from mobnet.core.heartbeat import heartbeat
 from mobnet.core.joints import JointLayout
 from mobnet.core.notes import ArrayNote, read_array_note, read_note
 from mobnet.core.printed import to_output
-from mobnet.core.reactions import TRIALS
 from mobnet.core.recording import Sensed, Truth
 from mobnet.core.store import ARRAY, NOTE, check_rate, file_of, read_pieces
 from mobnet.detection.threshold_file import read_thresholds

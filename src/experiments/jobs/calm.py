@@ -13,11 +13,11 @@ import numpy as np
 
 from experiments.jobs.reacting_robot import BASE_LIMB, ReactingRobot
 from experiments.plan.parts import MethodRun
+from experiments.records.reactions import FORCE_SENSORS
 from mobnet.core.arrays import Array
 from mobnet.core.detections import LARGEST, Threshold
 from mobnet.core.estimator import Estimate, Stretch, TorqueEstimator, estimate_all
 from mobnet.core.files import write_text
-from mobnet.core.reactions import FORCE_SENSORS
 from mobnet.core.recording import Recording, Sensed, read_recording
 from mobnet.core.rows import csv_text
 from mobnet.detection.calibration import unit_of

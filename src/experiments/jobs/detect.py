@@ -16,7 +16,7 @@ from experiments.jobs.detector_trial import (
     unpushed_rows,
 )
 from experiments.plan.detection import Walk
-from mobnet.core.detections import FILES, columns_of
+from experiments.records.collisions import FILES, columns_of
 from mobnet.core.estimator import Estimate
 from mobnet.core.files import write_text
 from mobnet.core.rows import csv_text
@@ -40,7 +40,7 @@ Rows = dict[str, list[Any]]  # name of a file -> its rows
 
 
 def detect(detection: Detection, robot: RobotTable, rate_hz: float, walks: Mapping[str, Walk], out: Path) -> None:
-    """Calibrate and try the detectors of a robot, and write the files of `mobnet.core.detections` into a folder.
+    """Calibrate and try the detectors of a robot, and write the files of `records.collisions` into a folder.
 
     Args:
         detection: gate, chain, thresholds and detectors.

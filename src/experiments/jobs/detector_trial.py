@@ -8,9 +8,10 @@ import numpy as np
 
 from experiments.jobs.collisions import Hit, hits_of
 from experiments.plan.detection import Walk
+from experiments.records.collisions import UNPUSHED, Collision, CurvePoint, Detected
 from mobnet.core.arrays import Array
 from mobnet.core.columns import EXTERNAL_LP, named
-from mobnet.core.detections import COLLISION, LARGEST, UNPUSHED, WALKING, Collision, CurvePoint, Detected, FreeSwing
+from mobnet.core.detections import COLLISION, LARGEST, WALKING, FreeSwing
 from mobnet.core.estimator import Estimate
 from mobnet.core.recording import read_sensed
 from mobnet.core.store import read_array

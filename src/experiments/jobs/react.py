@@ -12,12 +12,12 @@ from experiments.jobs.calm import FORCE
 from experiments.jobs.reacting_robot import BASE_LIMB, ReactingRobot
 from experiments.jobs.reaction_trial import trial_of
 from experiments.plan.parts import CaseWalks, MethodRun
+from experiments.records.course import course_columns
+from experiments.records.reactions import FORCE_SENSORS, NONE, TRIALS, Trial
 from mobnet.core.arrays import Array
-from mobnet.core.course import course_columns
 from mobnet.core.detections import Threshold
 from mobnet.core.estimator import TorqueEstimator, once
 from mobnet.core.files import write_text
-from mobnet.core.reactions import FORCE_SENSORS, NONE, TRIALS, Trial
 from mobnet.core.recording import Sensed
 from mobnet.core.rows import csv_text, read_rows
 from mobnet.core.store import write_array

@@ -5,8 +5,8 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from experiments.records.reactions import NONE, Trial
 from mobnet.core.arrays import Array
-from mobnet.core.reactions import NONE, Trial
 from mobnet.reaction.loop import Course
 from mobnet.settings.reaction import Reaction, Watch
 

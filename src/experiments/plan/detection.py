@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from experiments.plan.files import Files
-from mobnet.core.detections import FILES
+from experiments.records.collisions import FILES
 from mobnet.settings.data import Push
 from mobnet.settings.detection import Detection
 

@@ -8,7 +8,7 @@ from typing import Annotated, Any, Literal, cast
 from pydantic import AfterValidator, Field, model_validator
 
 from experiments.settings.runs import Metric
-from mobnet.core.columns import NOT_PRINTED
+from experiments.settings.verdicts import NOT_PRINTED
 from mobnet.core.errors import not_accepted
 from mobnet.settings.base import (
     Item,

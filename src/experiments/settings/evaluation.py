@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import Annotated
 
-from experiments.settings import counts
+from experiments.settings import table_columns
 from experiments.settings.detection_tables import (
     AlarmTable,
     ContactPoints,
@@ -71,7 +71,6 @@ from experiments.settings.tables import (
     Table01,
     Uncertainty,
 )
-from mobnet.core import columns
 from mobnet.settings import base
 from mobnet.settings.base import Section
 
@@ -101,7 +100,9 @@ class Evaluation(Section):
     ]
     error_budget: Annotated[
         ErrorBudget,
-        MadeBy("tables.further.error_budget:error_budget", needs=SCORES, table=True, quoted=5, columns=columns.ERRORS),
+        MadeBy(
+            "tables.further.error_budget:error_budget", needs=SCORES, table=True, quoted=5, columns=table_columns.ERRORS
+        ),
     ]
     noise: Annotated[
         NoiseTable,
@@ -152,14 +153,19 @@ class Evaluation(Section):
             sections=("figure_17",),
             table=True,
             quoted=9,
-            columns=columns.KINDS,
+            columns=table_columns.KINDS,
         ),
     ]
     figure_18: Annotated[Figure18, MadeBy("figures.paper.figure_18:figure_18", needs=SCORES, figure=True)]
     methods: Annotated[
         base.Some[MethodsRow],
         MadeBy(
-            "tables.further.methods:methods", needs=SCORES, table=True, quoted=1, source=True, columns=columns.METHODS
+            "tables.further.methods:methods",
+            needs=SCORES,
+            table=True,
+            quoted=1,
+            source=True,
+            columns=table_columns.METHODS,
         ),
     ]
     figure_19: Annotated[
@@ -195,7 +201,7 @@ class Evaluation(Section):
             "tables.further.coverage:coverage",
             needs={"training": "sets_with_and_without_rte", "tests": "first_robot_tests", "ports": "ports"},
             table=True,
-            columns=columns.COVERAGE,
+            columns=table_columns.COVERAGE,
         ),
     ]
     calibration: Annotated[
@@ -206,7 +212,7 @@ class Evaluation(Section):
             sections=("coverage",),
             table=True,
             figure=True,
-            columns=columns.CALIBRATION,
+            columns=table_columns.CALIBRATION,
         ),
     ]
     peaks: Annotated[Peaks, MadeBy("tables.further.peaks:peaks", needs=SCORES, table=True, quoted=2, source=True)]
@@ -223,8 +229,7 @@ class Evaluation(Section):
             sections=("changed",),
             table=True,
             quoted=8,
-            columns=columns.HOURLY,
-            hours=counts.known_hours,
+            columns=table_columns.HOURLY,
         ),
     ]
     measures: dict[base.LowerName, Measure] = {}
@@ -245,14 +250,15 @@ class Evaluation(Section):
             table=True,
             quoted=10,
             source=True,
-            columns=columns.DETECTION,
+            columns=table_columns.DETECTION,
             clustered=True,
-            trials=counts.collisions,
         ),
     ]
     table_13: Annotated[
         ThresholdTable,
-        MadeBy("tables.paper.table_13:table_13", needs=DETECTIONS, table=True, source=True, columns=columns.DETECTION),
+        MadeBy(
+            "tables.paper.table_13:table_13", needs=DETECTIONS, table=True, source=True, columns=table_columns.DETECTION
+        ),
     ]
     false_alarms: Annotated[
         AlarmTable,
@@ -262,7 +268,7 @@ class Evaluation(Section):
             table=True,
             quoted=11,
             source=True,
-            columns=columns.DETECTION,
+            columns=table_columns.DETECTION,
         ),
     ]
     safety: Annotated[
@@ -273,9 +279,8 @@ class Evaluation(Section):
             published="section_5_4",
             table=True,
             quoted=16,
-            columns=columns.SAFETY,
+            columns=table_columns.SAFETY,
             clustered=True,
-            trials=counts.pushed_walks,
         ),
     ]
     sensorless: Annotated[
@@ -285,9 +290,8 @@ class Evaluation(Section):
             needs={"reactions": "reactions"},
             table=True,
             quoted=17,
-            columns=columns.SENSORLESS,
+            columns=table_columns.SENSORLESS,
             clustered=True,
-            hours=counts.free_walk_hours,
         ),
     ]
     figure_16: Annotated[
@@ -323,9 +327,8 @@ class Evaluation(Section):
             table=True,
             quoted=12,
             source=True,
-            columns=columns.DETECTION,
+            columns=table_columns.DETECTION,
             clustered=True,
-            trials=counts.collisions,
         ),
     ]
     smallest_force: Annotated[
@@ -335,11 +338,12 @@ class Evaluation(Section):
             needs=DETECTIONS,
             table=True,
             quoted=13,
-            columns=columns.DETECTION,
+            columns=table_columns.DETECTION,
         ),
     ]
     links: Annotated[
-        Links, MadeBy("tables.further.links:links", needs=DETECTIONS, table=True, quoted=14, columns=columns.DETECTION)
+        Links,
+        MadeBy("tables.further.links:links", needs=DETECTIONS, table=True, quoted=14, columns=table_columns.DETECTION),
     ]
     contact_points: Annotated[
         ContactPoints,
@@ -348,7 +352,7 @@ class Evaluation(Section):
             needs={"detections": "detections", "runs": "all_runs", "pushes": "pushes_of_test"},
             table=True,
             quoted=15,
-            columns=columns.DETECTION,
+            columns=table_columns.DETECTION,
         ),
     ]
     figure_13: Annotated[
@@ -395,8 +399,7 @@ class Evaluation(Section):
             "tables.further.latency:latency",
             needs={"networks": "first_networks"},
             table=True,
-            columns=columns.LATENCY,
-            trials=counts.stretches,
+            columns=table_columns.LATENCY,
         ),
     ]
     compute: Compute

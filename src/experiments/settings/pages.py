@@ -1,20 +1,12 @@
 """What pages, film and drawings of the report show, and the text of the paper: one section for each."""
 
-from collections.abc import Iterator
-from itertools import chain
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 from pydantic import Field
 
-from experiments.settings.products import Checked
 from experiments.settings.runs import LimbRuns
-from mobnet.core.errors import misfit
 from mobnet.settings import base
 from mobnet.settings.base import Section
-from mobnet.settings.reading import Place, Problem
-
-if TYPE_CHECKING:  # which knows all sections
-    from experiments.settings.checks.results import Results
 
 
 class Story(Section):
@@ -86,7 +78,7 @@ class Drawings(Section):
     notes: tuple[DrawingLabel, ...] = ()
 
 
-class ExploreStory(Checked):
+class ExploreStory(Section):
     """How the page calls the push and the plant of section `story`, and methods that it shows besides."""
 
     push: base.Text
@@ -94,13 +86,8 @@ class ExploreStory(Checked):
     threshold_nm: base.Real = Field(ge=0.1, le=1000)
     further: base.MethodNames
 
-    def problems(self, results: "Results", place: Place) -> Iterator[Problem]:
-        """Yield methods without that of the gate, which the page draws."""
-        methods = (*results.settings.evaluation.story.methods, *self.further)
-        yield from results.not_gated((*place, "methods"), methods)
 
-
-class ExploreScene(Checked, LimbRuns):
+class ExploreScene(LimbRuns):
     """A scene of the page: the first push of the first run that begins from a time on, and the joint shown first.
 
     `push` and `plant` are the texts of its buttons, `gate` the method that tells of an early contact, where networks of
@@ -114,14 +101,6 @@ class ExploreScene(Checked, LimbRuns):
     joint: base.MotorName
     threshold_nm: base.Real = Field(ge=0.1, le=1000)
     from_s: base.NotNegative = Field(default=0.0, le=3600)
-
-    def problems(self, results: "Results", place: Place) -> Iterator[Problem]:
-        """Yield a joint that the scene does not show pushed, and methods without that of the gate."""
-        joints = chain.from_iterable(map(results.joints, self.limbs))
-        if self.joint not in joints or self.joint not in results.pushed_joints(self.scenario):
-            text = misfit(self.joint, f"a joint of {', '.join(self.limbs)} that its push turns")
-            yield (*place, "joint"), text
-        yield from results.not_gated((*place, "methods"), self.methods, self.gate)
 
 
 class Explore(Section):

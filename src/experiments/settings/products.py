@@ -1,21 +1,12 @@
-"""What is said of a table or a figure beside its section, and what a section says itself of what does not fit."""
+"""What is said of a table or a figure beside its section."""
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, cast
+from typing import Any, cast
 
 from pydantic import BaseModel
 
 from mobnet.settings.base import Section
-from mobnet.settings.reading import Place, Problem
-
-if TYPE_CHECKING:  # both know the sections
-    from experiments.settings.checks.results import Results
-    from experiments.settings.claims import Cell
-    from experiments.settings.settings import Settings
-
-    Trials = Callable[[Settings, Cell], int | None]
-    Hours = Callable[[Settings, Cell], float | None]
 
 
 @dataclass(frozen=True)
@@ -39,8 +30,6 @@ class MadeBy:
         source: whether tables of the paper's main text are made from it.
         columns: columns of its CSV file, where claims may name its fields.
         clustered: whether intervals in it are over robots.
-        trials: of how many trials a cell is a share; None where it is no share of a known number.
-        hours: in how much walking a cell counts events at most [h]; None where it counts none.
     """
 
     function: str
@@ -56,16 +45,6 @@ class MadeBy:
     source: bool = False
     columns: tuple[str, ...] = ()
     clustered: bool = False
-    trials: "Trials | None" = None
-    hours: "Hours | None" = None
-
-
-class Checked(Section):
-    """A section that says what in it does not fit the rest of the configuration."""
-
-    def problems(self, results: "Results", place: Place) -> Iterator[Problem]:
-        """Yield place and text of what is not accepted; the section stands at a place."""
-        raise NotImplementedError
 
 
 def rows_of(section: type[Section]) -> dict[str, MadeBy]:
@@ -76,14 +55,6 @@ def rows_of(section: type[Section]) -> dict[str, MadeBy]:
             if isinstance(mark, MadeBy):
                 found[name] = mark
     return found
-
-
-def problems_in(section: object, results: "Results", place: Place) -> Iterator[Problem]:
-    """Yield what does not fit in a section, and in those that stand in it."""
-    if isinstance(section, Checked):
-        yield from section.problems(results, place)
-    for key, item in items_of(section).items():
-        yield from problems_in(item, results, (*place, key))
 
 
 def items_of(section: object) -> Mapping[Any, object]:

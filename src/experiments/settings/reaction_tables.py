@@ -1,20 +1,14 @@
 """What the tables, figures and films of reactions show: one section for each."""
 
-from collections.abc import Iterator
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 from pydantic import Field
 
-from experiments.settings.products import Checked
 from mobnet.settings import base
 from mobnet.settings.base import Section
-from mobnet.settings.reading import Place, Problem
-
-if TYPE_CHECKING:  # which knows all sections
-    from experiments.settings.checks.results import Results
 
 
-class Safety(Checked):
+class Safety(Section):
     """What reactions are worth; a direction is right within an angle, an impulse is heavy above a bound.
 
     In the cases `stood_on` the obstacle carries the robot: its impulse is none of a collision.
@@ -25,20 +19,11 @@ class Safety(Checked):
     within_deg: Annotated[base.Positive, Field(le=180)]
     heavy_ns: Annotated[base.Positive, Field(le=1000)]
 
-    def problems(self, results: "Results", place: Place) -> Iterator[Problem]:
-        """Yield cases in which nothing is pushed or stands in the way."""
-        yield from results.not_cases((*place, "cases"), self.cases, pushed=True)
-        yield from results.not_cases((*place, "stood_on"), self.stood_on, pushed=True)
 
-
-class Sensorless(Checked):
+class Sensorless(Section):
     """Walks that nothing stands in the way of, with what is estimated in place of force sensors."""
 
     cases: base.Distinct[base.CaseName]
-
-    def problems(self, results: "Results", place: Place) -> Iterator[Problem]:
-        """Yield cases in which something is pushed or stands in the way."""
-        yield from results.not_cases((*place, "cases"), self.cases, pushed=False)
 
 
 class Figure16(Safety):
@@ -54,7 +39,7 @@ class Figure21(Section):
     case: base.CaseName
 
 
-class Figure22(Checked):
+class Figure22(Section):
     """Pictures of a walk of each case: moments from the contact on [s], and azimuth and elevation of each view [deg].
 
     The moment of the largest force and the end of the walk are shown besides.
@@ -63,10 +48,6 @@ class Figure22(Checked):
     cases: base.Distinct[base.CaseName]
     moments_s: base.Some[base.Real]
     views_deg: dict[base.CaseName, tuple[base.Real, base.Real]]
-
-    def problems(self, results: "Results", place: Place) -> Iterator[Problem]:
-        """Yield cases in which nothing is pushed or stands in the way."""
-        yield from results.not_cases((*place, "cases"), self.cases, pushed=True)
 
 
 class Films(Section):

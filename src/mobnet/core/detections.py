@@ -1,31 +1,6 @@
-"""Rows of the files of a robot's detectors: its collisions, thresholds, what detectors find, and swings without any."""
+"""Rows of the files of a detector's thresholds, and of the swings that calibrate them."""
 
-from collections.abc import Mapping
-from dataclasses import dataclass, fields
-from typing import Any
-
-
-@dataclass(frozen=True)
-class Collision:
-    """A push of a leg in a recording, counted from 1; times are from the beginning of the recording.
-
-    `onset_s` is when its force first exceeds that of `detection.onset_n`, None if it never does; `force_n` its largest
-    force [N], `impulse_ns` its impulse [N s]; `swing_share` is the share of the swing at which it begins [-].
-    """
-
-    scenario: str
-    seed: int
-    number: int
-    push: str
-    leg: str
-    link: str
-    direction: str
-    start_s: float
-    onset_s: float | None
-    end_s: float
-    force_n: float
-    impulse_ns: float
-    swing_share: float
+from dataclasses import dataclass
 
 
 @dataclass(frozen=True)
@@ -60,30 +35,6 @@ class Promise:
 
 
 @dataclass(frozen=True)
-class Detected:
-    """What a detector says of a collision.
-
-    `ratio` is its largest signal over the threshold, `delay_s` the time from the collision's start to the alarm, None
-    if there is none, `perfect_s` that of an estimate without error at the same thresholds; `link` and `direction` are
-    those that it names, `named_n` the force [N], and `signal` is what crosses first.
-    """
-
-    scenario: str
-    seed: int
-    leg: str
-    number: int
-    detector: str
-    kind: str
-    ratio: float
-    delay_s: float | None
-    perfect_s: float | None
-    signal: str
-    link: str
-    direction: str
-    named_n: float | None
-
-
-@dataclass(frozen=True)
 class FreeSwing:
     """A swing that nothing pushes: the largest signal over the threshold for one false alarm an hour, and the paper's.
 
@@ -103,33 +54,6 @@ class FreeSwing:
     ratio_walking: float
 
 
-@dataclass(frozen=True)
-class CurvePoint:
-    """Collisions that a detector finds at a multiple of its thresholds, and the sum of their delays [s]."""
-
-    detector: str
-    leg: str
-    factor: float
-    found: int
-    collisions: int
-    delay_sum_s: float
-
-
-UNNAMED = ("signal", "link", "direction")  # texts that are empty where a detector finds nothing
-CALIBRATION, HELD_OUT, UNPUSHED = PARTS = ("calibration", "held out", "unpushed")  # values of `part`
+CALIBRATION, HELD_OUT = "calibration", "held out"  # values of `part`
 # Values of `kind`: by the paper's rule from walking in place and from random walking, and for one false alarm an hour.
 LARGEST, WALKING, COLLISION = "largest", "walking", "collision"
-READINGS = {WALKING: "random walking", LARGEST: "in place"}  # what the paper's "normal walking" may be -> as text
-FILES: Mapping[str, type[Any]] = {  # name of a file of detectors -> its rows
-    "collisions": Collision,
-    "thresholds": Threshold,
-    "promises": Promise,
-    "detected": Detected,
-    "swings": FreeSwing,
-    "curves": CurvePoint,
-}
-
-
-def columns_of(name: str) -> tuple[str, ...]:
-    """Return the columns of a file of detectors."""
-    return tuple(field.name for field in fields(FILES[name]))

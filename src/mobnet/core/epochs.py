@@ -1,12 +1,34 @@
 """The epochs of a training, as its `metrics.csv` has them."""
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, fields
 from pathlib import Path
 
-from mobnet.core.columns import JOINT_ERROR, Epoch
 from mobnet.core.errors import refuse_lines
 from mobnet.core.rows import parse_field, read_rows, read_texts, refuse_rows
 
+
+@dataclass(frozen=True)
+class Epoch:
+    """One epoch of a training, counted from 1: a row of metrics.csv.
+
+    Losses are means of (22) over the samples of the training, and over those held out; `validation_rmse` is the mean
+    over the joints of their root-mean-square errors [N m], V1..V3 [N]; `gradient_norm` is the mean norm of the gradient
+    before the clip; `stride` is the distance between two steps [samples], in training and validation. In the file, the
+    errors of the joints follow, in columns of their own: JOINT_ERROR.
+    """
+
+    epoch: int
+    train_loss: float
+    validation_loss: float
+    validation_rmse: float
+    rate: float
+    gradient_norm: float
+    stride: int
+
+
+EPOCHS = tuple(field.name for field in fields(Epoch))
+JOINT_ERROR = "validation_rmse_{}"  # column of metrics.csv with the error of one joint [N m], V1..V3 [N]
 Fault = tuple[int, str, object, str]  # number of a row, column, value, accepted
 
 

@@ -87,6 +87,7 @@ class Mechanism:
         model: the given model.
         simple: the model of simple joints.
         is_compiled: whether all joints are hinges, on a base that is fixed or floats: then compiled code computes.
+        linkage: the constants of the simple model for compiled code; None where Pinocchio computes.
         is_same: whether positions and velocities of both models are the same numbers.
     """
 
@@ -113,7 +114,7 @@ class Mechanism:
         self.is_compiled = self._is_of_hinges()
         turns_quaternion = self.is_compiled and self._floats
         self.is_same = not (self._linear or self._endless or self._mimics or turns_quaternion)
-        self._linkage = linkage_of(self.simple) if self.is_compiled else None
+        self.linkage = linkage_of(self.simple) if self.is_compiled else None
 
     @property
     def widths(self) -> tuple[int, ...]:
@@ -156,8 +157,8 @@ class Mechanism:
         velocities = rows_of("v", v, samples, self.simple.nv)
         p = np.empty_like(velocities)
         beta = np.empty_like(velocities)
-        if self._linkage is not None:
-            sweep(self._linkage, positions, velocities, p, beta)
+        if self.linkage is not None:
+            sweep(self.linkage, positions, velocities, p, beta)
         else:
             for k in range(len(p)):
                 p[k], beta[k] = self._of_pinocchio(positions[k], velocities[k])

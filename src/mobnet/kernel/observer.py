@@ -8,10 +8,12 @@ from numpy.typing import ArrayLike
 
 from mobnet.core.arrays import Array, check_finite
 from mobnet.core.errors import DataError, not_accepted
+from mobnet.kernel.compiled_step import CompiledStep, StepNumbers
 from mobnet.kernel.drive import DriveParameters, TorqueKind
 from mobnet.kernel.mechanism import Mechanism
 from mobnet.kernel.recursion import ObserverState, Recursion
 
+State = ObserverState | Array  # what the observer carries: an array where one compiled call takes a sample
 GAIN_HZ = 100.0  # K_0 of the paper, section 5.1, as in configs/config.yaml
 
 
@@ -65,13 +67,19 @@ class MomentumObserver:
         self.rate_hz = rate_hz
         self.gain_hz = gain_hz
         terms = self._mechanism.terms
-        self._recursion = Recursion(terms, np.array(motors, dtype=np.intp), gain_hz, rate_hz, torque, drives)
+        columns = np.array(motors, dtype=np.intp)
+        self._recursion = Recursion(terms, columns, gain_hz, rate_hz, torque, drives)
+        linkage = self._mechanism.linkage
+        self._compiled: CompiledStep | None = None
+        if linkage is not None and self._mechanism.is_same and drives is None:
+            numbers = StepNumbers(linkage, columns, self._recursion.pole, float(rate_hz), torque == "mean")
+            self._compiled = CompiledStep(numbers)
 
-    def init(self) -> ObserverState:
+    def init(self) -> State:
         """Return the state before the first sample."""
-        return ObserverState()
+        return ObserverState() if self._compiled is None else self._compiled.init()
 
-    def step(self, state: ObserverState, q: ArrayLike, v: ArrayLike, tau: ArrayLike) -> tuple[ObserverState, Array]:
+    def step(self, state: State, q: ArrayLike, v: ArrayLike, tau: ArrayLike) -> tuple[State, Array]:
         """Return the state after a sample, and the residual (nv,) [N], [N m]; the first one is zero.
 
         Args:
@@ -83,12 +91,18 @@ class MomentumObserver:
         Raises:
             DataError: an array has another shape, or a number is not finite.
         """
+        if self._compiled is not None and isinstance(state, np.ndarray):
+            done = self._compiled.step(state, q, v, tau)
+            if done is not None:
+                return done
+        # What compiled code does not take is refused here, with what is wrong with it.
         position = self._mechanism.with_circles(_taken("q", q, (), self._mechanism.widths)[None])
         velocity = _taken("v", v, (), (self.model.nv,))
         torque = _taken("tau", tau, (), (self.nu,))
         simple_q, simple_v = self._mechanism.to_simple(position, velocity[None])
-        state, residual = self._recursion.step(state, simple_q[0], simple_v[0], torque)
-        return state, self._mechanism.from_simple(position, residual[None])[0]
+        carried = state if isinstance(state, ObserverState) else ObserverState()
+        carried, residual = self._recursion.step(carried, simple_q[0], simple_v[0], torque)
+        return carried, self._mechanism.from_simple(position, residual[None])[0]
 
     def run(self, q: ArrayLike, v: ArrayLike, tau: ArrayLike) -> Array:
         """Return the residual of samples without a gap (T, nv) [N], [N m], as stepping through them gives it.
@@ -107,7 +121,7 @@ class MomentumObserver:
         torques = _taken("tau", tau, samples, (self.nu,))
         simple_q, simple_v = self._mechanism.to_simple(positions, velocities)
         residual = np.empty(simple_v.shape)
-        self._recursion.follow(self.init(), simple_q, simple_v, torques, residual)
+        self._recursion.follow(ObserverState(), simple_q, simple_v, torques, residual)
         return self._mechanism.from_simple(positions, residual)
 
     def __repr__(self) -> str:

@@ -18,7 +18,7 @@ from safetensors import SafetensorError, safe_open
 from safetensors.torch import save as to_bytes
 from torch import Tensor, nn
 
-from mobnet.core.columns import EPOCHS, JOINT_ERROR, Epoch
+from mobnet.core.epochs import EPOCHS, JOINT_ERROR, Epoch
 from mobnet.core.errors import DataError
 from mobnet.core.files import atomic_path, parse_json, write_text
 from mobnet.learning.soap import Optimizer

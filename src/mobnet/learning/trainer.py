@@ -10,7 +10,7 @@ import torch
 from numpy.typing import NDArray
 from torch import Tensor
 
-from mobnet.core.columns import Epoch
+from mobnet.core.epochs import Epoch
 from mobnet.core.errors import TrainingError
 from mobnet.core.files import CHECKPOINT, METRICS
 from mobnet.core.machine import claimed

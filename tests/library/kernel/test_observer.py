@@ -13,7 +13,9 @@ import mobnet
 from mobnet.core.errors import ConfigError, DataError
 from mobnet.estimation.observer import RobotObserver
 from mobnet.kernel.drive import DriveParameters
+from mobnet.kernel.mechanism import Mechanism
 from mobnet.kernel.observer import GAIN_HZ, MomentumObserver
+from mobnet.kernel.recursion import ObserverState, Recursion
 from mobnet.robot.nominal import NominalModel
 
 ROOT = Path(__file__).parents[3]
@@ -126,6 +128,25 @@ def test_steps_are_the_run(build, torque):
     np.testing.assert_array_equal(steps[0], 0.0)
 
 
+@pytest.mark.parametrize("torque", ["mean", "sample"])
+def test_a_compiled_step_is_that_of_the_recursion_to_the_bit(torque):
+    model = pin.buildSampleModelManipulator()
+    joints, motors = [model.names[3], model.names[1]], np.array([2, 0])
+    observer = MomentumObserver(model, RATE_HZ, torque=torque, joints=joints)
+    recursion = Recursion(Mechanism(model).terms, motors, GAIN_HZ, RATE_HZ, torque, None)
+    state, plain_state = observer.init(), ObserverState()
+    buffer = np.empty(2)  # into which a robot writes each of its samples
+    for q, v, tau in zip(*moving(model, 40), strict=True):
+        buffer[:] = tau[motors]
+        state, residual = observer.step(state, q, v, buffer)
+        plain_state, wanted = recursion.step(plain_state, q, v, buffer)
+        np.testing.assert_array_equal(residual, wanted)
+    locked = np.broadcast_to(0.5, model.nv)
+    _, residual = observer.step(state, list(locked), locked, buffer[::-1])
+    _, wanted = recursion.step(plain_state, locked, locked, buffer[::-1])
+    np.testing.assert_array_equal(residual, wanted)
+
+
 def test_a_held_push_comes_through_the_low_pass():
     """At rest an arm whose motors hold its weight and a push of 5 N m shows 5 (1 - exp(-K_0 t))."""
     model = pin.buildSampleModelManipulator()
@@ -178,6 +199,8 @@ def test_what_is_wrong_is_one_line():
     zero = np.zeros(6)
     with pytest.raises(DataError, match=r"shape of v: \(5,\) is not accepted; accepted: \(6,\)"):
         observer.step(observer.init(), zero, zero[1:], zero)
+    with pytest.raises(DataError, match="q: inf is not accepted; accepted: finite numbers"):
+        observer.step(observer.init(), zero + np.inf, zero, zero)
     with pytest.raises(DataError, match="tau: nan is not accepted; accepted: finite numbers"):
         observer.run(zero[None], zero[None], np.full((1, 6), np.nan))
     with pytest.raises(ConfigError, match="joint: 'elbow' is not accepted"):

@@ -6,7 +6,7 @@ import logging
 import pytest
 import torch
 
-from mobnet.core.columns import Epoch
+from mobnet.core.epochs import Epoch
 from mobnet.core.files import METRICS
 from mobnet.learning import checkpoint
 from mobnet.learning.cells import Gru

@@ -10,7 +10,7 @@ import pandas as pd
 import pytest
 from demo_push import NETWORK
 
-from mobnet.core.columns import Epoch
+from mobnet.core.epochs import Epoch
 from mobnet.core.errors import ConfigError, DataError
 from mobnet.core.estimator import Estimate
 from mobnet.core.recording import read_sensed, write_recording

@@ -9,8 +9,8 @@ from made_swings import AIR, GROUND, RATE_HZ, swinging, unseen
 
 from experiments.jobs.detect import detect
 from experiments.plan.detection import Walk
+from experiments.records.collisions import FILES, READINGS
 from mobnet.core.columns import residual_columns, torque_columns
-from mobnet.core.detections import FILES, READINGS
 from mobnet.core.errors import DataError
 from mobnet.core.recording import Recording, write_recording
 from mobnet.core.store import write_array

@@ -26,11 +26,12 @@ from made_scores import (
 from experiments.plan.call import call_of
 from experiments.plan.products import function_of
 from experiments.plan.runs import Run
+from experiments.records.scores import Score
 from experiments.settings.claims import Claim
 from experiments.settings.evaluation import PRODUCTS, Evaluation
 from experiments.settings.measures import CalibrationTest
 from experiments.settings.settings import Settings
-from mobnet.core.columns import Epoch, Score
+from mobnet.core.epochs import Epoch
 from mobnet.core.files import write_json
 from mobnet.core.joints import JointLayout
 from mobnet.core.recording import Recording, read_recording, write_recording

@@ -13,7 +13,9 @@ from made_notes import training_note
 
 from experiments.check import Against, check
 from experiments.jobs.observing import observe
-from mobnet.core.columns import Epoch, Score, torque_columns
+from experiments.records.scores import Score
+from mobnet.core.columns import torque_columns
+from mobnet.core.epochs import Epoch
 from mobnet.core.errors import MobnetError
 from mobnet.core.recording import write_recording
 from mobnet.core.store import write_array

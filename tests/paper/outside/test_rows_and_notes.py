@@ -12,8 +12,8 @@ from experiments.check import check
 from experiments.evaluation.measure.learning.trainings import read_training
 from experiments.evaluation.number.rows import read_scores
 from experiments.evaluation.report.runs_page import read_training_run
+from experiments.records.collisions import FILES as DETECTION_FILES
 from experiments.running.accounts import read_account
-from mobnet.core.detections import FILES as DETECTION_FILES
 from mobnet.core.errors import DataError
 from mobnet.estimation.kinds.dahl import read_dahl
 from mobnet.estimation.kinds.friction import read_friction

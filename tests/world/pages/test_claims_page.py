@@ -23,7 +23,7 @@ from experiments.evaluation.report.claims_page import (
 )
 from experiments.plan.products import TEMPLATES
 from experiments.settings.load import load_settings
-from mobnet.core.columns import VERDICTS
+from experiments.settings.verdicts import VERDICTS
 from mobnet.core.rows import read_texts
 
 REPO = Path(__file__).parents[3]

@@ -12,7 +12,7 @@ from browser import Browser, with_browser
 
 from experiments.evaluation.report.runs_page import COLUMNS, runs_page
 from experiments.plan.products import TEMPLATES
-from mobnet.core.columns import SCORES, Score
+from experiments.records.scores import SCORES, Score
 from mobnet.core.files import TIME, write_json, write_text
 from mobnet.core.rows import csv_text
 

@@ -14,7 +14,7 @@ from browser import wait
 
 from experiments.evaluation.report.wandb_live import RUNS, Follower
 from experiments.evaluation.report.wandb_runs import FOLDER, wandb_runs
-from mobnet.core.columns import JOINT_ERROR
+from mobnet.core.epochs import JOINT_ERROR
 
 NAME = "MOB-Net-LL-s0"
 HEAD = "epoch,train_loss,validation_loss,validation_rmse,rate,gradient_norm,stride"

@@ -20,7 +20,7 @@ from patience import HANGS_S
 
 from experiments.evaluation.report import wandb_runs as module
 from experiments.evaluation.report.wandb_runs import wandb_runs
-from mobnet.core.columns import SCORES, Score
+from experiments.records.scores import SCORES, Score
 from mobnet.core.errors import DataError
 from mobnet.core.files import write_text
 from mobnet.core.rows import csv_text

@@ -17,11 +17,11 @@ from experiments.evaluation.compare.windows import FLAG
 from experiments.evaluation.measure.estimates.felt import PushResponse, felt_of
 from experiments.evaluation.measure.estimates.peaks import push_rows
 from experiments.plan.runs import Run
+from experiments.records.collisions import Collision, Detected
 from experiments.settings.measures import Peaks
 from experiments.settings.pages import Story
 from mobnet.core.arrays import Array
 from mobnet.core.columns import PUSH, PUSH_TORQUE, PUSHED, SWING, foot_of, named, recording_columns
-from mobnet.core.detections import Collision, Detected
 from mobnet.core.errors import DataError, not_accepted
 from mobnet.core.joints import JointLayout
 from mobnet.core.notes import read_array_note

@@ -16,12 +16,13 @@ from experiments.evaluation.compare.windows import FLAG
 from experiments.evaluation.measure.push_scene import FORCE, PushAlarm, PushScene, story_push
 from experiments.evaluation.number.rows import read_detections
 from experiments.plan.demo import RECORDING, estimate_place, fit_place, network_place
+from experiments.records.collisions import Collision
 from experiments.settings.catalogue import Catalogue
 from experiments.settings.pages import Story
 from experiments.settings.settings import Settings
 from mobnet.core.arrays import Array
 from mobnet.core.columns import EXTERNAL, PUSH, PUSH_TORQUE, STD, named
-from mobnet.core.detections import Collision, Threshold
+from mobnet.core.detections import Threshold
 from mobnet.core.errors import ConfigError, DataError, not_accepted, refuse
 from mobnet.core.estimator import Estimate, TorqueEstimator
 from mobnet.core.notes import read_array_note

@@ -11,7 +11,7 @@ import pandas as pd
 from experiments.evaluation.number.clusters import ClusterKey, mean_in, share_in
 from experiments.evaluation.number.number import Number, is_missing
 from experiments.settings.runs import Statistics
-from mobnet.core.columns import SPREAD
+from experiments.settings.table_columns import SPREAD
 
 ENDS = ("value", "low", "high")
 Law = Callable[[pd.DataFrame], Number]

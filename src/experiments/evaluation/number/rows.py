@@ -7,12 +7,12 @@ from pathlib import Path
 from typing import Any, cast
 
 from experiments.evaluation.number.number import Number
+from experiments.records.collisions import FILES, PARTS, UNNAMED
+from experiments.records.reactions import Trial
+from experiments.records.scores import Score
 from experiments.settings.metrics import metric_of
-from mobnet.core.columns import Score
-from mobnet.core.detections import FILES, PARTS, UNNAMED
 from mobnet.core.errors import ConfigError, refuse_lines
 from mobnet.core.files import write_text
-from mobnet.core.reactions import Trial
 from mobnet.core.rows import csv_text, parse_field, read_rows, read_texts, refuse_rows
 
 KEY = attrgetter(*(field.name for field in fields(Score) if field.name != "value"))  # what names a score, unit last
@@ -36,7 +36,7 @@ def read_scores(*paths: Path) -> list[Score]:
 
 
 def read_detections(path: Path, name: str) -> list[Any]:
-    """Read the rows of a file of a robot's detectors, one of `core.detections.FILES` by its name.
+    """Read the rows of a file of a robot's detectors, one of `records.collisions.FILES` by its name.
 
     Raises:
         DataError: the file is missing or damaged, or a row is not accepted; one line for each fault.

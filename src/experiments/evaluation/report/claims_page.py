@@ -15,8 +15,9 @@ from pathlib import Path
 from experiments.evaluation.measure.claims.verdicts import worst
 from experiments.evaluation.number.number import Number, number_text
 from experiments.evaluation.report.html import rendered
-from mobnet.core.claim_ranges import ANY, Bounds, range_text
-from mobnet.core.columns import CLAIMS, OURS, SCORED, VERDICTS
+from experiments.settings.claim_ranges import ANY, Bounds, range_text
+from experiments.settings.table_columns import CLAIMS
+from experiments.settings.verdicts import OURS, SCORED, VERDICTS
 from mobnet.core.rows import read_texts
 
 WIDTH = 160.0  # of a picture

@@ -10,8 +10,8 @@ from pathlib import Path
 from experiments.evaluation.number.number import Number
 from experiments.evaluation.tables.layout import RULE, Line, Table, write_table
 from experiments.running.accounts import Account, read_account
+from experiments.settings.table_columns import COMPUTE
 from experiments.settings.tables import Compute
-from mobnet.core.columns import COMPUTE
 from mobnet.core.errors import DataError
 
 STAGES = {  # stage -> its rules; those of no stage make tables and figures

@@ -13,10 +13,11 @@ from typing import Any
 from experiments.evaluation.number.rows import read_detections
 from experiments.evaluation.report.manifest import file_hash
 from experiments.plan.demo import RECORDING, SOURCES, estimate_place
+from experiments.records.collisions import Collision, columns_of
 from experiments.settings.pages import Story
 from mobnet.core.code import provenance
 from mobnet.core.columns import EXTERNAL, PUSH, PUSH_TORQUE, STD, named, recording_columns, torque_columns
-from mobnet.core.detections import COLLISION, Collision, columns_of
+from mobnet.core.detections import COLLISION
 from mobnet.core.errors import DataError, not_accepted
 from mobnet.core.files import atomic_path, read_json, write_json, write_text
 from mobnet.core.joints import JointLayout

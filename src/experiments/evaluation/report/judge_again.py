@@ -41,7 +41,8 @@ from experiments.evaluation.tables.further.claims_tolerance import claims_tolera
 from experiments.settings.claims import Cell, Claim, numbers_of
 from experiments.settings.load import load_settings
 from experiments.settings.settings import Settings
-from mobnet.core.columns import SPREAD, STAND_INS
+from experiments.settings.table_columns import SPREAD
+from experiments.settings.verdicts import STAND_INS
 from mobnet.core.rows import read_texts
 
 log = logging.getLogger(__name__)

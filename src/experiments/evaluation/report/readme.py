@@ -14,16 +14,8 @@ from experiments.evaluation.measure.learning.taught import SHARE_OF_HIT
 from experiments.evaluation.report.blocks import with_block
 from experiments.evaluation.report.html import filled
 from experiments.plan.prices import RATES, RatesNote
-from mobnet.core.columns import (
-    CLAIMED,
-    JUDGED_WITH,
-    NOT_REPRODUCED,
-    OPEN,
-    PAPER,
-    REPRODUCED,
-    SHUFFLED,
-    SIGN_ONLY,
-)
+from experiments.settings.table_columns import CLAIMED
+from experiments.settings.verdicts import JUDGED_WITH, NOT_REPRODUCED, OPEN, PAPER, REPRODUCED, SHUFFLED, SIGN_ONLY
 from mobnet.core.errors import DataError
 from mobnet.core.files import read_text, write_text
 from mobnet.core.notes import read_note

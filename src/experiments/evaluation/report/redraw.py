@@ -68,11 +68,13 @@ from experiments.evaluation.report import calibration, claims, sigma
 from experiments.evaluation.report.judge_again import judged_again
 from experiments.evaluation.report.snapshot import DRAWN, SNAPSHOT, run_renewal
 from experiments.plan.products import EVALUATION
+from experiments.records.trial_errors import TrialError
 from experiments.running.words import draw_parser
 from experiments.settings.evaluation import PRODUCTS
 from experiments.settings.load import load_settings
 from experiments.settings.settings import Settings
-from mobnet.core.columns import COMMAND, SPREAD, TrialError
+from experiments.settings.table_columns import SPREAD
+from mobnet.core.columns import COMMAND
 from mobnet.core.errors import ConfigError, DataError, not_accepted
 from mobnet.core.rows import read_rows
 from mobnet.core.style import styled
@@ -218,7 +220,8 @@ def draw_14(stored: Stored, name: str) -> Figure:
         middles = (own["bin_from"] + own["bin_to"]) / 2.0
         found.setdefault(str(level), {})[str(quantity)] = np.repeat(middles.to_numpy(), own["count"])
         edges[str(quantity)] = np.array([*own["bin_from"], own["bin_to"].iloc[-1]])
-    return figure_14.draw_histograms(found, edges)
+    printed = rows.dropna(subset="published").groupby("quantity")["published"].first()
+    return figure_14.draw_histograms(found, edges, printed.to_dict())
 
 
 def draw_15(stored: Stored, name: str) -> Figure:

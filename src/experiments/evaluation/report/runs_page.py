@@ -21,7 +21,7 @@ from experiments.evaluation.measure.learning.trainings import (
 )
 from experiments.evaluation.report.charts import Chart, line_chart
 from experiments.evaluation.report.html import rendered
-from mobnet.core.columns import Epoch
+from mobnet.core.epochs import Epoch
 from mobnet.core.files import METRICS, RUN, read_json, write_text
 
 # keys of run.json that say what was trained on what

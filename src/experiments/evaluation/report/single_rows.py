@@ -8,9 +8,9 @@ from experiments.evaluation.number.frames import read_trials, records_of
 from experiments.evaluation.number.rows import Field
 from experiments.plan.detection import Detections
 from experiments.plan.reactions import Reactions
-from mobnet.core.detections import Collision, Detected
+from experiments.records.collisions import Collision, Detected
+from experiments.records.reactions import TRIALS
 from mobnet.core.files import atomic_path
-from mobnet.core.reactions import TRIALS
 from mobnet.core.rows import csv_text, read_rows
 
 FOLDER = "rows"  # of the snapshot

@@ -19,8 +19,7 @@ from typing import TYPE_CHECKING
 
 from experiments.evaluation.measure.learning.trainings import robot_of
 from experiments.evaluation.report.wandb_runs import begin, put, rows
-from mobnet.core.columns import Epoch
-from mobnet.core.epochs import read_epochs
+from mobnet.core.epochs import Epoch, read_epochs
 from mobnet.core.errors import DataError
 from mobnet.core.files import CHECKPOINT, MEMBERS, METRICS, PARTIAL, read_json
 

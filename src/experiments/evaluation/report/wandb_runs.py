@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from experiments.evaluation.measure.learning.trainings import Key, TestError, read_test_errors, read_training, robot_of
-from mobnet.core.columns import Epoch
+from mobnet.core.epochs import Epoch
 from mobnet.core.errors import DataError
 from mobnet.core.files import PARTIAL, RUN, check_room, read_json
 

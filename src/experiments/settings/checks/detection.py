@@ -3,8 +3,9 @@
 import re
 from collections.abc import Iterator
 
+from experiments.records.collisions import READINGS
 from experiments.settings.checks.results import Results
-from mobnet.core.detections import COLLISION, READINGS
+from mobnet.core.detections import COLLISION
 from mobnet.core.errors import misfit, not_accepted
 from mobnet.settings.faults import below
 from mobnet.settings.reading import Place, Problem

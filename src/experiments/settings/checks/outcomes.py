@@ -6,15 +6,15 @@ happens in them. The best outcome is that of robots that are alike (docs/notes/m
 
 from collections.abc import Iterator
 
+from experiments.settings import counts
 from experiments.settings.catalogue import Catalogue
+from experiments.settings.claim_ranges import Bounds, ranges_of, within
 from experiments.settings.claims import Cell, Claim
-from experiments.settings.counts import robots_of
 from experiments.settings.evaluation import PRODUCTS
 from experiments.settings.few_clusters import rate_ends, share_ends
 from experiments.settings.independent import garwood, wilson
 from experiments.settings.runs import Statistics
 from experiments.settings.settings import Settings
-from mobnet.core.claim_ranges import Bounds, ranges_of, within
 from mobnet.core.errors import misfit
 from mobnet.settings.reading import Problem
 
@@ -49,7 +49,7 @@ def _place(name: str, claim: Claim) -> tuple[str, ...]:
 def clusters_of(settings: Settings, cell: Cell) -> int:
     """Return in how many robots the trials of a cell come; 1 where they are independent, or of one robot."""
     row = PRODUCTS.get(cell.table or "")
-    return robots_of(settings) if row and row.clustered else 1
+    return counts.robots_of(settings) if row and row.clustered else 1
 
 
 def is_met_by_a_share(bounds: Bounds, trials: int, clusters: int, statistics: Statistics) -> bool:
@@ -98,11 +98,11 @@ def trials_of(catalogue: Catalogue, cell: Cell) -> int | None:
         on_robot = settings.sizes.robots.get(experiment)
         seeds = on_robot.seeds if on_robot else None
         return len(seeds or settings.sizes.experiments[experiment].seeds)
-    row = PRODUCTS.get(cell.table or "")
-    return row.trials(settings, cell) if row and row.trials else None
+    count = counts.TRIALS.get(cell.table or "")
+    return count(settings, cell) if count else None
 
 
 def hours_of(settings: Settings, cell: Cell) -> float | None:
     """Return in how much walking a cell counts events at most, at the chosen scale [h]; None where it counts none."""
-    row = PRODUCTS.get(cell.table or "")
-    return row.hours(settings, cell) if row and row.hours else None
+    count = counts.HOURS.get(cell.table or "")
+    return count(settings, cell) if count else None

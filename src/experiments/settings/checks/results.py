@@ -1,9 +1,10 @@
 """What the configuration will have results of: runs, scores, estimated joints, trainings and pushes."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import chain
+from typing import Any
 
 from experiments.settings.asked import tests_in
 from experiments.settings.catalogue import Catalogue
@@ -11,7 +12,7 @@ from experiments.settings.evaluation import PRODUCTS, measured_in
 from experiments.settings.metrics import metric_of
 from experiments.settings.runs import Mean
 from experiments.settings.settings import Settings
-from mobnet.core.columns import ERRORS
+from experiments.settings.table_columns import ERRORS
 from mobnet.core.errors import misfit, not_accepted
 from mobnet.core.joints import JointLayout, right_of, with_image
 from mobnet.settings.checks.robot import joints_above
@@ -147,3 +148,6 @@ class Results:
         for point in robot.points:
             bodies |= dict(zip(with_image(point.name), (point.body, right_of(point.body)), strict=False))
         return [push.joint] if push.joint else joints_above(robot, bodies.get(push.point or "", ""))
+
+
+Check = Callable[[Any, Results, Place], Iterator[Problem]]  # of a section that stands at a place

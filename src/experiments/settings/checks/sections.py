@@ -7,6 +7,8 @@ from typing import Any
 
 from pydantic import BaseModel, ValidationError
 
+from experiments.records.collisions import READINGS
+from experiments.records.reactions import FORCE_SENSORS, NONE
 from experiments.settings.asked import RunRequest
 from experiments.settings.catalogue import Catalogue
 from experiments.settings.checks.claims import claim_problems
@@ -14,15 +16,13 @@ from experiments.settings.checks.data import data_problems
 from experiments.settings.checks.detection import detection_problems, reaction_problems
 from experiments.settings.checks.learning import learning_problems
 from experiments.settings.checks.outcomes import outcome_problems
+from experiments.settings.checks.products import product_problems
 from experiments.settings.checks.results import Results
 from experiments.settings.checks.sizes import size_problems
 from experiments.settings.checks.surrogate import surrogate_problems
 from experiments.settings.checks.walking import walking_problems
-from experiments.settings.products import problems_in
 from experiments.settings.settings import Settings
-from mobnet.core.detections import READINGS
 from mobnet.core.errors import misfit
-from mobnet.core.reactions import FORCE_SENSORS, NONE
 from mobnet.settings.methods import swept_names
 from mobnet.settings.names import Use, kind_of, unknown, uses
 from mobnet.settings.networks import Learning, Network
@@ -64,11 +64,11 @@ def _fleet_faults(catalogue: Catalogue, one: RunRequest) -> Iterator[str]:
     )
 
 
-# What must hold for a single table or figure stands with its section (`experiments.settings.products.Checked`).
+# What must hold for a single table or figure stands with those of its kind (`experiments.settings.checks.products`).
 def shown_problems(catalogue: Catalogue) -> Iterator[Problem]:
     """Yield what does not fit in tables, figures and claims, and in detectors and reactions that they show."""
     results = Results(catalogue)
-    yield from problems_in(catalogue.settings.evaluation, results, ("evaluation",))
+    yield from product_problems(catalogue.settings.evaluation, results, ("evaluation",))
     yield from detection_problems(results)
     yield from reaction_problems(results)
     yield from asked_problems(catalogue)

@@ -8,7 +8,7 @@ from pathlib import Path
 import torch
 from safetensors import SafetensorError
 
-from mobnet.core.columns import Epoch
+from mobnet.core.epochs import Epoch
 from mobnet.core.errors import DataError, TrainingError, not_accepted
 from mobnet.core.files import CHECKPOINT
 from mobnet.core.machine import one_thread

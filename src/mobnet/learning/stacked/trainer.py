@@ -13,7 +13,7 @@ import torch
 from torch import Tensor
 
 from mobnet.core.code import SHORT
-from mobnet.core.columns import Epoch
+from mobnet.core.epochs import Epoch
 from mobnet.core.errors import ConfigError, DataError, TrainingError, not_accepted
 from mobnet.core.files import CHECKPOINT, METRICS
 from mobnet.learning.checkpoint import Progress, below, read_checkpoint, write_checkpoint, write_metrics

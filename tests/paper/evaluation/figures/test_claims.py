@@ -23,7 +23,8 @@ from experiments.evaluation.measure.claims.verdicts import ClaimNumbers, Judged,
 from experiments.evaluation.measure.claims.verdicts import judged as judged_on
 from experiments.evaluation.number.number import Number
 from experiments.settings.settings import Settings
-from mobnet.core.columns import FOREST, NO_NUMBER, OURS, VERDICTS
+from experiments.settings.table_columns import FOREST
+from experiments.settings.verdicts import NO_NUMBER, OURS, VERDICTS
 
 LONGEST_LABEL = 64  # characters of what a claim says
 

@@ -13,10 +13,10 @@ from csv_files import check_golden, read_table, write_rows
 
 from experiments.evaluation.compare.rmse import PUSHED
 from experiments.evaluation.figures.paper.figure_18 import UPPER_BODY, draw_limbs, figure_18
+from experiments.records.scores import Score
 from experiments.settings.evaluation import Evaluation
 from experiments.settings.runs import PushWindow
 from experiments.settings.settings import Settings
-from mobnet.core.columns import Score
 from mobnet.core.errors import DataError
 from mobnet.core.joints import JointLayout
 from mobnet.core.rows import read_rows

@@ -12,10 +12,10 @@ from experiments.evaluation.figures.paper.figure_10 import figure_10
 from experiments.evaluation.measure.estimates.pushes import read_pushes
 from experiments.plan.call import call_of
 from experiments.plan.runs import Run
+from experiments.records.scores import Score
 from experiments.settings.evaluation import Evaluation
 from experiments.settings.figures import Figure06, Figure10
 from experiments.settings.settings import Settings
-from mobnet.core.columns import Score
 from mobnet.core.joints import JointLayout
 from mobnet.core.rows import read_rows
 

@@ -13,9 +13,10 @@ from experiments.evaluation.figures.drawing.solids import Solid, outline_of
 from experiments.evaluation.figures.paper.figure_13 import figure_13
 from experiments.evaluation.figures.paper.figure_14 import figure_14
 from experiments.evaluation.figures.paper.figure_15 import figure_15
+from experiments.records.collisions import Collision
 from experiments.settings.settings import Settings
 from mobnet.core.columns import torque_columns
-from mobnet.core.detections import Collision, Threshold
+from mobnet.core.detections import Threshold
 from mobnet.core.errors import DataError
 from mobnet.core.recording import Recording, write_recording
 from mobnet.core.store import write_array

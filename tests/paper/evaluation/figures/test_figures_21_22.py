@@ -14,7 +14,7 @@ from experiments.evaluation.figures.further.films import films, read_curves
 from experiments.evaluation.figures.paper import figure_22 as pictures
 from experiments.evaluation.figures.paper.figure_21 import draw_strips, figure_21, sole_corners, stances_of
 from experiments.evaluation.figures.paper.figure_22 import figure_22, moments_of
-from mobnet.core.course import read_course
+from experiments.records.course import read_course
 from mobnet.core.rows import read_texts
 
 SETTINGS = settings_at()

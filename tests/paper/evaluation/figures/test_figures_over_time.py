@@ -15,9 +15,9 @@ from experiments.evaluation.figures.paper.figure_05 import read_panel
 from experiments.plan.call import call_of
 from experiments.plan.products import function_of
 from experiments.plan.runs import Run
+from experiments.records.scores import Score
 from experiments.settings.evaluation import Evaluation
 from experiments.settings.settings import Settings
-from mobnet.core.columns import Score
 from mobnet.core.joints import JointLayout
 
 Walk = Callable[..., Run]

@@ -7,8 +7,8 @@ import pytest
 from csv_files import check_golden, read_table, write_rows
 
 from experiments.evaluation.figures.further.fine_tuning import BEFORE, KNOWN, fine_tuning
+from experiments.records.scores import Score
 from experiments.settings.evaluation import Evaluation
-from mobnet.core.columns import Score
 from mobnet.core.rows import read_rows
 
 SECONDS = (10, 60)

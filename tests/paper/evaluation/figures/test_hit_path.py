@@ -11,7 +11,7 @@ from experiments.evaluation.figures.further.hit_path import draw_paths, hit_path
 from experiments.evaluation.measure.learning.explained import ALL, PATH, HitNumber, read_why
 from experiments.evaluation.number.rows import write_csv
 from experiments.settings.settings import Settings
-from mobnet.core.columns import WHY
+from experiments.settings.table_columns import WHY
 
 FLEET = ("robot_1", "robot_2")
 

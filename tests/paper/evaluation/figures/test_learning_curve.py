@@ -7,8 +7,8 @@ from csv_files import read_table
 
 from experiments.evaluation.figures.further.learning_curve import beside_of, curves_of, draw_learning, learning_curve
 from experiments.evaluation.number.rows import write_csv
+from experiments.records.trial_errors import TRIALS, TrialError
 from experiments.settings.figures import LearningCurve
-from mobnet.core.columns import TRIALS, TrialError
 
 SETTINGS = LearningCurve(
     data="lengths.csv",

@@ -15,10 +15,11 @@ from experiments.evaluation.figures.drawing.push_film import eased, lines_of, pu
 from experiments.evaluation.measure.estimates.felt import PushResponse
 from experiments.evaluation.measure.push_scene import PushAlarm, read_story
 from experiments.plan.runs import Run
+from experiments.records.collisions import Collision, Detected
 from experiments.settings.pages import PushFilm, Story
 from experiments.settings.settings import Settings
 from mobnet.core.columns import residual_columns, torque_columns
-from mobnet.core.detections import COLLISION, Collision, Detected
+from mobnet.core.detections import COLLISION
 from mobnet.core.errors import DataError
 from mobnet.core.recording import Recording, write_recording
 from mobnet.core.store import write_array

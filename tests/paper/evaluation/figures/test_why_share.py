@@ -15,7 +15,7 @@ from experiments.evaluation.measure.learning.explained import HitNumber, by_robo
 from experiments.evaluation.measure.learning.taught import SHARE_OF_HIT, WALKING
 from experiments.evaluation.number.rows import write_csv
 from experiments.settings.settings import Settings
-from mobnet.core.columns import WHY
+from experiments.settings.table_columns import WHY
 
 FLEET = ("robot_1", "robot_2", "robot_3")
 CHANGED = ("why_late", "why_dry", "why_soft", "why_law")

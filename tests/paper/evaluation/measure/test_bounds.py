@@ -7,10 +7,10 @@ import yaml
 from csv_files import GOLDEN
 
 from experiments.evaluation.measure.claims.verdicts import rows_of
+from experiments.settings.claim_ranges import Bounds, apart, common, range_text, ranges_of, within
 from experiments.settings.claims import Claim
 from experiments.settings.settings import Settings
-from mobnet.core.claim_ranges import Bounds, apart, common, range_text, ranges_of, within
-from mobnet.core.columns import NOT_PRINTED
+from experiments.settings.verdicts import NOT_PRINTED
 
 ROUNDED = 0.05  # older bounds were rounded by less than this share
 BY_SIGN = {"size-mob-net", "size-fts-e2e", "data-mob-net", "data-fts-e2e"}  # older ones were of pairs in order

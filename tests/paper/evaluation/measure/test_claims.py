@@ -24,11 +24,11 @@ from experiments.evaluation.measure.claims.verdicts import (
 from experiments.evaluation.number.intervals import RunGrid
 from experiments.evaluation.number.number import Number
 from experiments.evaluation.number.quantities import QUANTITIES, difference_of
+from experiments.settings.claim_ranges import Ranges
 from experiments.settings.claims import Claim
 from experiments.settings.independent import wilson
 from experiments.settings.settings import Settings
-from mobnet.core.claim_ranges import Ranges
-from mobnet.core.columns import NOT_PRINTED, OURS, SCORED, VERDICTS
+from experiments.settings.verdicts import NOT_PRINTED, OURS, SCORED, VERDICTS
 
 SIZE, SIGN = (1.0, 2.0), (0.5, None)
 CAUSED: dict[str, Any] = {

@@ -19,14 +19,14 @@ from experiments.evaluation.measure.claims.verdicts import (
 from experiments.evaluation.number.intervals import quantile_of
 from experiments.evaluation.number.number import Number
 from experiments.settings.claims import Claim, MadeNumber
-from experiments.settings.evaluation import PRODUCTS
+from experiments.settings.counts import HOURS, TRIALS
 from experiments.settings.independent import wilson
 from experiments.settings.settings import Settings
-from mobnet.core.columns import NOT_MEASURED, NOT_REPRODUCED, OPEN, OURS, SIGN_AT_LEAST, SIGN_ONLY
+from experiments.settings.verdicts import NOT_MEASURED, NOT_REPRODUCED, OPEN, OURS, SIGN_AT_LEAST, SIGN_ONLY
 
 CONFIDENCE = STATISTICS
-SHARES = next(name for name, row in PRODUCTS.items() if row.trials)  # a table of shares
-RATES = next(name for name, row in PRODUCTS.items() if row.hours)  # a table of events in an hour
+SHARES = next(iter(TRIALS))  # a table of shares
+RATES = next(iter(HOURS))  # a table of events in an hour
 CELL: dict[str, Any] = {"scenario": "walk_test", "level": "robots", "method": "MOB-Net", "joint": "LL"}
 DIFFERENCE: dict[str, Any] = {"quantity": "difference", "cells": [CELL, {**CELL, "method": "MOB"}]}
 FALLS: dict[str, Any] = {

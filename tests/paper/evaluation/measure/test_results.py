@@ -8,8 +8,8 @@ import pytest
 from csv_files import write_rows
 
 from experiments.evaluation.measure.claims.cells import Evidence, read_results
+from experiments.records.scores import Score
 from experiments.settings.claims import Cell
-from mobnet.core.columns import Score
 from mobnet.core.errors import ConfigError, DataError
 from mobnet.core.joints import JointLayout
 

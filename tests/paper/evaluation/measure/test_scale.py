@@ -14,7 +14,7 @@ from experiments.evaluation.measure.claims.verdicts import ClaimNumbers, Judged,
 from experiments.evaluation.number.number import Number
 from experiments.settings.load import load_settings
 from experiments.settings.settings import Settings
-from mobnet.core.columns import NETWORKS, OURS, REPRODUCED, STAND_INS
+from experiments.settings.verdicts import NETWORKS, OURS, REPRODUCED, STAND_INS
 from mobnet.core.rows import read_texts
 
 ROOT = Path(__file__).parents[4]

@@ -12,11 +12,13 @@ from experiments.evaluation.compare.scene import Scene
 from experiments.evaluation.measure.estimates.scores import limb_values, score, score_run
 from experiments.evaluation.number.rows import read_scores
 from experiments.plan.runs import Run
+from experiments.records.scores import Score
 from experiments.settings.evaluation import Evaluation
 from experiments.settings.measures import Bode, Scoring
 from experiments.settings.metrics import METRICS, SECTIONS, metric_of
 from experiments.settings.runs import LimbRuns, PushWindow, Runs
-from mobnet.core.columns import SHUFFLED, Score, residual_columns, torque_columns
+from experiments.settings.verdicts import SHUFFLED
+from mobnet.core.columns import residual_columns, torque_columns
 from mobnet.core.errors import DataError
 from mobnet.core.joints import JointLayout
 from mobnet.core.recording import read_recording, write_recording

@@ -8,7 +8,8 @@ from csv_files import write_rows
 
 from experiments.evaluation.number.number import Number
 from experiments.evaluation.number.rows import read_numbers, write_csv
-from mobnet.core.columns import ERRORS, Score
+from experiments.records.scores import Score
+from experiments.settings.table_columns import ERRORS
 from mobnet.core.errors import DataError
 from mobnet.core.rows import read_rows
 

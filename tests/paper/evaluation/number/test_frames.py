@@ -11,8 +11,8 @@ from csv_files import write_rows
 from experiments.evaluation.number.frames import DETECTION, SCORES, ordered, read_scores
 from experiments.evaluation.number.laws import measured
 from experiments.evaluation.number.number import Number
-from mobnet.core.columns import Score
-from mobnet.core.detections import FILES, columns_of
+from experiments.records.collisions import FILES, columns_of
+from experiments.records.scores import Score
 from mobnet.core.errors import DataError
 
 Scores = Callable[..., list[Score]]

@@ -9,7 +9,7 @@ from made_pages import settings, write_run
 
 from experiments.evaluation.tables.further.claims_summary import claims_summary
 from experiments.settings.settings import Settings
-from mobnet.core.columns import NOT_PRINTED, VERDICTS
+from experiments.settings.verdicts import NOT_PRINTED, VERDICTS
 
 __all__ = ["settings", "write_run"]
 

@@ -13,7 +13,7 @@ from experiments.evaluation.report.numbers import cell_texts, further_texts, num
 from experiments.evaluation.report.paper import defined_texts
 from experiments.plan.products import KEPT_TABLE, quoted
 from experiments.settings.settings import Settings
-from mobnet.core.columns import VERDICTS
+from experiments.settings.verdicts import VERDICTS
 from mobnet.settings.data import Recordings
 
 REPO = Path(__file__).parents[4]

@@ -37,7 +37,7 @@ from experiments.settings.catalogue import Catalogue
 from experiments.settings.load import load_settings
 from experiments.settings.pages import PaperText
 from experiments.settings.settings import Settings
-from mobnet.core.columns import CLAIMS
+from experiments.settings.table_columns import CLAIMS
 from mobnet.core.errors import DataError
 from mobnet.core.files import write_text
 from mobnet.core.rows import csv_text, read_texts

@@ -20,8 +20,8 @@ from experiments.evaluation.report.readme import (
     scales,
 )
 from experiments.settings.load import load_settings
-from mobnet.core.columns import (
-    CLAIMED,
+from experiments.settings.table_columns import CLAIMED
+from experiments.settings.verdicts import (
     JUDGED_WITH,
     NOT_REPRODUCED,
     OURS,

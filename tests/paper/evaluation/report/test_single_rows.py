@@ -10,7 +10,7 @@ from made_detections import write_detections
 from made_trials import HIT, LEANS, write_trials
 
 from experiments.evaluation.report.single_rows import COLLISIONS, COLUMNS, FOLDER, WALKS, write_single_rows
-from mobnet.core.reactions import TRIALS
+from experiments.records.reactions import TRIALS
 
 Rows = list[dict[str, str]]
 

@@ -10,7 +10,7 @@ from experiments.evaluation.number.number import Number
 from experiments.evaluation.number.rows import write_csv
 from experiments.evaluation.report.why_note import CLAIMS, NOTE, predictions_of, verdict_of, why_blocks
 from experiments.settings.settings import Settings
-from mobnet.core.columns import WHY
+from experiments.settings.table_columns import WHY
 from mobnet.core.errors import DataError
 
 ROOT = Path(__file__).parents[4]

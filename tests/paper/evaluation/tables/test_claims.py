@@ -23,7 +23,8 @@ from experiments.evaluation.tables.further.latency import MET
 from experiments.settings.claims import Cause, Cell, Claim, MadeNumber
 from experiments.settings.published import Published, PublishedTable
 from experiments.settings.settings import Settings
-from mobnet.core.columns import COVERAGE, HOURLY, LATENCY, VERDICTS
+from experiments.settings.table_columns import COVERAGE, HOURLY, LATENCY
+from experiments.settings.verdicts import VERDICTS
 
 BRANCHES = {"MOB": 19.0, "MOB-fric": 15.0, "MOB-fric-load": 3.0, "MOB-Net": 1.5, "FTS-e2e": 2.0, "MOB-Net-plain": 2.5,
             "MOB-Net-noimu": 1.6, "MOB-Net-noimu-plain": 1.7, "MOB-Net-noacc": 1.5, "FTS-e2e-noimu": 2.1}  # fmt: skip

@@ -17,9 +17,9 @@ from experiments.evaluation.measure.detection.results import CELLS
 from experiments.evaluation.number.frames import CONTACTS
 from experiments.evaluation.tables.further.contact_points import write_contacts
 from experiments.plan.runs import Run
+from experiments.records.collisions import Detected
 from experiments.settings.settings import Settings
 from mobnet.core.columns import torque_columns
-from mobnet.core.detections import Detected
 from mobnet.core.errors import DataError
 from mobnet.core.recording import Recording, write_recording
 from mobnet.core.store import write_array

@@ -21,8 +21,9 @@ from experiments.evaluation.measure.detection.results import (
 )
 from experiments.evaluation.number.frames import HITS, rows_of
 from experiments.evaluation.tables.further.found_by_rate import chance_text, found_by_rate, gain_text
+from experiments.records.collisions import READINGS
 from experiments.settings.settings import Settings
-from mobnet.core.detections import COLLISION, READINGS, WALKING
+from mobnet.core.detections import COLLISION, WALKING
 from mobnet.core.errors import DataError
 
 Make = Callable[..., Path]

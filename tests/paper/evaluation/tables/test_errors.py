@@ -11,10 +11,10 @@ from experiments.evaluation.number.laws import fields_of
 from experiments.evaluation.number.number import Number, published_row, published_value
 from experiments.evaluation.tables.layout import GAP, RULE, Line
 from experiments.evaluation.tables.paper.error_table import table_lines, write_error_table
+from experiments.records.scores import Score
 from experiments.settings.published import Floor
 from experiments.settings.settings import Settings
 from experiments.settings.tables import ErrorTable
-from mobnet.core.columns import Score
 from mobnet.core.errors import DataError
 
 Make = Callable[..., Path]

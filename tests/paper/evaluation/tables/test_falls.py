@@ -11,8 +11,8 @@ from experiments.evaluation.measure.data.random_torque import count_falls
 from experiments.evaluation.number.rows import write_csv
 from experiments.evaluation.tables.further.falls import ALL, falls
 from experiments.plan.jobs import walk_settings
+from experiments.records.falls import FALLS, Falls
 from experiments.settings.settings import Settings
-from mobnet.core.columns import FALLS, Falls
 from mobnet.core.rows import read_rows, read_texts
 
 

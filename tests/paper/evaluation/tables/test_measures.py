@@ -7,9 +7,9 @@ import pytest
 from csv_files import check_golden, markdown_cells, read_table, write_rows
 
 from experiments.evaluation.tables.further.phases import PARTS
+from experiments.records.scores import Score
 from experiments.settings.evaluation import Evaluation
 from experiments.settings.runs import LimbRuns
-from mobnet.core.columns import Score
 from mobnet.core.rows import read_rows
 
 Make, Write = Callable[..., Path], Callable[..., list[Path]]

@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 from csv_files import check_golden, markdown_cells, read_table, write_rows
 
+from experiments.records.scores import Score
 from experiments.settings.tables import MethodsRow
-from mobnet.core.columns import Score
 from mobnet.core.rows import read_rows
 
 Make = Callable[..., Path]

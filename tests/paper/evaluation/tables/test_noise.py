@@ -10,8 +10,8 @@ from csv_files import check_golden, read_table, write_rows
 
 from experiments.evaluation.number.number import published_row
 from experiments.evaluation.tables.further.noise import ALL, FACTOR
+from experiments.records.scores import Score
 from experiments.settings.settings import Settings
-from mobnet.core.columns import Score
 from mobnet.core.joints import JointLayout
 
 TIMES = {"sensor_noise": (2.0, 0.5), "swapped_noise": (1.0, 1.0), "printed_noise": (20.0, 10.0)}  # legs, all others

@@ -9,7 +9,7 @@ from paper_settings import settings_at
 
 from experiments.evaluation.measure.reaction.results import POWER, TRACKING, VELOCITY
 from experiments.evaluation.tables.further.sensorless import sensorless
-from mobnet.core.reactions import NONE
+from experiments.records.reactions import NONE
 from mobnet.core.rows import read_texts
 
 SETTINGS = settings_at()

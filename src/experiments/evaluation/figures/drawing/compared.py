@@ -19,7 +19,7 @@ from experiments.evaluation.number.frames import records_of
 from experiments.evaluation.number.laws import numbers_by
 from experiments.evaluation.number.number import Number
 from experiments.evaluation.number.rows import write_csv
-from mobnet.core.columns import JOINT_ERRORS
+from experiments.settings.table_columns import JOINT_ERRORS
 from mobnet.core.style import COLUMN_INCH, PAGE_INCH, styled
 
 TORQUE_INCH, ERROR_INCH, REST_INCH = 1.15, 0.85, 0.95  # height of rows, and of legend, titles and labels together

@@ -16,10 +16,10 @@ from experiments.evaluation.measure.push_scene import PushScene, read_story
 from experiments.evaluation.number.rows import write_csv
 from experiments.plan.detection import Detections
 from experiments.plan.runs import Run
+from experiments.records.collisions import Collision
 from experiments.settings.measures import Peaks
 from experiments.settings.pages import PushFilm, Story
 from mobnet.core.arrays import Array
-from mobnet.core.detections import Collision
 from mobnet.core.files import atomic_path
 from mobnet.core.joints import JointLayout
 from mobnet.robot.description import RobotDescription, describe, dressed

@@ -8,9 +8,9 @@ from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
 from experiments.evaluation.figures.drawing.solids import Solid, draw_solids
+from experiments.records.course import StoredCourse
 from mobnet.control.kinematics import empty_pose, tree_of, update
 from mobnet.core.arrays import Array
-from mobnet.core.course import StoredCourse
 from mobnet.core.joints import N_VIRTUAL
 from mobnet.robot.description import RobotDescription
 from mobnet.settings.data import Obstacle, ObstaclePart

@@ -18,8 +18,8 @@ from experiments.evaluation.number.frames import read_scores, records_of, rows_o
 from experiments.evaluation.number.scored import CELL, numbers_of
 from experiments.settings.measures import Bode
 from experiments.settings.runs import Statistics
+from experiments.settings.table_columns import RESPONSE
 from mobnet.core.arrays import Array
-from mobnet.core.columns import RESPONSE
 from mobnet.core.joints import JointLayout
 from mobnet.core.style import PAGE_INCH, STYLE, styled
 from mobnet.settings.data import Push

@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 from experiments.evaluation.figures.style import beside, legend, save_figure
 from experiments.evaluation.measure.data.steps import CHOICES, KEYS, UNITS, bin_edges, bin_of, read_steps
 from experiments.settings.figures import CommandsFigure
-from mobnet.core.columns import COMMAND, COMMANDS
+from experiments.settings.table_columns import COMMANDS
+from mobnet.core.columns import COMMAND
 from mobnet.core.joints import JointLayout
 from mobnet.core.style import styled
 from mobnet.settings.data import Commands

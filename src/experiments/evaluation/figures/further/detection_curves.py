@@ -26,9 +26,10 @@ from experiments.evaluation.number.frames import read_detection, read_hits, rows
 from experiments.evaluation.number.laws import share
 from experiments.evaluation.number.number import Number
 from experiments.plan.detection import Detections
+from experiments.records.collisions import UNPUSHED
 from experiments.settings.detection_tables import DetectionCurves
 from experiments.settings.runs import Statistics
-from mobnet.core.detections import COLLISION, HELD_OUT, UNPUSHED
+from mobnet.core.detections import COLLISION, HELD_OUT
 from mobnet.core.style import styled
 from mobnet.settings.detection import Detection
 

@@ -15,7 +15,7 @@ from experiments.evaluation.number.laws import numbers_by
 from experiments.evaluation.number.scored import AVERAGE, CELL, numbers_of
 from experiments.settings.measures import Drift
 from experiments.settings.runs import Statistics
-from mobnet.core.columns import DRIFT
+from experiments.settings.table_columns import DRIFT
 
 X_LABEL = "number of the step since the push began"
 Y_LABEL = "share of the push [-]"

@@ -10,10 +10,10 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from experiments.evaluation.figures.drawing.robot import FORCE, draw_scene, projection
+from experiments.records.course import ESTIMATED, StoredCourse, read_course
 from experiments.settings.reaction_tables import Films
 from mobnet.core.arrays import Array
-from mobnet.core.columns import ESTIMATED, EXTERNAL, STD
-from mobnet.core.course import StoredCourse, read_course
+from mobnet.core.columns import EXTERNAL, STD
 from mobnet.core.store import read_array
 from mobnet.core.style import styled
 from mobnet.robot.description import RobotDescription, describe, dressed

@@ -14,7 +14,7 @@ from experiments.evaluation.number.number import Number
 from experiments.evaluation.number.scored import CELL, numbers_of
 from experiments.settings.figures import FineTuning, TunedTest
 from experiments.settings.runs import Statistics
-from mobnet.core.columns import TUNED
+from experiments.settings.table_columns import TUNED
 from mobnet.settings.methods import swept_name
 
 BEFORE = "not fine-tuned"

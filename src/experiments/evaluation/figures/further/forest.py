@@ -25,10 +25,10 @@ from experiments.evaluation.measure.claims.places import (
 )
 from experiments.evaluation.measure.claims.verdicts import Judged
 from experiments.evaluation.number.number import Number
-from mobnet.core.claim_ranges import range_text
-from mobnet.core.columns import (
+from experiments.settings.claim_ranges import range_text
+from experiments.settings.table_columns import FOREST
+from experiments.settings.verdicts import (
     DESCRIPTION,
-    FOREST,
     NETWORKS,
     NO_NUMBER,
     NOT_MEASURED,

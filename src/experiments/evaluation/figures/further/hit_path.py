@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from experiments.evaluation.figures.style import LOOKS, NAME, legend, save_figure
 from experiments.evaluation.measure.learning.explained import ALL, PATH, HitNumber, read_why
 from experiments.settings.figures import HitPath
-from mobnet.core.columns import WHY
+from experiments.settings.table_columns import WHY
 from mobnet.core.style import COLUMN_INCH, styled
 
 HEIGHT_INCH = 2.1

@@ -12,8 +12,8 @@ from matplotlib.figure import Figure
 from experiments.evaluation.figures.style import LOOKS, Look, beside, entitle, legend, looks, save_figure
 from experiments.evaluation.measure.estimates.scores import AVERAGE
 from experiments.evaluation.number.number import number_text
+from experiments.records.trial_errors import TRIALS, TrialError
 from experiments.settings.figures import LearningCurve
-from mobnet.core.columns import TRIALS, TrialError
 from mobnet.core.rows import read_rows
 from mobnet.core.style import STYLE, styled
 

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from experiments.evaluation.figures.style import NAME, apart, beside, entitle, looks, save_figure
 from experiments.evaluation.measure.learning.calibration import CoverageGrid
 from experiments.settings.measures import CalibrationTable
-from mobnet.core.columns import RELIABILITY
+from experiments.settings.table_columns import RELIABILITY
 from mobnet.core.style import styled
 
 HEIGHT_INCH, WIDTHS = 2.4, (1.0, 1.8)  # of the figure; of its panels, the second one with the names

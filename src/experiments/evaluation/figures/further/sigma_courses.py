@@ -19,7 +19,7 @@ from experiments.evaluation.number.rows import Field
 from experiments.evaluation.number.scored import asked_of, numbers_of
 from experiments.settings.measures import Sigma
 from experiments.settings.runs import Statistics
-from mobnet.core.columns import SIGMA
+from experiments.settings.table_columns import SIGMA
 from mobnet.core.style import PAGE_INCH, styled
 
 COVERAGE = "coverage"

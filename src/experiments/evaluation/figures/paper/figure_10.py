@@ -22,7 +22,7 @@ from experiments.plan.runs import Run
 from experiments.settings.figures import Figure10
 from experiments.settings.published import PublishedTable
 from experiments.settings.runs import Statistics
-from mobnet.core.columns import PUSH_ERRORS
+from experiments.settings.table_columns import PUSH_ERRORS
 from mobnet.core.joints import JointLayout
 
 PICTURES = ("figure_10", "figure_10_support")  # of the tests of the section, in its order

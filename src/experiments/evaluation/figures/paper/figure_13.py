@@ -10,9 +10,9 @@ from experiments.evaluation.figures.drawing.robot import draw_robot, lowest, pla
 from experiments.evaluation.figures.style import beside, entitle, save_figure
 from experiments.evaluation.number.rows import read_detections
 from experiments.plan.detection import Detections
+from experiments.records.collisions import Collision
 from experiments.settings.detection_tables import Figure13
 from mobnet.core.columns import PUSH, named
-from mobnet.core.detections import Collision
 from mobnet.core.errors import DataError, not_accepted
 from mobnet.core.recording import read_sensed
 from mobnet.core.store import read_array

@@ -11,9 +11,10 @@ from experiments.evaluation.figures.drawing.curves import mark_flag
 from experiments.evaluation.figures.style import beside, entitle, legend, looks, save_figure
 from experiments.evaluation.number.rows import Field, read_detections
 from experiments.plan.detection import Detections
+from experiments.records.collisions import Collision
 from experiments.settings.detection_tables import Figure15
 from mobnet.core.columns import PUSH, STD, SWING, foot_of, named
-from mobnet.core.detections import Collision, Threshold
+from mobnet.core.detections import Threshold
 from mobnet.core.joints import JointLayout
 from mobnet.core.store import read_array
 from mobnet.core.style import styled

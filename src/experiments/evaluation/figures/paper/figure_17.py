@@ -21,7 +21,7 @@ from experiments.evaluation.number.laws import numbers_by
 from experiments.evaluation.number.number import Number
 from experiments.settings.figures import Figure17
 from experiments.settings.runs import Statistics
-from mobnet.core.columns import LOSSES
+from experiments.settings.table_columns import LOSSES
 from mobnet.core.style import PAGE_INCH, styled
 
 ROW_INCH, LABELS_INCH = 0.3, 0.85  # height of a kind, and of legend, titles and labels

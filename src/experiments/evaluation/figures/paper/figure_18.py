@@ -18,7 +18,7 @@ from experiments.evaluation.number.number import number_text
 from experiments.evaluation.number.scored import AVERAGE, number_of, runs_of
 from experiments.settings.figures import Figure18
 from experiments.settings.runs import PushWindow, Statistics
-from mobnet.core.columns import LIMB_ERRORS
+from experiments.settings.table_columns import LIMB_ERRORS
 from mobnet.core.joints import JointLayout
 from mobnet.core.style import styled
 

@@ -15,7 +15,8 @@ from experiments.evaluation.measure.data.conditional import HALF
 from experiments.evaluation.measure.data.planes import TESTS, Plane, plane_of, read_samples
 from experiments.settings.figures import Figure19
 from experiments.settings.measures import Coverage
-from mobnet.core.columns import PLANES, foot_of
+from experiments.settings.table_columns import PLANES
+from mobnet.core.columns import foot_of
 from mobnet.core.joints import JointLayout
 from mobnet.core.style import STYLE, styled
 

@@ -12,7 +12,7 @@ from experiments.evaluation.number.frames import records_of, rows_of
 from experiments.evaluation.number.laws import number_from
 from experiments.plan.runs import SweptSize
 from experiments.settings.runs import Statistics
-from mobnet.core.columns import SIZES
+from experiments.settings.table_columns import SIZES
 
 TITLES = {"parameters": "size of the network, all data", "samples": "size of the data, printed network"}
 X_LABELS = {"parameters": "parameters [thousand]", "samples": "samples learned from [thousand]"}

@@ -13,10 +13,10 @@ from matplotlib.patches import Rectangle
 from experiments.evaluation.figures.drawing.robot import solid_of
 from experiments.evaluation.figures.drawing.solids import outline_of
 from experiments.evaluation.figures.style import entitle, legend, save_figure
+from experiments.records.course import StoredCourse, read_course
 from experiments.settings.reaction_tables import Figure21
 from mobnet.control.kinematics import empty_pose, tree_of, update
 from mobnet.core.arrays import Array
-from mobnet.core.course import StoredCourse, read_course
 from mobnet.core.joints import N_VIRTUAL
 from mobnet.core.style import COLUMN_INCH, styled
 from mobnet.robot.description import SIDES, RobotDescription, describe

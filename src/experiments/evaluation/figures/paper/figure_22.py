@@ -17,9 +17,9 @@ from experiments.evaluation.measure.reaction.results import trials_of
 from experiments.evaluation.number.frames import read_trials, rows_of
 from experiments.evaluation.number.rows import Field
 from experiments.plan.reactions import Reactions
+from experiments.records.course import StoredCourse, read_course
 from experiments.settings.reaction_tables import Figure22
 from mobnet.core.arrays import Array
-from mobnet.core.course import StoredCourse, read_course
 from mobnet.core.joints import JointLayout
 from mobnet.core.style import PAGE_INCH, styled
 from mobnet.robot.description import RobotDescription, describe, dressed

@@ -17,7 +17,7 @@ from experiments.evaluation.number.intervals import RunGrid
 from experiments.evaluation.number.number import Number
 from experiments.evaluation.number.scored import CELL, cell_text, members, places_of, robots_of, run_grid
 from experiments.settings.claims import Cell
-from mobnet.core.columns import RUN
+from experiments.settings.table_columns import RUN
 from mobnet.core.errors import ConfigError, DataError, not_accepted
 from mobnet.core.joints import JointLayout
 from mobnet.core.rows import read_texts

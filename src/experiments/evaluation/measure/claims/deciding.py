@@ -11,11 +11,11 @@ from math import ceil, exp, inf, log, sqrt
 
 from experiments.evaluation.number.intervals import quantile_of
 from experiments.evaluation.number.number import Number
+from experiments.settings import counts
+from experiments.settings.claim_ranges import Bounds, apart, within
 from experiments.settings.claims import MadeNumber
-from experiments.settings.evaluation import PRODUCTS
 from experiments.settings.independent import garwood, wilson
 from experiments.settings.runs import Statistics
-from mobnet.core.claim_ranges import Bounds, apart, within
 
 ROBOTS, NETWORKS, WALKS = "robots", "networks", "walks"
 TRIALS, HOURS, AS_MANY = "independent trials", "hours of walking", "times as much data"
@@ -118,11 +118,11 @@ def shrinking(
 ) -> Shrinking:  # fmt: skip
     """Return the interval of a number, held with its ends [its unit], by how many runs it is made of."""
     value, low, high = held
-    row = PRODUCTS.get(made.cells[0].table or "") if made.quantity == "value" else None
-    if row and row.hours:
+    table = made.cells[0].table or "" if made.quantity == "value" else ""
+    if table in counts.HOURS:
         hours = size_of(lambda size: rate_ends(value, size, statistics)[1], high)
         return Shrinking(HOURS, hours, lambda times: rate_ends(value, times * hours, statistics))
-    if made.quantity == "share" or (row and row.trials and number.unit == "-"):
+    if made.quantity == "share" or (table in counts.TRIALS and number.unit == "-"):
         trials = size_of(lambda size: width_of(wilson(value, size, statistics.confidence)), high - low)
         kind = NETWORKS if made.quantity == "share" else TRIALS
         return Shrinking(kind, trials, lambda times: wilson(value, times * trials, statistics.confidence))

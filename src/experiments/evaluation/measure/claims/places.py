@@ -9,8 +9,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from experiments.evaluation.measure.claims.verdicts import WORST_FIRST, Judged
-from mobnet.core.claim_ranges import Bounds
-from mobnet.core.columns import VERDICTS
+from experiments.settings.claim_ranges import Bounds
+from experiments.settings.verdicts import VERDICTS
 
 OVER_PAPER, BEYOND_BOUND = "ours over the original's", "beyond the bound"  # what an axis has
 

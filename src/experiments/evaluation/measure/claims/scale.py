@@ -15,10 +15,10 @@ from typing import get_args
 from experiments.evaluation.measure.claims.cells import Evidence, listed
 from experiments.evaluation.measure.claims.verdicts import ClaimNumbers, Judged, made_number, verdicts_of
 from experiments.evaluation.number.number import Number
+from experiments.settings.claim_ranges import ranges_of
 from experiments.settings.claims import Cell, Claim, MadeNumber, TrainingMetric
 from experiments.settings.runs import Statistics
-from mobnet.core.claim_ranges import ranges_of
-from mobnet.core.columns import DESCRIPTION, MOB_NET, NOT_MEASURED, OURS, REPRODUCED, STAND_INS
+from experiments.settings.verdicts import DESCRIPTION, MOB_NET, NOT_MEASURED, OURS, REPRODUCED, STAND_INS
 from mobnet.settings.detection import DetectorSettings
 from mobnet.settings.methods import Method
 

@@ -14,10 +14,10 @@ from experiments.evaluation.measure.claims.cells import Evidence, listed
 from experiments.evaluation.measure.claims.deciding import Effort, effort_of, text_of
 from experiments.evaluation.number.number import Number
 from experiments.evaluation.number.quantities import QUANTITIES, difference_of
+from experiments.settings.claim_ranges import Bounds, Ranges, apart, ranges_of, within
 from experiments.settings.claims import Claim, MadeNumber, TrainingMetric, by_other_reading
 from experiments.settings.runs import Statistics
-from mobnet.core.claim_ranges import Bounds, Ranges, apart, ranges_of, within
-from mobnet.core.columns import (
+from experiments.settings.verdicts import (
     DESCRIPTION,
     INSIDE,
     NETWORKS,

@@ -17,8 +17,9 @@ from numpy.typing import NDArray
 from experiments.evaluation.compare.rmse import Spans
 from experiments.evaluation.compare.windows import FLAG
 from experiments.evaluation.number.rows import write_csv
+from experiments.records.falls import FALLS, Falls
 from mobnet.core.arrays import Array
-from mobnet.core.columns import DESIRED, FALLS, FEET, RANDOM, SWING, Falls, named
+from mobnet.core.columns import DESIRED, FEET, RANDOM, SWING, named
 from mobnet.core.errors import SimulationError
 from mobnet.core.joints import JointLayout
 from mobnet.core.store import read_array

@@ -17,10 +17,11 @@ from experiments.evaluation.compare.scene import Scene
 from experiments.evaluation.measure.estimates import run_errors
 from experiments.evaluation.number.rows import write_csv
 from experiments.plan.runs import Run
+from experiments.records.scores import SCORES, Score
 from experiments.settings.measures import Measure, Scoring
 from experiments.settings.metrics import SECTIONS, unit_of_metric
 from experiments.settings.settings import Settings
-from mobnet.core.columns import MOB_NET, SCORES, SHUFFLED, Score
+from experiments.settings.verdicts import MOB_NET, SHUFFLED
 from mobnet.core.errors import not_accepted
 from mobnet.core.joints import JointLayout
 from mobnet.settings.base import Section

@@ -14,7 +14,7 @@ from experiments.evaluation.number.number import Number
 from experiments.evaluation.number.single import extremes
 from experiments.plan.runs import SweptSize
 from experiments.settings.runs import Statistics
-from mobnet.core.columns import SIZES
+from experiments.settings.table_columns import SIZES
 
 SAMPLES = "samples"  # panel of the sizes of the data; the largest of them is all data, by a network of the printed size
 

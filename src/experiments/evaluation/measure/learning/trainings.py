@@ -21,8 +21,7 @@ from experiments.evaluation.number.number import Number
 from experiments.evaluation.number.rows import read_scores
 from experiments.settings.figures import Figure17
 from experiments.settings.runs import Statistics
-from mobnet.core.columns import Epoch
-from mobnet.core.epochs import read_epochs
+from mobnet.core.epochs import Epoch, read_epochs
 from mobnet.core.errors import not_accepted, refuse
 from mobnet.core.files import METRICS, RUN, TIME, read_json
 from mobnet.core.notes import Count, FileName, Index, Names, Note, NotNegative, Positive, Text, read_note

@@ -10,10 +10,10 @@ from experiments.evaluation.number.clusters import rate_in
 from experiments.evaluation.number.frames import rows_of
 from experiments.evaluation.number.laws import Law, clusters, mean, share
 from experiments.evaluation.number.number import Number
+from experiments.records.reactions import NONE
 from experiments.settings.published import PublishedContacts
 from experiments.settings.reaction_tables import Safety
 from experiments.settings.runs import Statistics
-from mobnet.core.reactions import NONE
 from mobnet.settings.reaction import Watch
 
 FALLS = "falls"

@@ -10,7 +10,7 @@ from experiments.evaluation.number.rows import Field
 from experiments.evaluation.tables.layout import Table, in_blocks, write_table
 from experiments.settings.measures import CalibrationTable
 from experiments.settings.runs import Statistics
-from mobnet.core.columns import CALIBRATION
+from experiments.settings.table_columns import CALIBRATION
 from mobnet.settings.networks import Learning
 
 COVERAGE = "coverage"

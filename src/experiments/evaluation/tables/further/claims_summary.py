@@ -9,10 +9,10 @@ from pathlib import Path
 
 from experiments.evaluation.measure.claims.verdicts import worst
 from experiments.evaluation.tables.layout import RULE, Line, Table, write_table
-from mobnet.core.claim_ranges import within
-from mobnet.core.columns import (
+from experiments.settings.claim_ranges import within
+from experiments.settings.table_columns import CLAIMED
+from experiments.settings.verdicts import (
     BEYOND,
-    CLAIMED,
     HELD,
     JUDGED_WITH,
     NEAR,

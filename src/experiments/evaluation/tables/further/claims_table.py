@@ -7,8 +7,9 @@ from experiments.evaluation.measure.claims.verdicts import Judged
 from experiments.evaluation.number.number import number_text
 from experiments.evaluation.number.rows import Field
 from experiments.evaluation.tables.layout import GAP, Line, Table, long_table, tex_escape, write_table
-from mobnet.core.claim_ranges import ANY, range_text
-from mobnet.core.columns import CLAIMS, STAND_INS
+from experiments.settings.claim_ranges import ANY, range_text
+from experiments.settings.table_columns import CLAIMS
+from experiments.settings.verdicts import STAND_INS
 
 HEADER = ("Claim", "Printed in", "Paper", "Ours", "{:.0%}", "Claimed", "Size", "Sign", "Verdict")
 # Columns of the Markdown table; in TeX they are lines below the claim.

@@ -10,18 +10,9 @@ from pathlib import Path
 
 from experiments.evaluation.measure.claims.verdicts import verdict_of, worst
 from experiments.evaluation.tables.layout import RULE, Line, Table, write_table
-from mobnet.core.claim_ranges import Bounds, apart, within
-from mobnet.core.columns import (
-    DESCRIPTION,
-    INSIDE,
-    NOT_MEASURED,
-    OPEN,
-    OURS,
-    OUTSIDE,
-    REPRODUCED,
-    TOLERANCE,
-    VERDICTS,
-)
+from experiments.settings.claim_ranges import Bounds, apart, within
+from experiments.settings.table_columns import TOLERANCE
+from experiments.settings.verdicts import DESCRIPTION, INSIDE, NOT_MEASURED, OPEN, OURS, OUTSIDE, REPRODUCED, VERDICTS
 from mobnet.core.rows import read_texts
 
 # [own] Factors between which the claims' own rules lie.

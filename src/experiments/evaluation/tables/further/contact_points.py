@@ -20,7 +20,7 @@ from experiments.plan.detection import Detections
 from experiments.plan.runs import Run
 from experiments.settings.detection_tables import ContactPoints
 from experiments.settings.runs import Statistics
-from mobnet.core.columns import DETECTION
+from experiments.settings.table_columns import DETECTION
 from mobnet.robot.description import describe
 from mobnet.settings.data import Push
 from mobnet.settings.detection import ContactPoint

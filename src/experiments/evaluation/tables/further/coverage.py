@@ -8,7 +8,7 @@ from experiments.evaluation.number.number import number_text
 from experiments.evaluation.tables.layout import Line, Table, in_blocks, write_table
 from experiments.settings.measures import Coverage
 from experiments.settings.runs import Statistics
-from mobnet.core.columns import COVERAGE
+from experiments.settings.table_columns import COVERAGE
 from mobnet.core.joints import JointLayout
 from mobnet.settings.networks import Limb
 

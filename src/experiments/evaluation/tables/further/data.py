@@ -13,9 +13,10 @@ from experiments.evaluation.measure.data.upper_body import upper_body
 from experiments.evaluation.number.number import Number
 from experiments.evaluation.tables.layout import Table, write_table
 from experiments.settings.published import PublishedData
+from experiments.settings.table_columns import DATA
 from experiments.settings.tables import DataTable
 from mobnet.control.parameters import DURATION
-from mobnet.core.columns import COMMAND, DATA, recording_columns
+from mobnet.core.columns import COMMAND, recording_columns
 from mobnet.core.errors import refuse_lines
 from mobnet.core.notes import read_array_note
 from mobnet.core.store import NOTE, file_of, read_array

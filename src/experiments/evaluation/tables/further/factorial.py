@@ -22,9 +22,9 @@ from experiments.evaluation.tables.layout import Line, Table, in_blocks, write_t
 from experiments.plan.runs import TaughtRobot, Tried
 from experiments.settings.measures import Peaks
 from experiments.settings.runs import Statistics
+from experiments.settings.table_columns import FACTORIAL
 from experiments.settings.trials import DATA, Factorial, Factors
 from mobnet.core.arrays import Array
-from mobnet.core.columns import FACTORIAL
 from mobnet.settings.methods import ObserverSettings
 from mobnet.settings.robot import RobotTable
 

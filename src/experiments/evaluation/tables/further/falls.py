@@ -8,8 +8,9 @@ from statistics import median_low
 from experiments.evaluation.number.rows import Field
 from experiments.evaluation.number.single import rate_of
 from experiments.evaluation.tables.layout import Table, write_table
+from experiments.records.falls import Falls
 from experiments.settings.runs import Statistics
-from mobnet.core.columns import FALLEN, Falls
+from experiments.settings.table_columns import FALLEN
 from mobnet.core.rows import read_rows
 
 ALL = "all"

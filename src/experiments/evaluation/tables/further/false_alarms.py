@@ -11,10 +11,11 @@ from experiments.evaluation.number.number import Number
 from experiments.evaluation.number.single import rate_of
 from experiments.evaluation.tables.look import Row, ShownColumn, TableLook, write_look
 from experiments.plan.detection import Detections
+from experiments.records.collisions import UNPUSHED
 from experiments.settings.detection_tables import AlarmTable
 from experiments.settings.runs import Statistics
-from mobnet.core.columns import DETECTION
-from mobnet.core.detections import CALIBRATION, COLLISION, HELD_OUT, LARGEST, UNPUSHED, WALKING
+from experiments.settings.table_columns import DETECTION
+from mobnet.core.detections import CALIBRATION, COLLISION, HELD_OUT, LARGEST, WALKING
 from mobnet.detection.thresholds import Calibrated, expected_counts
 from mobnet.settings.detection import Detection
 

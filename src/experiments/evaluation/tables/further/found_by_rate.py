@@ -23,10 +23,11 @@ from experiments.evaluation.number.laws import fields_of, mean, measured, share
 from experiments.evaluation.number.number import Number
 from experiments.evaluation.tables.look import Row, ShownColumn, TableLook, percent_text, write_look
 from experiments.plan.detection import Detections
+from experiments.records.collisions import UNPUSHED
 from experiments.settings.detection_tables import FoundByRate
 from experiments.settings.runs import Statistics
-from mobnet.core.columns import DETECTION
-from mobnet.core.detections import COLLISION, HELD_OUT, UNPUSHED
+from experiments.settings.table_columns import DETECTION
+from mobnet.core.detections import COLLISION, HELD_OUT
 from mobnet.settings.detection import Detection
 
 FOUND = "found"

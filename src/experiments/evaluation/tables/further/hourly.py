@@ -13,8 +13,8 @@ from experiments.evaluation.number.single import rate_of
 from experiments.evaluation.tables.look import ShownColumn, TableLook, column, write_look
 from experiments.settings.measures import Changed
 from experiments.settings.runs import LegRuns, Statistics
+from experiments.settings.table_columns import HOURLY
 from experiments.settings.tables import Hourly
-from mobnet.core.columns import HOURLY
 from mobnet.core.notes import read_array_note
 from mobnet.core.store import NOTE, file_of
 

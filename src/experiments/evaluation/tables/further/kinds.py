@@ -16,8 +16,8 @@ from experiments.evaluation.tables.layout import GAP, RULE, Line, Table, with_in
 from experiments.settings.figures import Figure17
 from experiments.settings.published import PublishedKinds
 from experiments.settings.runs import Statistics
+from experiments.settings.table_columns import KINDS
 from experiments.settings.tables import Kinds
-from mobnet.core.columns import KINDS
 
 ORDERED_BY = "validation loss"
 HEADER = [

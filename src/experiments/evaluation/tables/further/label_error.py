@@ -7,9 +7,10 @@ import numpy as np
 import pandas as pd
 
 from experiments.evaluation.tables.look import ShownColumn, TableLook, write_look
+from experiments.settings.table_columns import LABEL_ERROR
 from experiments.settings.tables import LabelError
 from mobnet.core.arrays import Array
-from mobnet.core.columns import EXTERNAL_LP, FEET, LABEL_ERROR, foot_of, named
+from mobnet.core.columns import EXTERNAL_LP, FEET, foot_of, named
 from mobnet.core.joints import JointLayout
 from mobnet.core.recording import read_sensed
 from mobnet.core.store import read_array

@@ -14,8 +14,9 @@ from experiments.evaluation.number.intervals import RunGrid
 from experiments.evaluation.number.single import share
 from experiments.evaluation.tables.layout import Table, write_table
 from experiments.settings.runs import Statistics
+from experiments.settings.table_columns import LATENCY
 from experiments.settings.tables import Latency
-from mobnet.core.columns import COMMAND, FEET, LATENCY
+from mobnet.core.columns import COMMAND, FEET
 from mobnet.core.joints import NQ_BASE, JointLayout
 from mobnet.core.recording import Sensed
 from mobnet.learning.deployed.limbs import LimbNetworks, load_limb_networks

@@ -8,7 +8,7 @@ from experiments.evaluation.tables.look import ShownColumn, TableLook, interval,
 from experiments.plan.detection import Detections
 from experiments.settings.detection_tables import Links
 from experiments.settings.runs import Statistics
-from mobnet.core.columns import DETECTION
+from experiments.settings.table_columns import DETECTION
 from mobnet.settings.detection import Detection
 
 PLACE = ["level", "detector", "leg", "kind"]

@@ -14,8 +14,8 @@ from experiments.evaluation.number.quantities import CUT
 from experiments.evaluation.number.scored import AVERAGE, number_of, runs_of
 from experiments.evaluation.tables.layout import Line, Table, in_blocks, long_table, write_table
 from experiments.settings.runs import Statistics
+from experiments.settings.table_columns import METHODS
 from experiments.settings.tables import MethodsRow
-from mobnet.core.columns import METHODS
 
 ZERO, SKILL = "zero", "skill"  # the method that estimates nothing, and 1 - RMSE / RMSE of it
 LABELS = {"": "RMSE", RAW: "raw truth", SKILL: SKILL}  # what is shown -> what the text calls it

@@ -17,8 +17,8 @@ from experiments.evaluation.number.scored import columns_of, number_of, runs_of
 from experiments.evaluation.tables.layout import RULE, Line, Table, write_table
 from experiments.settings.published import PublishedTable
 from experiments.settings.runs import Statistics
+from experiments.settings.table_columns import ERRORS, RUN
 from experiments.settings.tables import NoiseTable
-from mobnet.core.columns import ERRORS, RUN
 from mobnet.core.joints import JointLayout
 
 METRIC = "rmse"

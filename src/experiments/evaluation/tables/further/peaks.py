@@ -12,7 +12,7 @@ from experiments.evaluation.number.scored import AVERAGE, asked_of, numbers_of
 from experiments.evaluation.tables.layout import Table, in_blocks, write_table
 from experiments.settings.measures import Peaks
 from experiments.settings.runs import Statistics
-from mobnet.core.columns import METHODS
+from experiments.settings.table_columns import METHODS
 from mobnet.core.joints import JointLayout
 
 REFERENCE = "low-pass of (11)"  # what a residual without any error would show

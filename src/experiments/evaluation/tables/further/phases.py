@@ -10,7 +10,7 @@ from experiments.evaluation.number.scored import asked_of, numbers_of
 from experiments.evaluation.tables.look import ShownColumn, average, by_limb, write_look
 from experiments.settings.measures import Phases
 from experiments.settings.runs import Statistics
-from mobnet.core.columns import METHODS
+from experiments.settings.table_columns import METHODS
 from mobnet.core.joints import JointLayout
 
 WHOLE = "rmse"

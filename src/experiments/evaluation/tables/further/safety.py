@@ -31,7 +31,7 @@ from experiments.plan.reactions import Reactions
 from experiments.settings.published import PublishedContacts
 from experiments.settings.reaction_tables import Safety
 from experiments.settings.runs import Statistics
-from mobnet.core.columns import SAFETY
+from experiments.settings.table_columns import SAFETY
 from mobnet.settings.reaction import Reaction
 
 

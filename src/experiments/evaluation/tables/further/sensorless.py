@@ -20,7 +20,7 @@ from experiments.evaluation.tables.look import Row, ShownColumn, TableLook, colu
 from experiments.plan.reactions import Reactions
 from experiments.settings.reaction_tables import Sensorless
 from experiments.settings.runs import Statistics
-from mobnet.core.columns import SENSORLESS
+from experiments.settings.table_columns import SENSORLESS
 
 MINUTES = 60.0  # in an hour
 

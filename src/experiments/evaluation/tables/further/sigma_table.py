@@ -14,7 +14,7 @@ from experiments.evaluation.number.scored import AVERAGE, asked_of, number_of, n
 from experiments.evaluation.tables.look import ShownColumn, average, by_limb, percent, write_look
 from experiments.settings.measures import Sigma
 from experiments.settings.runs import LimbRuns, Statistics
-from mobnet.core.columns import METHODS
+from experiments.settings.table_columns import METHODS
 from mobnet.core.joints import JointLayout
 
 ERROR = "rmse"

@@ -8,7 +8,7 @@ from experiments.evaluation.tables.look import Row, ShownColumn, TableLook, writ
 from experiments.plan.detection import Detections
 from experiments.settings.detection_tables import SmallestForce
 from experiments.settings.runs import Statistics
-from mobnet.core.columns import DETECTION
+from experiments.settings.table_columns import DETECTION
 from mobnet.settings.detection import Detection
 
 

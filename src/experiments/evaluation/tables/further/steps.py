@@ -14,8 +14,9 @@ from experiments.evaluation.measure.data.steps import UNITS, Array, WalkedSteps,
 from experiments.evaluation.number.frames import records_of
 from experiments.evaluation.number.number import is_missing, number_text
 from experiments.evaluation.tables.layout import Table, in_blocks, write_table
+from experiments.settings.table_columns import STEPS
 from experiments.settings.tables import Steps as StepsTable
-from mobnet.core.columns import COMMAND, STEPS
+from mobnet.core.columns import COMMAND
 from mobnet.robot.description import describe
 from mobnet.robot.nominal import NominalModel
 from mobnet.settings.data import Commands

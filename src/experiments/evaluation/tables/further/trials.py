@@ -12,8 +12,8 @@ from experiments.evaluation.measure.learning.trials import Known, VariantResult,
 from experiments.evaluation.number.number import number_text
 from experiments.evaluation.tables.layout import Line, Table, in_blocks, write_table
 from experiments.plan.runs import TriedTask
+from experiments.records.trial_errors import TRIALS, TrialError
 from experiments.settings.trials import EXPERIMENT, RECIPE
-from mobnet.core.columns import TRIALS, TrialError
 from mobnet.settings.methods import ObserverSettings
 from mobnet.settings.robot import RobotTable
 

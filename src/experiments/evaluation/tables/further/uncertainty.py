@@ -9,8 +9,9 @@ from numpy.typing import NDArray
 from experiments.evaluation.number.number import number_text
 from experiments.evaluation.tables.layout import OUTSIDE, Line, Table, in_blocks, write_table
 from experiments.settings.published import PublishedUncertainty
+from experiments.settings.table_columns import UNCERTAINTY
 from experiments.settings.tables import Uncertainty
-from mobnet.core.columns import RESIDUAL, UNCERTAINTY, named
+from mobnet.core.columns import RESIDUAL, named
 from mobnet.core.joints import JointLayout
 from mobnet.core.store import label_of, read_array
 from mobnet.settings.networks import NetworkRow

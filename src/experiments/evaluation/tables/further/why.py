@@ -17,9 +17,9 @@ from experiments.evaluation.tables.layout import Line, Table, in_blocks, write_t
 from experiments.plan.runs import ExplainedRobot
 from experiments.settings.measures import Peaks
 from experiments.settings.runs import Statistics
+from experiments.settings.table_columns import WHY
 from experiments.settings.trials import WAY, Why
 from mobnet.core.arrays import Array
-from mobnet.core.columns import WHY
 from mobnet.settings.methods import ObserverSettings
 from mobnet.settings.robot import RobotTable
 

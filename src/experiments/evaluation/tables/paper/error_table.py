@@ -14,8 +14,8 @@ from experiments.evaluation.number.scored import AVERAGE, columns_of, number_of,
 from experiments.evaluation.tables.layout import PART, Line, Table, in_blocks, text_table, write_table
 from experiments.settings.published import Floor, PublishedTable
 from experiments.settings.runs import Statistics
+from experiments.settings.table_columns import ERRORS, RUN
 from experiments.settings.tables import ErrorTable
-from mobnet.core.columns import ERRORS, RUN
 from mobnet.core.joints import JointLayout
 
 # Where they simulated, and where they measured.

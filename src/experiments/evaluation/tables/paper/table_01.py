@@ -7,7 +7,7 @@ from pathlib import Path
 from experiments.evaluation.number.rows import Field
 from experiments.evaluation.tables.layout import Table, tex_escape, tex_table, write_table
 from experiments.settings.published import PublishedNetwork, PublishedNetworks
-from mobnet.core.columns import TABLE_01
+from experiments.settings.table_columns import TABLE_01
 from mobnet.core.joints import JointLayout
 from mobnet.learning.features import limb_inputs
 from mobnet.learning.model import build_network, parameter_count

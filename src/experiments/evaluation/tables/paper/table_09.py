@@ -12,11 +12,11 @@ from experiments.evaluation.number.laws import mean, measured, share
 from experiments.evaluation.number.number import Number, interval_text, is_missing, number_text, published_row
 from experiments.evaluation.tables.layout import PART, RULE, Line, Table, text_table, write_table
 from experiments.plan.detection import Detections
+from experiments.records.collisions import READINGS
 from experiments.settings.detection_tables import ReadingTable, SmallestForce
 from experiments.settings.published import PublishedTable
 from experiments.settings.runs import Statistics
-from mobnet.core.columns import DETECTION
-from mobnet.core.detections import READINGS
+from experiments.settings.table_columns import DETECTION
 from mobnet.settings.detection import Detection
 
 FOUND = "found"

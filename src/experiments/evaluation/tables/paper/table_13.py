@@ -12,10 +12,10 @@ from experiments.evaluation.number.frames import read_detection, records_of
 from experiments.evaluation.number.number import number_text, published_row
 from experiments.evaluation.tables.layout import OUTSIDE, Table, in_blocks, write_table
 from experiments.plan.detection import Detections
+from experiments.records.collisions import READINGS
 from experiments.settings.detection_tables import ThresholdTable
 from experiments.settings.published import PublishedTable
-from mobnet.core.columns import DETECTION
-from mobnet.core.detections import READINGS
+from experiments.settings.table_columns import DETECTION
 from mobnet.core.joints import JointLayout
 from mobnet.detection.signals import MEAN, RATIO, STD
 

@@ -5,7 +5,8 @@ The rules are those that the header of configs/claims.yaml states. A claim's `ba
 """
 
 from dataclasses import dataclass
-from typing import Protocol
+
+from experiments.settings.claims import Claim
 
 Bounds = tuple[float | None, float | None]  # closed, lower end first; None is no bound
 ANY: Bounds = (None, None)
@@ -15,21 +16,6 @@ LEAST_ALIKE = 1.1
 ALIKE = 1.5
 LEAST_EFFECT, MOST_EFFECT = 0.5, 1.5  # shares of an effect
 FIFTH = 0.2  # of all collisions
-
-
-class Claimed(Protocol):
-    """What of a claim makes its ranges: `experiments.settings.claims.Claim` has it."""
-
-    @property
-    def rule(self) -> str: ...  # noqa: D102
-    @property
-    def quantity(self) -> str: ...  # noqa: D102
-    @property
-    def published(self) -> float | None: ...  # noqa: D102
-    @property
-    def bar(self) -> Bounds | None: ...  # noqa: D102
-    @property
-    def sign(self) -> Bounds | None: ...  # noqa: D102
 
 
 @dataclass(frozen=True)
@@ -45,7 +31,7 @@ class Ranges:
         return self.size or self.sign or ANY
 
 
-def ranges_of(claim: Claimed) -> Ranges:
+def ranges_of(claim: Claim) -> Ranges:
     """Return the ranges of a claim [its unit]."""
     if claim.rule == "sign":
         return Ranges(None, claim.sign)
@@ -55,7 +41,7 @@ def ranges_of(claim: Claimed) -> Ranges:
     return Ranges(common(size, claim.bar or ANY), claim.sign or sign)
 
 
-def _ruled(claim: Claimed) -> tuple[Bounds, Bounds | None]:
+def _ruled(claim: Claim) -> tuple[Bounds, Bounds | None]:
     """Return the ranges of size and sign that a claim's rule makes of the number that the paper prints [its unit]."""
     if claim.rule == "similar":
         alike = _alike(claim.published)

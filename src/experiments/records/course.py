@@ -7,10 +7,11 @@ from pathlib import Path
 from typing import Any
 
 from mobnet.core.arrays import Array
-from mobnet.core.columns import ESTIMATED, STD, Column, recording_columns, torque_columns
+from mobnet.core.columns import STD, Column, recording_columns, torque_columns
 from mobnet.core.joints import JointLayout
 from mobnet.core.store import read_array
 
+ESTIMATED = "estimated"  # external torque that is estimated, beside a true one
 FORCE = ("obstacle.force", "N")
 POINT = ("obstacle.point", "m")
 BASE = ("true_base", "m")
