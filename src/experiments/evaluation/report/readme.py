@@ -305,8 +305,8 @@ def scales(results: Path) -> str:
     lines = [["scale", "what it is", "two cores", "core-hours", "memory", "disk"], ["---"] * 2 + ["---:"] * 4]
     for scale, text, time, core_hours, memory, disk in SCALES:
         if scale == rates.scale:
-            took = f"the published run, with {elapsed['load']} % of their time, took {float(elapsed['hours']):.1f} h"
-            time, core_hours = f"{rates.core_h / CORES:.1f} h if idle; {took}", f"{rates.core_h:.1f}"
+            took = f"{float(elapsed['hours']):.1f} h in the published run, which had {elapsed['load']} % of two cores"
+            time, core_hours = f"{rates.core_h / CORES:.1f} h on idle cores; {took}", f"{rates.core_h:.1f}"
         lines.append([f"`{scale}`", text, time, core_hours, memory, disk])
     return "".join(f"| {' | '.join(line)} |\n" for line in lines)
 
