@@ -51,8 +51,8 @@ Commit `{commit}` trained it with seed {seed}. The weights are `{file}` of that 
 """
 MEANS = """\
 RMSE [N m], mean over the joints of the leg, over walks and over the networks of all robots, with 95% intervals.
-Numbers are of {tried}, whose networks are of the same kind and size and learned from walks with fewer pushes of the swing
-foot than this one of {method}. Conditions that training does not have were tried with those networks alone.
+Numbers are of {tried}, whose networks are of the same kind and size and learned from walks with fewer pushes of the
+swing foot than this one of {method}. Conditions that training does not have were tried with those networks alone.
 """
 MEASURED = {  # what is measured -> its place in the table of changed conditions
     "random walking on the robot that it learned from": {"scenario": "walk_test", "level": "robots"},
