@@ -18,11 +18,11 @@ from mobnet.core.rows import read_texts
 ROOT = Path(__file__).parents[3]
 RESULTS = ROOT / "docs" / "results"
 MAIN = (ROOT / "paper" / "main.tex").read_text()
-TEMPLATE = (ROOT / "README.md.j2").read_text()
+TEMPLATES = ("README.md.j2", "docs/found.md.j2")
 FIELD = re.compile(r"\{\{.*?\}\}|\{%.*?%\}")
-# Numbers that the README's own sentences may have: no results. Years, versions and names are none either.
+# Numbers that the templates' own sentences may have: no results. Years, versions and names are none either.
 SAID = {
-    "3": "GB that the packages take",
+    "3": "GB that the packages take", "30": "% more friction of changed robots",
     "2024": "year", "2026": "year", "0.5.0": "version", "0.6.0": "version", "10.1177/02783649241260428": "DOI",
     "2402.11221v1": "preprint",
 }  # fmt: skip
@@ -83,8 +83,9 @@ def test_a_published_verdict_is_on_the_side_of_its_interval(row: dict[str, str])
     assert row["score"] != OURS or not row["published"]
 
 
-def test_the_readme_types_no_number_of_a_result() -> None:
-    prose = FIELD.sub("", TEMPLATE)
+@pytest.mark.parametrize("template", TEMPLATES)
+def test_a_template_types_no_number_of_a_result(template: str) -> None:
+    prose = FIELD.sub("", (ROOT / template).read_text())
     lines = [line for line in prose.splitlines() if not line.startswith("    ")]
     text = re.sub(r"`[^`]*`|\[note \d+\]|\([^)]*\.md[^)]*\)|\(http[^)]*\)", "", "\n".join(lines))
     found = set(re.findall(r"(?<![\w.-])\d[\w./-]*\w|(?<![\w.-])\d", text))

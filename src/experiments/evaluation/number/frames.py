@@ -79,7 +79,7 @@ SWINGS: Schema = {
     "seed": (WHOLE, "", "the walk"),
     "number": (WHOLE, "", "the swing of a walk, counted from 1"),
     "ratio": (REAL, "-", "largest signal over the threshold for one false alarm an hour"),
-    "ratio_largest": (REAL, "-", "over the paper's threshold, from walking in place"),
+    "ratio_largest": (REAL, "-", "over the original's threshold, from walking in place"),
     "ratio_walking": (REAL, "-", "over that from random walking"),
 }
 PROMISES: Schema = {

@@ -31,8 +31,8 @@ HEAD = """# Data card
 
 Generated from the columns of recordings and `configs` by `python -m experiments.evaluation.report.data_card`: do
 not edit.
-Everything is simulated: TOCABI walks and moves in MuJoCo as section 4.3 of the paper describes. Nothing was measured on
-a robot, and no person's data is in it. The tables `data`, `steps`, `coverage` and `uncertainty` and the figures
+Everything is simulated: TOCABI walks and moves in MuJoCo as section 4.3 of the original describes. Nothing was measured
+on a robot, and no person's data is in it. The tables `data`, `steps`, `coverage` and `uncertainty` and the figures
 `figure_19` and `commands` show what the recordings hold.
 """
 FILES = """
@@ -56,16 +56,16 @@ frame = pd.read_parquet(name, columns=["q.LL3", "v.LL3", "tau_des.LL3", "tau_ext
 SPLIT = """
 ## Seeds and splits
 Seeds of tests count from {test},
-those of the walks on which methods are chosen from {development}, those of training recordings from {first}. A
-recording's random numbers come from the configuration's seed ({seed}), its scenario (or the one that its key `draws`
-names) and its own seed, with separate streams for commands, noise, random torque, place, pushes and terrain: the three
-share no draw, and a file does not depend on the number of cores. Tests are sealed: `docs/results/seeds.json` lists the
-seeds that published runs walked, and a run with other methods that walks one of them again is not published. The runs
-of versions 0.3.0 and 0.5.0 were published before this was checked, and walked seeds again.
+those of the walks on which methods are chosen from {development}, those of training recordings from {first}: the three
+share no draw. The random numbers of a recording come from the seed of the configuration ({seed}), from its scenario (or
+the one that its key `draws` names) and from its own seed, with separate streams for commands, noise, random torque,
+place, pushes and terrain. So a file does not depend on the number of cores. `docs/results/seeds.json` lists the test
+seeds that published runs walked; a run with other methods that walks one of them again is not published. The runs of
+versions 0.3.0 and 0.5.0 were published before this was checked, and walked seeds again.
 
-The last {share:.0%} of the samples of every segment, one contiguous block, are for validation and the others for
-training (9:1, section 4.3); single samples of a stream are never shuffled into both. Of the motion of the upper body,
-the last part validates in all its variants, because variants of one part differ in speed and place alone.
+The last {share:.0%} of the samples of every segment, one contiguous block, are for validation, the others for training
+(9:1, section 4.3). Of the motion of the upper body, the last part validates in all its variants, because variants of
+one part differ in speed and place alone.
 """
 DRAWN = {  # section of the configuration -> what its numbers determine
     "scenarios": "terrains (one for each episode), commands, random torque, pushes and motion of the upper body",
@@ -78,6 +78,12 @@ DRAWN = {  # section of the configuration -> what its numbers determine
     "plant.noise": "the sensors' white noise (Table 3), as printed; `noise` of a level says how it is read",
     "plant.own_noise": "errors of sensors that Table 3 does not have, at every level with noise",
 }
+
+# Sections whose rows are long: the card names the rows, and their numbers stand in the file with unit and source.
+NAMED = {
+    "scenarios": "configs/data.yaml", "pushes": "configs/data.yaml", "motions": "configs/data.yaml",
+    "levels": "configs/plant.yaml",
+}  # fmt: skip
 
 
 def main() -> None:
@@ -152,17 +158,20 @@ def column_rows(field: str, found: Sequence[Column], text: str) -> Iterator[list
 
 
 def sizes(settings: Settings) -> str:
-    """Return the table of the sets of every scale, lengths in [min]."""
-    rows: list[list[str]] = []
+    """Return the table of all sets: of each scale recordings x length of one [min]."""
+    cells: dict[tuple[str, str, str], dict[str, str]] = {}
     for scale, entry in settings.scales.items():
         sets: list[tuple[tuple[str, str, str], Recordings]] = []
         for name, row in settings.training_sets.items():
             sets.append(((name, row.scenario, row.level), row.sizes[scale]))
         sets += tests(settings, entry)
         for names, part in sets:
-            rows.append([scale, *names, str(part.shards), f"{part.shards * part.shard_s / MINUTE_S:g}"])
-    header = ["scale", "set", "scenario", "level", "recordings", "minutes"]
-    return "\n## Sets\n\n" + markdown_table(header, rows, left=4)
+            cells.setdefault(names, {})[scale] = f"{part.shards} x {part.shard_s / MINUTE_S:.3g}"
+    rows: list[list[str]] = []
+    for names, sized in cells.items():
+        rows.append([*names, *(sized.get(scale, "-") for scale in settings.scales)])
+    header = ["set", "scenario", "level", *settings.scales]
+    return "\n## Sets\n\nRecordings x minutes of each, by scale.\n\n" + markdown_table(header, rows, left=3)
 
 
 def tests(settings: Settings, entry: Scale) -> Iterator[tuple[tuple[str, str, str], Recordings]]:
@@ -179,12 +188,17 @@ def tests(settings: Settings, entry: Scale) -> Iterator[tuple[tuple[str, str, st
 
 
 def drawn(settings: Settings) -> Iterator[str]:
-    """Yield a table for each section of the configuration that the data are drawn from; units are in the keys."""
+    """Yield what each section of the configuration that the data are drawn from holds; units are in the keys."""
     written = settings.model_dump(mode="json", exclude_unset=True)
     for section, text in DRAWN.items():
         values = reduce(getitem, section.split("."), written)
-        rows = [[f"`{key}`", json.dumps(value)] for key, value in values.items()]
-        yield f"\n### `{section}`: {text}\n\n" + markdown_table(["key", "value"], rows, left=2)
+        title = f"\n### `{section}`: {text}\n\n"
+        if section in NAMED:
+            names = ", ".join(f"`{key}`" for key in values)
+            yield f"{title}`{NAMED[section]}` holds them: {names}.\n"
+        else:
+            rows = [[f"`{key}`", json.dumps(value)] for key, value in values.items()]
+            yield title + markdown_table(["key", "value"], rows, left=2)
 
 
 if __name__ == "__main__":

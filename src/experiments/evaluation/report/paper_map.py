@@ -28,15 +28,16 @@ READ = (".md", ".pdf")  # endings of files that people read
 SHOWN = 3  # files of a product that are named
 TESTS = Path("tests")
 PAGES = Path("tests/world/pages")  # tests of what a browser shows
-HEADER = ("paper", "what it shows", "command", "files", "test", "rule and function")
-HEAD = f"""# Map of the paper
+HEADER = ("original", "what it shows", "command", "further files", "test", "rule and function")
+HEAD = f"""# Map of the original
 
 Generated from the plan, the captions and `{SOURCE}` by
 `python -m experiments.evaluation.report.paper_map`: do not edit.
-The first table lists every table, figure and evaluated section of the paper, the second what this repository adds to
-them, each with the command that makes it at the main scale, its files, the test in `{TESTS}` that checks it, the rule
-that makes it, and the function in `src/experiments/evaluation` that the rule calls. Where the numbers of a table are
-inputs, they are made by a key of the configuration. The third table lists systems and scenarios.
+The first table lists every table, figure and evaluated section of the original, the second what this repository adds.
+A command makes the file that it names, at the main scale, with the other endings (.csv, .tex, .pdf, .svg, .png) beside
+it. Then come further files, the test in `{TESTS}`, and the rule with the function in `src/experiments/evaluation` that
+it calls. Where the numbers of a table are inputs, a key of the configuration holds them. The third table lists systems
+and scenarios.
 """
 
 
@@ -108,8 +109,11 @@ def paper_map(plan: Plan, known: MapNotes) -> str:
         test = test_of(product, tests).relative_to(TESTS)
         made_by = f"`{product.rule}`: `{_function(product)}`"
         read = [name for name in product.outputs if name.endswith(READ)]
-        command = f"`./reproduce {[*read, *product.outputs][0]}`"
-        row = [item, shows(product, known.shows), command, files_of(product.outputs), f"`{test}`", made_by]
+        first = [*read, *product.outputs][0]
+        # Files of the same name and another ending are beside the first one.
+        further = [name for name in product.outputs if Path(name).with_suffix("") != Path(first).with_suffix("")]
+        command = f"`./reproduce {first}`"
+        row = [item, shows(product, known.shows), command, files_of(further) or "-", f"`{test}`", made_by]
         if item:
             rows.append(row)
         else:
@@ -119,7 +123,7 @@ def paper_map(plan: Plan, known: MapNotes) -> str:
     tables = {
         "Tables, figures and sections": markdown_table(HEADER, rows, left=len(HEADER)),
         "What this repository adds": markdown_table(HEADER[1:], ours, left=len(HEADER) - 1),
-        "Systems and scenarios": markdown_table(["paper", "here", "tests"], systems, left=3),
+        "Systems and scenarios": markdown_table(["original", "here", "tests"], systems, left=3),
     }
     return HEAD + "".join(f"\n## {title}\n\n{table}" for title, table in tables.items())
 

@@ -1,11 +1,12 @@
-"""The README: its template, with the numbers of the published results, so that none of these is typed.
+"""README and the page of findings: templates with the numbers of the published results, so that none is typed.
 
-`python -m experiments.evaluation.report.readme` writes it; a test fails when it is out of date.
+`python -m experiments.evaluation.report.readme` writes both; a test fails when one is out of date.
 """
 
 import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 from jinja2 import UndefinedError
 
@@ -24,6 +25,7 @@ from mobnet.core.rows import read_texts
 RESULTS = Path("docs/results")
 README, GUIDE = Path("README.md"), Path("docs/guide.md")
 TEMPLATE = Path("README.md.j2")
+FOUND, FOUND_TEMPLATE = Path("docs/found.md"), Path("docs/found.md.j2")
 AVERAGE = {"metric": "rmse", "joint": "avg"}
 FORWARD = {"scenario": "forward_walk", "level": "all_uncertainty", **AVERAGE}
 WALK = {"scenario": "walk_test", **AVERAGE}
@@ -74,12 +76,33 @@ HIT = {"scenario": "knee_swing", "level": "robots", "limb": "LL", "joint": "avg"
 SHOWN = ("MOB-Net", FILMED)  # networks of which the README says how much of a hit they show
 RATED = ("MOB-Net-pushed-ratio", "MOB-fric-load")
 REACTION = "MOB-Net-pushed-ratio"  # detector after whose alarm the robot steps back
+# What the page of findings tells beside the README: claims whose verdict a sentence names, methods, and their rows.
+SAID_FOUND = {
+    "mob-net-cut": REPRODUCED, "model-walk": REPRODUCED, "model-waist": REPRODUCED,
+    "model-right-arm": OPEN, "model-left-arm": OPEN, "gray-walk-net": OPEN,
+    "fric-load-hand": NOT_REPRODUCED, "zero-load-10": NOT_REPRODUCED,
+}  # fmt: skip
+MEMORY = "MOB-fric-dahl"  # the formula that is the best one on robots with unknown gears
+UNDER_HITS = (MOB_NET, FILMED, MEMORY)
+HIT_ERROR = {
+    "scenario": "knee_swing", "level": "robots", "joint": "avg",
+    "metric": "rmse_push_1+rmse_push_2+rmse_push_3+rmse_push_4",
+}  # fmt: skip
+LIMBS = {
+    "leg": "walking (robots), leg", "arm": "hand pushed (robots), arm", "waist": "hand pushed (robots), waist",
+    "base force": "hand pushed (robots), base force", "base torque": "hand pushed (robots), base torque",
+}  # fmt: skip
+COMPARED = ("MOB", MEMORY, MOB_NET)
+# What is told of robots that networks know, and of others -> their level in one test.
+CHANGED = {"known": "robots", "friction": "robots_friction", "other robot": "robots_other"}
+CHANGED_WALK = {"scenario": "changed_walk", "limb": "LL", "method": MOB_NET, **AVERAGE}
 Row = Mapping[str, str]
 
 
 def tell_readme(results: Path) -> None:
-    """Write the README, and into the guide what each scale takes, from published results."""
+    """Write README, page of findings, and into the guide what each scale takes, from published results."""
     write_text(README, readme(results))
+    write_text(FOUND, found(results))
     write_text(GUIDE, with_block(read_text(GUIDE), "scales", scales(results), GUIDE))
 
 
@@ -89,8 +112,23 @@ def readme(results: Path, template: Path = TEMPLATE) -> str:
     Raises:
         DataError: a table or a row is missing, or is not as a sentence says.
     """
+    return _told(results, template, values(results))
+
+
+def found(results: Path, template: Path = FOUND_TEMPLATE) -> str:
+    """Return the page of what was found, from a folder of published results.
+
+    Raises:
+        DataError: a table or a row is missing, or is not as a sentence says.
+    """
+    own = found_values(results)
+    return _told(results, template, values(results) | own)
+
+
+def _told(results: Path, template: Path, told: Mapping[str, object]) -> str:
+    """Return a filled template; a DataError where it tells of what is not there."""
     try:
-        return filled(template, values(results))
+        return filled(template, told)
     except UndefinedError as missing:
         raise DataError(f"{results}: {missing}, of which {template} tells") from missing
 
@@ -128,6 +166,51 @@ def values(results: Path) -> dict[str, object]:
     }
 
 
+def found_values(results: Path) -> dict[str, object]:
+    """Return what the page of findings takes beside the README's values, by name.
+
+    Raises:
+        DataError: a table or a row is missing, or is not as a sentence says.
+    """
+    claims = {row["claim"]: row for row in read_texts(results / "claims.csv")}
+    _check_verdicts(SAID_FOUND, claims, "the page of findings")
+    peaks = read_texts(results / "peaks.csv")
+    hits = read_texts(results / "table_11.csv")
+    changed = read_texts(results / "changed.csv")
+    detectors = read_texts(results / "detectors.csv")
+    limbs = read_texts(results / "limbs.csv")
+    part: dict[str, dict[str, float]] = {}
+    for limb, name in LIMBS.items():
+        part[limb] = {method: _value(limbs, {"row": name, "quantity": method}) for method in COMPARED}
+    told = {
+        "shown": {name: _value(peaks, {**HIT, "method": name}) for name in UNDER_HITS},
+        "late": {name: _value(peaks, {**HIT, "metric": "rise_delay", "method": name}) for name in UNDER_HITS},
+        "hit": {name: _value(hits, {**HIT_ERROR, "method": name}) for name in ("zero", *UNDER_HITS)},
+        "changed": {name: _value(changed, {"level": level, **CHANGED_WALK}) for name, level in CHANGED.items()},
+        "part": part,
+        "least": float(_row(detectors, {"row": RATED[0], "quantity": "found at rate"})["low"]),
+    }
+    _check_found(results, told, detectors)
+    return told
+
+
+def _check_found(results: Path, told: Mapping[str, Mapping[str, Any]], detectors: Sequence[Row]) -> None:
+    """Raise a DataError where a sentence of the page of findings says something that the results do not."""
+    hit, late, changed, part = told["hit"], told["late"], told["changed"], told["part"]
+    is_best = [cells[MOB_NET] == min(cells.values()) for cells in part.values()]
+    ratio, formula = (_value(detectors, {"row": name, "quantity": "found at rate"}) for name in RATED)
+    fewer, more = (_value(detectors, {"row": name, "quantity": "alarms at rate"}) for name in RATED)
+    said = {
+        "more pushes in training give the smallest error under a hit": hit[FILMED] == min(hit.values()),
+        "a formula shows a hit earlier than networks": late[MEMORY] < min(late[FILMED], late[MOB_NET]),
+        "a network errs more on changed robots": changed["known"] < min(changed["friction"], changed["other robot"]),
+        "the ratio finds more hits with fewer false alarms": ratio > formula and fewer < more,
+        "on the waist no method is better than no estimate": min(part["waist"].values()) >= 1.0,
+        "MOB-Net has the smallest error of every part": all(is_best),
+    }
+    _check_sentences(said, results, "the page of findings")
+
+
 def shown_in_trial() -> dict[str, float]:
     """Return method -> share of a hit [-], over the robots of a trial, that networks show which learn as the run's."""
     data, way = AS_THE_RUN
@@ -143,11 +226,7 @@ def check_sentences(
     results: Path, claims: Mapping[str, Row], falls: Mapping[str, tuple[int, int]], trial: Mapping[str, float]
 ) -> None:
     """Raise a DataError where a sentence of the template says something that the results do not."""
-    for claim, verdict in SAID.items():
-        if claim not in claims:
-            raise DataError(f"claim {claim} is missing, of which the README tells")
-        if claims[claim]["verdict"] != verdict:
-            raise DataError(f"claim {claim}: the README says {verdict!r}, and it is {claims[claim]['verdict']!r}")
+    _check_verdicts(SAID, claims, "the README")
     said = {
         "random torque helps in walking": float(claims["rte-walk"]["value"]) > 1.0,
         "random torque does not help under a hit": float(claims["rte-swing"]["value"]) < 1.0,
@@ -155,9 +234,23 @@ def check_sentences(
         "networks without the inertial sensor show more of a hit": trial[NO_SENSOR] > trial[MOB_NET],
         "a bar at the knee makes no robot fall": not any(falls[f"knee {name}"][0] for name in (REACTION, "none")),
     }
+    _check_sentences(said, results, "the README")
+
+
+def _check_verdicts(said: Mapping[str, str], claims: Mapping[str, Row], page: str) -> None:
+    """Raise a DataError where a claim is gone, or its verdict is not the one that a page says."""
+    for claim, verdict in said.items():
+        if claim not in claims:
+            raise DataError(f"claim {claim} is missing, of which {page} tells")
+        if claims[claim]["verdict"] != verdict:
+            raise DataError(f"claim {claim}: {page} says {verdict!r}, and it is {claims[claim]['verdict']!r}")
+
+
+def _check_sentences(said: Mapping[str, bool], results: Path, page: str) -> None:
+    """Raise a DataError where a sentence of a page does not hold."""
     for sentence, holds in said.items():
         if not holds:
-            raise DataError(f"{results}: the README says that {sentence}, and it is otherwise")
+            raise DataError(f"{results}: {page} says that {sentence}, and it is otherwise")
 
 
 def falls_of(results: Path) -> dict[str, tuple[int, int]]:
@@ -201,8 +294,8 @@ def scales(results: Path) -> str:
     lines = [["scale", "what it is", "two cores", "core-hours", "memory", "disk"], ["---"] * 2 + ["---:"] * 4]
     for scale, text, time, core_hours, memory, disk in SCALES:
         if scale == rates.scale:
-            took = f"the published run, with {elapsed['load']} % of their time, took {float(elapsed['hours']):.1f} h"
-            time, core_hours = f"{rates.core_h / CORES:.1f} h if idle; {took}", f"{rates.core_h:.1f}"
+            took = f"{float(elapsed['hours']):.1f} h in the published run, which had {elapsed['load']} % of two cores"
+            time, core_hours = f"{rates.core_h / CORES:.1f} h on idle cores; {took}", f"{rates.core_h:.1f}"
         lines.append([f"`{scale}`", text, time, core_hours, memory, disk])
     return "".join(f"| {' | '.join(line)} |\n" for line in lines)
 
@@ -237,9 +330,14 @@ def _cell(row: Row | None) -> str:
 
 def _value(rows: Sequence[Row], place: Row) -> float:
     """Return the number of the row of a place; a DataError where there is none."""
+    return float(_row(rows, place)["value"])
+
+
+def _row(rows: Sequence[Row], place: Row) -> Row:
+    """Return the row of a place; a DataError where there is none."""
     for row in rows:
         if place.items() <= row.items():
-            return float(row["value"])
+            return row
     raise DataError(f"{', '.join(place.values())}: this row is missing, of which the README tells")
 
 

@@ -111,6 +111,11 @@ def test_a_claim_that_is_decided_has_nothing_to_say() -> None:
     assert text_of([], ["paper"]) == ""
 
 
+def test_what_decides_size_and_sign_alike_is_said_once() -> None:
+    effort = Effort("more runs decide it", is_beyond=False)
+    assert text_of([effort, effort], []) == "Open: if the number stays, more runs decide it."
+
+
 @pytest.mark.parametrize(
     ("ends", "verdict", "begins"),
     [

@@ -5,9 +5,20 @@ import re
 from pathlib import Path
 
 import pytest
+import yaml
 from paper_settings import settings_at
 
-from experiments.evaluation.report.data_card import CARD, DRAWN, card, column_rows, columns, drawn, field_texts, sizes
+from experiments.evaluation.report.data_card import (
+    CARD,
+    DRAWN,
+    NAMED,
+    card,
+    column_rows,
+    columns,
+    drawn,
+    field_texts,
+    sizes,
+)
 from mobnet.core.columns import recording_columns, residual_columns
 from mobnet.core.recording import Sensed, Truth
 
@@ -41,20 +52,24 @@ def test_texts_are_those_of_the_docstring() -> None:
     assert "  " not in "".join(field_texts(Sensed).values())
 
 
-def test_minutes_are_recordings_times_their_length() -> None:
+def test_a_set_has_its_recordings_and_their_minutes_at_each_scale() -> None:
     text = sizes(SETTINGS)
-    assert "| paper | walk | random_walk | all_uncertainty | 12 | 60 |" in text
-    assert "| default | test | each test | as its table asks | 12 | 6 |" in text
-    assert "| default | test | leg_sines | as its table asks | 12 | 12 |" in text
-    assert "| default | test | each test of a robot | as its table asks | 4 | 2 |" in text
-    assert "| default | test | long_walk | as its table asks | 4 | 40 |" in text
+    assert "| set | scenario | level | smoke | quick | default | paper |" in text
+    assert "| walk | random_walk | all_uncertainty | 2 x 0.5 | 7 x 5 | 8 x 5 | 12 x 5 |" in text
+    assert "| test | each test | as its table asks | 1 x 0.167 | 4 x 0.5 | 12 x 0.5 | 15 x 0.5 |" in text
+    assert "| test | leg_sines | as its table asks | - | 4 x 1 | 12 x 1 | 15 x 1 |" in text
 
 
 @pytest.mark.parametrize(("section", "table"), list(zip(DRAWN, drawn(SETTINGS), strict=True)), ids=list(DRAWN))
-def test_every_number_of_a_section_is_in_its_table(section: str, table: str) -> None:
+def test_every_number_of_a_section_is_in_its_table_or_in_the_file_that_it_names(section: str, table: str) -> None:
     assert table.startswith(f"\n### `{section}`")
     written = SETTINGS.model_dump(mode="json", exclude_unset=True)
     for part in section.split("."):
         written = written[part]
+    file = yaml.safe_load((REPO / NAMED[section]).read_text()) if section in NAMED else {}
     for key, value in written.items():
-        assert f"| `{key}` | {json.dumps(value)} |" in table
+        if section in NAMED:
+            assert f"`{key}`" in table
+        else:
+            assert f"| `{key}` | {json.dumps(value)} |" in table
+    assert section not in NAMED or section in file

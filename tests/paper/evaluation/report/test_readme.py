@@ -1,4 +1,4 @@
-"""The README is its template with numbers of the published CSVs, and its own words are few."""
+"""README and page of findings are their templates with numbers of the published CSVs, and their own words are few."""
 
 import re
 from pathlib import Path
@@ -7,14 +7,26 @@ import pytest
 
 from experiments.evaluation.number.rows import write_csv
 from experiments.evaluation.report.readme import (
+    CHANGED,
+    CHANGED_WALK,
     COLUMNS,
+    COMPARED,
     FILMED,
+    FOUND,
+    FOUND_TEMPLATE,
     HIT,
+    HIT_ERROR,
+    LIMBS,
+    MEMORY,
+    MOB_NET,
     RATED,
     SAID,
+    SAID_FOUND,
     SHOWN,
     TEMPLATE,
+    UNDER_HITS,
     best_formulas,
+    found,
     headline,
     readme,
     scales,
@@ -95,7 +107,7 @@ def made(results: Path) -> str:
 def test_the_row_of_the_published_scale_has_what_its_run_took(results: Path) -> None:
     rows = {line.split("`")[1]: line for line in scales(results).splitlines()[2:]}
     assert list(rows) == list(load_settings().scales)
-    assert "| 3.0 h if idle; the published run, with 73 % of their time, took 4.1 h | 6.0 |" in rows["default"]
+    assert "| 3.0 h on idle cores; 4.1 h in the published run, which had 73 % of two cores | 6.0 |" in rows["default"]
     assert all("published run" not in row for scale, row in rows.items() if scale != "default")
     assert "3.0 hours on two idle cores" in made(results)
 
@@ -245,3 +257,70 @@ def test_every_word_that_a_stranger_does_not_know_is_explained_before_or_in_the_
     glossary = (ROOT / "docs/glossary.md").read_text()
     for word in ("ratio detector", "reaction", "random torque", "knee hit", "FTS-e2e", "friction formula", "statement"):
         assert re.search(rf"^\| [^|]*{word}", glossary, re.MULTILINE), word
+
+
+@pytest.fixture
+def findings(results: Path) -> Path:
+    """Published results with what the page of findings takes beside the README's numbers, which bears its sentences."""
+    rows = [claim_of(name, SAID_FOUND.get(name)) for name in (*SAID_FOUND, *SAID)]
+    write_csv(results / "claims.csv", ("claim", "value", "published", "verdict"), rows)
+    peaks: list[list[str | float]] = []
+    for k, name in enumerate((MEMORY, FILMED, MOB_NET)):
+        place = {**HIT, "method": name}
+        peaks.append([*place.values(), 0.9 - 0.2 * k])
+        peaks.append([*{**place, "metric": "rise_delay"}.values(), 10.0 + k])
+    write_csv(results / "peaks.csv", (*HIT, "method", "value"), peaks)
+    hits = [(*HIT_ERROR.values(), name, 7.0 if name == FILMED else 11.0) for name in ("zero", *UNDER_HITS)]
+    write_csv(results / "table_11.csv", (*HIT_ERROR, "method", "value"), hits)
+    changed = [(level, *CHANGED_WALK.values(), 3.0 + k) for k, level in enumerate(CHANGED.values())]
+    write_csv(results / "changed.csv", ("level", *CHANGED_WALK, "value"), changed)
+    parts = [(row, name, 2.0 - 0.25 * k) for row in LIMBS.values() for k, name in enumerate(COMPARED)]
+    write_csv(results / "limbs.csv", ("row", "quantity", "value"), parts)
+    write_detectors(results, share=0.9)
+    return results
+
+
+def write_detectors(results: Path, share: float) -> None:
+    """Write what detectors find at a rate of false alarms: the first of them a share, the second half of the hits."""
+    detected: list[tuple[str, str, float, float]] = []
+    for name, value, alarms in zip(RATED, (share, 0.5), (3.0, 4.0), strict=True):
+        detected += [(name, "found at rate", value, value - 0.1), (name, "alarms at rate", alarms, 1.0)]
+    write_csv(results / "detectors.csv", ("row", "quantity", "value", "low"), detected)
+
+
+def page_of(results: Path) -> str:
+    """Return the page of findings on one line."""
+    return " ".join(found(results, ROOT / FOUND_TEMPLATE).split())
+
+
+def test_the_page_of_findings_has_the_numbers_of_tables(findings: Path) -> None:
+    text = page_of(findings)
+    assert (
+        "it shows 50 % of the peak, 12 ms late. MOB-Net-pushed, trained with a push in nearly every swing, shows 70 %"
+        in text
+    )
+    assert "MOB-Net's error rises from 3.0 to 4.0 N m, on another robot to 5.0" in text
+    assert "finds 90 % of the hits, a formula 50 % | 3.0 false alarms an hour were counted" in text
+    assert "asked for; the share may be as low as 80 % |" in text
+
+
+@pytest.mark.parametrize("claim", SAID_FOUND)
+def test_a_verdict_that_the_page_of_findings_does_not_say_is_told(findings: Path, claim: str) -> None:
+    text = (findings / "claims.csv").read_text()
+    turned = re.sub(rf"^({claim},.*),[^,]*$", r"\1,sign at least", text, flags=re.MULTILINE)
+    assert turned != text
+    (findings / "claims.csv").write_text(turned)
+    with pytest.raises(DataError, match=f"claim {claim}: the page of findings says .*, and it is 'sign at least'"):
+        page_of(findings)
+
+
+def test_a_finding_that_numbers_do_not_bear_is_told(findings: Path) -> None:
+    write_detectors(findings, share=0.4)
+    with pytest.raises(DataError, match=r"the page of findings says that the ratio finds more hits .* it is otherwise"):
+        page_of(findings)
+
+
+def test_the_page_of_findings_is_one_page_with_four_pictures() -> None:
+    text = (ROOT / FOUND).read_text()
+    assert len(text.split()) <= 900
+    assert len(re.findall(r"^!\[", text, re.MULTILINE)) == 4

@@ -74,7 +74,8 @@ def text_of(efforts: Sequence[Effort], scales: Sequence[str]) -> str:
     """Return what decides all that is open of a claim, empty where nothing is; `scales` are those that decide it."""
     if not efforts:
         return ""
-    found = "; ".join(effort.text for effort in efforts)
+    # Size and sign of a single run are decided by the same: it is said once.
+    found = "; ".join(dict.fromkeys(effort.text for effort in efforts))
     walked = f" Scale {' or '.join(scales)} is made for it." if scales else ""
     return f"Open: if the number stays, {found}.{walked}"
 
