@@ -18,6 +18,7 @@ OURS = re.compile(r" \(ours\)$")
 FIELD = re.compile(r"\{(?P<macro>\w+):(?P<names>[^{}]+)\}")
 MARKUP = re.compile(rf"``(?P<code>.+?)``|\*\*(?P<bold>.+?)\*\*|\*(?P<italic>.+?)\*|(?P<field>{FIELD.pattern})")
 COMMANDS = {"code": "texttt", "bold": "textbf", "italic": "emph"}
+CALL = re.compile(r"\\(?P<macro>\w+)(?P<given>(?:\{[^{}]*\})+)")  # of a macro in TeX
 HEAD = r"""\newcommand{\capt}[1]{\ifcsname capt@#1\endcsname\csname capt@#1\endcsname
   \else\errmessage{captions.tex has no #1}\fi}
 """
@@ -131,6 +132,17 @@ def field_text(path: Path, macro: str, names: str, values: Mapping[str, str]) ->
     if macro in (HOLDS, BELOW):
         return "" if guard_holds(macro, given[0], given[1], values) else DAGGER
     return values[looked_up[0]]
+
+
+def names_in(text: str) -> list[str]:
+    """Return the names of all numbers that a TeX text looks up by `MACROS`, each once."""
+    found: list[str] = []
+    for call in CALL.finditer(" ".join(text.split())):
+        given = call["given"][1:-1].split("}{")
+        pattern = MACROS.get(call["macro"], "")
+        if pattern and pattern.count("#") == len(given):
+            found.append(named(pattern, given))
+    return list(dict.fromkeys(found))
 
 
 def named(pattern: str, arguments: Sequence[str]) -> str:
