@@ -34,6 +34,7 @@ GUARDS = r"""\newcommand{\turned}{\textsuperscript{$\dagger$}}
 """
 ABSENT = r"--\turned"  # in place of a number that no table has
 CLAIMS = "claims"  # table of them, and of their counts as claims_summary
+REFUTED = ("not reproduced", "sign only")  # verdicts: in sign, or in size alone
 MINUTE_S = 60.0
 MILLION = 1e6
 
@@ -62,8 +63,8 @@ def numbers(
     those of a share [-] in %. \claimed{claim} gives the paper's number of a claim, \found and \foundspan ours and its
     interval, \claimedshare and \foundshare both in %, \claimedrange and \signrange the
     claimed ranges of size and sign, \verdict and \cause the judgement. \scored{score}{outcome} gives
-    how many statements of a score have a verdict or another outcome of `claims_summary`, \firsts how many by their
-    first claim alone, \counted how many claims; \size{name} gives sizes of the scale.
+    how many statements of a score have a verdict or another outcome of `claims_summary`, or are `refuted` in size or
+    sign, \firsts how many by their first claim alone, \counted how many claims; \size{name} gives sizes of the scale.
 
     Two guards stand behind sentences whose wording depends on results, and print a dagger where that turned:
     \holds{claim}{verdict,...} and \below{cell}{cell}, of \cell; `experiments.evaluation.report.paper` has more.
@@ -129,6 +130,8 @@ def texts_of(
     for row in read_texts(summary_csv, CLAIMED):
         for name, of in (("scored", "statements"), ("firsts", "firsts"), ("counted", "claims")):
             values[f"{name}@{row['score']}@{row['outcome']}"] = row[of]
+    for score in ("paper", "ours"):
+        values[f"scored@{score}@refuted"] = str(sum(int(values[f"scored@{score}@{verdict}"]) for verdict in REFUTED))
     return values
 
 

@@ -7,7 +7,7 @@ that shows more than its CSV has, such as the robot's pose, is the picture besid
 import logging
 import sys
 import tempfile
-from collections.abc import Mapping
+from collections.abc import Collection
 from pathlib import Path
 
 from experiments.evaluation.figures.style import save_picture
@@ -27,6 +27,7 @@ from experiments.evaluation.report.paper import (
 from experiments.evaluation.report.redraw import Stored, drawn_from_csv
 from experiments.evaluation.report.snapshot import SNAPSHOT, run_renewal
 from experiments.plan.plan import Plan, make_plan
+from experiments.plan.products import CAPTIONS as SOURCES
 from experiments.plan.products import KEPT_TABLE
 from experiments.running.words import paper_parser
 from experiments.settings.load import load_settings
@@ -88,22 +89,28 @@ def draw_figures(stored: Stored, names: tuple[str, ...], folder: Path) -> set[st
     return shown
 
 
-def write_texts(plan: Plan, results: Path, shown: set[str], folder: Path) -> list[str]:
+def write_texts(plan: Plan, results: Path, shown: Collection[str], folder: Path) -> list[str]:
     """Write the numbers and captions that the text takes; return the names of the numbers that it lacks."""
-    given = plan.product("numbers").arguments
-    captions = [path for path in given["captions"] if path.parent.name != FIGURES or path.stem in shown]
     values = values_in(plan, results)
-    write_text(folder / TABLES / CAPTIONS, captions_tex(captions, values))
+    write_text(folder / TABLES / CAPTIONS, captions_tex(captions_of(plan, shown), values))
     asked = names_in(read_text(folder / MAIN.name) + read_text(folder / TABLES / CAPTIONS))
     absent = [name for name in asked if name not in values]
     write_text(folder / TABLES / NUMBERS, numbers_tex(values, absent))
     return absent
 
 
-def values_in(plan: Plan, results: Path) -> Mapping[str, str]:
+def captions_of(plan: Plan, shown: Collection[str]) -> list[Path]:
+    """Return the captions of the tables and of the figures that are shown."""
+    tables = [SOURCES / TABLES / f"{name}.rst" for name in (*plan.tables, "compute", KEPT_TABLE.name)]
+    figures = [SOURCES / FIGURES / f"{name}.rst" for name in plan.drawn if name in shown]
+    return [path for path in (*tables, *figures) if path.is_file()]
+
+
+def values_in(plan: Plan, results: Path) -> dict[str, str]:
     """Return name -> plain text of all numbers that the paper's text may take from published results."""
-    given = plan.product("numbers").arguments
-    sizes = size_texts(*(given[name] for name in ("scale", "rates", "sizes", "fleet", "train")))
+    settings = plan.settings
+    walks = plan.files.training_size("walk")
+    sizes = size_texts(settings.scale, settings.rates, settings.sizes, settings.fleet, walks)
     values = {f"size@{name}": text for name, text in sizes.items()}
     return values | table_texts(KEPT_TABLE.with_suffix(".csv")) | texts_in(results)
 
