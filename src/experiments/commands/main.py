@@ -27,6 +27,7 @@ MODULES = {  # command -> the module that `python -m` runs, with words that come
     "cost": ("experiments.evaluation.report.cost",),
     "sheet": ("experiments.sheet",),
     "draw": ("experiments.evaluation.report.redraw",),
+    "paper": ("experiments.evaluation.report.published_paper",),
     **{name: ("experiments.evaluation.report.snapshot", name) for name in ("verify", "compare", "snapshot")},
 }
 # Their words are files of the caller, no code of ours.

@@ -20,6 +20,7 @@ from experiments.running.words import (
     draw_parser,
     joined,
     list_option,
+    paper_parser,
     results_parser,
     scale_given,
     sheet_parser,
@@ -45,6 +46,7 @@ GROUPS = {  # heading of the help -> command -> what it does, in a line
     "look": {
         "demo": "show one push as three methods estimate it, without training",
         "draw": "draw published figures as SVG and PDF, without a run",
+        "paper": "build the paper as PDF from the published results, without a run",
         "docs": "make the documentation as pages",
         "films": "make films of walks into obstacles",
     },
@@ -106,6 +108,7 @@ PARSERS = {
     "demo": demo_parser,
     "sheet": sheet_parser,
     "draw": draw_parser,
+    "paper": paper_parser,
     **{name: command.parser for name, command in LAB.items()},
     **{name: functools.partial(results_parser, name) for name in RESULTS},
 }  # of commands whose module has words of its own

@@ -114,6 +114,18 @@ def draw_parser() -> argparse.ArgumentParser:
     return parser
 
 
+def paper_parser() -> argparse.ArgumentParser:
+    """Return the parser of `./reproduce paper`."""
+    parser = argparse.ArgumentParser(
+        prog="./reproduce paper",
+        description="Build the paper as PDF from the published results in docs/results, without a run; it needs TeX.",
+    )
+    parser.add_argument(
+        "--out", type=Path, default=Path("results/paper"), help="folder of main.pdf (default: %(default)s)"
+    )
+    return parser
+
+
 def cost_parser() -> argparse.ArgumentParser:
     """Return the parser of `./reproduce cost`."""
     parser = argparse.ArgumentParser(

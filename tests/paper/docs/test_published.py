@@ -28,7 +28,7 @@ SAID = {
 }  # fmt: skip
 PARTS = {
     "abstract": (r"\begin{abstract}", r"\end{abstract}"),
-    "conclusion": (r"\subsection{Conclusion}", r"\label{end:main}"),
+    "conclusion": (r"\section{Conclusion", r"\label{end:main}"),
 }
 
 

@@ -3,6 +3,9 @@ r"""Captions of tables and figures: reStructuredText with numbers of the results
 A field is a macro of the paper's prose: `{found:rte-walk}` is `\found{rte-walk}`, and `MACROS` has them all. Several
 arguments of a macro are separated by semicolons. The guards `{holds:claim;verdict,...}` and `{below:cell;cell}` stand
 behind words that depend on results and print a dagger where these turned.
+
+The paper prints the title and the first paragraph without a field, which says what is drawn: what follows from it, the
+paragraphs with fields, is what the paper's text says, and what is after it are details for the report.
 """
 
 import re
@@ -13,11 +16,20 @@ from experiments.evaluation.tables.layout import tex_escape
 from mobnet.core.errors import DataError
 from mobnet.core.files import read_text, write_text
 
-PRINTED = re.compile(r"^(?:Figure|Table) \d+: ")  # of the paper that is reproduced: ours have numbers of their own
-OURS = re.compile(r" \(ours\)$")
+# Titles name the item of the original that is made again, and its section; in the paper ours have numbers of their own.
+PRINTED = re.compile(r"^(?P<item>(?P<kind>Figure|Table) (?P<number>\d+))(?:, [^:]+)?: ")
+ASIDE = re.compile(r" \((?:ours|(?:ours, after )?section [\d.]+)\)$")
+ITEM = re.compile(
+    r"\b(?P<kind>[Ss]ections?|[Ee]quation|[Tt]able|[Ff]igure|loss) (?P<number>\d+(?:\.\d+)*(?: to \d+)?|\(\d+\))"
+    r"(?P<theirs> of the original(?: \(section [\d.]+\))?)?"
+)
+THEIRS = re.compile(r"[Tt]he original's ((?:Table|Figure|section) \d+(?:\.\d+)*)")
+QUOTED = re.compile(r'"([^"]*)"')
+CITED = r"~of~\cite{lim2023mobnet}"
 FIELD = re.compile(r"\{(?P<macro>\w+):(?P<names>[^{}]+)\}")
 MARKUP = re.compile(rf"``(?P<code>.+?)``|\*\*(?P<bold>.+?)\*\*|\*(?P<italic>.+?)\*|(?P<field>{FIELD.pattern})")
 COMMANDS = {"code": "texttt", "bold": "textbf", "italic": "emph"}
+CALL = re.compile(r"\\(?P<macro>\w+)(?P<given>(?:\{[^{}]*\})+)")  # of a macro in TeX
 HEAD = r"""\newcommand{\capt}[1]{\ifcsname capt@#1\endcsname\csname capt@#1\endcsname
   \else\errmessage{captions.tex has no #1}\fi}
 """
@@ -64,11 +76,38 @@ def captions_tex(files: Sequence[Path], values: Mapping[str, str]) -> str:
 
 
 def caption_tex(path: Path, values: Mapping[str, str]) -> str:
-    """Return the caption of a file as TeX, in which fields stay macros, so that guards print their dagger there."""
+    """Return the caption of a file as TeX: title and what is drawn. Guards, which print a dagger there, stay macros."""
     title, _, text = filled(path, values, keep_fields=True).partition("\n")
-    words = " ".join(text.split())
-    bare = OURS.sub("", PRINTED.sub("", title.strip()))
-    return rf"\textbf{{{inline_tex(bare[:1].upper() + bare[1:])}.}} {inline_tex(words)}"
+    words = cited(QUOTED.sub(r"``\1''", inline_tex(drawn(text))), path.parents[1])
+    bare = ASIDE.sub("", PRINTED.sub("", title.strip()))
+    printed = PRINTED.match(title)
+    after = f"After {printed['kind']}~{printed['number']}{CITED}." if printed else ""
+    if after.removesuffix(".").removeprefix("After ") in words:
+        after = ""
+    return rf"\textbf{{{inline_tex(bare[:1].upper() + bare[1:])}.}} {words} {after}".rstrip()
+
+
+def drawn(text: str) -> str:
+    """Return the paragraph of a caption that says what is drawn: the first without a field, or the first of all."""
+    paragraphs = [" ".join(part.split()) for part in text.strip().split("\n\n")]
+    plain = [part for part in paragraphs if not FIELD.search(part)]
+    return [*plain, *paragraphs][0]
+
+
+def cited(text: str, folder: Path) -> str:
+    """Return TeX in which sections, equations, tables and figures of the original cite it.
+
+    A table or figure that is not said to be the original's is ours where the folder of captions has it.
+    """
+
+    def item_tex(item: re.Match[str]) -> str:
+        kind, number = item["kind"], item["number"]
+        own = f"{kind.lower()}_{number:0>2}"
+        if not item["theirs"] and (folder / f"{kind.lower()}s" / f"{own}.rst").is_file():
+            return rf"{kind}~\ref{{{kind[:3].lower()}:{own}}}"
+        return f"{kind}~{number}{CITED}"
+
+    return ITEM.sub(item_tex, THEIRS.sub(r"\1 of the original", text))
 
 
 def inline_tex(text: str) -> str:
@@ -131,6 +170,17 @@ def field_text(path: Path, macro: str, names: str, values: Mapping[str, str]) ->
     if macro in (HOLDS, BELOW):
         return "" if guard_holds(macro, given[0], given[1], values) else DAGGER
     return values[looked_up[0]]
+
+
+def names_in(text: str) -> list[str]:
+    """Return the names of all numbers that a TeX text looks up by `MACROS`, each once."""
+    found: list[str] = []
+    for call in CALL.finditer(" ".join(text.split())):
+        given = call["given"][1:-1].split("}{")
+        pattern = MACROS.get(call["macro"], "")
+        if pattern and pattern.count("#") == len(given):
+            found.append(named(pattern, given))
+    return list(dict.fromkeys(found))
 
 
 def named(pattern: str, arguments: Sequence[str]) -> str:

@@ -23,10 +23,11 @@ What the run of the newest version in the [CHANGELOG](../../CHANGELOG.md) found:
 with its files. Commands wrote this folder, `./reproduce snapshot` first; nothing in it is edited by hand, and
 `provenance.json` says what was made after the run. `./reproduce docs` makes pages of it with claims.
 `./reproduce draw` draws figures as SVG and PDF from the numbers here; those that show more than their numbers are made
-by a run.
+by a run. `./reproduce paper` builds the paper from this folder.
 """
 # Files that are neither a table nor a figure: what they are, in the order of the page.
 FIRST = {
+    "paper.pdf": "The paper, with every table and figure in its supplement.",
     "explore.html": "Play with a push: open this file in a browser.",
     "push.webp": "The film of one push, as three methods estimate it.",
     "walk.webp": "The film of a walk.",
@@ -92,10 +93,11 @@ def _figures(items: Sequence[Item], results: Path) -> Iterator[str]:
 
 
 def _tables(items: Sequence[Item], results: Path) -> Iterator[str]:
-    """Yield a line for each table, with its numbers where a file has them."""
+    """Yield a line for each table, with its other files where they are."""
     for item in items:
-        numbers = "".join(f" ([CSV]({path}))" for path in item.csvs if (results / path).is_file())
-        yield f"* [{_title(item)}]({item.shown.name}){numbers}"
+        kinds = [*((path, "CSV") for path in item.csvs), (f"{item.name}.tex", "TeX")]
+        files = ", ".join(f"[{kind}]({path})" for path, kind in kinds if (results / path).is_file())
+        yield f"* [{_title(item)}]({item.shown.name})" + (f" ({files})" if files else "")
 
 
 def write_page(results: Path = RESULTS, captions: Path = CAPTIONS) -> None:

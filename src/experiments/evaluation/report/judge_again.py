@@ -46,7 +46,7 @@ from experiments.settings.verdicts import STAND_INS
 from mobnet.core.rows import read_texts
 
 log = logging.getLogger(__name__)
-TABLE = (".csv", ".md")  # endings of a published table
+TABLE = (".csv", ".md", ".tex")  # endings of a published table
 AGAIN = "judged after the run by rules of verdicts that CHANGELOG.md names"  # what the note of a snapshot says
 Text = Mapping[str, str]
 

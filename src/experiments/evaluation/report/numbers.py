@@ -1,6 +1,6 @@
 """Numbers of the paper's prose as TeX macros, so that a sentence cannot disagree with its table."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
 from experiments.evaluation.compare.rmse import RAW
@@ -32,7 +32,9 @@ GUARDS = r"""\newcommand{\turned}{\textsuperscript{$\dagger$}}
   \mobnet@mark\endgroup}
 \makeatother
 """
+ABSENT = r"--\turned"  # in place of a number that no table has
 CLAIMS = "claims"  # table of them, and of their counts as claims_summary
+REFUTED = ("not reproduced", "sign only")  # verdicts: in sign, or in size alone
 MINUTE_S = 60.0
 MILLION = 1e6
 
@@ -61,8 +63,8 @@ def numbers(
     those of a share [-] in %. \claimed{claim} gives the paper's number of a claim, \found and \foundspan ours and its
     interval, \claimedshare and \foundshare both in %, \claimedrange and \signrange the
     claimed ranges of size and sign, \verdict and \cause the judgement. \scored{score}{outcome} gives
-    how many statements of a score have a verdict or another outcome of `claims_summary`, \firsts how many by their
-    first claim alone, \counted how many claims; \size{name} gives sizes of the scale.
+    how many statements of a score have a verdict or another outcome of `claims_summary`, or are `refuted` in size or
+    sign, \firsts how many by their first claim alone, \counted how many claims; \size{name} gives sizes of the scale.
 
     Two guards stand behind sentences whose wording depends on results, and print a dagger where that turned:
     \holds{claim}{verdict,...} and \below{cell}{cell}, of \cell; `experiments.evaluation.report.paper` has more.
@@ -85,13 +87,22 @@ def numbers(
     """
     values = {f"size@{name}": text for name, text in size_texts(scale, rates, sizes, fleet, train).items()}
     values |= texts_of(table_csvs, further_csvs, claims_csv, summary_csv)
-    # a TeX line defines one name, which may hold any character, as a text; what TeX compares stays a plain number
-    escaped = {name: text if name.startswith("value@") else tex_escape(text) for name, text in values.items()}
-    lines = (rf"\expandafter\def\csname {name}\endcsname{{{text}}}" + "\n" for name, text in escaped.items())
-    write_text(out, LOOKUP + macros_tex() + GUARDS + "".join(lines))
+    write_text(out, numbers_tex(values))
     write_text(out.with_name("captions.tex"), captions_tex(captions, values))
     fill_captions(captions, values, captions_dir)
     main_tables(compared, sources, out.with_name("legs.csv"))
+
+
+def numbers_tex(values: Mapping[str, str], absent: Iterable[str] = ()) -> str:
+    """Return TeX that defines the macros, and what they look up: name -> plain text.
+
+    In place of each of the `absent` names a text has a dash with a dagger.
+    """
+    # A TeX line defines one name, which may hold any character, as a text; what TeX compares stays a plain number.
+    escaped = {name: text if name.startswith("value@") else tex_escape(text) for name, text in values.items()}
+    escaped |= dict.fromkeys(absent, ABSENT)
+    lines = (rf"\expandafter\def\csname {name}\endcsname{{{text}}}" + "\n" for name, text in escaped.items())
+    return LOOKUP + macros_tex() + GUARDS + "".join(lines)
 
 
 def macros_tex() -> str:
@@ -113,15 +124,24 @@ def texts_of(
         for of, number in read_numbers(path):
             values |= cell_texts(of, number)
     for path in further_csvs:
-        cells = cells_of(path)
-        for name, number in cells.items():
-            values |= further_texts(name, number, is_bound=bool(bound_of(cells, name).value))
+        values |= table_texts(path)
     for of, number in read_numbers(claims_csv):
         values |= claim_texts(of, number)
     for row in read_texts(summary_csv, CLAIMED):
         for name, of in (("scored", "statements"), ("firsts", "firsts"), ("counted", "claims")):
             values[f"{name}@{row['score']}@{row['outcome']}"] = row[of]
+    for score in ("paper", "ours"):
+        values[f"scored@{score}@refuted"] = str(sum(int(values[f"scored@{score}@{verdict}"]) for verdict in REFUTED))
     return values
+
+
+def table_texts(path: Path) -> dict[str, str]:
+    """Return name -> plain text of all numbers of any table with a column `value`."""
+    texts: dict[str, str] = {}
+    cells = cells_of(path)
+    for name, number in cells.items():
+        texts |= further_texts(name, number, is_bound=bool(bound_of(cells, name).value))
+    return texts
 
 
 def texts_in(folder: Path) -> dict[str, str]:

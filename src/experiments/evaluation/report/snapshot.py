@@ -54,13 +54,15 @@ SNAPSHOT = Path("docs/results")
 DEMO = Path("docs/demo")
 DEMO_PAGE = Path("docs/demo.md")
 RESULTS = Path("results/default")
-FURTHER = tuple(RESULTS / name for name in ("compute.md", "explore.html"))
+FURTHER = tuple(RESULTS / name for name in ("compute.md", "compute.tex", "explore.html"))
+PAPER = Path("paper/main.pdf")
 UP_TO_DATE = "Nothing to be done"  # by which Snakemake says that no job would run
 DRAWN = "figures"  # folder of the snapshot with the CSVs of figures, compressed
 # A figure has a few colours and, where lines are smoothed, many between them: these are what can be told apart least.
 COLOURS = 64
 WHITE = (255, 255, 255)
 PICTURES = (".png", ".webp")  # SVG and PDF: ./reproduce draw
+TEXTS = (".md", ".tex")  # of a table
 NOTED = ("recordings", "motions", "networks")  # folders of results whose notes name the commit that made them
 KEYS = (  # columns that name a row; the others are results
     "scenario",
@@ -152,10 +154,10 @@ def check_fingerprints(*words: str) -> None:
 
 
 def write_snapshot(settings: Settings, tables: Path, figures: Path, further: Sequence[Path], out: Path) -> None:
-    """Copy a scale's tables (CSV, Markdown), figures (PNG, WebP, CSV) and further files, and note their origin.
+    """Copy a scale's tables (CSV, Markdown, TeX), figures (PNG, WebP, CSV) and further files, and note their origin.
 
     Tables and figures of an earlier snapshot that are made no longer are removed. The table of compute differs from run
-    to run, so only its Markdown is stored, and no CSV to be compared.
+    to run, so it is stored without a CSV to be compared.
 
     Raises:
         DataError: there is no table to copy, or a file is missing.
@@ -165,7 +167,9 @@ def write_snapshot(settings: Settings, tables: Path, figures: Path, further: Seq
     for ending in PICTURES:
         drawings += figures.glob(f"*{ending}")
     pictures = sorted(drawings)
-    found = [*numbers, *(path.with_suffix(".md") for path in numbers), *pictures, *further]
+    found = [*numbers, *pictures, *further]
+    for ending in TEXTS:
+        found += [path.with_suffix(ending) for path in numbers]
     if not numbers:
         raise DataError(f"{tables}: holds no CSV; ./reproduce all makes them")
     missing = [path for path in found if not path.is_file()]
@@ -182,8 +186,8 @@ def write_snapshot(settings: Settings, tables: Path, figures: Path, further: Seq
         store_drawn(source, out)
     kept = {out / source.name for source in numbers} | {out / DRAWN / f"{source.name}.gz" for source in drawn}
     for path in {*out.glob("*.csv"), *(out / DRAWN).glob("*.csv.gz")} - kept:
-        # A table that is made no longer takes its Markdown along, the numbers of a figure take its pictures.
-        shown = [".md"] if path.parent == out else PICTURES
+        # A table that is made no longer takes its texts along, the numbers of a figure take its pictures.
+        shown = TEXTS if path.parent == out else PICTURES
         for gone in (path, *(out / f"{path.name.partition('.')[0]}{ending}" for ending in shown)):
             gone.unlink(missing_ok=True)
     write_json(out / "provenance.json", {"scale": settings.scale, **provenance()})
@@ -200,6 +204,16 @@ def save_small(source: Path, out: Path) -> None:
     few = flat.quantize(COLOURS, kmeans=1, dither=Image.Dither.NONE)
     with atomic_path(out) as temporary:
         few.save(temporary, "png", optimize=True)
+
+
+def store_paper(pdf: Path, out: Path) -> None:
+    """Store the paper of a run; where it made none, as TeX was missing, an older one goes."""
+    stored = out / "paper.pdf"
+    if pdf.is_file():
+        with atomic_path(stored) as temporary:
+            shutil.copyfile(pdf, temporary)
+    else:
+        stored.unlink(missing_ok=True)
 
 
 def store_drawn(source: Path, out: Path) -> None:
@@ -291,6 +305,7 @@ def store(manifest: Path) -> None:
     run = walked(plan.files, commit())
     check_seeds(run, published)
     write_snapshot(settings, TABLES, FIGURES, FURTHER, SNAPSHOT)
+    store_paper(PAPER, SNAPSHOT)
     detections = all_detections(plan.files)
     reactions = all_reactions(plan.files)
     write_single_rows(detections, reactions, tuple(settings.reaction.cases), SNAPSHOT)

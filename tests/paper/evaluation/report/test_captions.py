@@ -1,10 +1,19 @@
 """Captions begin with a result: fields become numbers, marks TeX, and a number of the printed paper leaves."""
 
+import re
 from pathlib import Path
 
 import pytest
 
-from experiments.evaluation.report.captions import caption_tex, captions_tex, fill_captions, filled, inline_tex
+from experiments.evaluation.report.captions import (
+    caption_tex,
+    captions_tex,
+    cited,
+    drawn,
+    fill_captions,
+    filled,
+    inline_tex,
+)
 from mobnet.core.errors import DataError
 
 CAPTIONS = Path(__file__).parents[4] / "workflow/report"
@@ -32,8 +41,47 @@ def written(path: Path, text: str) -> Path:
 
 
 def test_the_title_comes_first_without_the_number_that_the_paper_gave_it(caption: Path) -> None:
-    text = r"\textbf{One gait cycle.} It \emph{moves} by 5 \% [N m]. See \texttt{zero}. More."
+    text = r"\textbf{One gait cycle.} It \emph{moves} by 5 \% [N m]. See \texttt{zero}. "
+    text += r"After Figure~5~of~\cite{lim2023mobnet}."
     assert caption_tex(caption, {}).replace(r"~N\,m", " N m").replace("[N~m]", "[N m]") == text
+
+
+def test_the_paper_prints_what_is_drawn_and_neither_what_follows_from_it_nor_details(caption: Path) -> None:
+    text = "MOB has {found:rte-walk}.\n\nThe error [N m].\n\nDetails."
+    assert caption_tex(written(caption, text), {"found@rte-walk": "1.04"}) == r"\textbf{A title.} The error [N m]."
+
+
+@pytest.mark.parametrize(
+    ("text", "tex"),
+    [
+        ("see section 5.1.", r"see section~5.1~of~\cite{lim2023mobnet}."),
+        ("the original's Table 2", r"Table~2~of~\cite{lim2023mobnet}"),
+        ("Figure 9 of the original (section 5.2)", r"Figure~9~of~\cite{lim2023mobnet}"),
+        ("equation (18)", r"equation~(18)~of~\cite{lim2023mobnet}"),
+        ("as in Figure 5", r"as in Figure~\ref{fig:figure_05}"),
+        ("as in Figure 9", r"as in Figure~9~of~\cite{lim2023mobnet}"),
+    ],
+)
+def test_items_of_the_original_are_cited_and_ours_referred_to(caption: Path, text: str, tex: str) -> None:
+    assert cited(text, caption.parents[1]) == tex
+
+
+NARROW = ("figure_06", "robot", "limbs")  # in a column
+AROUND = len("Table S10. After Figure 10 of [1].")
+
+
+def test_a_caption_of_the_paper_has_at_most_four_lines_and_neither_a_path_nor_a_formula() -> None:
+    """About: in a column 68 letters of its type stand in a line, on a page 140."""
+    typed = re.compile(r"docs/|configs/|\^|\.md|\.py")
+    captions = [path for kind in ("tables", "figures") for path in sorted((CAPTIONS / kind).glob("*.rst"))]
+    assert len(captions) > 60
+    for path in captions:
+        title, _, text = path.read_text().partition("\n")
+        shown = drawn(text)
+        width = 68 if path.stem in NARROW else 140
+        if path.stem != "push":  # the film is not in the paper
+            assert AROUND + len(title) + len(shown) <= 4 * width, path
+            assert not typed.search(shown), path
 
 
 def test_a_name_says_what_is_shown(caption: Path) -> None:

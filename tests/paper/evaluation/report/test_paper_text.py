@@ -37,7 +37,7 @@ def test_no_result_is_typed() -> None:
 def labels() -> set[str]:
     """Return the labels of tables and figures, those of the commands that show one included."""
     shown = re.findall(r"\\(?:main|column)(table|figure)\{(\w+)\}", MAIN)
-    shown += re.findall(r"\\sup(table|figure)\{.*?\}%\n\s*\{(\w+)\}", MAIN, re.DOTALL)
+    shown += re.findall(r"\\(?:sup|wide)(table|figure)\{.*?\}%\n\s*\{(\w+)\}", MAIN, re.DOTALL)
     named = {f"{kind[:3]}:{name}" for kind, name in shown}
     return named | set(re.findall(r"\\label\{((?:tab|fig):\w+)\}", TEXT))
 
@@ -68,3 +68,9 @@ def test_every_work_is_cited_and_every_citation_listed() -> None:
     cited = {name for names in re.findall(r"\\cite\{([\w,]+)\}", TEXT) for name in names.split(",")}
     assert len(listed) == len(set(listed)) >= 30
     assert cited == set(listed)
+
+
+def test_no_table_is_set_in_type_below_seven_points() -> None:
+    r"""Of which \scriptsize has seven in this class."""
+    assert r"\scriptsize" in MAIN
+    assert re.findall(r"\\tiny|\\fontsize|\\(?:resize|scale)box", MAIN) == []

@@ -40,7 +40,7 @@ TABLE = (
 def stored(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """A working folder with a fresh table and a snapshot of it."""
     monkeypatch.chdir(tmp_path)
-    made = {TABLES / "table_05.csv": TABLE, TABLES / "table_05.md": "x", COMPUTE: "c"}
+    made = {TABLES / "table_05.csv": TABLE, TABLES / "table_05.md": "x", TABLES / "table_05.tex": "t", COMPUTE: "c"}
     made |= {FIGURES / "figure_05.svg": "s", FIGURES / "push.webp": "w", FIGURES / "figure_05.csv": "x,y\n1,2\n3,4\n"}
     for path, text in made.items():
         path.parent.mkdir(exist_ok=True)
@@ -60,6 +60,7 @@ def test_snapshot_holds_tables_and_pictures_with_their_origin() -> None:
     names = sorted(path.name for path in STORED.iterdir())
     assert names == [
         "compute.md", "figure_05.png", "figures", "provenance.json", "push.webp", "table_05.csv", "table_05.md",
+        "table_05.tex",
     ]  # fmt: skip
     assert set(read_json(STORED / "provenance.json")) == {"scale", "commit", "lock"}
 
@@ -80,12 +81,13 @@ def test_what_is_made_no_longer_is_removed_with_the_next_snapshot() -> None:
     for name in ("rates.json", "walking.png"):  # made by other means
         (STORED / name).write_text("{}")
     (STORED / "table_04.csv").write_text("a\n1\n")
-    (STORED / "table_04.md").write_text("a")
+    for ending in ("md", "tex"):
+        (STORED / f"table_04.{ending}").write_text("a")
     write_snapshot(SETTINGS, TABLES, FIGURES, [COMPUTE], STORED)
     names = sorted(path.name for path in STORED.rglob("*") if path.is_file())
     assert names == [
         "compute.md", "figure_06.csv.gz", "figure_06.png", "provenance.json", "push.webp", "rates.json", "table_05.csv",
-        "table_05.md", "walking.png",
+        "table_05.md", "table_05.tex", "walking.png",
     ]  # fmt: skip
 
 
