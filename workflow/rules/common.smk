@@ -18,7 +18,7 @@ from experiments.running.processes import PREFIX
 from experiments.running.words import one_of
 from experiments.whole_run import WorkflowRun
 from mobnet.core.code import code_hash
-from mobnet.core.detections import FILES
+from experiments.records.collisions import FILES
 
 ROOT = Path(workflow.current_basedir).parent.parent
 quieten(ROOT)

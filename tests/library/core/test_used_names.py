@@ -387,6 +387,8 @@ def test_other_comments_docstrings_bounds_and_messages_are_in_no_hash(copy: Copy
 def test_a_job_uses_no_columns_of_tables_and_no_verdicts() -> None:
     """Another column of a table makes that table again; no robot walks for it, and no network learns."""
     for path in SOURCE.joinpath("experiments", "jobs").glob("*.py"):
+        if is_check(("", path.stem)):  # read before a run begins, and by no job
+            continue
         used = chain.from_iterable(each.parts for each in code.reached([path]))
         assert not {part.path.name for part in used} & {"table_columns.py", "verdicts.py", "claim_ranges.py"}, path
 
