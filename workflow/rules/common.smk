@@ -13,12 +13,12 @@ from experiments.plan.products import shown as report_of
 from experiments.plan.project import project_file
 from experiments.plan.room import Sizes
 from experiments.plan.sheets import Sheets
+from experiments.records.collisions import FILES
 from experiments.running.environment import quieten
 from experiments.running.processes import PREFIX
 from experiments.running.words import one_of
 from experiments.whole_run import WorkflowRun
 from mobnet.core.code import code_hash
-from experiments.records.collisions import FILES
 
 ROOT = Path(workflow.current_basedir).parent.parent
 quieten(ROOT)
