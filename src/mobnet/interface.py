@@ -124,7 +124,11 @@ class Robot:
 
     def __repr__(self) -> str:
         """Return what a notebook shows, such as `Robot two-link arm: J1, J2; fixed base`."""
-        named = self.motors if len(self.motors) <= FEW else [f"{limb} ({len(own)})" for limb, own in self.limbs.items()]
+        named = (
+            self.motors
+            if len(self.motors) <= FEW
+            else [f"{limb} ({len(joints)})" for limb, joints in self.limbs.items()]
+        )
         return f"Robot {self.name}: {', '.join(named)}; {'floating' if self.description.floating else 'fixed'} base"
 
     def sample(
@@ -247,16 +251,16 @@ class Estimator:
         layout = robot.description.layout
         numbers = lab()
         folders = [folder] if (folder / RUN).exists() else sorted(path.parent for path in folder.glob(f"*/{RUN}"))
-        networks = [read_network_folder(one, layout, numbers) for one in folders or [folder]]
+        networks = [read_network_folder(network, layout, numbers) for network in folders or [folder]]
         first = networks[0]
         of_limbs: dict[str, Path] = {}
-        for one in networks:
-            check_drives(one.folder, one.sampling.drives, robot.description)
-            check_sampling(one.folder, one.sampling, first.sampling, first.folder)
-            if one.limb in of_limbs:
-                text = f"{of_limbs[one.limb]} is of limb {one.limb}, too; accepted: one of each limb"
-                raise DataError(f"{one.folder}: {text}")
-            of_limbs[one.limb] = one.folder
+        for network in networks:
+            check_drives(network.folder, network.sampling.drives, robot.description)
+            check_sampling(network.folder, network.sampling, first.sampling, first.folder)
+            if network.limb in of_limbs:
+                text = f"{of_limbs[network.limb]} is of limb {network.limb}, too; accepted: one of each limb"
+                raise DataError(f"{network.folder}: {text}")
+            of_limbs[network.limb] = network.folder
         together = load_limb_networks(of_limbs, layout)
         gravity_m_s2 = numbers.plant.gravity_m_s2
         return cls(estimator_of(robot.description, gravity_m_s2, first.sampling, together), first.sampling.rate_hz)
@@ -303,13 +307,13 @@ class Detector:
         rate_hz: samples per second [Hz].
     """
 
-    def __init__(self, robot: RobotDescription, estimator: ResidualEstimator, found: LimbThresholds) -> None:
+    def __init__(self, robot: RobotDescription, estimator: ResidualEstimator, thresholds: LimbThresholds) -> None:
         """Take the estimator and the thresholds of a limb; `from_files` reads them, `from_free_motion` finds them."""
-        self.joints = found.joints
-        self.rate_hz = found.rate_hz
-        self.thresholds = found
-        self._columns = np.array([estimator.joints.index(joint) for joint in found.joints])
-        self._estimator, self._watcher = estimator, watcher_of(robot, found, self._columns)
+        self.joints = thresholds.joints
+        self.rate_hz = thresholds.rate_hz
+        self.thresholds = thresholds
+        self._columns = np.array([estimator.joints.index(joint) for joint in thresholds.joints])
+        self._estimator, self._watcher = estimator, watcher_of(robot, thresholds, self._columns)
         self.reset()
 
     @classmethod
@@ -325,14 +329,18 @@ class Detector:
         numbers = lab()
         path = Path(thresholds)
         description = robot.description
-        found = read_thresholds(path)
-        own = read_network_folder(Path(network), description.layout, numbers) if network and found.network else None
-        check_thresholds(path, found, description, own)
-        sampling = sampling_of(found)
-        if own:
-            check_sampling(path, sampling, own.sampling, own.folder)
-        estimator = estimator_of(description, numbers.plant.gravity_m_s2, sampling, own and own.networks)
-        return cls(description, estimator, found)
+        of_limb = read_thresholds(path)
+        network_read = (
+            read_network_folder(Path(network), description.layout, numbers) if network and of_limb.network else None
+        )
+        check_thresholds(path, of_limb, description, network_read)
+        sampling = sampling_of(of_limb)
+        if network_read:
+            check_sampling(path, sampling, network_read.sampling, network_read.folder)
+        estimator = estimator_of(
+            description, numbers.plant.gravity_m_s2, sampling, network_read and network_read.networks
+        )
+        return cls(description, estimator, of_limb)
 
     @classmethod
     def from_free_motion(
@@ -406,8 +414,8 @@ class ContactFinder:
         Raises:
             ConfigError: limb or joints are unknown, or the limb has no shapes.
         """
-        own = robot.description.layout.limb(limb) if joints is None else tuple(joints)
-        self._finder = contact.ContactLocator.of(contact_numbers(lab().contact_point), robot.description, limb, own)
+        names = robot.description.layout.limb(limb) if joints is None else tuple(joints)
+        self._finder = contact.ContactLocator.of(contact_numbers(lab().contact_point), robot.description, limb, names)
         self.joints = self._finder.joints
 
     def __repr__(self) -> str:
@@ -464,11 +472,11 @@ class ReactionHandler:
         self._layout = description.layout
         self._columns = description.layout.columns(estimator.joints)
         watchers = {}
-        for one in detectors:
-            if missing := [joint for joint in one.joints if joint not in estimator.joints]:
+        for detector in detectors:
+            if missing := [joint for joint in detector.joints if joint not in estimator.joints]:
                 raise ConfigError(not_accepted("joint of a detector", missing[0], estimator.joints))
-            columns = description.layout.columns(one.joints)
-            watchers[one.thresholds.limb] = watcher_of(description, one.thresholds, columns)
+            columns = description.layout.columns(detector.joints)
+            watchers[detector.thresholds.limb] = watcher_of(description, detector.thresholds, columns)
         self._limbs = list(watchers)
         self._handler = Handler(description, load_reaction(), foot_spacing_m, watchers, strategy)
         self.reset()
@@ -489,17 +497,17 @@ class ReactionHandler:
             `wrench` on the base (6,) [N, N m], and the `steps` (k, 5): x, y [m], turn [rad], duration [s] and foot
             height [m], as in Table 2; the first one is for the step that is being made.
         """
-        self._estimated, own = self._estimator.step(self._estimated, sample)
-        return self._handler.step(self._state, sample, self._whole(own))
+        self._estimated, estimate = self._estimator.step(self._estimated, sample)
+        return self._handler.step(self._state, sample, self._whole(estimate))
 
-    def _whole(self, own: Estimate) -> Estimate:
+    def _whole(self, estimate: Estimate) -> Estimate:
         """Return an estimate of all joints (nv,), zero where there is none."""
         tau = np.zeros(len(self._layout.names))
-        tau[self._columns] = own.tau_ext
-        if own.std is None:
+        tau[self._columns] = estimate.tau_ext
+        if estimate.std is None:
             return Estimate(tau)
         std = np.ones(len(tau))
-        std[self._columns] = own.std
+        std[self._columns] = estimate.std
         return Estimate(tau, std)
 
 
@@ -539,13 +547,15 @@ def _joints(names: Sequence[str]) -> str:
     return ", ".join(names) if len(names) <= FEW else f"{len(names)} joints"
 
 
-def watcher_of(robot: RobotDescription, found: LimbThresholds, columns: NDArray[np.intp]) -> LegWatcher | LimbWatcher:
+def watcher_of(
+    robot: RobotDescription, thresholds: LimbThresholds, columns: NDArray[np.intp]
+) -> LegWatcher | LimbWatcher:
     """Return what watches a limb with thresholds, on an estimate in which the limb's joints have these columns."""
-    watched = watched_of(found)
-    setup = setup_with(found, lab().detection, robot)
-    chain = setup.chain(np.array([found.thresholds]))
-    if found.watched == "always" or not isinstance(setup, LegSetup):
-        return LimbWatcher(watched, chain, columns, round(found.settle_s * found.rate_hz))
+    watched = watched_of(thresholds)
+    setup = setup_with(thresholds, lab().detection, robot)
+    chain = setup.chain(np.array([thresholds.thresholds]))
+    if thresholds.watched == "always" or not isinstance(setup, LegSetup):
+        return LimbWatcher(watched, chain, columns, round(thresholds.settle_s * thresholds.rate_hz))
     return LegWatcher(LegDetector(watched, setup.gate, chain), columns)
 
 
@@ -614,8 +624,8 @@ def export_networks(
         DataError: a file is missing or damaged, or networks, thresholds and robot do not belong together.
         ConfigError: thresholds are not accepted.
     """
-    paths = [Path(one) for one in folders]
-    limits = [Path(one) for one in thresholds]
+    paths = [Path(path) for path in folders]
+    limits = [Path(path) for path in thresholds]
     check_extra("export")
     from mobnet.export.export import Given, export_folders  # ONNX, which comes with an extra
 

@@ -64,19 +64,19 @@ def clean(root: Path, *, everything: bool, is_dry: bool, is_sure: bool) -> int:
     Raises:
         CommandError: a run is going on, or nobody is there to be asked.
     """
-    found = list(places(root, everything=everything))
-    sizes = sizes_of(*found)
-    for size, place in zip(sizes, found, strict=True):
+    to_remove = list(places(root, everything=everything))
+    sizes = sizes_of(*to_remove)
+    for size, place in zip(sizes, to_remove, strict=True):
         link = " (a link; what it names stays)" if place.is_symlink() else ""
         sys.stdout.write(f"{in_gb(size):>10}  {place.relative_to(root)}{link}\n")
     sys.stdout.write(f"{in_gb(sum(sizes)):>10}  in all\n")
-    if is_dry or not found:
+    if is_dry or not to_remove:
         return 0
     with held_folder(root, ["clean"]):
         if not (is_sure or agreed()):
             say("nothing is removed")
             return 1
-        for place in found:
+        for place in to_remove:
             remove(place)
     return 0
 

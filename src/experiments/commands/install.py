@@ -154,6 +154,6 @@ def locked_packages(root: Path, build: str) -> str:
     text = (root / "environment.lock").read_text()
     versions = BUILDS[build].version
     chosen = re.sub(
-        r"^torch==(\S+)", lambda found: f"torch{versions.format(version=found[1])}", text, flags=re.MULTILINE
+        r"^torch==(\S+)", lambda pinned: f"torch{versions.format(version=pinned[1])}", text, flags=re.MULTILINE
     )
     return written(root, f"{build}.txt", chosen)

@@ -117,19 +117,19 @@ def find_pip(root: Path, base: str) -> tuple[str, ...]:
     """
     if succeeds(base, "-m", "pip", "--version"):
         return base, "-m", "pip"
-    own = root / ".cache" / "tools" / "pip"
-    if succeeds(base, "-c", "import ensurepip") and succeeds(base, "-m", "venv", "--clear", str(own)):
-        return str(own / "bin" / "python"), "-m", "pip"
+    folder = root / ".cache" / "tools" / "pip"
+    if succeeds(base, "-c", "import ensurepip") and succeeds(base, "-m", "venv", "--clear", str(folder)):
+        return str(folder / "bin" / "python"), "-m", "pip"
     raise CommandError(NO_PIP + SAME)
 
 
 def pinned_lines(root: Path, package: str) -> str:
     """Return the lines of a package in the lock: its version and its hashes."""
     text = (root / "environment.lock").read_text()
-    found = re.search(rf"^{package}==\S+ \\\n(?: +--hash\S+(?: \\)?\n)+", text, re.MULTILINE)
-    if found is None:
+    match = re.search(rf"^{package}==\S+ \\\n(?: +--hash\S+(?: \\)?\n)+", text, re.MULTILINE)
+    if match is None:
         raise CommandError(f"environment.lock: {package} is missing")
-    return found[0]
+    return match[0]
 
 
 def written(root: Path, name: str, text: str) -> str:
@@ -143,13 +143,15 @@ def written(root: Path, name: str, text: str) -> str:
 def uv_settings(pip: Sequence[str]) -> dict[str, str]:
     """Return pip's configuration (find-links, indexes, certificate) in the variables that uv reads."""
     listing = subprocess.run([*pip, "config", "list"], capture_output=True, text=True, check=False).stdout
-    found = dict(re.findall(r"^[^\n]*?\.([a-z-]+)='([^\n]*)'$", listing, re.MULTILINE))
+    configured = dict(re.findall(r"^[^\n]*?\.([a-z-]+)='([^\n]*)'$", listing, re.MULTILINE))
     names = {"find-links": "UV_FIND_LINKS", "index-url": "UV_DEFAULT_INDEX", "extra-index-url": "UV_INDEX"}
-    settings = {names[key]: " ".join(value.replace("\\n", " ").split()) for key, value in found.items() if key in names}
+    settings = {
+        names[key]: " ".join(value.replace("\\n", " ").split()) for key, value in configured.items() if key in names
+    }
     if "UV_FIND_LINKS" in settings:
         settings["UV_FIND_LINKS"] = settings["UV_FIND_LINKS"].replace(" ", ",")
-    if "cert" in found:
-        settings["SSL_CERT_FILE"] = found["cert"]
+    if "cert" in configured:
+        settings["SSL_CERT_FILE"] = configured["cert"]
     return {
         **settings,
         "UV_SYSTEM_CERTS": "1",

@@ -166,8 +166,8 @@ def unknown(word: str) -> str:
 def versions() -> str:
     """Return the line that says which version of the project this is, and of Snakemake, which may not be there yet."""
     lock = (ROOT / "environment.lock").read_text()
-    found = re.search(r"^snakemake==(\S+)", lock, re.MULTILINE)
-    return f"mobnet {version()}" + (f" (snakemake {found[1]})" if found else "") + "\n"
+    match = re.search(r"^snakemake==(\S+)", lock, re.MULTILINE)
+    return f"mobnet {version()}" + (f" (snakemake {match[1]})" if match else "") + "\n"
 
 
 def target_of(word: str, words: Sequence[str]) -> str:
@@ -197,11 +197,11 @@ def overview() -> argparse.ArgumentParser:
 
 def captioned() -> list[str]:
     """Return tables and figures as targets, by their captions: their plan needs packages."""
-    found: list[str] = []
+    targets: list[str] = []
     for folder, ending in (("tables", ".tex"), ("figures", ".pdf")):
         captions = sorted((ROOT / "workflow" / "report" / folder).glob("*.rst"))
-        found += [f"{folder}/{caption.stem}{ending}" for caption in captions]
-    return found
+        targets += [f"{folder}/{caption.stem}{ending}" for caption in captions]
+    return targets
 
 
 def parser_of(command: str) -> argparse.ArgumentParser:
@@ -249,8 +249,8 @@ def in_order(words: Sequence[str]) -> list[str]:
 
 def opened(words: Sequence[str]) -> list[str]:
     """Return words in which `--config` and its first value are two, also where they were one, as --config=seed=3."""
-    found: list[str] = []
+    words_opened: list[str] = []
     for word in words:
         is_one = list_option(word) == "--config" and word not in CONFIG
-        found += ["--config", *value_beside(word)] if is_one else [word]
-    return found
+        words_opened += ["--config", *value_beside(word)] if is_one else [word]
+    return words_opened

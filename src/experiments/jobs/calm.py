@@ -89,8 +89,8 @@ def _signals(robot: ReactingRobot, estimator: TorqueEstimator, calm: Recording) 
     estimates = estimate_all(estimator, [Stretch(calm.sensed[span]) for span in spans])
     for span, estimate in zip(spans, estimates, strict=True):
         for limb in robot.reaction.watched:
-            own = watched_of(robot, limb, estimator.joints, calm.sensed[span], estimate)
-            signals = robot.watched.of(own, calm.sensed[span].command)
+            of_limb = watched_of(robot, limb, estimator.joints, calm.sensed[span], estimate)
+            signals = robot.watched.of(of_limb, calm.sensed[span].command)
             yield limb, robot.setups[0].low_passed(signals, ((0, len(signals)),))
 
 
@@ -98,8 +98,8 @@ def watched_of(robot: ReactingRobot, limb: str, joints: Sequence[str], sensed: S
     """Return what a limb is watched by, from an estimate of some joints (T, n): its own, or the force on the base."""
     layout = robot.description.layout
     if limb != BASE_LIMB:
-        held = np.array([joints.index(joint) for joint in layout.limb(limb)])
-        return some(estimate, held)
+        joint_columns = np.array([joints.index(joint) for joint in layout.limb(limb)])
+        return some(estimate, joint_columns)
     columns = layout.columns(joints)
     tau = np.zeros((len(sensed), layout.nv))
     tau[:, columns] = estimate.tau_ext
@@ -133,8 +133,10 @@ def limb_thresholds(robot: ReactingRobot, heights: Sequence[Array]) -> Array:
     scale = np.quantile(largest, numbers.scale_quantile, axis=0)
     rate_per_h = numbers.rates_per_h[robot.reaction.ours.rule]
     walked_s = len(largest) * robot.detection.window_s
-    found = calibrate((largest / scale).max(axis=1), episodes.tolist(), walked_s, rate_per_h, tail_numbers(numbers))
-    return found.factor * scale
+    calibration = calibrate(
+        (largest / scale).max(axis=1), episodes.tolist(), walked_s, rate_per_h, tail_numbers(numbers)
+    )
+    return calibration.factor * scale
 
 
 def _feet(robot: ReactingRobot, forces: Array) -> Iterator[Threshold]:

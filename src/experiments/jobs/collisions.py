@@ -40,12 +40,12 @@ def hits_of(recording: Path, pushes: Mapping[str, Push], layout: JointLayout) ->
     number = array[:, 0]
     force = np.linalg.norm(array[:, 1:], axis=1).astype(np.float64)
     names = list(pushes)
-    found: list[Hit] = []
+    hits: list[Hit] = []
     for start, end in runs_of(number, meta["segments"]):
         # A recording holds the number of a push, counted from 1, and not its name.
         name = names[int(number[start]) - 1]
-        found.append(Hit(name, *target_of(pushes[name], layout), slice(start, end), force[start:end]))
-    return found
+        hits.append(Hit(name, *target_of(pushes[name], layout), slice(start, end), force[start:end]))
+    return hits
 
 
 def runs_of(number: np.ndarray, segments: Sequence[Sequence[int]]) -> Iterator[tuple[int, int]]:

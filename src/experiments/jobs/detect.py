@@ -57,8 +57,8 @@ def detect(detection: Detection, robot: RobotTable, rate_hz: float, walks: Mappi
     for number, limb in enumerate(detection.legs, start=1):
         log.info("leg %d of %d, %s", number, len(detection.legs), limb)
         _try_leg(LegSetup.of(detection, description, limb, rate_hz), walks, rows)
-    for name, found in rows.items():
-        write_text(out / f"{name}.csv", csv_text(columns_of(name), map(astuple, found)))
+    for name, rows_of_file in rows.items():
+        write_text(out / f"{name}.csv", csv_text(columns_of(name), map(astuple, rows_of_file)))
     log.info("%d collisions, %d detectors", len(rows["collisions"]), len(detection.detectors))
 
 
@@ -117,5 +117,5 @@ def _try_walk(
 
 def _estimates(setup: LegSetup, walk: Walk, method: str) -> list[Estimate]:
     """Return a method's estimates of a leg in a walk; none where it does not estimate it."""
-    found = [read_estimate(stem, setup.joints) for stem in walk.estimates[method]]
-    return [estimate for estimate in found if estimate is not None]
+    estimates = [read_estimate(stem, setup.joints) for stem in walk.estimates[method]]
+    return [estimate for estimate in estimates if estimate is not None]

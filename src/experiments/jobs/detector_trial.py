@@ -69,15 +69,15 @@ def _hits(setup: LegSetup, walk: Walk, leg: LegRecording, residual: Path) -> Leg
 def collision_rows(setup: LegSetup, scenario: str, walk: Sequence[LegHits]) -> Iterator[Collision]:
     """Yield the collisions of a leg in the recordings of a scenario."""
     period = 1.0 / setup.rate_hz
-    for one in walk:
-        for number, hit in enumerate(one.hits, start=1):
+    for recording in walk:
+        for number, hit in enumerate(recording.hits, start=1):
             # The paper does not say when a collision begins. The first contact is the simulator's; a force above
             # onset_n is what an experimenter sees in the force sensor of the tool.
             start = hit.rows.start
             above = np.flatnonzero(hit.force > setup.detection.onset_n)
             yield Collision(
                 scenario=scenario,
-                seed=one.leg.seed,
+                seed=recording.leg.seed,
                 number=number,
                 push=hit.name,
                 leg=hit.leg,
@@ -88,7 +88,7 @@ def collision_rows(setup: LegSetup, scenario: str, walk: Sequence[LegHits]) -> I
                 end_s=hit.rows.stop * period,
                 force_n=float(hit.force.max()),
                 impulse_ns=float(hit.force.sum()) * period,
-                swing_share=float(one.leg.gate.phase[start]),
+                swing_share=float(recording.leg.gate.phase[start]),
             )
 
 
@@ -101,14 +101,16 @@ def detected_rows(
     points: Sequence[str],
 ) -> Iterator[Detected]:
     """Yield what a detector says of each collision of a leg, by each rule of thresholds."""
-    for one, estimate in zip(walk, estimates, strict=True):
-        signals = calibrated.watched.of(estimate, one.leg.command)
-        low = setup.low_passed(estimate.tau_ext.astype(np.float64), one.leg.segments)
+    for recording, estimate in zip(walk, estimates, strict=True):
+        signals = calibrated.watched.of(estimate, recording.leg.command)
+        low = setup.low_passed(estimate.tau_ext.astype(np.float64), recording.leg.segments)
         for kind, chain in calibrated.chains.items():
-            alarm = one.leg.run(chain, signals)
-            perfect = calibrated.perfect(chain, one.truth, one.leg.command)
-            ideal = one.leg.run(*perfect).ratio if perfect else None
-            for hit, units, number in zip(one.hits, one.units, range(1, len(one.hits) + 1), strict=True):
+            alarm = recording.leg.run(chain, signals)
+            perfect = calibrated.perfect(chain, recording.truth, recording.leg.command)
+            ideal = recording.leg.run(*perfect).ratio if perfect else None
+            for hit, units, number in zip(
+                recording.hits, recording.units, range(1, len(recording.hits) + 1), strict=True
+            ):
                 row = first_alarm(setup, alarm.ratio, hit)
                 best = None if ideal is None else first_alarm(setup, ideal, hit)
                 signal = ""
@@ -124,7 +126,7 @@ def detected_rows(
                 ratio = float(alarm.ratio[window_of(setup, hit)].max(initial=0.0))
                 yield Detected(
                     scenario=scenario,
-                    seed=one.leg.seed,
+                    seed=recording.leg.seed,
                     leg=setup.limb,
                     number=number,
                     detector=calibrated.name,
@@ -146,14 +148,14 @@ def curve_rows(
     curve = setup.detection.curve
     chain = calibrated.chains[COLLISION]
     pairs: list[tuple[Array, Hit]] = []
-    for one, own in zip(walk, estimates, strict=True):
-        if one.hits:
-            ratio = one.leg.run(chain, calibrated.watched.of(own, one.leg.command)).ratio
-            pairs += [(ratio, hit) for hit in one.hits]
+    for recording, of_leg in zip(walk, estimates, strict=True):
+        if recording.hits:
+            ratio = recording.leg.run(chain, calibrated.watched.of(of_leg, recording.leg.command)).ratio
+            pairs += [(ratio, hit) for hit in recording.hits]
     for factor in np.geomspace(*curve.factors, curve.count).tolist():
         # All thresholds times a factor divide the ratio by it, so that one run of the chain gives the whole curve.
         rows = [(hit, first_alarm(setup, ratio / factor, hit)) for ratio, hit in pairs]
-        delays = [found for hit, row in rows if (found := delay(setup, hit, row)) is not None]
+        delays = [delay_s for hit, row in rows if (delay_s := delay(setup, hit, row)) is not None]
         yield CurvePoint(calibrated.name, setup.limb, factor, len(delays), len(pairs), float(sum(delays)))
 
 
@@ -165,15 +167,15 @@ def unpushed_rows(
     estimates: Sequence[Estimate],
 ) -> Iterator[FreeSwing]:
     """Yield the swings of a walk with collisions in which nothing pushes: most follow a push and recover from it."""
-    for one, estimate in zip(walk, estimates, strict=True):
-        legs = [one.leg]
-        signals = [calibrated.watched.of(estimate, one.leg.command)]
+    for recording, estimate in zip(walk, estimates, strict=True):
+        legs = [recording.leg]
+        signals = [calibrated.watched.of(estimate, recording.leg.command)]
         ratios = [swing_ratios(legs, calibrated.chains[kind], signals) for kind in (COLLISION, LARGEST, WALKING)]
-        for k, (start, end) in enumerate(one.leg.swings):
+        for k, (start, end) in enumerate(recording.leg.swings):
             # A hit of the other leg shakes this one, so that it spoils the swing too.
-            if not any(hit.rows.start < end and start < hit.rows.stop for hit in one.every):
-                place = (one.leg.terrains[k], one.leg.seed, k + 1)
-                numbers = [float(own[k]) for own in ratios]
+            if not any(hit.rows.start < end and start < hit.rows.stop for hit in recording.every):
+                place = (recording.leg.terrains[k], recording.leg.seed, k + 1)
+                numbers = [float(values[k]) for values in ratios]
                 yield FreeSwing(calibrated.name, setup.limb, scenario, UNPUSHED, *place, *numbers)
 
 

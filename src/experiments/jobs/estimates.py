@@ -68,8 +68,8 @@ def _estimate(
         "networks": {limb: folder.name for limb, folder in recipe.networks.items()},
         "std_scale": std_scales(folder / WEIGHTS for folder in recipe.networks.values()),
     }
-    for one, result, out in zip(read, run_segments(estimator, read), outs, strict=True):
-        write_estimate(out, one.recording, only(result, estimator.joints, shown), shown, recipe.layout, note)
+    for recording, result, out in zip(read, run_segments(estimator, read), outs, strict=True):
+        write_estimate(out, recording.recording, only(result, estimator.joints, shown), shown, recipe.layout, note)
 
 
 def batches(recordings: Sequence[Path]) -> Iterator[slice]:

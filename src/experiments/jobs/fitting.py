@@ -76,8 +76,8 @@ def filtered_friction(
     read, meta = read_array(recording, [*named(VELOCITY, layout.actuated), *named(MOTOR, layout.actuated)])
     velocity, torque = np.split(read, 2, axis=1)
     spans, rate_hz = spans_and_rate(meta)
-    found = np.zeros((len(read), layout.nv))
+    friction_torque = np.zeros((len(read), layout.nv))
     motors = slice(len(layout.virtual), None)
     for span in (slice(*ends) for ends in spans):
-        found[span, motors] = low_pass(friction.torque(velocity[span], torque[span]), gain_hz, rate_hz)
-    return found[:, layout.columns(joints)]
+        friction_torque[span, motors] = low_pass(friction.torque(velocity[span], torque[span]), gain_hz, rate_hz)
+    return friction_torque[:, layout.columns(joints)]

@@ -16,10 +16,10 @@ def shards(folder: str, seeds: Iterable[int]) -> list[Path]:
 
 def all_shards(folders: Sequence[str], seeds: Sequence[Iterable[int]]) -> list[Path]:
     """Return the recordings of several sets, set by set; `seeds` has those of each of them."""
-    found: list[Path] = []
-    for folder, own in zip(folders, seeds, strict=True):
-        found += shards(folder, own)
-    return found
+    paths: list[Path] = []
+    for folder, seeds_of_set in zip(folders, seeds, strict=True):
+        paths += shards(folder, seeds_of_set)
+    return paths
 
 
 def stems(files: Iterable[str]) -> list[Path]:

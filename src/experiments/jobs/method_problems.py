@@ -26,9 +26,9 @@ def method_problems(settings: Settings) -> Iterator[tuple[Place, str]]:
         try:
             options = section.model_validate(method.options)
         except ValidationError as error:
-            found = problems(error, section, method.options)
-            yield from (((*place, "options", *inner), text) for inner, text in found)
+            faults = problems(error, section, method.options)
+            yield from (((*place, "options", *inner), text) for inner, text in faults)
         else:
             check = getattr(kind, "check", None)
-            found = check(method, options, settings.rates.data_hz) if check else ()
-            yield from (((*place, *inner), text) for inner, text in found)
+            faults = check(method, options, settings.rates.data_hz) if check else ()
+            yield from (((*place, *inner), text) for inner, text in faults)

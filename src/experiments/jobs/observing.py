@@ -90,8 +90,8 @@ def observe(
     with array_writer(out, residual_columns(layout, labelled)) as writer:
         for first, block in blocks:
             loads = {side: block[name] for side, name in wrenches.items()}
-            own = Sensed(**{name: block[name] for name in sensed})
-            residual = observed.block(first, own, block[EXTERNAL], loads)
+            sensed_block = Sensed(**{name: block[name] for name in sensed})
+            residual = observed.block(first, sensed_block, block[EXTERNAL], loads)
             try:
                 writer.append(residual)
             except DataError:

@@ -86,18 +86,18 @@ class CaseWalker:
     thresholds: Sequence[Threshold]
     estimators: dict[str, TorqueEstimator] = field(default_factory=dict)
 
-    def walk(self, one: CaseWalks, watch: Watch, seed: int) -> tuple[Trial, Course]:
+    def walk(self, case: CaseWalks, watch: Watch, seed: int) -> tuple[Trial, Course]:
         """Walk a case; return what came of it, and the course."""
         robot = self.robot
         numbers = self.robot.reaction
-        settings = one.settings
+        settings = case.settings
         watch = watch.model_copy(update={"wrench": watch.wrench or settings.scenario.wrench})
-        told = settings.scenario.model_copy(update={"wrench": watch.wrench})
-        simulator = Simulator(settings.model_copy(update={"scenario": told}), seed)
+        scenario = settings.scenario.model_copy(update={"wrench": watch.wrench})
+        simulator = Simulator(settings.model_copy(update={"scenario": scenario}), seed)
         simulator.start()
-        row = numbers.cases[one.case]
+        row = numbers.cases[case.case]
         watchers = self.watchers(watch, simulator.sensors.wrenches, row.limbs)
-        times_s = watch.wait_s, settings.recording.settle_s, one.sizes.longest_s, numbers.after_s
+        times_s = watch.wait_s, settings.recording.settle_s, case.sizes.longest_s, numbers.after_s
         wait, settle, longest, after = (round(time_s * robot.rate_hz) for time_s in times_s)
         spacing_m = settings.walking.foot_spacing_m
         handler = Handler(robot.description, numbers, spacing_m, watchers, row.strategy, wait, settle)
@@ -105,7 +105,7 @@ class CaseWalker:
         estimator = self.estimator(numbers.estimator)
         sizes = (longest, after, numbers.touch_n, height_m)
         course = walk_with(simulator, estimator, handler, *sizes, watch.feed_forward)
-        place = one.case, settings.level_name, seed
+        place = case.case, settings.level_name, seed
         stopped = bool(simulator.state.standing)
         mid_swing = self.mid_swing(row.leg, course)
         return trial_of(numbers, place, watch, course, settle, robot.rate_hz, stopped, mid_swing), course
@@ -152,8 +152,8 @@ class CaseWalker:
         ours = self.robot.reaction.ours
         robot = self.robot
         watched = robot.watched
-        own = self._values(ours.detector, limb, ours.rule)
-        values = np.array([[own[1, name] for name in watched.names(robot.joints_of(limb))]])
+        thresholds = self._values(ours.detector, limb, ours.rule)
+        values = np.array([[thresholds[1, name] for name in watched.names(robot.joints_of(limb))]])
         chain = robot.setups[0].chain(values)
         if limb == BASE_LIMB:
             return BaseWatcher(watched, chain, robot.base)
@@ -162,24 +162,26 @@ class CaseWalker:
     def _leg(self, setup: LegSetup, watch: Watch, wrenches: Array) -> Watcher | None:
         """Return what watches a leg; nothing where rule `detect` found no thresholds for the detector."""
         columns = self.robot.columns(setup.limb)
-        own = self._values(watch.detector, setup.limb, watch.rule)
-        if not own:  # the method does not estimate this leg, or its networks have hardly learned
+        thresholds = self._values(watch.detector, setup.limb, watch.rule)
+        if not thresholds:  # the method does not estimate this leg, or its networks have hardly learned
             return None
         if watch.detector == FORCE_SENSORS:
-            return FootWatcher(setup.gate, setup.chain(np.array([[own[1, FORCE]]]), norm=True), columns, wrenches)
+            return FootWatcher(
+                setup.gate, setup.chain(np.array([[thresholds[1, FORCE]]]), norm=True), columns, wrenches
+            )
         row = self.robot.detection.detectors[watch.detector]
         watched = Watched(watched_signals(row))
         names = watched.names(setup.joints)
         limits: list[list[float]] = []
         for phase in range(1, row.phases + 1):
-            limits.append([own[phase, name] for name in names])
+            limits.append([thresholds[phase, name] for name in names])
         chain = setup.chain(np.array(limits))
         detector = LegDetector(watched, setup.gate, chain)
         if row.method == self.robot.reaction.estimator:
             return LegWatcher(detector, columns)
         estimator = self.estimator(row.method)
-        held = np.array([estimator.joints.index(joint) for joint in setup.joints])
-        return OwnLegWatcher(detector, columns, estimator, held)
+        joint_columns = np.array([estimator.joints.index(joint) for joint in setup.joints])
+        return OwnLegWatcher(detector, columns, estimator, joint_columns)
 
     def _values(self, detector: str, limb: str, rule: str) -> dict[tuple[int, str], float]:
         """Return phase and signal -> threshold of a limb's detector by a rule; empty where it has none."""
@@ -193,8 +195,8 @@ def write_course(course: Course, trial: Trial, walks: CaseWalker, out: Path) -> 
     robot = walks.robot
     joints = walks.estimator(walks.robot.reaction.estimator).joints
     layout = robot.description.layout
-    held = layout.columns(joints)
-    parts = course.rows, course.tau[:, held], course.std[:, held], course.force, course.point, course.base
+    columns = layout.columns(joints)
+    parts = course.rows, course.tau[:, columns], course.std[:, columns], course.force, course.point, course.base
     array = np.concatenate(parts, axis=1)
     meta = {"rate_hz": robot.rate_hz, "seed": trial.seed, "case": trial.case, "level": trial.level}
     meta["obstacles"] = {name: place.tolist() for name, place in course.obstacles.items()}

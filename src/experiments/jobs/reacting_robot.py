@@ -87,9 +87,9 @@ class ReactingRobot:
         settings = self.settings
         networks = {limb: folder for limb, folder in run.networks.items() if not limbs or limb in limbs}
         gravity = settings.plant.gravity_m_s2
-        own = (networks, run.fitted)
+        given = (networks, run.fitted)
         known = settings.robot, settings.level.nominal_mass_ratio, gravity, self.observer
-        recipe = Recipe(method, run.methods, *known, self.rate_hz, *own, self._shared)
+        recipe = Recipe(method, run.methods, *known, self.rate_hz, *given, self._shared)
         return build_estimator(recipe)
 
     def columns(self, limb: str) -> NDArray[Any]:

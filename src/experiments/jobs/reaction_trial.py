@@ -39,8 +39,8 @@ def trial_of(
     size = np.linalg.norm(course.force, axis=1)
     reacted_at, reacted = course.reacted or (None, None)
     ends = [at for at in (reacted_at, first.start if first else None) if at is not None]
-    own = slice(begin, min(ends, default=len(course.rows)))
-    walked = course.error[own]
+    until_end = slice(begin, min(ends, default=len(course.rows)))
+    walked = course.error[until_end]
     alarm = None if reacted_at is None else reacted_at - round(watch.wait_s * rate_hz)
     angle = base_angle = None
     if first is not None and reacted is not None and reacted_at is not None and reacted_at >= first.start:
@@ -56,8 +56,8 @@ def trial_of(
         walked_s=len(walked) / rate_hz,
         feed_forward=watch.feed_forward,
         velocity_rmse_m_s=float(np.sqrt(np.square(walked).sum(axis=1).mean())) if len(walked) else 0.0,
-        tracking_rmse_rad=rms(course.tracking[own]),
-        power_w=float(course.power[own].mean()) if len(walked) else 0.0,
+        tracking_rmse_rad=rms(course.tracking[until_end]),
+        power_w=float(course.power[until_end].mean()) if len(walked) else 0.0,
         contact_s=None if first is None else first.start / rate_hz,
         in_swing=None if first is None or mid_swing is None else int(mid_swing[first.start]),
         alarm_s=None if alarm is None else alarm / rate_hz,
@@ -83,7 +83,7 @@ def rms(errors: NDArray[np.float32]) -> float:
 
 def impulse_ns(force: NDArray[np.float32], contacts: Sequence[slice], rate_hz: float) -> float:
     """Return the impulse of some contacts [N s]: of each one the length of its vector, all added up."""
-    return sum(float(np.linalg.norm(force[one].astype(np.float64).sum(axis=0))) for one in contacts) / rate_hz
+    return sum(float(np.linalg.norm(force[contact].astype(np.float64).sum(axis=0))) for contact in contacts) / rate_hz
 
 
 def angle_deg(direction: Array, force: NDArray[np.float32]) -> float:

@@ -28,13 +28,13 @@ def train_stack(members: Mapping[str, Given], state: Path, out: Path) -> None:
         ConfigError: networks differ in what those of a stack have in common.
         DataError: a recording, a residual or a fit is damaged or too short.
     """
-    found: list[Member] = []
+    in_stack: list[Member] = []
     last: dict[str, LimbData] = {}
     for name, given in members.items():
         job = TrainingJob(given["training"], given["seed"], given["root_seed"])
-        found.append(Member(name, job, functools.partial(read, given, last), given["state"], given.get("start")))
-    write_json(state / MEMBERS, {"folders": [str(member.state) for member in found]})
-    train_on(found, state, out)
+        in_stack.append(Member(name, job, functools.partial(read, given, last), given["state"], given.get("start")))
+    write_json(state / MEMBERS, {"folders": [str(member.state) for member in in_stack]})
+    train_on(in_stack, state, out)
 
 
 def read(given: Given, last: dict[str, LimbData]) -> LimbData:

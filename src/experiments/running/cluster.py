@@ -75,9 +75,9 @@ def failed_in(text: str) -> re.Match[str] | None:
     return next(FAILED.finditer(text), begun[-1] if begun else None)
 
 
-def went_on(own: Path, log: Path) -> bool:
+def went_on(job_log: Path, log: Path) -> bool:
     """Return whether a later attempt wrote to a job's own log; it succeeded, as the executor removed its log."""
-    return own.exists() and own.stat().st_mtime > log.stat().st_mtime
+    return job_log.exists() and job_log.stat().st_mtime > log.stat().st_mtime
 
 
 def named(log: str) -> tuple[str, str]:
@@ -93,8 +93,8 @@ def placed(place: tuple[str, ...]) -> tuple[str, str]:
 
 def told(block: re.Match[str], key: str) -> str:
     """Return the first word of a key in a block of Snakemake's log, or nothing."""
-    found = re.search(rf"^ {{4}}{key}: (\S+)", block["told"], re.MULTILINE)
-    return found[1] if found else ""
+    match = re.search(rf"^ {{4}}{key}: (\S+)", block["told"], re.MULTILINE)
+    return match[1] if match else ""
 
 
 def reason(text: str, rule: str, had: Mapping[str, int]) -> str:

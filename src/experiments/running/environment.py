@@ -72,8 +72,8 @@ def quieten(root: Path) -> None:
 
 def fault_of_place(root: Path) -> str | None:
     """Return why a project cannot be worked with in its folder: a character that other tools do not take as it is."""
-    found = REFUSED.search(str(root))
-    return found and f"{root}: {found[0]!r} is not accepted in the path of the project; move it to another folder"
+    match = REFUSED.search(str(root))
+    return match and f"{root}: {match[0]!r} is not accepted in the path of the project; move it to another folder"
 
 
 def fault_of_process(root: Path) -> str | None:
@@ -90,13 +90,13 @@ def fault_of_process(root: Path) -> str | None:
     places = [Path(place) for place in sys.path]
     if source in places:
         places.remove(source)
-    found = next((place for place in places if (place / "mobnet" / "__init__.py").is_file()), None)
-    if found is not None and found.resolve() == source.resolve():
+    place_of_other = next((place for place in places if (place / "mobnet" / "__init__.py").is_file()), None)
+    if place_of_other is not None and place_of_other.resolve() == source.resolve():
         return fault_of_place(root)
-    if found is None:
+    if place_of_other is None:
         return f"{this_snakemake()} runs this file without the packages of the project; accepted: {IN_VENV}"
     remedy = f"`cd {shlex.quote(str(root))}; ./reproduce setup; . .venv/bin/activate`"
-    return f"{sys.executable}: runs {found} in place of {source}; accepted: {remedy}"
+    return f"{sys.executable}: runs {place_of_other} in place of {source}; accepted: {remedy}"
 
 
 def fault_of_snakemake() -> str | None:

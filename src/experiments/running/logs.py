@@ -124,10 +124,10 @@ def accounted(log_path: Path) -> Iterator[None]:
     finally:
         wall_s = time.monotonic() - begin
         used_s = cpu_s() - used_s
-        told = Account(name, start_s, time.time(), wall_s, used_s, peak_mib(), succeeded, made_by)
-        rounded = {key: round(value, 3) for key, value in asdict(told).items() if isinstance(value, float)}
+        entry = Account(name, start_s, time.time(), wall_s, used_s, peak_mib(), succeeded, made_by)
+        rounded = {key: round(value, 3) for key, value in asdict(entry).items() if isinstance(value, float)}
         with contextlib.suppress(DataError):  # on a full disk
-            write_json(account, asdict(told) | rounded)
+            write_json(account, asdict(entry) | rounded)
 
 
 @contextlib.contextmanager
@@ -165,6 +165,6 @@ def peak_mib() -> float:
     unit = 1 if sys.platform == "darwin" else 1024  # of ru_maxrss [bytes]
     peaks = [resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss * unit]
     # Linux counts in ru_maxrss what the process held before it became this program: the whole of Snakemake.
-    held = re.search(r"^VmHWM:\s*(\d+) kB", STATUS.read_text() if STATUS.exists() else "", re.MULTILINE)
-    peaks.append(int(held[1]) * 1024 if held else resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * unit)
+    match = re.search(r"^VmHWM:\s*(\d+) kB", STATUS.read_text() if STATUS.exists() else "", re.MULTILINE)
+    peaks.append(int(match[1]) * 1024 if match else resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * unit)
     return max(peaks) / MIB

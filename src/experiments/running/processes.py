@@ -25,12 +25,12 @@ def end_jobs() -> None:
 
     What each of them had not finished is removed by itself.
     """
-    told: dict[psutil.Process, float] = {}
+    told_at: dict[psutil.Process, float] = {}
     while True:
         for job in psutil.Process().children():
             with contextlib.suppress(psutil.Error, ProcessLookupError):
                 if os.getpgid(job.pid) == os.getpgrp():  # the process beside the run ends later
-                    end_job(job, told)
+                    end_job(job, told_at)
         time.sleep(STEP_S)
 
 
@@ -47,7 +47,7 @@ def end_orphans(root: Path) -> None:
             process.kill()
 
 
-def end_job(job: psutil.Process, told: dict[psutil.Process, float]) -> None:
+def end_job(job: psutil.Process, told_at: dict[psutil.Process, float]) -> None:
     """Tell the processes of a job once to end, and note when; kill them where they do not."""
     working = [process for process in job.children(recursive=True) if process.status() != psutil.STATUS_ZOMBIE]
     if working:
@@ -55,10 +55,10 @@ def end_job(job: psutil.Process, told: dict[psutil.Process, float]) -> None:
     elif job.status() == psutil.STATUS_STOPPED:
         job.kill()
     for process in working or [job]:
-        if process not in told:
-            told[process] = time.monotonic()
+        if process not in told_at:
+            told_at[process] = time.monotonic()
             process.terminate()
-        elif time.monotonic() - told[process] > LONGEST_S:
+        elif time.monotonic() - told_at[process] > LONGEST_S:
             process.kill()
 
 

@@ -65,8 +65,8 @@ class Job:
         whole = new[: new.rfind(b"\n") + 1]
         self._read += len(whole)
         for line in whole.decode("utf-8", errors="replace").splitlines():
-            if found := LINE.match(line):
-                self.take(found["text"])
+            if match := LINE.match(line):
+                self.take(match["text"])
 
     def take(self, text: str) -> None:
         """Take one line of the log, without time and level."""

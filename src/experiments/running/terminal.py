@@ -36,7 +36,7 @@ class RunHandler(LogHandlerBase):
     def __post_init__(self) -> None:
         """Open the screen at once: reading the workflow takes seconds."""
         asked = self.common_settings
-        quiet = [own.name.lower() for own in asked.quiet or ()]
+        quiet = [word.name.lower() for word in asked.quiet or ()]
         details = asked.dryrun or asked.verbose or asked.printshellcmds or asked.debug_dag
         self._shows = not (details or "all" in quiet or "progress" in quiet)
         self._said: list[str] | None = []  # by Snakemake, until it is known that there are jobs to run
@@ -92,28 +92,30 @@ class RunHandler(LogHandlerBase):
         except Exception:  # noqa: BLE001 a fault of what is shown ends no run
             self.handleError(record)
 
-    def _show(self, record: logging.LogRecord, event: LogEvent | None, told: dict[str, Any]) -> None:
+    def _show(self, record: logging.LogRecord, event: LogEvent | None, record_fields: dict[str, Any]) -> None:
         """Show what a record tells."""
         if event == LogEvent.RESOURCES_INFO:
             self._said = None
-            self.course.slots = max(1, int(told.get("cores", self.course.slots)))
+            self.course.slots = max(1, int(record_fields.get("cores", self.course.slots)))
         elif event == LogEvent.RUN_INFO:
-            self.course.total = int(told["stats"]["total"])
+            self.course.total = int(record_fields["stats"]["total"])
         elif event == LogEvent.JOB_INFO:
-            number = int(told["jobid"])
+            number = int(record_fields["jobid"])
             again = " again" if number in self._begun else ""  # a queue lost it, or gave it too little
             self._begun.add(number)
-            job = self.course.begin(number, named(told), next(iter(told["log"]), None), record.created)
+            job = self.course.begin(
+                number, named(record_fields), next(iter(record_fields["log"]), None), record.created
+            )
             self._tell(f"begins{again}: {job.name}")
         elif event == LogEvent.JOB_FINISHED:
-            job = self.course.end(int(told["job_id"]), record.created)
+            job = self.course.end(int(record_fields["job_id"]), record.created)
             self._tell(f"done: {job.name}, {in_time(record.created - job.began_s)} ({how_far(self.course)})")
         elif event == LogEvent.JOB_ERROR:
-            self.course.running.pop(int(told["jobid"]), None)
-            if not told.get("indent"):  # in a group that failed
-                say(f"failed: {named(told)} (log: {', '.join(told['log']) or 'none'})")
+            self.course.running.pop(int(record_fields["jobid"]), None)
+            if not record_fields.get("indent"):  # in a group that failed
+                say(f"failed: {named(record_fields)} (log: {', '.join(record_fields['log']) or 'none'})")
         elif event == LogEvent.GROUP_ERROR:
-            say(f"failed: jobs that went into the queue together (log: {', '.join(told['aux_logs'])})")
+            say(f"failed: jobs that went into the queue together (log: {', '.join(record_fields['aux_logs'])})")
         elif event in (None, LogEvent.ERROR) and not record.getMessage().rstrip().endswith(SAID_BY_JOB):
             if record.levelno >= logging.WARNING:
                 write(record.getMessage())
@@ -198,9 +200,9 @@ def say(text: str) -> None:
     write(f"{time.strftime('%H:%M:%S')} {text}")
 
 
-def named(told: dict[str, Any]) -> str:
+def named(record_fields: dict[str, Any]) -> str:
     """Return the name of a job of which a record tells."""
-    return in_words(told["rule_name"], next(iter(told["log"]), None))
+    return in_words(record_fields["rule_name"], next(iter(record_fields["log"]), None))
 
 
 def counted(jobs: int) -> str:
@@ -210,9 +212,9 @@ def counted(jobs: int) -> str:
 
 def how_far(course: RunState) -> str:
     """Return how far a run is where a job has ended."""
-    told = f"{course.done} of {counted(course.total)}, {PERCENT * course.share:.0f} %"
+    text = f"{course.done} of {counted(course.total)}, {PERCENT * course.share:.0f} %"
     left_s = course.left_s(time.time())
-    return told if left_s is None or course.done == course.total else f"{told}, {in_time(left_s)} left"
+    return text if left_s is None or course.done == course.total else f"{text}, {in_time(left_s)} left"
 
 
 def drawn(course: RunState, now_s: float, size: os.terminal_size) -> list[str]:

@@ -261,8 +261,8 @@ def scale_of(target: str) -> str | None:
     """
     if re.fullmatch(r"(?:\./)*(?:results|tables|figures|paper)/[^/.]+/?", target):
         return None
-    found = re.match(r"(?:\./)*(?:results|tables|figures|paper)/(?:([^/]+)/)?", target)
-    return (found[1] or MAIN) if found else None
+    match = re.match(r"(?:\./)*(?:results|tables|figures|paper)/(?:([^/]+)/)?", target)
+    return (match[1] or MAIN) if match else None
 
 
 def scale_of_targets(words: Iterable[str], given: object = None) -> str | None:
@@ -275,15 +275,15 @@ def scale_of_targets(words: Iterable[str], given: object = None) -> str | None:
     Raises:
         ConfigError: targets belong to several scales, or to another one than is given.
     """
-    found = {scale: word for word in words if (scale := scale_of(word))}
+    word_of = {scale: word for word in words if (scale := scale_of(word))}
     if given is not None:
-        found.pop(str(given), None)
-        for scale, word in found.items():
+        word_of.pop(str(given), None)
+        for scale, word in word_of.items():
             raise ConfigError(f"{word}: is not made at scale={given}; accepted: --config scale={scale}")
         return str(given)
-    if len(found) > 1:
-        raise ConfigError(f"targets of the scales {', '.join(sorted(found))}: one scale can be made at a time")
-    return next(iter(found), None)
+    if len(word_of) > 1:
+        raise ConfigError(f"targets of the scales {', '.join(sorted(word_of))}: one scale can be made at a time")
+    return next(iter(word_of), None)
 
 
 def one_of(names: Iterable[str]) -> str:

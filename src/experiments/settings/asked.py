@@ -46,7 +46,7 @@ def asked_by(settings: Settings) -> Iterator[RunRequest]:
 
 def tests_in(settings: Settings, section: object) -> tuple[tuple[str, str], ...]:
     """Return test and level of the runs that a section, or several of them, asks for; each once."""
-    return tuple(dict.fromkeys((one.scenario, one.level) for one in asked_in(settings, section, ())))
+    return tuple(dict.fromkeys((request.scenario, request.level) for request in asked_in(settings, section, ())))
 
 
 def asked_in(settings: Settings, section: object, place: Place, shown: tuple[str, ...] = ()) -> Iterator[RunRequest]:

@@ -58,9 +58,9 @@ class Catalogue:
             return self.given
         methods = defaultdict[tuple[str, str], set[str]](set)
         shown = defaultdict[tuple[str, str, str], set[str]](set)
-        for one in self.asked:
-            methods[one.scenario, one.level].add(one.method)
-            shown[one.scenario, one.level, one.method].update(one.shown)
+        for request in self.asked:
+            methods[request.scenario, request.level].add(request.method)
+            shown[request.scenario, request.level, request.method].update(request.shown)
         tests: dict[str, dict[str, Names]] = {}
         limbs: dict[tuple[str, str, str], Names] = {}
         # In the configuration's order, so that no file depends on where a table or a claim stands in its own.
@@ -71,9 +71,9 @@ class Catalogue:
                 learned = [method for method in ran if self.method(self.network_source_of(method)).limbs]
                 every = {name for method in ran for name in shown[scenario, level, method]}
                 for method in ran:
-                    own = shown[scenario, level, method] if method in learned else every
-                    held = self._limbs_of(own) if learned else tuple(self.layout.groups)
-                    limbs[scenario, level, method] = held
+                    of_method = shown[scenario, level, method] if method in learned else every
+                    estimated_limbs = self._limbs_of(of_method) if learned else tuple(self.layout.groups)
+                    limbs[scenario, level, method] = estimated_limbs
         return tests, limbs
 
     def at_scale(self, scale: str) -> "Catalogue":
@@ -116,7 +116,10 @@ class Catalogue:
         limbs: dict[str, dict[str, None]] = {}
         for trial in self.trials:
             limbs.setdefault(trial.name, {}).update(dict.fromkeys(trial.method.limbs))
-        return {one.name: one.method.model_copy(update={"limbs": tuple(limbs[one.name])}) for one in self.trials}
+        return {
+            variant.name: variant.method.model_copy(update={"limbs": tuple(limbs[variant.name])})
+            for variant in self.trials
+        }
 
     def method(self, name: str) -> Method:
         """Return a method, one of the trials too; a ConfigError names an unknown one."""
@@ -149,8 +152,8 @@ class Catalogue:
         for limb in self.method(self.network_source_of(method)).limbs:
             groups += networks[limb].joints
         known = layout.limbs(groups) or layout.names
-        held = layout.limbs(self.limbs.get((scenario, level, method), layout.groups))
-        return tuple(joint for joint in held if joint in known)
+        joints = layout.limbs(self.limbs.get((scenario, level, method), layout.groups))
+        return tuple(joint for joint in joints if joint in known)
 
     def network(self, method: str, limb: str) -> Network:
         """Return a network of Table 1 with a method's changes laid over it; a ConfigError names an unknown one."""

@@ -85,10 +85,10 @@ def _ratio_effect(x: float) -> tuple[float, float]:
     return max(low, x / TWICE), min(high, x * TWICE)
 
 
-def common(one: Bounds, other: Bounds) -> Bounds:
+def common(first: Bounds, other: Bounds) -> Bounds:
     """Return the range that two closed ranges have in common [their unit]; None is no bound."""
-    lows = [low for low in (one[0], other[0]) if low is not None]
-    highs = [high for high in (one[1], other[1]) if high is not None]
+    lows = [low for low in (first[0], other[0]) if low is not None]
+    highs = [high for high in (first[1], other[1]) if high is not None]
     return max(lows, default=None), min(highs, default=None)
 
 

@@ -266,10 +266,10 @@ def by_other_reading(claim: Claim) -> Claim | None:
 
 def of_reading(made: MadeNumber, other: OtherReading) -> tuple[Cell, ...]:
     """Return the cells of a number by another reading."""
-    found: list[Cell] = []
+    cells_of_reading: list[Cell] = []
     for cell in made.cells:
-        found.append(cell.model_copy(update={"where": {**cell.where, **other.where}}))
-    return tuple(found)
+        cells_of_reading.append(cell.model_copy(update={"where": {**cell.where, **other.where}}))
+    return tuple(cells_of_reading)
 
 
 def numbers_of(claim: Claim) -> list[MadeNumber]:

@@ -71,8 +71,8 @@ def hits_of(settings: Settings, leg: str, cell: str) -> int:
     names = settings.scenarios[detection.collisions].pushes
     pushes = [settings.pushes[name] for name in names]
     points = None if cell == "all" else {f"{side}_{cell.replace(' ', '_')}"}
-    own = [push for push in pushes if (push.point or "").startswith(f"{side}_")]
-    struck = [push for push in own if points is None or push.point in points]
+    of_leg = [push for push in pushes if (push.point or "").startswith(f"{side}_")]
+    struck = [push for push in of_leg if points is None or push.point in points]
     walked_s = settings.test_s(detection.collisions)
     moments = chain.from_iterable(push.at_s or () for push in struck)
     return sum(moment < walked_s for moment in moments)

@@ -27,9 +27,9 @@ Array = NDArray[np.float64]
 Ends = tuple[float, float]
 
 
-def share_ends(found: Sequence[int], sizes: Sequence[int], statistics: Statistics) -> Ends:
+def share_ends(hits: Sequence[int], sizes: Sequence[int], statistics: Statistics) -> Ends:
     """Return the interval of a share [-] of which each cluster has so many found of so many events."""
-    clusters = tuple(sorted(zip(found, sizes, strict=True)))
+    clusters = tuple(sorted(zip(hits, sizes, strict=True)))
     return _share_ends(clusters, statistics.most_correlation, statistics.confidence)
 
 
@@ -53,8 +53,8 @@ def rate_ends(counts: Sequence[int], hours: Sequence[float], statistics: Statist
     highest = WIDEST * (total + 2.0 + 4.0 * (total + 1.0) ** 0.5) / sum(hours)
     rates = highest * _middles(RATES)[:, None]
     likelihood = np.zeros((RATES, STEPS))
-    for count, own in zip(counts, hours, strict=True):
-        expected = rates * own
+    for count, hours_of_cluster in zip(counts, hours, strict=True):
+        expected = rates * hours_of_cluster
         likelihood += scipy.special.gammaln(shape + count) - scipy.special.gammaln(shape)
         likelihood += shape * np.log(shape / (shape + expected)) + count * np.log(expected / (shape + expected))
     return _shortest(likelihood, highest / RATES, statistics.confidence)
@@ -69,6 +69,6 @@ def _shortest(likelihood: Array, cell: float, confidence: float) -> Ends:
     """Return the ends of the likeliest cells that hold a part `confidence`, of logarithms (cells, steps)."""
     weights = np.exp(likelihood - likelihood.max()).sum(axis=1)
     order = np.argsort(-weights, kind="stable")
-    held = np.cumsum(weights[order]) / weights.sum()
-    kept = order[: int(np.searchsorted(held, confidence)) + 1]
+    covered = np.cumsum(weights[order]) / weights.sum()
+    kept = order[: int(np.searchsorted(covered, confidence)) + 1]
     return float(kept.min()) * cell, float(kept.max() + 1) * cell

@@ -51,10 +51,10 @@ def as_robot(catalogue: Catalogue, robot: str) -> Catalogue:
         methods = settings.methods.items()
         fits = {name: row.model_copy(update={"fitted": (fleet.leg,)}) for name, row in methods if row.fitted}
         changed["methods"] = {**settings.methods, **fits}
-        own = _own_of_a_leg(fleet, catalogue, robot)
+        tests_and_limbs = _own_of_a_leg(fleet, catalogue, robot)
     else:
-        own = _own(fleet, catalogue, robot)
-    return Catalogue(settings.model_copy(update=changed), own)
+        tests_and_limbs = _own(fleet, catalogue, robot)
+    return Catalogue(settings.model_copy(update=changed), tests_and_limbs)
 
 
 def is_whole(settings: Settings, robot: str) -> bool:
@@ -82,10 +82,10 @@ def _own(fleet: Fleet, catalogue: Catalogue, robot: str) -> tuple[ByTest, Held]:
         for name in (*fleet.levels, robot):
             level = fleet.level_of(robot, name)
             for method in rows.get(name, ()):
-                own = tests.setdefault(scenario, {})
-                own[level] = tuple(dict.fromkeys([*own.get(level, ()), method]))
-                held = (*limbs.get((scenario, level, method), ()), *catalogue.limbs[scenario, name, method])
-                limbs[scenario, level, method] = tuple(dict.fromkeys(held))
+                by_level = tests.setdefault(scenario, {})
+                by_level[level] = tuple(dict.fromkeys([*by_level.get(level, ()), method]))
+                limbs_of_method = (*limbs.get((scenario, level, method), ()), *catalogue.limbs[scenario, name, method])
+                limbs[scenario, level, method] = tuple(dict.fromkeys(limbs_of_method))
     return tests, limbs
 
 

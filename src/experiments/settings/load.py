@@ -102,12 +102,12 @@ def load_settings(
     """
     documents, files, faults = _read(folder)
     odd: list[Problem] = []
-    own = cast("dict[str, Any]", read_override(overrides or {}, (), odd))
-    values = _laid_over({key: files[key].values[key] for key in files}, own)
+    overridden = cast("dict[str, Any]", read_override(overrides or {}, (), odd))
+    values = _laid_over({key: files[key].values[key] for key in files}, overridden)
     homes: dict[str, Document] = {}
     for document in documents:
         homes |= dict.fromkeys(PARTS[document.path.stem], document)
-    sources = Sources(documents[0], {**homes, **files}, own)
+    sources = Sources(documents[0], {**homes, **files}, overridden)
     for section in NAMED_FILES:
         path = folder.parent / values[section] if isinstance(values.get(section), str) else None
         if path is None or not path.is_file():
@@ -122,7 +122,7 @@ def load_settings(
     faults += [sources.told(place, text) for place, text in odd]
     refuse_faults(faults)
     # the sections of those files now stand in them, and an override of their paths is none of their values
-    inner = {key: value for key, value in own.items() if key not in NAMED_FILES}
+    inner = {key: value for key, value in overridden.items() if key not in NAMED_FILES}
     return _checked(values, Sources(documents[0], {**homes, **files}, inner), further)
 
 
@@ -146,10 +146,10 @@ def _read(folder: Path) -> tuple[list[Document], dict[str, Document], list[str]]
 
 def _faults_of(documents: Iterable[Document]) -> list[str]:
     """Return what is not accepted of some files by themselves."""
-    found: list[str] = []
+    lines: list[str] = []
     for document in documents:
-        found += document.faults
-    return found
+        lines += document.faults
+    return lines
 
 
 def _checked(values: Mapping[str, Any], sources: Sources, further: Check | None) -> Settings:

@@ -49,12 +49,12 @@ class MadeBy:
 
 def rows_of(section: type[Section]) -> dict[str, MadeBy]:
     """Return field -> its row, of those fields of a section that have one."""
-    found: dict[str, MadeBy] = {}
+    rows: dict[str, MadeBy] = {}
     for name, info in section.model_fields.items():
         for mark in info.metadata:
             if isinstance(mark, MadeBy):
-                found[name] = mark
-    return found
+                rows[name] = mark
+    return rows
 
 
 def items_of(section: object) -> Mapping[Any, object]:

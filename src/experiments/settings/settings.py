@@ -94,8 +94,8 @@ class Settings(Lab):
         for key, row in self.sweeps.items():
             values = self.sizes.sweeps.get(key, row.values)
             if key == figure.parameters:
-                own = getattr(self.networks[figure.limb], figure.parameters)
-                values = tuple(sorted({*values, own}))
+                network_size = getattr(self.networks[figure.limb], figure.parameters)
+                values = tuple(sorted({*values, network_size}))
             sweeps[key] = row.model_copy(update={"values": values})
             left_out |= {*swept_names(key, row)} - {*swept_names(key, sweeps[key])}
         claims = dict[str, Claim]()

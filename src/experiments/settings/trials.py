@@ -211,12 +211,12 @@ def taught(trials: Trials, methods: Mapping[str, Method]) -> Iterator[MethodVari
         method = methods[trial.method]
         for name in sets_of(trial):
             network = {**method.network, "experiment": trial.experiment, DATA: name}
-            own = method.model_copy(update={"limbs": (trial.limb,), "network": network})
-            yield MethodVariant(trial.method, trial_name(trial.method, {DATA: name}), {DATA: name}, own, "")
+            variant = method.model_copy(update={"limbs": (trial.limb,), "network": network})
+            yield MethodVariant(trial.method, trial_name(trial.method, {DATA: name}), {DATA: name}, variant, "")
     if trial.fitted in methods:
         changes: dict[str, Value] = {DATA: trial.same_day}
-        own = methods[trial.fitted].model_copy(update={"fitted": (trial.limb,), "network": changes})
-        yield MethodVariant(trial.fitted, trial_name(trial.fitted, changes), changes, own, "")
+        variant = methods[trial.fitted].model_copy(update={"fitted": (trial.limb,), "network": changes})
+        yield MethodVariant(trial.fitted, trial_name(trial.fitted, changes), changes, variant, "")
 
 
 def explained(
@@ -231,7 +231,7 @@ def explained(
             method = methods[base_name]
             changes: dict[str, Value] = {DATA: data, WAY: way}
             chosen = trial.ways[way]
-            own = method.model_copy(
+            variant = method.model_copy(
                 update={
                     "limbs": (trial.limb,),
                     "networks_of": {},
@@ -239,29 +239,29 @@ def explained(
                     "learning": {**method.learning, **chosen.learning},
                 }
             )
-            yield MethodVariant(base_name, trial_name(base_name, changes), changes, own, "")
+            yield MethodVariant(base_name, trial_name(base_name, changes), changes, variant, "")
 
 
 def experiments_of(trials: Trials) -> set[str]:
     """Return the names of the lengths that are tried."""
-    found = {trials.tuning.experiment}
+    names = {trials.tuning.experiment}
     for row in trials.why.rows:
-        found.add(row.experiment)
+        names.add(row.experiment)
     for way in trials.why.ways.values():
         if EXPERIMENT in way.network:
-            found.add(str(way.network[EXPERIMENT]))
+            names.add(str(way.network[EXPERIMENT]))
     for row in _rows(trials, None):
-        found.update(row.experiments)
-    return found
+        names.update(row.experiments)
+    return names
 
 
 def _rows(trials: Trials, table: str | None) -> list[Comparison]:
     """Return the rows of one table of comparisons, or of all."""
-    found: list[Comparison] = []
+    comparisons: list[Comparison] = []
     for name, rows in trials.compared.items():
         if table in (name, None):
-            found += rows
-    return found
+            comparisons += rows
+    return comparisons
 
 
 def _changed(

@@ -32,7 +32,7 @@ def in_child(make: Callable[[], Made], seconds: float, what: str) -> Made:
     try:
         if not receiver.poll(seconds):
             raise DataError(f"{what}: no end after {seconds:g} s; accepted: a smaller file")
-        is_made, found = receiver.recv()
+        is_made, value = receiver.recv()
     except (EOFError, ConnectionResetError):
         process.join()
         text = f"reading it ended by {_reason(process.exitcode)}; accepted: a file that its library can read"
@@ -42,8 +42,8 @@ def in_child(make: Callable[[], Made], seconds: float, what: str) -> Made:
         process.join()
         receiver.close()
     if not is_made:
-        raise found
-    return found
+        raise value
+    return value
 
 
 def _send(make: Callable[[], Any], sender: Connection) -> None:

@@ -64,35 +64,35 @@ def start_of(start: Path | str) -> Path:
     is_dotted = isinstance(start, str) and start.split(".")[0] in PACKAGES
     place = SOURCE.joinpath(*start.partition(":")[0].split(".")) if is_dotted else Path(start)
     accepted = (place / "__init__.py", place.with_suffix(".py")) if is_dotted else (place,)
-    found = next((file.resolve() for file in accepted if file.is_file()), None)
-    if found is None:
+    file_of_code = next((file.resolve() for file in accepted if file.is_file()), None)
+    if file_of_code is None:
         accepted_names = " or ".join(PACKAGES)
         raise ConfigError(f"{start}: no such code; accepted: a file, or a module of {accepted_names} below {SOURCE}")
-    return found
+    return file_of_code
 
 
 def reached(starts: Iterable[Path]) -> tuple[Source, ...]:
     """Return some files and all that they use of these packages, directly or not."""
-    found: dict[CodePart, Source] = {}
+    sources: dict[CodePart, Source] = {}
     waiting = [CodePart(start) for start in starts]
     while waiting:
         part = waiting.pop()
-        if part not in found:
-            found[part] = read(part)
-            waiting += found[part].parts
-    return tuple(found.values())
+        if part not in sources:
+            sources[part] = read(part)
+            waiting += sources[part].parts
+    return tuple(sources.values())
 
 
 def with_required(packages: Iterable[str]) -> set[str]:
     """Return packages and those that they require, directly or not, as far as environment.lock has them."""
-    found: set[str] = set()
+    names: set[str] = set()
     waiting = list(packages)
     while waiting:
         name = waiting.pop()
-        if name not in found and name in lock_lines():
-            found.add(name)
+        if name not in names and name in lock_lines():
+            names.add(name)
             waiting += required(name)
-    return found
+    return names
 
 
 @functools.cache

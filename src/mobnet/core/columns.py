@@ -45,8 +45,8 @@ def recording_columns(layout: JointLayout) -> dict[str, list[Column]]:
     wrench = [(f"force_{axis}", "N") for axis in "xyz"] + [(f"moment_{axis}", "N m") for axis in "xyz"]
     wrenches = dict[str, list[Column]]()
     for foot in FEET:
-        own = wrench if foot in feet else []
-        wrenches[f"wrench_{foot}"] = [(f"wrench_{foot}.{name}", unit, foot) for name, unit in own]
+        components = wrench if foot in feet else []
+        wrenches[f"wrench_{foot}"] = [(f"wrench_{foot}.{name}", unit, foot) for name, unit in components]
     base_v = [(f"v.base_{a}", "m/s", "world") for a in xyz] + [(f"v.omega_{a}", "rad/s", "base") for a in xyz]
     base_q = [(f"q.base_{a}", "m", "world") for a in xyz] + [(f"q.quat_{a}", "-", "world") for a in wxyz]
     places = [(j, (layout.unit(j), "world" if i < len(xyz) else "joint")) for i, j in enumerate(layout.names)]

@@ -170,9 +170,9 @@ def hold(value: Any) -> HeldValue:
 
     Only functions that are compiled as `allocating` take it, because it counts references.
     """
-    held = _hold(value)
-    held.of = value
-    return held
+    holder = _hold(value)
+    holder.of = value
+    return holder
 
 
 @compiled(allocating=True)

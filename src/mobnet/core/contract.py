@@ -104,9 +104,9 @@ def column_faults(columns: Sequence[Mapping[str, Any]], layout: JointLayout | No
             yield not_accepted("columns", column["name"], [f"{signal}.{name}" for name in layout.names])
         places = rule_of(column["name"], layout).places
         if places and (column["unit"], column["frame"]) not in places:
-            found = f"columns: {column['name']!r}: unit {column['unit']!r}, frame {column['frame']!r}"
+            given = f"columns: {column['name']!r}: unit {column['unit']!r}, frame {column['frame']!r}"
             accepted = " or ".join(f"unit {unit!r}, frame {frame!r}" for unit, frame in places)
-            yield f"{found} is not accepted; accepted: {accepted}"
+            yield f"{given} is not accepted; accepted: {accepted}"
 
 
 class Values:

@@ -48,15 +48,15 @@ def read_epochs(path: Path) -> tuple[tuple[Epoch, ...], dict[str, tuple[float, .
 def _joint_errors(path: Path) -> dict[str, tuple[float, ...]]:
     """Return joint -> its error in each epoch (E,) [N, N m], as read_epochs does."""
     faults = list[str]()
-    found = dict[str, tuple[float, ...]]()
+    errors = dict[str, tuple[float, ...]]()
     lines = [*enumerate(read_texts(path), start=2)]
     for name in lines[0][1] if lines else ():
         if name.startswith(prefix := JOINT_ERROR.format("")):
             values = [parse_field(row[name], float, f"{path}:{line}: {name}", faults) for line, row in lines]
-            found[name.removeprefix(prefix)] = tuple(values)
+            errors[name.removeprefix(prefix)] = tuple(values)
     refuse_lines(faults)
-    refuse_rows(path, _below_zero({JOINT_ERROR.format(joint): values for joint, values in found.items()}))
-    return found
+    refuse_rows(path, _below_zero({JOINT_ERROR.format(joint): values for joint, values in errors.items()}))
+    return errors
 
 
 def _epoch_faults(rows: Sequence[Epoch]) -> Iterator[Fault]:

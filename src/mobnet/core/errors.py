@@ -70,9 +70,9 @@ def near_names(names: Iterable[str], wanted: str, most: int = NEAREST) -> Sequen
     matcher = SequenceMatcher(b=wanted[:LONGEST].lower(), autojunk=False)
 
     def alike(name: str) -> float:
-        own = name.rpartition("/")[2].partition(".")[0] if "/" in name else name
+        last_part = name.rpartition("/")[2].partition(".")[0] if "/" in name else name
         ratios: list[float] = []
-        for form in {name, own}:
+        for form in {name, last_part}:
             matcher.set_seq1(form[:LONGEST].lower())
             ratios.append(matcher.ratio())
         return max(ratios)

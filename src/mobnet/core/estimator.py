@@ -107,8 +107,8 @@ class _Once:
 
     def step(self, state: Any, sample: Sensed) -> Any:
         """Take one sample; return the new state, and the residual or the estimate."""
-        before, seen, found = self._last
+        before, seen, stepped = self._last
         if seen is not sample or before is not state:
-            found = self._stepped.step(state, sample)
-            self._last = state, sample, found
-        return found
+            stepped = self._stepped.step(state, sample)
+            self._last = state, sample, stepped
+        return stepped

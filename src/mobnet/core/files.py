@@ -198,11 +198,11 @@ def parse_json(text: str, place: str) -> dict[str, Any]:
 
 def _object(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     """Return a JSON object whose keys each occur once."""
-    found = dict(pairs)
-    if len(found) < len(pairs):
+    entries = dict(pairs)
+    if len(entries) < len(pairs):
         names = [name for name, _ in pairs]
         raise ValueError(f"key {next(name for name in names if names.count(name) > 1)!r} occurs twice; accepted: once")
-    return found
+    return entries
 
 
 def _not_finite(value: object, *place: str) -> Iterator[str]:

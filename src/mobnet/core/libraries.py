@@ -14,36 +14,36 @@ VARIABLE = "LD_LIBRARY_PATH"
 IN_SITE_PACKAGES = Path("cmeel.prefix") / "lib"  # where the wheels of Pinocchio keep their libraries
 
 
-def drop_foreign_libraries(own: Path | None = None) -> bool:
+def drop_foreign_libraries(ours: Path | None = None) -> bool:
     """Take folders out of this process's LD_LIBRARY_PATH; return whether there were any.
 
     The loader has read the variable when the process began: what changes is what its children find.
 
     Args:
-        own: the folder of Pinocchio's libraries, by default that of the Python that runs.
+        ours: the folder of Pinocchio's libraries, by default that of the Python that runs.
     """
     named = os.environ.get(VARIABLE)
-    own = own or own_folder()
-    if not named or own is None:
+    ours = ours or own_folder()
+    if not named or ours is None:
         return False
-    libraries = {path.name for path in own.glob("*.so*")}
+    libraries = {path.name for path in ours.glob("*.so*")}
     places = named.split(os.pathsep)
-    kept = [place for place in places if not _is_foreign(Path(place), own, libraries)]
+    kept = [place for place in places if not _is_foreign(Path(place), ours, libraries)]
     os.environ[VARIABLE] = os.pathsep.join(kept)
     return kept != places
 
 
 def own_folder() -> Path | None:
     """Return the folder of the libraries of the Pinocchio that this Python would import; None without one."""
-    found = importlib.util.find_spec("pinocchio")
-    if found is None or found.origin is None:
+    spec = importlib.util.find_spec("pinocchio")
+    if spec is None or spec.origin is None:
         return None
-    return Path(found.origin).parents[3]  # lib/python3.x/site-packages/pinocchio/__init__.py
+    return Path(spec.origin).parents[3]  # lib/python3.x/site-packages/pinocchio/__init__.py
 
 
-def _is_foreign(place: Path, own: Path, libraries: set[str]) -> bool:
+def _is_foreign(place: Path, ours: Path, libraries: set[str]) -> bool:
     """Return whether a folder is not that of our libraries and holds a file of the name of one."""
-    if place.resolve() == own.resolve():
+    if place.resolve() == ours.resolve():
         return False
     try:
         return not libraries.isdisjoint(os.listdir(place))

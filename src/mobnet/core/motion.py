@@ -74,7 +74,7 @@ class MotionCheck:
 
     def faults(self) -> list[str]:
         """Return a line for each way in which the signals disagree."""
-        found = []
+        lines = []
         rules = {"v": (self._turns, self._joints, "q"), "v.omega": (self._bodies, list("xyz"), "q.quat")}
         for signal, (agreement, names, position) in rules.items():
             wrong = agreement.apart()
@@ -82,14 +82,14 @@ class MotionCheck:
                 few = ", ".join(names[k] for k in wrong[:3]) + (f" and {len(wrong) - 3} more" if len(wrong) > 3 else "")
                 accepted = "the change itself, to which unit, order, sign and rate_hz must fit"
                 text = f"an integral of {agreement.ratio(wrong[0]):.3g} x the change of {position}"
-                found.append(f"{signal} of {few}: {text} is not accepted; accepted: {accepted}")
+                lines.append(f"{signal} of {few}: {text} is not accepted; accepted: {accepted}")
         if self._samples >= SETTLED_S * self._rate_hz:
             mean = self._gravity / self._samples
             size = float(np.linalg.norm(mean))
             if not (GRAVITY_M_S2[0] <= size <= GRAVITY_M_S2[1] and mean[2] >= UP * size):
                 accepted = f"{GRAVITY_M_S2[0]} to {GRAVITY_M_S2[1]:g} m/s^2 along z: gravity is included"
-                found.append(not_accepted("acc, turned into world axes: mean", mean.round(2).tolist(), [accepted]))
-        return found
+                lines.append(not_accepted("acc, turned into world axes: mean", mean.round(2).tolist(), [accepted]))
+        return lines
 
 
 class _Agreement:

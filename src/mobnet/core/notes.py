@@ -113,24 +113,24 @@ def checked(path: Path, value: object, kind: type[Kind]) -> Kind:
     try:
         return kind.model_validate(value)
     except ValidationError as error:
-        raise refusal(path, [fault_of(found, kind) for found in error.errors(include_url=False)]) from None
+        raise refusal(path, [fault_of(error_found, kind) for error_found in error.errors(include_url=False)]) from None
 
 
-def fault_of(found: Mapping[str, Any], kind: type[Note]) -> str:
+def fault_of(details: Mapping[str, Any], kind: type[Note]) -> str:
     """Return what pydantic found as a line: key, value, accepted values."""
-    place = ".".join(map(str, found["loc"])) or "top level"
-    if found["type"] == "missing":
+    place = ".".join(map(str, details["loc"])) or "top level"
+    if details["type"] == "missing":
         needed = ", ".join(name for name, field in kind.model_fields.items() if field.is_required())
-        return f"{place}: key is missing; accepted: {found['loc'][-1] if '.' in place else needed}"
-    if found["type"] == "extra_forbidden":
-        return not_accepted(place, found["input"], [f"no such key, but {', '.join(kind.model_fields)}"])
-    if found["type"] == "value_error":
-        return f"{place}: {found['ctx']['error']}"
-    if found["type"] == "string_pattern_mismatch":
-        return not_accepted(place, found["input"], [f"text of the form {found['ctx']['pattern']}"])
-    what = re.sub(r"^\w+ should (be|have) ", "", found["msg"])
+        return f"{place}: key is missing; accepted: {details['loc'][-1] if '.' in place else needed}"
+    if details["type"] == "extra_forbidden":
+        return not_accepted(place, details["input"], [f"no such key, but {', '.join(kind.model_fields)}"])
+    if details["type"] == "value_error":
+        return f"{place}: {details['ctx']['error']}"
+    if details["type"] == "string_pattern_mismatch":
+        return not_accepted(place, details["input"], [f"text of the form {details['ctx']['pattern']}"])
+    what = re.sub(r"^\w+ should (be|have) ", "", details["msg"])
     what = re.sub(r"a valid dictionary( or instance of \w+)?", "a JSON object", what)
-    return not_accepted(place, found["input"], [what[:1].lower() + what[1:]])
+    return not_accepted(place, details["input"], [what[:1].lower() + what[1:]])
 
 
 def _array_faults(note: ArrayNote) -> Iterator[str]:

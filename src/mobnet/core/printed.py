@@ -99,8 +99,8 @@ def printed(log: logging.Logger, lines: Callable[[], Iterable[str]], stopped: st
     try:
         signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})  # `./reproduce` holds it back until it is answered
         with heartbeat():
-            told = list(lines())
-        for line in told:
+            output_lines = list(lines())
+        for line in output_lines:
             log.info("%s", shown(line))
     except MobnetError as error:
         log.error("%s", shown(str(error)))
@@ -122,4 +122,6 @@ def printed(log: logging.Logger, lines: Callable[[], Iterable[str]], stopped: st
 
 def shown(text: str) -> str:
     """Return a text whose control characters, which a name in a file may hold, are written as Python does."""
-    return "".join(one if one.isprintable() or one == "\n" else repr(one)[1:-1] for one in text)
+    return "".join(
+        character if character.isprintable() or character == "\n" else repr(character)[1:-1] for character in text
+    )

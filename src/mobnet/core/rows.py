@@ -75,22 +75,22 @@ def read_texts(path: Path, needed: Sequence[str] = ()) -> list[dict[str, str]]:
             more fields than columns.
     """
     try:
-        held, *lines = [*csv.reader(io.StringIO(read_text(path)), strict=True)] or [[]]
+        header, *lines = [*csv.reader(io.StringIO(read_text(path)), strict=True)] or [[]]
     except csv.Error as error:
         raise DataError(f"{path}: not CSV, {error}") from None
     faults = [
-        f"column {name!r} is missing; accepted: it, beside {nearest_of(held, name)}"
+        f"column {name!r} is missing; accepted: it, beside {nearest_of(header, name)}"
         for name in needed
-        if name not in held
+        if name not in header
     ]
-    faults += [f"column {name!r} occurs {n} times; accepted: once" for name, n in Counter(held).items() if n > 1]
+    faults += [f"column {name!r} occurs {n} times; accepted: once" for name, n in Counter(header).items() if n > 1]
     refuse(path, faults)
     refuse_lines(
-        f"{path}:{line}: line is cut off or too long: {len(fields)} fields; accepted: {len(held)}"
+        f"{path}:{line}: line is cut off or too long: {len(fields)} fields; accepted: {len(header)}"
         for line, fields in enumerate(lines, start=2)
-        if len(fields) != len(held)
+        if len(fields) != len(header)
     )
-    return [dict(zip(held, fields, strict=True)) for fields in lines]
+    return [dict(zip(header, fields, strict=True)) for fields in lines]
 
 
 def parse_field(field: str, hint: Any, where: str, faults: list[str]) -> Any:

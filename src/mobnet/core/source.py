@@ -103,9 +103,9 @@ def read_file(path: Path) -> Source:
 def used_parts(name: str, full_name: str, reader: Reader) -> Iterator[CodePart]:
     """Yield what a file uses of an import from a declaring package; what it only hands on, it uses."""
     used = reader.values | reader.types
-    for found in [name, *(each for each in used if each.startswith(f"{name}."))]:
-        is_type = found in reader.types and found not in reader.values
-        yield from declared_parts(full_name + found.removeprefix(name), is_type=is_type)
+    for used_name in [name, *(each for each in used if each.startswith(f"{name}."))]:
+        is_type = used_name in reader.types and used_name not in reader.values
+        yield from declared_parts(full_name + used_name.removeprefix(name), is_type=is_type)
 
 
 def read_name(part: CodePart) -> Source:
@@ -186,10 +186,10 @@ def names_of(statement: ast.stmt) -> list[str]:
         targets = statement.targets
     elif isinstance(statement, ast.AnnAssign):
         targets = [statement.target]
-    found: list[str] = []
+    names: list[str] = []
     for target in targets:
-        found += [node.id for node in ast.walk(target) if isinstance(node, ast.Name)]
-    return found
+        names += [node.id for node in ast.walk(target) if isinstance(node, ast.Name)]
+    return names
 
 
 def imported(node: ast.AST) -> list[tuple[str, str]]:
@@ -325,8 +325,8 @@ def module_files(name: str) -> tuple[Path, ...]:
     if name.partition(".")[0] not in PACKAGES or is_below(name, (*NOT_FOLLOWED, *DECLARING)):
         return ()
     place = SOURCE.joinpath(*name.split("."))
-    own = (place / "__init__.py", place.with_suffix(".py"))
-    return (*module_files(package), *(file for file in own if file.is_file()))
+    candidates = (place / "__init__.py", place.with_suffix(".py"))
+    return (*module_files(package), *(file for file in candidates if file.is_file()))
 
 
 def distributions(full_names: Iterable[str]) -> frozenset[str]:

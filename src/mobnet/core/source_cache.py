@@ -73,9 +73,9 @@ class Keeper:
         """Keep what this process has read, if the disk has room for it."""
         if self._is_new:
             parts: dict[str, object] = {}
-            for part, found in self._kept.items():
-                used = [self._key(each) for each in found.parts]
-                parts[self._key(part)] = [found.digest.hex(), used, sorted(found.packages)]
+            for part, contributed in self._kept.items():
+                used = [self._key(each) for each in contributed.parts]
+                parts[self._key(part)] = [contributed.digest.hex(), used, sorted(contributed.packages)]
             with suppress(DataError, OSError):
                 write_json(self._file, {"state": self._state, "parts": parts})
 

@@ -259,26 +259,26 @@ def footer_hash(path: Path) -> str:
 def _check_footer(stem: Path, note: Mapping[str, Any]) -> None:
     """Raise a DataError if an array is not the one that its note was written for, where the note says which."""
     path = file_of(stem, ARRAY)
-    found = footer_hash(path)
-    if note.get("footer", found) != found:
+    footer = footer_hash(path)
+    if note.get("footer", footer) != footer:
         accepted = [f"{note['footer']}, as {stem.name}{NOTE} says: the array that was written with it"]
-        raise DataError(f"{path}: {not_accepted('hash of the footer', found, accepted)}")
+        raise DataError(f"{path}: {not_accepted('hash of the footer', footer, accepted)}")
 
 
 def _disagreements(file: pq.ParquetFile, stem: Path, note: Mapping[str, Any], names: Sequence[str]) -> Iterator[str]:
     """Yield where a file's columns are not what its note says, or lack what its reader expects."""
     schema = file.schema_arrow
-    held = file.schema_arrow.names
-    shape = (file.metadata.num_rows, len(held))
+    stored_names = file.schema_arrow.names
+    shape = (file.metadata.num_rows, len(stored_names))
     noted_shape = (note["rows"], len(note["columns"]))
     if shape != noted_shape:
-        apart = sorted(set(held) ^ {column["name"] for column in note["columns"]})
+        apart = sorted(set(stored_names) ^ {column["name"] for column in note["columns"]})
         named = f" (columns of one alone: {', '.join(apart[:3])})" if apart else ""
         yield f"shape {shape}{named} is not accepted; accepted: {noted_shape}, as {stem.name}{NOTE} says"
         return
     described = {column["name"]: column for column in note["columns"]}
-    if others := set(held) - described.keys():
-        known = [f"those that {stem.name}{NOTE} has", *described.keys() - set(held)]
+    if others := set(stored_names) - described.keys():
+        known = [f"those that {stem.name}{NOTE} has", *described.keys() - set(stored_names)]
         yield from (not_accepted("column", name, known) for name in sorted(others))
         return
     for found in schema:
@@ -290,8 +290,9 @@ def _disagreements(file: pq.ParquetFile, stem: Path, note: Mapping[str, Any], na
             if value != column[key]:
                 yield not_accepted(f"column {found.name!r}: {key}", value, [f"{column[key]!r}, as its note says"])
     for name in names:
-        if name not in held:
-            yield f"column {name!r} is missing; accepted: it, beside {len(held)} others: {', '.join(held[:3])}, ..."
+        if name not in stored_names:
+            first = ", ".join(stored_names[:3])
+            yield f"column {name!r} is missing; accepted: it, beside {len(stored_names)} others: {first}, ..."
 
 
 def check_finite(name: str, rows: NDArray[Any], names: Sequence[str], first: int = 0) -> None:
@@ -326,6 +327,6 @@ def check_pair(recording: Path, residual: Path) -> None:
 
 def check_rate(stem: Path, rate_hz: float | None) -> None:
     """Raise a DataError unless an array is sampled at a rate [Hz], that of the configuration, if one is given."""
-    found = read_array_note(file_of(stem, NOTE))["rate_hz"]
-    if rate_hz is not None and found != rate_hz:
-        raise DataError(f"{stem}{NOTE}: {not_accepted('rate_hz', found, [f'{rate_hz:g}, `rates.data_hz`'])}")
+    noted_hz = read_array_note(file_of(stem, NOTE))["rate_hz"]
+    if rate_hz is not None and noted_hz != rate_hz:
+        raise DataError(f"{stem}{NOTE}: {not_accepted('rate_hz', noted_hz, [f'{rate_hz:g}, `rates.data_hz`'])}")

@@ -67,29 +67,33 @@ def always_watched(
     Raises:
         DataError: there are fewer windows of the first length than a law takes.
     """
-    gates = [always_on(len(one.sensed), one.segments, settle_s, setup.rate_hz) for one in read]
-    signals = [watched.of(own, one.sensed.command) for one, own in zip(read, estimates, strict=True)]
-    low = [np.abs(setup.low_passed(own, one.segments)) for own, one in zip(signals, read, strict=True)]
+    gates = [always_on(len(recording.sensed), recording.segments, settle_s, setup.rate_hz) for recording in read]
+    signals = [watched.of(signal, recording.sensed.command) for recording, signal in zip(read, estimates, strict=True)]
+    low = [
+        np.abs(setup.low_passed(signal, recording.segments)) for signal, recording in zip(signals, read, strict=True)
+    ]
 
     def windows(length_s: float) -> list[Spans]:
         length = round(length_s * setup.rate_hz)
-        return [windows_of(gate.watched, one.segments, length) for gate, one in zip(gates, read, strict=True)]
+        return [
+            windows_of(gate.watched, recording.segments, length) for gate, recording in zip(gates, read, strict=True)
+        ]
 
     least = setup.detection.thresholds.least_swings
-    found = windows(window_s)
-    if (count := sum(map(len, found))) < least:
+    windows_seen = windows(window_s)
+    if (count := sum(map(len, windows_seen))) < least:
         seconds = round(count * window_s, 1)
         needed = f"{least * window_s:g} s or more are needed"
         raise DataError(f"{seconds:g} s of free motion, in windows of {window_s:g} s; {needed}")
-    while (is_alike := alike([largest(*pair) for pair in zip(low, found, strict=True)])) and (
+    while (is_alike := alike([largest(*pair) for pair in zip(low, windows_seen, strict=True)])) and (
         sum(map(len, longer := windows(2.0 * window_s))) >= least
     ):
         window_s = 2.0 * window_s
-        found = longer
-    rows = zip(paths, read, gates, found, strict=True)
+        windows_seen = longer
+    rows = zip(paths, read, gates, windows_seen, strict=True)
     limbs = tuple(
-        LegRecording(path, one.segments, one.sensed.command, gate, spans, (UNKNOWN,) * len(spans), spans)
-        for path, one, gate, spans in rows
+        LegRecording(path, recording.segments, recording.sensed.command, gate, spans, (UNKNOWN,) * len(spans), spans)
+        for path, recording, gate, spans in rows
     )
     return AlwaysWatched(window_s, limbs, is_alike)
 
@@ -122,7 +126,7 @@ def alike(parts: Sequence[Array]) -> bool:
     logs = [np.log(np.maximum((part / mean).max(axis=1), TINY)) for part in parts if len(part)]
     centre = np.mean(np.concatenate(logs))
     spread = np.var(np.concatenate(logs))
-    pairs = np.concatenate([(own[:-1] - centre) * (own[1:] - centre) for own in logs])
+    pairs = np.concatenate([(largest[:-1] - centre) * (largest[1:] - centre) for largest in logs])
     if not spread or not len(pairs):
         return False
     return float(pairs.mean() / spread) > NOISE / np.sqrt(len(pairs))

@@ -54,15 +54,15 @@ def read_folders(options: Namespace, robot: RobotDescription, network: OwnNetwor
     """
     logs = [read_log_folder(folder, robot.layout) for folder in options.folders]
     refuse_lines(
-        f"{one.folder}: the network learned from it, where its error is smaller; accepted: another log"
-        for one in logs
-        if network and network.has_learned_from(one)
+        f"{log.folder}: the network learned from it, where its error is smaller; accepted: another log"
+        for log in logs
+        if network and network.has_learned_from(log)
     )
     refuse_twice(logs, "else its alarms count twice")
     sampling, of = (network.sampling, network.folder) if network else (logs[0].sampling, logs[0].folder)
-    for one in logs:
-        check_drives(one.folder, one.sampling.drives, robot)
-        check_sampling(one.folder, one.sampling, sampling, of)
+    for log in logs:
+        check_drives(log.folder, log.sampling.drives, robot)
+        check_sampling(log.folder, log.sampling, sampling, of)
     return logs
 
 
@@ -74,12 +74,12 @@ def estimated(
     estimator = estimator_of(robot, settings.plant.gravity_m_s2, logs[0].sampling, network and network.networks)
     estimates = estimates_of(logs, estimator, robot.layout.limb(limb))
     _progress(logs, "looking for thresholds")
-    return [OwnRecording(one.folder, one.recording, own) for one, own in zip(logs, estimates, strict=True)]
+    return [OwnRecording(log.folder, log.recording, estimate) for log, estimate in zip(logs, estimates, strict=True)]
 
 
 def _progress(logs: Sequence[OwnLog], text: str) -> None:
     """Tell what is done with logs of many samples, which takes more than a few seconds."""
-    samples = sum(len(one.residual) for one in logs)
+    samples = sum(len(observed_log.residual) for observed_log in logs)
     if samples > MANY:
         log.info("%d samples: %s", samples, text)
 
@@ -87,7 +87,7 @@ def _progress(logs: Sequence[OwnLog], text: str) -> None:
 def of_files(options: Namespace, robot: RobotDescription, limb: str) -> list[OwnRecording]:
     """Return recordings with their estimates by any method, of the limb's joints."""
     pairs = zip(options.recording, options.estimate, strict=True)
-    return [OwnRecording.read_files(stem(one), stem(other), robot, limb) for one, other in pairs]
+    return [OwnRecording.read_files(stem(recording), stem(other), robot, limb) for recording, other in pairs]
 
 
 def run(options: Namespace) -> list[str]:
@@ -99,25 +99,25 @@ def run(options: Namespace) -> list[str]:
     robot = given_robot(options.robot, settings)
     if not options.folders:
         limb = options.limb or next(iter(robot.layout.legs.values()), None) or limb_of(robot.layout, None)
-        own = of_files(options, robot, limb)
-        found = calibrate_limb(own, robot, limb, options.signal or MEAN, options.rate, settings)
-        return list(report(found, settings.detection.thresholds.confidence))
+        recordings = of_files(options, robot, limb)
+        calibration = calibrate_limb(recordings, robot, limb, options.signal or MEAN, options.rate, settings)
+        return list(report(calibration, settings.detection.thresholds.confidence))
     network = read_network_folder(options.network, robot.layout, settings) if options.network else None
     limb = limb_of(robot.layout, options.limb, network)
     logs = read_folders(options, robot, network)
     tried = list(_tried(logs, robot, limb, network, options, settings))
-    alone = next(one for one in tried if one.name == ALONE)
+    alone = next(detector for detector in tried if detector.name == ALONE)
     kept = tried[-1]
-    told = list[str]()
+    printed_lines = list[str]()
     if len(tried) > 1 and kept.found.signal != STD:  # a push does not change what a network expects of its error
         total, counts = tried_on_pushes(tried, logs[0].sampling.gain_hz, settings)
-        tried = [replace(one, pushes=count) for one, count in zip(tried, counts, strict=True)]
+        tried = [replace(detector, pushes=count) for detector, count in zip(tried, counts, strict=True)]
         kept = best_of(tried, alone.found)
-        told = list(lines_of(tried, kept, total))
+        printed_lines = list(lines_of(tried, kept, total))
     lines = list(report(kept.found, settings.detection.thresholds.confidence))
     if kept.network and kept.found.signal != STD:
         lines += beside(kept.found, alone.found)
-    lines += told
+    lines += printed_lines
     if options.out:
         made = thresholds_of(kept.found, options.rate, settings, logs[0].sampling, kept.network)
         write_thresholds(options.out, made)
@@ -141,9 +141,9 @@ def _tried(
     def calibrated(
         name: str, logs: Sequence[OwnLog], network: OwnNetwork | None, signal: Signal, keep: bool
     ) -> DetectorCandidate:
-        own = estimated(logs, robot, limb, network, settings)
+        recordings = estimated(logs, robot, limb, network, settings)
         return DetectorCandidate(
-            name, calibrate_limb(own, robot, limb, signal, options.rate, settings), own, network, keep
+            name, calibrate_limb(recordings, robot, limb, signal, options.rate, settings), recordings, network, keep
         )
 
     if robot.friction:

@@ -44,9 +44,9 @@ class QuietWalk:
         cls, setup: LimbSetup, scenario: str, legs: Sequence[LegRecording], estimates: Sequence[Estimate], share: float
     ) -> "QuietWalk":
         """Return a walk of which a share of the swings, the first ones, calibrates."""
-        count = sum(len(one.swings) for one in legs)
+        count = sum(len(leg.swings) for leg in legs)
         first = int(np.ceil(share * count))
-        walked = sum(one.samples for one in legs) / setup.rate_hz / HOUR_S
+        walked = sum(leg.samples for leg in legs) / setup.rate_hz / HOUR_S
         return cls(scenario, tuple(legs), tuple(estimates), first, walked * first / max(count, 1))
 
     def swings_in(self, seconds: float) -> int:
@@ -117,8 +117,8 @@ def calibrate_detector(
     in_place = _over_swings(swing_heights(setup, watched, place), np.max)
     walking = usual_largest(heights, random.swings_in(numbers.normal_walk_s))
     thresholds = {LARGEST: numbers.margin * in_place, WALKING: numbers.margin * walking}
-    thresholds |= {kind: found.factor * scales for kind, found in promises.items()}
-    chains = {kind: setup.chain(own, norm=detector.norm) for kind, own in thresholds.items()}
+    thresholds |= {kind: promise.factor * scales for kind, promise in promises.items()}
+    chains = {kind: setup.chain(values, norm=detector.norm) for kind, values in thresholds.items()}
     torques = [estimate.tau_ext.astype(np.float64) for estimate in random.estimates]
     return CalibratedDetector(name, watched, _whitening(setup, random, torques), chains, promises)
 
@@ -151,10 +151,10 @@ def rate_scales(
     numbers = setup.detection.thresholds
     # (D14): with one scale for each signal, one number is left to choose, and all signals raise alarms alike. The
     # largest value itself would be a scale that one odd swing decides.
-    scales = _over_swings(heights, lambda own: float(np.quantile(own, numbers.scale_quantile)))
+    scales = _over_swings(heights, lambda number: float(np.quantile(number, numbers.scale_quantile)))
     chain = setup.chain(scales, norm=watched.detector.norm)
     seen = swing_ratios(walk.legs, chain, walk.signals(watched))[: walk.first]
-    episodes = episodes_of((one.episodes or one.segments, one.swings) for one in walk.legs)[: walk.first]
+    episodes = episodes_of((leg.episodes or leg.segments, leg.swings) for leg in walk.legs)[: walk.first]
     rates = numbers.rates_per_h.items()
     return scales, {
         kind: calibrate(seen, episodes, walk.hours * HOUR_S, rate, tail_numbers(numbers)) for kind, rate in rates
@@ -164,7 +164,7 @@ def rate_scales(
 def swing_ratios(legs: Sequence[LegRecording], chain: Chain, signals: Sequence[Array]) -> Array:
     """Return the largest number of a chain in each swing of a walk (k,)."""
     pairs = zip(legs, signals, strict=True)
-    return np.concatenate([largest(one.run(chain, own).ratio, one.swings) for one, own in pairs])
+    return np.concatenate([largest(leg.run(chain, signal).ratio, leg.swings) for leg, signal in pairs])
 
 
 def threshold_rows(setup: LegSetup, calibrated: CalibratedDetector) -> Iterator[Threshold]:
@@ -183,8 +183,8 @@ def unit_of(signal: str) -> str:
 
 def promise_rows(setup: LegSetup, calibrated: CalibratedDetector, random: QuietWalk) -> Iterator[Promise]:
     """Yield the rates of false alarms that are to be expected of a detector."""
-    for kind, found in calibrated.promises.items():
-        numbers = found.factor, found.rate_per_h, found.low, found.high
+    for kind, promise in calibrated.promises.items():
+        numbers = promise.factor, promise.rate_per_h, promise.low, promise.high
         yield Promise(calibrated.name, setup.limb, kind, random.first, random.hours, *numbers)
 
 
@@ -193,32 +193,32 @@ def quiet_rows(setup: LegSetup, calibrated: CalibratedDetector, walk: QuietWalk)
     signals = walk.signals(calibrated.watched)
     ratios = [swing_ratios(walk.legs, calibrated.chains[kind], signals) for kind in (COLLISION, LARGEST, WALKING)]
     places = list[tuple[int, int, str]]()
-    for one in walk.legs:
-        places += [(one.seed, number, terrain) for number, terrain in enumerate(one.terrains, start=1)]
+    for leg in walk.legs:
+        places += [(leg.seed, number, terrain) for number, terrain in enumerate(leg.terrains, start=1)]
     for k, (seed, number, terrain) in enumerate(places):
         # Thresholds fit the swings that made them, so that a count of false alarms is honest on the others alone.
         part = CALIBRATION if k < walk.first else HELD_OUT
-        numbers = [float(own[k]) for own in ratios]
+        numbers = [float(values[k]) for values in ratios]
         yield FreeSwing(calibrated.name, setup.limb, walk.scenario, part, terrain, seed, number, *numbers)
 
 
 def check_signals(setup: LimbSetup, detector: WatchedSignals, walk: QuietWalk) -> None:
     """Raise a DataError if a signal has the same number in all samples of a recording."""
     names = [f"{kind}.{joint}" for kind in detector.signals for joint in setup.joints]
-    for one, signals in zip(walk.legs, walk.signals(Watched(detector)), strict=True):
+    for leg, signals in zip(walk.legs, walk.signals(Watched(detector)), strict=True):
         for name, column in zip(names, signals.T, strict=True):
             if column.min() == column.max():
                 value = float(column[0])
-                raise DataError(f"{one.recording}: signal {name} is always {value}; numbers that change are needed")
+                raise DataError(f"{leg.recording}: signal {name} is always {value}; numbers that change are needed")
 
 
 def _slopes(setup: LegSetup, watched: Watched, walk: QuietWalk) -> Array:
     """Return by which share signals grow with each part of the command in calibrating swings, (m, 3)."""
     heights = swing_heights(setup, watched, walk).max(axis=1)
     commands = list[Array]()
-    for one in walk.legs:
-        starts = [start for start, _ in one.swings]
-        commands.append(one.command[starts])
+    for leg in walk.legs:
+        starts = [start for start, _ in leg.swings]
+        commands.append(leg.command[starts])
     seen = (heights > 0.0).all(axis=1)
     if not seen.any():
         raise NotWatchedError(NEVER)
@@ -230,10 +230,10 @@ def _whitening(setup: LegSetup, walk: QuietWalk, signals: Sequence[Array]) -> Ar
     """Return the whitening (m, m) of signals behind the low-pass, where the leg is watched in calibrating swings."""
     parts = list[Array]()
     left = walk.first
-    for one, own in zip(walk.legs, signals, strict=True):
-        count = min(len(one.swings), left)
-        end = one.swings[count - 1][1] if count else 0
-        parts.append(setup.low_passed(own[:end], _cut(one.segments, end))[one.gate.watched[:end]])
+    for leg, of_leg in zip(walk.legs, signals, strict=True):
+        count = min(len(leg.swings), left)
+        end = leg.swings[count - 1][1] if count else 0
+        parts.append(setup.low_passed(of_leg[:end], _cut(leg.segments, end))[leg.gate.watched[:end]])
         left -= count
     watched = np.concatenate(parts)
     if not len(watched):
@@ -255,18 +255,18 @@ def swing_heights(setup: LimbSetup, watched: Watched, walk: QuietWalk) -> Array:
     norm = watched.whitening is not None
     phases = watched.detector.phases
     whole = setup.chain(np.ones((1, 1)), norm=norm)
-    found: list[Array] = []
-    for one, signals in zip(walk.legs, walk.signals(watched), strict=True):
+    heights: list[Array] = []
+    for leg, signals in zip(walk.legs, walk.signals(watched), strict=True):
         parts = [signals] if norm else np.split(signals, signals.shape[1], axis=1)
-        held = np.stack([one.run(whole, np.ascontiguousarray(part)).ratio for part in parts], axis=1)
-        phase = np.minimum((one.gate.phase * phases).astype(int), phases - 1)
-        shown = [one.gate.watched & (phase == k) for k in range(phases)]
-        for start, end in one.swings:
-            largest = [held[start:end][own[start:end]].max(axis=0, initial=-np.inf) for own in shown]
-            found.append(np.stack(largest))
-    if not found:
+        ratios = np.stack([leg.run(whole, np.ascontiguousarray(part)).ratio for part in parts], axis=1)
+        phase = np.minimum((leg.gate.phase * phases).astype(int), phases - 1)
+        shown = [leg.gate.watched & (phase == k) for k in range(phases)]
+        for start, end in leg.swings:
+            largest = [ratios[start:end][part_shown[start:end]].max(axis=0, initial=-np.inf) for part_shown in shown]
+            heights.append(np.stack(largest))
+    if not heights:
         raise NotWatchedError(NEVER)
-    return np.array(found[: walk.first])
+    return np.array(heights[: walk.first])
 
 
 def _over_swings(heights: Array, number: Callable[[Array], float]) -> Array:
@@ -275,14 +275,14 @@ def _over_swings(heights: Array, number: Callable[[Array], float]) -> Array:
     Raises:
         NotWatchedError: no swing is watched.
     """
-    found = np.full(heights.shape[1:], np.nan)
-    for place in np.ndindex(found.shape):
-        own = heights[(slice(None), *place)]
-        own = own[own > 0.0]
-        if len(own):
-            found[place] = number(own)
-    if np.isnan(found).all(axis=0).any():
+    numbers = np.full(heights.shape[1:], np.nan)
+    for place in np.ndindex(numbers.shape):
+        positive = heights[(slice(None), *place)]
+        positive = positive[positive > 0.0]
+        if len(positive):
+            numbers[place] = number(positive)
+    if np.isnan(numbers).all(axis=0).any():
         raise NotWatchedError(NEVER)
     # The ends of a swing are watched for too short a time to hold a signal. Alarms there must stay as rare as
     # elsewhere, hence the largest number of the other phases.
-    return np.where(np.isnan(found), np.nanmax(found, axis=0), found)
+    return np.where(np.isnan(numbers), np.nanmax(numbers, axis=0), numbers)

@@ -45,31 +45,31 @@ def tried_on_pushes(tried: Sequence[DetectorCandidate], gain_hz: float, settings
     """
     first = tried[0]
     nominal = NominalModel(first.found.setup.robot, gravity_m_s2=settings.plant.gravity_m_s2)
-    poses = [one.read.sensed.q for one in first.own]
+    poses = [detector.read.sensed.q for detector in first.own]
     planted = plant(first.found.setup, nominal, gain_hz, first.found.limbs, poses, pushing_of(settings), SEED)
     counts = list[int]()
-    for one in tried:
-        watched = watched_signal(one.found.signal)
-        estimates = [Estimate(own.estimate.tau_ext, own.estimate.std) for own in one.own]
-        setup = one.found.setup
-        limbs = one.found.limbs
-        hits = found_pushes(setup, watched, one.found.thresholds, limbs, estimates, planted)
+    for detector in tried:
+        watched = watched_signal(detector.found.signal)
+        estimates = [Estimate(recording.estimate.tau_ext, recording.estimate.std) for recording in detector.own]
+        setup = detector.found.setup
+        limbs = detector.found.limbs
+        hits = found_pushes(setup, watched, detector.found.thresholds, limbs, estimates, planted)
         counts.append(int(np.count_nonzero(hits)))
-    return sum(len(one.spans) for one in planted), counts
+    return sum(len(detector.spans) for detector in planted), counts
 
 
 def best_of(tried: Sequence[DetectorCandidate], alone: LimbCalibration) -> DetectorCandidate:
     """Return the detector that is kept: the one that finds most pushes, and of equals the smaller forces."""
-    kept = [one for one in tried if one.may_be_kept]
-    return max(kept, key=lambda one: (one.pushes, -one.found.over(alone)))
+    kept = [detector for detector in tried if detector.may_be_kept]
+    return max(kept, key=lambda detector: (detector.pushes, -detector.found.over(alone)))
 
 
 def lines_of(tried: Sequence[DetectorCandidate], kept: DetectorCandidate, total: int) -> Iterator[str]:
     """Yield how many of all pushes each detector finds, and which is kept."""
-    width = max(len(one.name) for one in tried)
+    width = max(len(detector.name) for detector in tried)
     yield from ("", f"found of {total} pushes that are planted into these logs, at this rate of false alarms:")
-    for one in tried:
-        yield f"  {one.name:<{width}} {one.pushes:6d} {one.pushes / max(total, 1):5.0%}"
+    for detector in tried:
+        yield f"  {detector.name:<{width}} {detector.pushes:6d} {detector.pushes / max(total, 1):5.0%}"
     yield f"kept, as it finds most: {kept.name}"
-    better = [one.name for one in tried if not one.may_be_kept and one.pushes > kept.pushes]
+    better = [detector.name for detector in tried if not detector.may_be_kept and detector.pushes > kept.pushes]
     yield from (f"the {name} finds more: take a table without `friction`" for name in better)

@@ -164,8 +164,8 @@ class ContactLocator:
         shape = surface.shapes[solids[best]]
         # Of the force the mean is said, because the named point itself need not be a likely one.
         turned = axes @ np.array([carrier.axes.T for carrier in surface.carriers])
-        own = force[likely, None] @ surface.wrenches[likely, :, :3]
-        pushed = share @ (turned[solids] @ own.transpose(0, 2, 1))[..., 0]
+        along_axes = force[likely, None] @ surface.wrenches[likely, :, :3]
+        pushed = share @ (turned[solids] @ along_axes.transpose(0, 2, 1))[..., 0]
         point = surface.patch.points[likely[best]]
         return Contact(shape.body, shape.name, point, places[best], pushed, float(distance[best]))
 
@@ -189,11 +189,11 @@ class ContactLocator:
         units = [self.robot.layout.unit(joint) for joint in self.joints]
         floor = np.where(np.array(units) == "N", numbers.error_n, numbers.error_nm)
         ground = np.repeat([numbers.ground_n, numbers.ground_nm], 3)
-        found = np.diag(std**2 + floor**2)
+        covariance = np.diag(std**2 + floor**2)
         for body in standing:
             carried = self._jacobian(carried_by(self.robot, body)) * ground[:, None]
-            found += carried.T @ carried
-        return found
+            covariance += carried.T @ carried
+        return covariance
 
     def _jacobian(self, carrier: Carrier) -> Array:
         """Return the Jacobian (6, n) of a link to the joints, in its axes and about its origin, at the pose."""

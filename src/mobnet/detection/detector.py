@@ -75,19 +75,19 @@ class LegGate:
 
     def watch(self, recording: SensedRecording, tau: NDArray[Any]) -> GateSignal:
         """Return when the leg is watched in a recording, tau (T, 6) [N m] being the estimate of its joints."""
-        found = GateSignal(np.zeros(len(tau), dtype=bool), np.zeros(len(tau)))
+        signal = GateSignal(np.zeros(len(tau), dtype=bool), np.zeros(len(tau)))
         for span in recording.spans():
-            found.watched[span], found.phase[span] = self.run(recording.sensed[span], tau[span])
-        return found
+            signal.watched[span], signal.phase[span] = self.run(recording.sensed[span], tau[span])
+        return signal
 
     def run(self, sensed: Sensed, tau: NDArray[Any]) -> GateSignal:
         """Return the same of a contiguous stretch."""
-        found = GateSignal(np.zeros(len(sensed), dtype=bool), np.zeros(len(sensed)))
+        signal = GateSignal(np.zeros(len(sensed), dtype=bool), np.zeros(len(sensed)))
         q = np.asarray(sensed.q, dtype=np.float64)
         torque = np.ascontiguousarray(tau, dtype=np.float64)
         swing, landing = (np.asarray(part[:, self.foot], dtype=np.float64) for part in (sensed.swing, sensed.landing))
-        run_gate(self.gate, self.leg, gate_state(), q, torque, swing, landing, *found)
-        return found
+        run_gate(self.gate, self.leg, gate_state(), q, torque, swing, landing, *signal)
+        return signal
 
 
 def run_segments(chain: Chain, signals: Array, gate: GateSignal, segments: Spans) -> DetectorOutput:

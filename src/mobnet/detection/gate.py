@@ -89,9 +89,9 @@ def advance_gate(gate: Gate, leg: Leg, s: Any, q: Array, tau: Array, swing: floa
 
 
 @compiled(allocating=True)
-def advance_held(held: HeldValue, s: Any, q: Array, tau: Array, swing: float, landing: float) -> bool:
+def advance_held(holder: HeldValue, s: Any, q: Array, tau: Array, swing: float, landing: float) -> bool:
     """Advance a gate of a leg, which are held together, as `advance_gate` does."""
-    gate, leg = held.value
+    gate, leg = holder.value
     return advance_gate(gate, leg, s, q, tau, swing, landing)
 
 
@@ -115,24 +115,24 @@ def run_gate(
 
 def swings_of(swing: NDArray[Any], segments: Sequence[tuple[int, int]]) -> Spans:
     """Return the rows (start, end) of each whole swing in contiguous segments of the walking plan's swing (T,)."""
-    found: list[tuple[int, int]] = []
+    swings: list[tuple[int, int]] = []
     for start, end in segments:
         air = np.asarray(swing[start:end]) > IN_THE_AIR
         edges = np.flatnonzero(np.diff(air)) + 1 + start
         # Half a swing has not had its largest value yet, and would make false alarms look rarer than they are.
         lifted = edges[1:] if len(edges) and air[0] else edges
-        found += [(int(a), int(b)) for a, b in lifted[: len(lifted) // 2 * 2].reshape(-1, 2)]
-    return tuple(found)
+        swings += [(int(a), int(b)) for a, b in lifted[: len(lifted) // 2 * 2].reshape(-1, 2)]
+    return tuple(swings)
 
 
 def episodes_of(walks: Iterable[tuple[Spans, Spans]]) -> list[int]:
     """Return the contiguous segment of each swing, counted over recordings: their segments and swings in order."""
-    found = list[int]()
+    segments_of_swings = list[int]()
     before = 0
     for segments, swings in walks:
-        found += [before + segment_of(swing, segments) for swing in swings]
+        segments_of_swings += [before + segment_of(swing, segments) for swing in swings]
         before += len(segments)
-    return found
+    return segments_of_swings
 
 
 def segment_of(swing: tuple[int, int], segments: Spans) -> int:

@@ -118,7 +118,7 @@ def unit_torques(robot: RobotDescription, leg: Leg, q: NDArray[Any], points: Seq
     update(leg.tree, np.asarray(q, dtype=np.float64), leg.still, 0.0, leg.pose)
     rows = {row.name: row for row in robot.points}
     names = [body.name for body in robot.bodies]
-    found = np.zeros((len(points), LEG_JOINTS))
+    torques = np.zeros((len(points), LEG_JOINTS))
     for k, name in enumerate(points):
         if name not in rows:
             raise ConfigError(not_accepted("point of the robot", name, rows))
@@ -133,14 +133,14 @@ def unit_torques(robot: RobotDescription, leg: Leg, q: NDArray[Any], points: Seq
             moved = int(leg.tree.body_of_joint[leg.first + j])
             if moved in above:
                 arm = place - leg.pose.position[moved]
-                found[k, j] = leg.pose.axis[leg.first + j] @ np.cross(arm, force)
-    return found
+                torques[k, j] = leg.pose.axis[leg.first + j] @ np.cross(arm, force)
+    return torques
 
 
 def ancestors(tree: KinematicTree, body: int) -> set[int]:
     """Return a body and all above it."""
-    found: set[int] = set()
+    bodies: set[int] = set()
     while body >= 0:
-        found.add(body)
+        bodies.add(body)
         body = int(tree.parent[body])
-    return found
+    return bodies

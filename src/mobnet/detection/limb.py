@@ -47,12 +47,12 @@ class OwnRecording:
         note, other = (read_array_note(file_of(stem, NOTE)) for stem in (estimate, recording))
         refuse(f"{estimate}{NOTE}", pair_differences(note, other, f"{recording}{NOTE}"))
         joints = robot.layout.limb(limb)
-        found = read_estimate(estimate, joints)
-        if found is None:
+        read = read_estimate(estimate, joints)
+        if read is None:
             missing = f"column {named(EXTERNAL, joints)[0]!r} is missing"
             raise DataError(f"{estimate}: {missing}; accepted: an estimate of {', '.join(joints)}")
-        check_finite(f"{estimate}", found.tau_ext, named(EXTERNAL, joints))
-        return cls(recording, read_sensed(recording, robot.layout), found)
+        check_finite(f"{estimate}", read.tau_ext, named(EXTERNAL, joints))
+        return cls(recording, read_sensed(recording, robot.layout), read)
 
 
 @dataclass(frozen=True)
@@ -99,7 +99,7 @@ def watched_signal(signal: Signal) -> Watched:
 
 
 def calibrate_limb(
-    own: Sequence[OwnRecording],
+    recordings: Sequence[OwnRecording],
     robot: RobotDescription,
     limb: str,
     signal: Signal,
@@ -113,15 +113,15 @@ def calibrate_limb(
             rate is above what the fitted tail holds.
         ConfigError: the limb is unknown.
     """
-    _check_rates(own, settings.detection.sensitivity.contact_s)
-    walks = limb in robot.layout.legs.values() and _walks(own)
+    _check_rates(recordings, settings.detection.sensitivity.contact_s)
+    walks = limb in robot.layout.legs.values() and _walks(recordings)
     own_way = {"scale_quantile": settings.robotlog.scale_quantile, "on_average": settings.robotlog.on_average}
     detection = _with_thresholds(settings.detection, rates_per_h={WANTED: rate_per_h}, **own_way)
-    setup = setup_of(detection, robot, limb, own[0].read.rate_hz, walks=walks)
+    setup = setup_of(detection, robot, limb, recordings[0].read.rate_hz, walks=walks)
     watched = watched_signal(signal)
     if isinstance(setup, LegSetup):
-        return _calibrate_leg(setup, watched, own)
-    return _calibrate_always(setup, watched, own, settings)
+        return _calibrate_leg(setup, watched, recordings)
+    return _calibrate_always(setup, watched, recordings, settings)
 
 
 def _with_thresholds(detection: Detection, **changes: object) -> Detection:
@@ -129,25 +129,25 @@ def _with_thresholds(detection: Detection, **changes: object) -> Detection:
     return detection.model_copy(update={"thresholds": detection.thresholds.model_copy(update=changes)})
 
 
-def _calibrate_leg(setup: LegSetup, watched: Watched, own: Sequence[OwnRecording]) -> LimbCalibration:
+def _calibrate_leg(setup: LegSetup, watched: Watched, recordings: Sequence[OwnRecording]) -> LimbCalibration:
     """Calibrate a leg in its swings; forces are from one side (1,) [N]."""
-    legs = [setup.record(one.path, one.read, one.estimate.tau_ext) for one in own]
+    legs = [setup.record(recording.path, recording.read, recording.estimate.tau_ext) for recording in recordings]
 
     def forces_of(poses: Array, felt: Array) -> dict[str, Array]:
         return {point: np.array([force]) for point, force in found_forces(setup, poses, felt).items()}
 
-    return _calibrated(setup, watched, own, legs, forces_of)
+    return _calibrated(setup, watched, recordings, legs, forces_of)
 
 
 def _calibrate_always(
-    setup: LimbSetup, watched: Watched, own: Sequence[OwnRecording], settings: Lab
+    setup: LimbSetup, watched: Watched, recordings: Sequence[OwnRecording], settings: Lab
 ) -> LimbCalibration:
     """Calibrate a limb that is watched all the time; forces are along three axes (3,) [N]."""
     detection = _with_thresholds(setup.detection, confidence=settings.robotlog.percentiles)
     setup = replace(setup, detection=detection)
-    paths = [one.path for one in own]
-    read = [one.read for one in own]
-    estimates = [one.estimate for one in own]
+    paths = [recording.path for recording in recordings]
+    read = [recording.read for recording in recordings]
+    estimates = [recording.estimate for recording in recordings]
     lengths = (settings.detection.window_s, settings.robotlog.settle_s)
     always = always_watched(setup, watched, paths, read, estimates, *lengths)
 
@@ -155,13 +155,13 @@ def _calibrate_always(
         nominal = NominalModel(setup.robot, gravity_m_s2=settings.plant.gravity_m_s2)
         return axis_forces(setup, nominal, poses, felt)
 
-    return replace(_calibrated(setup, watched, own, always.limbs, forces_of), always=always)
+    return replace(_calibrated(setup, watched, recordings, always.limbs, forces_of), always=always)
 
 
 def _calibrated(
     setup: LimbSetup,
     watched: Watched,
-    own: Sequence[OwnRecording],
+    recordings: Sequence[OwnRecording],
     legs: Sequence[LegRecording],
     forces_of: Callable[[Array, Array], dict[str, Array]],
 ) -> LimbCalibration:
@@ -172,13 +172,17 @@ def _calibrated(
     """
     (signal,) = watched.detector.signals
     # Nothing is tried here on what is held out, so that all swings calibrate.
-    walk = QuietWalk.of(setup, "", legs, [one.estimate for one in own], share=1.0)
+    walk = QuietWalk.of(setup, "", legs, [recording.estimate for recording in recordings], share=1.0)
     check_signals(setup, watched.detector, walk)
     scales, promises = rate_scales(setup, watched, walk, swing_heights(setup, watched, walk))
     thresholds = promises[WANTED].factor * scales[0]
-    pairs = [(one, leg.gate.watched) for one, leg in zip(own, legs, strict=True)]
-    poses = np.concatenate([one.read.sensed.q[rows] for one, rows in pairs])
-    stds = [one.estimate.std[rows] for one, rows in pairs if signal == RATIO and one.estimate.std is not None]
+    pairs = [(recording, leg.gate.watched) for recording, leg in zip(recordings, legs, strict=True)]
+    poses = np.concatenate([recording.read.sensed.q[rows] for recording, rows in pairs])
+    stds = [
+        recording.estimate.std[rows]
+        for recording, rows in pairs
+        if signal == RATIO and recording.estimate.std is not None
+    ]
     felt = thresholds * (np.concatenate(stds) if stds else np.ones((len(poses), len(thresholds))))
     return LimbCalibration(
         setup=setup,
@@ -192,24 +196,24 @@ def _calibrated(
     )
 
 
-def _check_rates(own: Sequence[OwnRecording], contact_s: float) -> None:
+def _check_rates(recordings: Sequence[OwnRecording], contact_s: float) -> None:
     """Raise a DataError where recordings differ in their rate, or a collision of a length [s] is not seen at it."""
-    first = own[0]
+    first = recordings[0]
     least = CONTACT_SAMPLES / contact_s
     if first.read.rate_hz < least:
         needed = f"{least:.0f} Hz or more are needed, as collisions last for {contact_s * 1e3:.0f} ms"
         raise DataError(f"{first.path}: rate_hz is {first.read.rate_hz}; {needed}")
-    for one in own:
-        if one.read.rate_hz != first.read.rate_hz:
+    for recording in recordings:
+        if recording.read.rate_hz != first.read.rate_hz:
             needed = f"all need that of {first.path}, {first.read.rate_hz}"
-            raise DataError(f"{one.path}: rate_hz is {one.read.rate_hz}; {needed}")
+            raise DataError(f"{recording.path}: rate_hz is {recording.read.rate_hz}; {needed}")
 
 
-def _walks(own: Sequence[OwnRecording]) -> bool:
+def _walks(recordings: Sequence[OwnRecording]) -> bool:
     """Return whether recordings tell when a leg is in the air; a DataError says that some do and others do not."""
-    expected = own[0].read.unplanned()
-    for one in own:
-        if (missing := one.read.unplanned()) != expected:
+    expected = recordings[0].read.unplanned()
+    for recording in recordings:
+        if (missing := recording.read.unplanned()) != expected:
             lacks = f"{', '.join(missing) or 'nothing'} is missing, and {', '.join(expected) or 'nothing'}"
-            raise DataError(f"{one.path}: {lacks} in {own[0].path}; all need the same signals")
+            raise DataError(f"{recording.path}: {lacks} in {recordings[0].path}; all need the same signals")
     return not expected

@@ -69,17 +69,17 @@ def plant(
     """
     places = list(_places(setup, nominal))
     rng = np.random.default_rng(seed)
-    found = list[Planted]()
+    planted = list[Planted]()
     for _ in range(PASSES):
         for k, (limb, q) in enumerate(zip(limbs, poses, strict=True)):
             torque, spans = _planted(setup, nominal, gain_hz, limb, q, places, pushing, rng)
             if spans:
-                found.append(Planted(k, torque, spans))
-            if sum(len(own.spans) for own in found) >= pushing.count:
-                return found
-        if not found:
+                planted.append(Planted(k, torque, spans))
+            if sum(len(push.spans) for push in planted) >= pushing.count:
+                return planted
+        if not planted:
             break
-    return found
+    return planted
 
 
 def found_pushes(
@@ -92,14 +92,14 @@ def found_pushes(
 ) -> NDArray[np.bool_]:
     """Return which pushes (k,) a detector with thresholds (n,) finds in recordings with their estimates."""
     chain = setup.chain(thresholds[None])
-    found = list[bool]()
+    are_found = list[bool]()
     for push in planted:
         limb = limbs[push.recording]
         estimate = estimates[push.recording]
         pushed = Estimate(estimate.tau_ext + push.torque, estimate.std)
         above = limb.run(chain, watched.of(pushed, limb.command)).ratio > ALARM_RATIO
-        found += [bool(above[start:end].any()) for start, end in push.spans]
-    return np.array(found, dtype=bool)
+        are_found += [bool(above[start:end].any()) for start, end in push.spans]
+    return np.array(are_found, dtype=bool)
 
 
 def _places(setup: LimbSetup, nominal: NominalModel) -> Iterator[tuple[str, tuple[float, ...]]]:

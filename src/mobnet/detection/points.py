@@ -109,13 +109,13 @@ def points_of(robot: RobotDescription, joints: Sequence[str]) -> list[PointRow]:
 def axis_torques(nominal: NominalModel, joints: Sequence[str], points: Sequence[PointRow], q: Array) -> Array:
     """Return what 1 N along each axis of the body of each point does to joints (T, 3 points, n) [N m/N] at (T, nq)."""
     columns = nominal.robot.layout.columns(joints)
-    found = list[Array]()
+    torques = list[Array]()
     for row in points:
         for axis in range(len(AXES)):
             push = np.zeros((len(q), 6))
             push[:, axis] = 1.0
-            found.append(point_torque(nominal, row.body, row.pos, np.eye(3), q, push)[:, columns])
-    return np.stack(found, axis=1) if found else np.zeros((len(q), 0, len(columns)))
+            torques.append(point_torque(nominal, row.body, row.pos, np.eye(3), q, push)[:, columns])
+    return np.stack(torques, axis=1) if torques else np.zeros((len(q), 0, len(columns)))
 
 
 def axis_forces(setup: LimbSetup, nominal: NominalModel, poses: Array, thresholds: Array) -> dict[str, Array]:
@@ -132,7 +132,9 @@ def axis_forces(setup: LimbSetup, nominal: NominalModel, poses: Array, threshold
     forces = np.array([smallest_forces(*pair, left) for pair in zip(units, thresholds[picked], strict=True)])
     most = np.quantile(forces, numbers.share, axis=0).reshape(len(points), len(AXES))
     heard = np.abs(units).max(axis=(0, 2), initial=0.0).reshape(most.shape) > 1e-6
-    return {row.name: np.where(own, force, np.inf) for row, own, force in zip(points, heard, most, strict=True)}
+    return {
+        row.name: np.where(of_point, force, np.inf) for row, of_point, force in zip(points, heard, most, strict=True)
+    }
 
 
 def felt_push(
@@ -147,7 +149,7 @@ def felt_push(
         return None
     (units,) = axis_torques(nominal, joints, points, np.asarray(q, dtype=np.float64)[None])
     # A push has a sign, which its two directions tell.
-    found = name_push(torque, np.concatenate([units, -units]), np.diag(1.0 / scale))
-    sign, place = divmod(found.candidate, len(units))
+    push = name_push(torque, np.concatenate([units, -units]), np.diag(1.0 / scale))
+    sign, place = divmod(push.candidate, len(units))
     row = points[place // len(AXES)]
-    return EstimatedPush(row.name, row.body, f"{'+-'[sign]}{AXES[place % len(AXES)]}", found.force_n)
+    return EstimatedPush(row.name, row.body, f"{'+-'[sign]}{AXES[place % len(AXES)]}", push.force_n)

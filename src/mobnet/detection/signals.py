@@ -46,15 +46,15 @@ class Watched:
             DataError: the estimate has no standard deviation, and the detector watches it.
         """
         parts = [_signal(kind, estimate) for kind in self.detector.signals]
-        found = parts[0] if len(parts) == 1 else np.concatenate(parts, axis=-1)
-        return self.relative(found.astype(np.float64), command)
+        signals = parts[0] if len(parts) == 1 else np.concatenate(parts, axis=-1)
+        return self.relative(signals.astype(np.float64), command)
 
     def relative(self, signals: Array, command: NDArray[Any]) -> Array:
         """Return the first k signals (..., k) [N m], a ratio [-], as the detector compares them with thresholds."""
         if self.slopes is not None:
             # (D24): what a robot is told to do decides how large the error of an estimate can be.
-            told = np.abs(command[..., :TOLD].astype(np.float64))
-            signals = signals / (1.0 + told @ self.slopes[: signals.shape[-1]].T)
+            command_size = np.abs(command[..., :TOLD].astype(np.float64))
+            signals = signals / (1.0 + command_size @ self.slopes[: signals.shape[-1]].T)
         return signals if self.whitening is None else signals @ self.whitening.T
 
     def names(self, joints: Sequence[str]) -> list[str]:
@@ -91,14 +91,14 @@ def slopes_of(heights: Array, commands: Array, quantile: float) -> Array:
     which may be negative. All are zero where fewer swings lie above the fit than it has numbers: it would go through
     the largest values themselves.
     """
-    told = np.abs(commands[:, :TOLD])
+    command_sizes = np.abs(commands[:, :TOLD])
     if (1.0 - quantile) * len(heights) < 1 + TOLD:
         return np.zeros((heights.shape[1], TOLD))
-    found = [_quantile_plane(told, own, quantile) for own in heights.T]
-    return np.array([plane[1:] / plane[0] for plane in found])
+    planes = [_quantile_plane(command_sizes, heights_of_signal, quantile) for heights_of_signal in heights.T]
+    return np.array([plane[1:] / plane[0] for plane in planes])
 
 
-def _quantile_plane(told: Array, height: Array, quantile: float) -> Array:
+def _quantile_plane(command_sizes: Array, height: Array, quantile: float) -> Array:
     """Return the constant and the slopes (4,) of a quantile of heights (n,) over |commands| (n, 3)."""
     from scipy.optimize import linprog  # here, as it takes a second to import
     from scipy.sparse import eye_array, hstack
@@ -106,7 +106,7 @@ def _quantile_plane(told: Array, height: Array, quantile: float) -> Array:
     # (D25), quantile regression as a linear program (Koenker and Bassett 1978): what lies above and below the plane
     # costs unequally. A signal is never smaller than its smallest largest value, so the constant is above zero.
     count = len(height)
-    plane = np.column_stack([np.ones(count), told])
+    plane = np.column_stack([np.ones(count), command_sizes])
     size = plane.shape[1]
     cost = np.repeat([0.0, quantile, 1.0 - quantile], [size, count, count])
     sides = hstack([plane, eye_array(count), -eye_array(count)])

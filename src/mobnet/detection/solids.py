@@ -30,15 +30,15 @@ class Patch(NamedTuple):
 def patch_of(shape: ShapeRow, spacing_m: float) -> Patch:
     """Return points on a whole solid, about so far apart [m], in the axes of its body."""
     if shape.type == "box":
-        found = _box(np.array(shape.size), spacing_m)
+        points = _box(np.array(shape.size), spacing_m)
     elif shape.type == "ellipsoid":
-        found = _stretched(_revolved(_profile("sphere", 1.0, 0.0, spacing_m / (sum(shape.size) / 3.0))), shape.size)
+        points = _stretched(_revolved(_profile("sphere", 1.0, 0.0, spacing_m / (sum(shape.size) / 3.0))), shape.size)
     else:
         radius = shape.size[0]
         half = _half_length(shape)
-        found = _revolved(_profile(shape.type, radius, half, spacing_m))
+        points = _revolved(_profile(shape.type, radius, half, spacing_m))
     centre, axes = placed(shape)
-    return Patch(centre + found.points @ axes.T, found.normals @ axes.T, found.area)
+    return Patch(centre + points.points @ axes.T, points.normals @ axes.T, points.area)
 
 
 def placed(shape: ShapeRow) -> tuple[Array, Array]:

@@ -19,9 +19,9 @@ from mobnet.settings.limb_thresholds import LimbThresholds
 HEADER = f"# Thresholds of a limb, by {command('calibrate')} (docs/detection.md). SI units, rates of alarms per hour."
 
 
-def write_thresholds(path: Path, found: LimbThresholds) -> None:
+def write_thresholds(path: Path, thresholds: LimbThresholds) -> None:
     """Write the thresholds of a limb as YAML, a line for each key."""
-    rows = found.model_dump(mode="json", exclude_none=True).items()
+    rows = thresholds.model_dump(mode="json", exclude_none=True).items()
     write_text(path, "\n".join([HEADER, *(f"{key}: {flow(value)}" for key, value in rows)]) + "\n")
 
 
@@ -31,44 +31,50 @@ def read_thresholds(path: Path) -> LimbThresholds:
     Raises:
         ConfigError: the file is missing, or a key or a value is not accepted.
     """
-    found = load_section(path, LimbThresholds)
-    if len(found.thresholds) != len(found.joints):
+    thresholds = load_section(path, LimbThresholds)
+    if len(thresholds.thresholds) != len(thresholds.joints):
         raise ConfigError(
-            f"{path}: {len(found.thresholds)} thresholds for {len(found.joints)} joints; each joint needs one"
+            f"{path}: {len(thresholds.thresholds)} thresholds for {len(thresholds.joints)} joints; each joint needs one"
         )
-    return found
+    return thresholds
 
 
-def sampling_of(found: LimbThresholds) -> Sampling:
+def sampling_of(thresholds: LimbThresholds) -> Sampling:
     """Return how the log was sampled and observed that thresholds were made with."""
-    return Sampling(found.rate_hz, found.gain_hz, found.torque, found.drives)
+    return Sampling(thresholds.rate_hz, thresholds.gain_hz, thresholds.torque, thresholds.drives)
 
 
-def watched_of(found: LimbThresholds) -> Watched:
+def watched_of(thresholds: LimbThresholds) -> Watched:
     """Return what a detector with these thresholds watches."""
-    return Watched(WatchedSignals((found.signal,)))
+    return Watched(WatchedSignals((thresholds.signal,)))
 
 
-def setup_with(found: LimbThresholds, detection: Detection, robot: RobotDescription) -> LimbSetup:
+def setup_with(thresholds: LimbThresholds, detection: Detection, robot: RobotDescription) -> LimbSetup:
     """Return the setup of a limb with the filters of its thresholds; a DataError names a limb without swings."""
-    filters = {"low_pass_hz": found.low_pass_hz, "hold_s": found.hold_s}
-    walks = found.watched == "swing"
-    setup = setup_of(detection.model_copy(update=filters), robot, found.limb, found.rate_hz, walks=walks)
+    filters = {"low_pass_hz": thresholds.low_pass_hz, "hold_s": thresholds.hold_s}
+    walks = thresholds.watched == "swing"
+    setup = setup_of(detection.model_copy(update=filters), robot, thresholds.limb, thresholds.rate_hz, walks=walks)
     if walks and not isinstance(setup, LegSetup):
-        raise DataError(not_accepted(f"thresholds of {found.limb}: watched", found.watched, ["always"]))
+        raise DataError(not_accepted(f"thresholds of {thresholds.limb}: watched", thresholds.watched, ["always"]))
     return setup
 
 
-def check_thresholds(path: Path, found: LimbThresholds, robot: RobotDescription, network: OwnNetwork | None) -> None:
+def check_thresholds(
+    path: Path, thresholds: LimbThresholds, robot: RobotDescription, network: OwnNetwork | None
+) -> None:
     """Raise a DataError where thresholds are those of another robot, limb or network, or of other friction."""
-    check_drives(path, found.drives, robot)
-    own = robot.layout.groups.get(found.limb, ())
+    check_drives(path, thresholds.drives, robot)
+    joints = robot.layout.groups.get(thresholds.limb, ())
     pairs = {
-        "robot": (found.robot, robot.name),
-        "joints": (found.joints, own),
-        "network": (found.network or "none", network.fingerprint if network else "none"),
+        "robot": (thresholds.robot, robot.name),
+        "joints": (thresholds.joints, joints),
+        "network": (thresholds.network or "none", network.fingerprint if network else "none"),
     }
     refuse(
         path,
-        [f"made for {key} {held!r}, and {here!r} is given here" for key, (held, here) in pairs.items() if held != here],
+        [
+            f"made for {key} {there!r}, and {here!r} is given here"
+            for key, (there, here) in pairs.items()
+            if there != here
+        ],
     )

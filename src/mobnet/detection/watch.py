@@ -121,8 +121,8 @@ class LegSetup(LimbSetup):
 
 def read_estimate(stem: Path, joints: Sequence[str]) -> Estimate | None:
     """Return the estimate of some joints (T, n) [N m], with what std it has; None where it does not hold them."""
-    held = {column["name"] for column in read_array_note(file_of(stem, NOTE))["columns"]}
-    if not held.issuperset(named(EXTERNAL, joints)):
+    column_names = {column["name"] for column in read_array_note(file_of(stem, NOTE))["columns"]}
+    if not column_names.issuperset(named(EXTERNAL, joints)):
         return None
-    std = read_array(stem, named(STD, joints))[0] if held.issuperset(named(STD, joints)) else None
+    std = read_array(stem, named(STD, joints))[0] if column_names.issuperset(named(STD, joints)) else None
     return Estimate(read_array(stem, named(EXTERNAL, joints))[0], std)

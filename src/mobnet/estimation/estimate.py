@@ -37,7 +37,7 @@ def read_observed(
 
 def rate_of(read: Sequence[ObservedRecording]) -> float:
     """Return the rate of recordings [Hz]; raise DataError where they have several."""
-    rates = sorted({one.recording.rate_hz for one in read})
+    rates = sorted({recording.recording.rate_hz for recording in read})
     if len(rates) != 1:
         raise DataError(f"recordings at {rates} Hz cannot be run together; accepted: one or more at a single rate")
     return rates[0]
@@ -50,28 +50,28 @@ def run_segments(estimator: TorqueEstimator, read: Sequence[ObservedRecording]) 
     """
     spans = list[tuple[int, slice]]()
     stretches = list[Stretch]()
-    for k, one in enumerate(read):
-        for span in one.recording.spans():
-            residual = None if one.residual is None else one.residual[span]
+    for k, recording in enumerate(read):
+        for span in recording.recording.spans():
+            residual = None if recording.residual is None else recording.residual[span]
             spans.append((k, span))
-            stretches.append(Stretch(one.recording.sensed[span], residual))
-    shapes = [(len(one.recording.sensed), len(estimator.joints)) for one in read]
-    found = [(np.zeros(shape), np.zeros(shape)) for shape in shapes]
+            stretches.append(Stretch(recording.recording.sensed[span], residual))
+    shapes = [(len(recording.recording.sensed), len(estimator.joints)) for recording in read]
+    estimates = [(np.zeros(shape), np.zeros(shape)) for shape in shapes]
     has_std = False
     for (k, span), part in zip(spans, estimate_all(estimator, stretches), strict=True):
-        found[k][0][span] = part.tau_ext
+        estimates[k][0][span] = part.tau_ext
         if part.std is not None:
-            found[k][1][span] = part.std
+            estimates[k][1][span] = part.std
             has_std = True
-    return [Estimate(tau, std if has_std else None) for tau, std in found]
+    return [Estimate(tau, std if has_std else None) for tau, std in estimates]
 
 
-def only(result: Estimate, held: Sequence[str], joints: Sequence[str]) -> Estimate:
+def only(result: Estimate, estimated: Sequence[str], joints: Sequence[str]) -> Estimate:
     """Return some of the joints (n,) of an estimate; raise ConfigError where it does not hold one."""
-    missing = [joint for joint in joints if joint not in held]
+    missing = [joint for joint in joints if joint not in estimated]
     if missing:
-        raise ConfigError(not_accepted("joint to estimate", missing[0], held))
-    columns = [held.index(joint) for joint in joints]
+        raise ConfigError(not_accepted("joint to estimate", missing[0], estimated))
+    columns = [estimated.index(joint) for joint in joints]
     return Estimate(result.tau_ext[:, columns], None if result.std is None else result.std[:, columns])
 
 

@@ -90,9 +90,9 @@ def feet_zeros(recording: Path, robot: RobotDescription) -> dict[str, NDArray[An
     """Return the constant error of the sensor of each foot in a recording, side -> (6,) [N] and [N m]."""
     names = wrench_fields(robot)
     hanging = {side: list[NDArray[np.float32]]() for side in names}
-    for _, found in read_blocks(recording, robot.layout, ["swing", *names.values()], BLOCK_ROWS):
+    for _, block in read_blocks(recording, robot.layout, ["swing", *names.values()], BLOCK_ROWS):
         for k, (side, name) in enumerate(names.items()):
-            hanging[side].append(found[name][found["swing"][:, k] > 0])
+            hanging[side].append(block[name][block["swing"][:, k] > 0])
     return {side: zero_of(np.concatenate(parts)) for side, parts in hanging.items()}
 
 

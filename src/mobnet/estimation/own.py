@@ -109,10 +109,10 @@ class OwnNetwork:
 def refuse_twice(logs: Sequence[OwnLog], why: str) -> None:
     """Raise a DataError with the reason where a log is given twice, be it as a copy in another folder."""
     seen = dict[str, Path]()
-    for one in logs:
-        if one.footer in seen:
-            raise DataError(f"{one.folder} is the same log as {seen[one.footer]}; give each log once, {why}")
-        seen[one.footer] = one.folder
+    for log in logs:
+        if log.footer in seen:
+            raise DataError(f"{log.folder} is the same log as {seen[log.footer]}; give each log once, {why}")
+        seen[log.footer] = log.folder
 
 
 def read_log_folder(folder: Path, layout: JointLayout) -> OwnLog:
@@ -129,8 +129,8 @@ def read_log_folder(folder: Path, layout: JointLayout) -> OwnLog:
         raise DataError(not_accepted(f"{stems[1]}{NOTE}: method", note.get("method"), [f"{OBSERVER}, by observe"]))
     faults = [*beyond("rate_hz", note["rate_hz"], RATE_HZ), *beyond("gain_hz", note["gain_hz"], GAIN_HZ)]
     refuse(f"{stems[1]}{NOTE}", faults)
-    held = [column["name"].removeprefix(f"{EXTERNAL}.") for column in note["columns"]]
-    if others := [name for name in held if name not in layout.names]:
+    joints_there = [column["name"].removeprefix(f"{EXTERNAL}.") for column in note["columns"]]
+    if others := [name for name in joints_there if name not in layout.names]:
         raise DataError(f"{not_accepted(f'{folder}: joint', others[0], layout.names)}, those of --robot")
     recording = read_sensed(stems[0], layout)
     residual = read_array(stems[1], named(EXTERNAL, layout.names))[0]
@@ -201,17 +201,17 @@ def estimator_of(
 def without_friction(logs: Sequence[OwnLog], robot: RobotDescription, gravity_m_s2: float) -> list[OwnLog]:
     """Return logs with the residual of an observer that does not know the friction of the robot's table."""
     nominal = NominalModel(replace(robot, friction={}), gravity_m_s2=gravity_m_s2)
-    found = list[OwnLog]()
+    logs_without = list[OwnLog]()
     for log in logs:
         mob = RobotObserver(nominal, log.sampling.gain_hz, log.sampling.rate_hz, log.sampling.torque)
         residual = np.empty(log.residual.shape, dtype=np.float32)
         for span in log.recording.spans():
             residual[span] = mob.residual(log.recording.sensed[span])
-        found.append(replace(log, residual=residual))
-    return found
+        logs_without.append(replace(log, residual=residual))
+    return logs_without
 
 
 def estimates_of(logs: Sequence[OwnLog], estimator: ResidualEstimator, joints: Sequence[str]) -> list[Estimate]:
     """Return the estimate of some joints (T, n) [N, N m] in each log, segments from a fresh state."""
-    found = run_segments(estimator, [ObservedRecording(log.recording, log.residual) for log in logs])
-    return [only(result, estimator.joints, joints) for result in found]
+    estimates = run_segments(estimator, [ObservedRecording(log.recording, log.residual) for log in logs])
+    return [only(result, estimator.joints, joints) for result in estimates]

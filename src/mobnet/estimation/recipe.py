@@ -134,8 +134,8 @@ def options_of(name: str, method: Method, section: type[Kind]) -> Kind:
     try:
         return section.model_validate(method.options)
     except ValidationError as error:
-        found = problems(error, section, method.options)
-        lines = [f"methods.{name}.options.{dotted(place)}: {text}" for place, text in found]
+        faults = problems(error, section, method.options)
+        lines = [f"methods.{name}.options.{dotted(place)}: {text}" for place, text in faults]
         raise ConfigError("\n".join(lines)) from None
 
 

@@ -48,17 +48,17 @@ def regress(law: Law, joints: Mapping[str, Sequence[str]], pairs: Sequence[Pair]
     Return joint -> factors of (23), units in the keys, and the root mean squares of the target and of the error [N m].
     """
     sums = square_sums(partial(_columns, law), list(joints), law.gain_hz, pairs)
-    found = dict[str, dict[str, float]]()
+    factors = dict[str, dict[str, float]]()
     for joint, wanted in joints.items():
         chosen = [term for term in TERMS if term in wanted]
-        found[joint] = logged(joint, _solve(sums[joint], chosen, law.stribeck))
-    return found
+        factors[joint] = logged(joint, _solve(sums[joint], chosen, law.stribeck))
+    return factors
 
 
-def logged(joint: str, found: dict[str, float]) -> dict[str, float]:
+def logged(joint: str, factors: dict[str, float]) -> dict[str, float]:
     """Log how much friction a fit leaves of a joint, and return it."""
-    log.info("%s: %.2f of %.2f N m left", joint, found["left_rms_nm"], found["target_rms_nm"])
-    return found
+    log.info("%s: %.2f of %.2f N m left", joint, factors["left_rms_nm"], factors["target_rms_nm"])
+    return factors
 
 
 def regressors(
@@ -117,9 +117,9 @@ def _solve(products: Array, terms: Sequence[str], grid: Sequence[float]) -> dict
     The mean products of the columns are (m, m), the grid has Stribeck velocities [rad/s].
     """
     # v_s is the only number that does not enter linearly: the grid is searched, the rest is solved.
-    found = [_factors(products, terms, STATIC + i) for i in range(len(grid))]
-    best = min(range(len(grid)), key=lambda i: found[i][1])
-    factors, left = found[best]
+    fits = [_factors(products, terms, STATIC + i) for i in range(len(grid))]
+    best = min(range(len(grid)), key=lambda i: fits[i][1])
+    factors, left = fits[best]
     # Without a static term sgn v is not split, (O12): friction at rest is then that of motion.
     if "static" not in terms:
         factors["static"] = factors.get("coulomb", 0.0)
@@ -159,6 +159,6 @@ def non_negative(
     # to the bit: columns that rounding makes differ could both be taken, with huge factors that cancel.
     either = [name in free for name in columns]
     factors, left = scipy.optimize.nnls(np.hstack([scaled, -scaled[:, either]]), root[:, -1])
-    found, negated = np.split(factors, [len(columns)])
-    found[either] -= negated
-    return dict(zip(columns, (found / size).tolist(), strict=True)), float(left)
+    positive, negated = np.split(factors, [len(columns)])
+    positive[either] -= negated
+    return dict(zip(columns, (positive / size).tolist(), strict=True)), float(left)

@@ -91,8 +91,8 @@ class Contract(Note):
 
     def of(self, network: NetworkContract) -> "Contract":
         """Return the part that belongs to one network."""
-        own = [one for one in self.detectors if one.limb == network.limb]
-        return self.model_copy(update={"networks": [network], "detectors": own})
+        of_limb = [detector for detector in self.detectors if detector.limb == network.limb]
+        return self.model_copy(update={"networks": [network], "detectors": of_limb})
 
     def as_json(self) -> dict[str, Any]:
         """Return it as JSON; what an entry does not have is left out."""

@@ -64,22 +64,30 @@ def model_of(
         DataError: a number is one that the library does not accept.
         ConfigError: a limb that is watched in swing is no leg.
     """
-    if not all(one.note.cell.cell in WITHOUT_TORCH for one in networks):
+    if not all(network.note.cell.cell in WITHOUT_TORCH for network in networks):
         return None
     observing = contract.observer
     nominal = NominalModel(robot, gravity_m_s2=observing.gravity_m_s2)
     observer = RobotObserver(nominal, observing.gain_hz, contract.rate_hz, observing.torque)
     pairs = zip(networks, contract.networks, strict=True)
-    parts = [RuntimeNetwork(one.tensors, one.note, told.estimates) for one, told in pairs]
-    return model_content(observer, parts, [_detector(one, robot, gate) for one in contract.detectors])
+    parts = [RuntimeNetwork(network.tensors, network.note, entry.estimates) for network, entry in pairs]
+    return model_content(observer, parts, [_detector(network, robot, gate) for network in contract.detectors])
 
 
-def _detector(one: LimbThresholds, robot: RobotDescription, gate: GateNumbers) -> RuntimeDetector:
+def _detector(thresholds: LimbThresholds, robot: RobotDescription, gate: GateNumbers) -> RuntimeDetector:
     """Return the detector of a limb's thresholds."""
-    chain = make_chain(one.low_pass_hz, one.hold_s, one.rate_hz, np.array([one.thresholds]))
-    swing = LegGate.of(gate, robot, one.limb, one.rate_hz) if one.watched == "swing" else None
-    settle = 0 if swing else round(one.settle_s * one.rate_hz)
-    return RuntimeDetector(one.limb, tuple(one.joints), (one.signal,), chain, swing, settle, one.method == OBSERVER)
+    chain = make_chain(thresholds.low_pass_hz, thresholds.hold_s, thresholds.rate_hz, np.array([thresholds.thresholds]))
+    swing = LegGate.of(gate, robot, thresholds.limb, thresholds.rate_hz) if thresholds.watched == "swing" else None
+    settle = 0 if swing else round(thresholds.settle_s * thresholds.rate_hz)
+    return RuntimeDetector(
+        thresholds.limb,
+        tuple(thresholds.joints),
+        (thresholds.signal,),
+        chain,
+        swing,
+        settle,
+        thresholds.method == OBSERVER,
+    )
 
 
 @dataclass(frozen=True)
@@ -109,15 +117,19 @@ def export(
         ConfigError: a limb that is watched in swing is no leg.
     """
     check_apart(networks)
-    for one in networks:
-        check_drives(one.folder, one.run.drives, robot)
+    for network in networks:
+        check_drives(network.folder, network.run.drives, robot)
     check_thresholds(thresholds, networks, robot, run)
-    before = {own.file for own in read_contract(out).networks} if (out / CONTRACT).exists() else set()
+    before = (
+        {network_contract.file for network_contract in read_contract(out).networks}
+        if (out / CONTRACT).exists()
+        else set()
+    )
     contract = contract_of(robot.name, robot.layout, networks, run.rate_hz, run.observer, thresholds)
     model = model_of(robot, contract, networks, gate)
     files = {} if model is None else {MODEL: model}
-    for one, own in zip(networks, contract.networks, strict=True):
-        files[own.file] = _onnx_of(one, contract.of(own))
+    for network, network_contract in zip(networks, contract.networks, strict=True):
+        files[network_contract.file] = _onnx_of(network, contract.of(network_contract))
     for name, content in files.items():
         with atomic_path(out / name, len(content)) as temporary:
             temporary.write_bytes(content)
@@ -141,26 +153,40 @@ def check_thresholds(
     thresholds: Sequence[LimbThresholds], networks: Sequence[Trained], robot: RobotDescription, run: RunTime
 ) -> None:
     """Raise a DataError unless thresholds belong to the robot, its run time and, where they name it, the network."""
-    fingerprints = {one.note.limb: one.run.fingerprint for one in networks}
-    predicted = set(chain.from_iterable(one.note.joints for one in networks))
-    for one in thresholds:
-        check_drives(Path(f"thresholds of {one.limb}"), one.drives, robot)
-        if one.method == OBSERVER and one.signal != MEAN:
-            raise DataError(not_accepted(f"thresholds of {one.limb}: signal", one.signal, [f"{MEAN} of {OBSERVER}"]))
-        if one.method != OBSERVER and not set(one.joints) <= predicted:
-            accepted = [f"{OBSERVER}, or a network of {', '.join(one.joints)}"]
-            raise DataError(not_accepted(f"thresholds of {one.limb}: method", one.method, accepted))
+    fingerprints = {limb_thresholds.note.limb: limb_thresholds.run.fingerprint for limb_thresholds in networks}
+    predicted = set(chain.from_iterable(limb_thresholds.note.joints for limb_thresholds in networks))
+    for limb_thresholds in thresholds:
+        check_drives(Path(f"thresholds of {limb_thresholds.limb}"), limb_thresholds.drives, robot)
+        if limb_thresholds.method == OBSERVER and limb_thresholds.signal != MEAN:
+            raise DataError(
+                not_accepted(
+                    f"thresholds of {limb_thresholds.limb}: signal", limb_thresholds.signal, [f"{MEAN} of {OBSERVER}"]
+                )
+            )
+        if limb_thresholds.method != OBSERVER and not set(limb_thresholds.joints) <= predicted:
+            accepted = [f"{OBSERVER}, or a network of {', '.join(limb_thresholds.joints)}"]
+            raise DataError(
+                not_accepted(f"thresholds of {limb_thresholds.limb}: method", limb_thresholds.method, accepted)
+            )
         expected = {
             "robot": robot.name,
             "rate_hz": run.rate_hz,
             "gain_hz": run.observer.gain_hz,
             "torque": run.observer.torque,
-            "joints": robot.layout.limb(one.limb),
-            **({"network": fingerprints.get(one.limb, "that of an exported network")} if one.network else {}),
+            "joints": robot.layout.limb(limb_thresholds.limb),
+            **(
+                {"network": fingerprints.get(limb_thresholds.limb, "that of an exported network")}
+                if limb_thresholds.network
+                else {}
+            ),
         }
         for key, accepted in expected.items():
-            if getattr(one, key) != accepted:
-                raise DataError(not_accepted(f"thresholds of {one.limb}: {key}", getattr(one, key), [accepted]))
+            if getattr(limb_thresholds, key) != accepted:
+                raise DataError(
+                    not_accepted(
+                        f"thresholds of {limb_thresholds.limb}: {key}", getattr(limb_thresholds, key), [accepted]
+                    )
+                )
 
 
 def agreed(name: str, given: Value | None, trained: Sequence[Value | None], default: Value) -> Value:
@@ -169,25 +195,27 @@ def agreed(name: str, given: Value | None, trained: Sequence[Value | None], defa
     Raises:
         DataError: they differ, or another value is given than theirs.
     """
-    found = sorted({value for value in trained if value is not None})
-    if len(found) > 1:
-        raise DataError(not_accepted(f"{name} of the networks or thresholds", found, ["one for all of them"]))
-    if found and given not in (None, found[0]):
-        raise DataError(not_accepted(f"--{name}", given, [f"{found[0]}, that of the files"]))
-    return found[0] if found else default if given is None else given
+    values = sorted({value for value in trained if value is not None})
+    if len(values) > 1:
+        raise DataError(not_accepted(f"{name} of the networks or thresholds", values, ["one for all of them"]))
+    if values and given not in (None, values[0]):
+        raise DataError(not_accepted(f"--{name}", given, [f"{values[0]}, that of the files"]))
+    return values[0] if values else default if given is None else given
 
 
-def difference(one: Trained, path: Path) -> float:
+def difference(network: Trained, path: Path) -> float:
     """Return by how much an exported network differs from the project's own on random inputs.
 
     It is the largest difference of mean and standard deviation, as a share of the target's standard deviation.
     """
-    tensors = one.tensors
+    tensors = network.tensors
     rng = np.random.default_rng(SEED)
-    lane = rng.normal(tensors["input.mean"], tensors["input.std"], (SAMPLES, len(one.note.inputs))).astype(np.float32)
-    (own,) = deployed(tensors, one.note).run_all([lane])
+    lane = rng.normal(tensors["input.mean"], tensors["input.std"], (SAMPLES, len(network.note.inputs))).astype(
+        np.float32
+    )
+    (ours,) = deployed(tensors, network.note).run_all([lane])
     (exported,) = OnnxNetwork(path).run_all([lane])
-    apart = np.array([own.mean, own.std], np.float32) - np.array([exported.mean, exported.std], np.float32)
+    apart = np.array([ours.mean, ours.std], np.float32) - np.array([exported.mean, exported.std], np.float32)
     return float(np.max(np.abs(apart) / tensors["target.std"]))
 
 
@@ -195,10 +223,12 @@ def report_lines(contract: Contract, networks: Sequence[Trained], out: Path) -> 
     """Yield what the command prints."""
     observer = contract.observer
     yield f"{contract.robot} at {contract.rate_hz:g} Hz, gain {observer.gain_hz:g} 1/s, torques: {observer.torque}"
-    for one, own in zip(networks, contract.networks, strict=True):
-        size = f"{len(own.inputs)} inputs, {len(own.outputs)} joints, state {own.state}"
-        apart = difference(one, out / own.file)
-        yield f"{out / own.file}: {own.cell}, {size}; differs by {apart:.1e} of the target's standard deviation"
+    for network, network_contract in zip(networks, contract.networks, strict=True):
+        outputs = len(network_contract.outputs)
+        size = f"{len(network_contract.inputs)} inputs, {outputs} joints, state {network_contract.state}"
+        file = out / network_contract.file
+        apart = difference(network, file)
+        yield f"{file}: {network_contract.cell}, {size}; differs by {apart:.1e} of the target's standard deviation"
     for detector in contract.detectors:
         yield f"detector of {detector.limb}: {detector.signal} of {', '.join(detector.joints)}, {detector.watched}"
     yield f"{out / CONTRACT}"
@@ -227,20 +257,20 @@ def export_folders(
         ConfigError: a file of thresholds is not accepted, or as `export` says.
     """
     networks = [read_trained(folder, robot.layout) for folder in folders]
-    found = [read_thresholds(path) for path in thresholds]
+    of_limbs = [read_thresholds(path) for path in thresholds]
     # Without a network, thresholds of the observer alone say at which rate and how it ran.
-    notes = [one.run for one in networks] or found
-    own = settings.observer
+    notes = [network.run for network in networks] or of_limbs
+    observer = settings.observer
     run_time = RunTime(
         agreed("rate", given.rate_hz, [note.rate_hz for note in notes], settings.rates.data_hz),
         ObserverContract(
-            gain_hz=agreed("gain", given.gain_hz, [note.gain_hz for note in notes], own.gain_hz),
-            torque=agreed("torque", given.torque, [note.torque for note in notes], own.torque),
+            gain_hz=agreed("gain", given.gain_hz, [note.gain_hz for note in notes], observer.gain_hz),
+            torque=agreed("torque", given.torque, [note.torque for note in notes], observer.torque),
             gravity_m_s2=settings.plant.gravity_m_s2,
         ),
     )
     sweep(out)
-    return export(networks, robot, run_time, found, gate_numbers(settings.detection.gate), out), networks
+    return export(networks, robot, run_time, of_limbs, gate_numbers(settings.detection.gate), out), networks
 
 
 def run(options: Namespace) -> Iterator[str]:

@@ -50,11 +50,11 @@ class OnnxNetwork:
         (network,) = self.contract.networks
         self.limb = network.limb
         self.joints = network.joints
-        self.input_names = tuple(one.name for one in network.inputs)
+        self.input_names = tuple(port.name for port in network.inputs)
         self._binding = self._session.io_binding()
-        self._x, self._state = (self._bound(self._binding.bind_input, one) for one in self._session.get_inputs())
+        self._x, self._state = (self._bound(self._binding.bind_input, port) for port in self._session.get_inputs())
         self._mean, self._std, self._after = (
-            self._bound(self._binding.bind_output, one) for one in self._session.get_outputs()
+            self._bound(self._binding.bind_output, port) for port in self._session.get_outputs()
         )
 
     @staticmethod
@@ -84,9 +84,9 @@ class OnnxNetwork:
         mean, std = np.empty((2, len(lane), len(self.joints)), dtype=np.float32)
         state = self.init()
         for k, x in enumerate(lane):
-            state, found = self.step(state, x)
-            mean[k] = found.mean
-            std[k] = found.std
+            state, prediction = self.step(state, x)
+            mean[k] = prediction.mean
+            std[k] = prediction.std
         return Prediction(mean, std)
 
 

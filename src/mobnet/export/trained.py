@@ -70,20 +70,20 @@ def _limb_faults(limb: str, note: WeightsNote, layout: JointLayout) -> Iterator[
     """Yield what is wrong with the limb of a training, which becomes the name of a file."""
     if limb != note.limb:
         yield not_accepted("limb", limb, [f"{note.limb}, as {WEIGHTS} says"])
-    own = [name for name, joints in layout.groups.items() if set(note.joints) <= set(joints)]
-    if limb not in layout.groups and own:  # one over several limbs has a name of its own
-        yield not_accepted("limb", limb, own)
+    limbs = [name for name, joints in layout.groups.items() if set(note.joints) <= set(joints)]
+    if limb not in layout.groups and limbs:  # one over several limbs has a name of its own
+        yield not_accepted("limb", limb, limbs)
 
 
 def check_apart(networks: Sequence[Trained]) -> None:
     """Raise a DataError where two networks estimate one joint."""
     seen: dict[str, Path] = {}
-    for one in networks:
-        for joint in one.note.joints:
+    for network in networks:
+        for joint in network.note.joints:
             if joint in seen:
                 text = f"joint {joint!r} is estimated by {seen[joint]} too; accepted: one network for each joint"
-                raise DataError(f"{one.folder}: {text}")
-            seen[joint] = one.folder
+                raise DataError(f"{network.folder}: {text}")
+            seen[joint] = network.folder
 
 
 def contract_of(
@@ -103,15 +103,15 @@ def contract_of(
         rate_hz=rate_hz,
         observer=observer,
         quaternion=dict(zip("wxyz", QUATERNION_NAMES, strict=True)) if layout.virtual else {},
-        networks=[_network(one, layout) for one in networks],
+        networks=[_network(network, layout) for network in networks],
         detectors=list(thresholds),
     )
 
 
-def _network(one: Trained, layout: JointLayout) -> NetworkContract:
+def _network(trained: Trained, layout: JointLayout) -> NetworkContract:
     """Return the contract of a network."""
-    tensors = one.tensors
-    note = one.note
+    tensors = trained.tensors
+    note = trained.note
     scores = {name: tensors[name].tolist() for name in ("input.mean", "input.std", "target.mean", "target.std")}
     signals = {name: (unit, frame) for name, unit, frame in _signals(layout)}
     formulas = dict(zip(ROTATION_NAMES, FORMULAS, strict=True))
@@ -134,11 +134,11 @@ def _network(one: Trained, layout: JointLayout) -> NetworkContract:
         file=f"{note.limb}.onnx",
         name=note.name,
         limb=note.limb,
-        estimates=one.run.target,
+        estimates=trained.run.target,
         cell=note.cell.cell,
         state=state_size(note.cell, len(note.inputs)),
         std_min=note.std_min,
-        weights_sha256=one.sha256,
+        weights_sha256=trained.sha256,
         inputs=inputs,
         outputs=outputs,
     )

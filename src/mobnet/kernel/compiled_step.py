@@ -66,9 +66,9 @@ class CompiledStep:
 
 
 @compiled(allocating=True)
-def advance(held: Any, q: Array, v: Array, tau: Array, before: Array, after: Array) -> bool:
+def advance(holder: Any, q: Array, v: Array, tau: Array, before: Array, after: Array) -> bool:
     """Write the state after a sample; return whether the numbers of the sample are finite."""
-    numbers = held.value
+    numbers = holder.value
     nv = len(v)
     for sample in (q, v, tau):
         for number in sample:

@@ -74,9 +74,9 @@ class DriveParameters:
         bend = bend.copy()
         sign = np.tanh(velocity / self.smoothing)
         if (dahl := np.flatnonzero(self.breakaway)).size:
-            own = bend[dahl]
-            sign[:, dahl] = bent(own, velocity[:, dahl], self.breakaway[dahl], rate_hz)
-            bend[dahl] = own
+            dahl_bend = bend[dahl]
+            sign[:, dahl] = bent(dahl_bend, velocity[:, dahl], self.breakaway[dahl], rate_hz)
+            bend[dahl] = dahl_bend
         dry = self.coulomb + self.load * np.abs(torque)
         return bend, dry * sign + self.viscous * velocity + self.offset
 

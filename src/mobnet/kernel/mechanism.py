@@ -179,7 +179,7 @@ class Mechanism:
             linear = v[:, at.v : at.v + 3, None]
             velocities[:, at.simple_v : at.simple_v + 3] = (turned @ linear)[..., 0]
         for at, scale, offset in self._mimics:
-            is_endless = at.q in [one.q for one in self._endless]
+            is_endless = at.q in [hinge.q for hinge in self._endless]
             followed = _angle(q, at) if is_endless else q[:, at.q]
             positions[:, at.simple_q] = scale * followed + offset
             velocities[:, at.simple_v] = scale * v[:, at.v]

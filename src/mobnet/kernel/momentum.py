@@ -107,59 +107,59 @@ def _start(linkage: Linkage, base: Any, floating: bool, q: Array, v: Array) -> N
 
 
 @compiled
-def _go_out(link: Any, own: Any, parent: Any, q: Array, v: Array) -> None:
+def _go_out(link: Any, state: Any, parent: Any, q: Array, v: Array) -> None:
     """Set a link's rotation, velocity, gravity and its own momentum from its parent's."""
-    for lane in range(own.cosine.shape[0]):  # apart, because these are calls and no vector instructions
-        own.cosine[lane], own.sine[lane] = math.cos(q[lane]), math.sin(q[lane])
-    for lane in range(own.cosine.shape[0]):
-        turn(link, own.cosine[lane], own.sine[lane], own.rotation, lane)
+    for lane in range(state.cosine.shape[0]):  # apart, because these are calls and no vector instructions
+        state.cosine[lane], state.sine[lane] = math.cos(q[lane]), math.sin(q[lane])
+    for lane in range(state.cosine.shape[0]):
+        turn(link, state.cosine[lane], state.sine[lane], state.rotation, lane)
         omega = at(parent.omega, lane)
         axis = vector(link.axis)
         here = add(at(parent.velocity, lane), cross(omega, vector(link.offset)))
-        put(own.velocity, lane, into(own.rotation, lane, here))
-        put(own.omega, lane, add(into(own.rotation, lane, omega), times(v[lane], axis)))
-        put(own.gravity, lane, into(own.rotation, lane, at(parent.gravity, lane)))
-        _carry(link, own, lane)
+        put(state.velocity, lane, into(state.rotation, lane, here))
+        put(state.omega, lane, add(into(state.rotation, lane, omega), times(v[lane], axis)))
+        put(state.gravity, lane, into(state.rotation, lane, at(parent.gravity, lane)))
+        _carry(link, state, lane)
 
 
 @compiled
-def _carry(link: Any, own: Any, lane: int) -> None:
+def _carry(link: Any, state: Any, lane: int) -> None:
     """Set the momentum and first moment of the link alone."""
-    velocity = at(own.velocity, lane)
-    omega = at(own.omega, lane)
+    velocity = at(state.velocity, lane)
+    omega = at(state.omega, lane)
     moment = vector(link.moment)
     turning = product(link.inertia, omega)
-    put(own.momentum, lane, add(times(link.mass, velocity), cross(omega, moment)))
-    put(own.spin, lane, add(turning, cross(moment, velocity)))
-    put(own.moment, lane, moment)
+    put(state.momentum, lane, add(times(link.mass, velocity), cross(omega, moment)))
+    put(state.spin, lane, add(turning, cross(moment, velocity)))
+    put(state.moment, lane, moment)
 
 
 @compiled
-def _tell(link: Any, own: Any, v: Array, p: Array, beta: Array) -> None:
+def _tell(link: Any, state: Any, v: Array, p: Array, beta: Array) -> None:
     """Write p and beta of a hinge by (d)."""
     axis = vector(link.axis)
-    for lane in range(own.cosine.shape[0]):
-        p[lane] = dot(axis, at(own.spin, lane)) + link.armature * v[lane]
-        beta[lane] = dot(axis, _rate(own, lane))
+    for lane in range(state.cosine.shape[0]):
+        p[lane] = dot(axis, at(state.spin, lane)) + link.armature * v[lane]
+        beta[lane] = dot(axis, _rate(state, lane))
 
 
 @compiled
-def _rate(own: Any, lane: int) -> Triple:
+def _rate(state: Any, lane: int) -> Triple:
     """Return h x v + n x w + s x g of (d) [N m]."""
-    moving = cross(at(own.momentum, lane), at(own.velocity, lane))
-    turning = cross(at(own.spin, lane), at(own.omega, lane))
-    return add(add(moving, turning), cross(at(own.moment, lane), at(own.gravity, lane)))
+    moving = cross(at(state.momentum, lane), at(state.velocity, lane))
+    turning = cross(at(state.spin, lane), at(state.omega, lane))
+    return add(add(moving, turning), cross(at(state.moment, lane), at(state.gravity, lane)))
 
 
 @compiled
-def _go_back(link: Any, own: Any, parent: Any) -> None:
+def _go_back(link: Any, state: Any, parent: Any) -> None:
     """Add a subtree's momentum and first moment to its parent's."""
     offset = vector(link.offset)
     shift = times(link.behind, vector(link.offset))
-    for lane in range(own.cosine.shape[0]):
-        momentum = out_of(own.rotation, lane, at(own.momentum, lane))
-        spin = add(out_of(own.rotation, lane, at(own.spin, lane)), cross(offset, momentum))
-        moment = add(out_of(own.rotation, lane, at(own.moment, lane)), shift)
+    for lane in range(state.cosine.shape[0]):
+        momentum = out_of(state.rotation, lane, at(state.momentum, lane))
+        spin = add(out_of(state.rotation, lane, at(state.spin, lane)), cross(offset, momentum))
+        moment = add(out_of(state.rotation, lane, at(state.moment, lane)), shift)
         put(parent.momentum, lane, add(at(parent.momentum, lane), momentum))
         put(parent.spin, lane, add(at(parent.spin, lane), spin))
         put(parent.moment, lane, add(at(parent.moment, lane), moment))

@@ -154,5 +154,5 @@ def shares_inside(
     starts = list[int]()
     for start, end in spans:
         starts += range(start, end - rows + 1, rows)
-    held = [inside[row : row + rows][free[row : row + rows]] for row in starts]
-    return np.array([part.mean() if len(part) else np.nan for part in held])
+    block = [inside[row : row + rows][free[row : row + rows]] for row in starts]
+    return np.array([part.mean() if len(part) else np.nan for part in block])

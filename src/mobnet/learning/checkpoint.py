@@ -67,10 +67,10 @@ def resume(path: Path, fingerprint: str, network: nn.Module, optimizer: Optimize
 
     Return how far the training has come; nothing is done yet if there is no checkpoint of this fingerprint.
     """
-    found = read_checkpoint(path, fingerprint)
-    if found is None:
+    checkpoint = read_checkpoint(path, fingerprint)
+    if checkpoint is None:
         return Progress()
-    tensors, note = found
+    tensors, note = checkpoint
     # The last weights go on learning, with Adam's moments; the best ones only wait to be written.
     network.load_state_dict(below("last.", tensors))
     state: dict[int, dict[str, Tensor]] = {}

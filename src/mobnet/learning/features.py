@@ -112,7 +112,7 @@ def limb_inputs(layout: JointLayout, limb: Limb) -> LimbInputs:
     for name in limb.T:
         names += [f"tau_des.{joint}" for joint in _actuated(layout, name)]
     if layout.virtual:
-        names += chain.from_iterable(own for reading, own in IMU_NAMES.items() if reading in limb.imu)
+        names += chain.from_iterable(imu_names for reading, imu_names in IMU_NAMES.items() if reading in limb.imu)
     where = {name: i for i, name in enumerate(signal_names(layout))}
     return LimbInputs(tuple(names), np.array([where[name] for name in names], dtype=np.intp))
 

@@ -120,13 +120,13 @@ def close_gates(
     What reaches the state before the step past the gates is left in `d`.
     """
     # (N12) and (N13): the slopes of tanh and of the logistic function follow from the gates, so no sums are kept.
-    one = np.float32(1.0)
+    unit = np.float32(1.0)
     for j in range(len(d)):
-        d_update[j] = d[j] * (last[j] - new[j]) * update[j] * (one - update[j])
+        d_update[j] = d[j] * (last[j] - new[j]) * update[j] * (unit - update[j])
     for j in range(len(d)):
-        d_new[j] = d[j] * (one - update[j]) * (one - new[j] * new[j])
+        d_new[j] = d[j] * (unit - update[j]) * (unit - new[j] * new[j])
     for j in range(len(d)):
-        d_reset[j] = d_new[j] * inner[j] * reset[j] * (one - reset[j])
+        d_reset[j] = d_new[j] * inner[j] * reset[j] * (unit - reset[j])
     for j in range(len(d)):
         d_inner[j] = d_new[j] * reset[j]
     for j in range(len(d)):

@@ -64,12 +64,12 @@ class LimbNetwork(nn.Module):
 
     def gradients(self) -> list[list[Tensor]]:
         """Return the gradients that are clipped together: those of all weights, or first of all but those of std."""
-        found = {name: p.grad for name, p in self.named_parameters() if p.grad is not None}
+        gradients = {name: p.grad for name, p in self.named_parameters() if p.grad is not None}
         if not self.std_apart:
-            return [list(found.values())]
+            return [list(gradients.values())]
         # Clipped together, a large gradient of sigma would shrink that of the mean, which (N18) keeps apart from it.
-        halves = [grad.chunk(2) for name, grad in found.items() if name.startswith("head.")]
-        rest = [grad for name, grad in found.items() if not name.startswith("head.")]
+        halves = [grad.chunk(2) for name, grad in gradients.items() if name.startswith("head.")]
+        rest = [grad for name, grad in gradients.items() if not name.startswith("head.")]
         return [rest + [mean for mean, _ in halves], [std for _, std in halves]]
 
     def fresh_state(self, lanes: int, device: torch.device | None = None) -> Tensor:

@@ -45,13 +45,13 @@ def read_start(path: Path, job: TrainingJob, data: LimbData) -> Start:
     """
     tensors, note = read_weights(path)
     network = job.training.network
-    for name, own, wanted in (
+    for name, saved, wanted in (
         ("joints", list(note.joints), list(data.joints)),
         ("inputs", list(note.inputs), list(data.input_names)),
         ("cell", (note.cell.cell, note.cell.hidden), (network.cell, network.hidden)),
     ):
-        if own != wanted:
-            raise DataError(not_accepted(f"{path}: {name}", own, [wanted]))
+        if saved != wanted:
+            raise DataError(not_accepted(f"{path}: {name}", saved, [wanted]))
     inputs, targets = (ZScore(tensors[f"{name}.mean"], tensors[f"{name}.std"]) for name in ("input", "target"))
     weights = {name: torch.from_numpy(tensors[name].copy()) for name in GRU_TENSORS}
     return Start(weights, (inputs, targets), hashlib.sha256(path.read_bytes()).hexdigest())

@@ -53,13 +53,17 @@ class Soap:
 
     def state_dict(self) -> dict[str, Any]:
         """Return the state of each parameter that has been updated, by its number, as `state`."""
-        return {"state": {number: own for number, own in enumerate(self.state.values()) if own}}
+        return {
+            "state": {
+                number: parameter_state for number, parameter_state in enumerate(self.state.values()) if parameter_state
+            }
+        }
 
     def load_state_dict(self, saved: Mapping[str, Any]) -> None:
         """Take what `state_dict` returned."""
         for number, weight in enumerate(self._weights()):
-            own = saved["state"].get(number, {})
-            self.state[weight] = {name: tensor.to(weight.device) for name, tensor in own.items()}
+            parameter_state = saved["state"].get(number, {})
+            self.state[weight] = {name: tensor.to(weight.device) for name, tensor in parameter_state.items()}
 
     def _weights(self) -> list[nn.Parameter]:
         """Return all parameters, those of gates first."""

@@ -121,11 +121,11 @@ def epoch_plan(
     streams = cut_streams(blocks, stream, horizon, rng)
     if samples is None:
         return deal(streams, lanes, horizon)
-    held = sum(b - a for a, b in streams)
-    while 0 < held < samples:
+    total = sum(b - a for a, b in streams)
+    while 0 < total < samples:
         more = cut_streams(blocks, stream, horizon, rng)
         streams = streams + more
-        held = held + sum(b - a for a, b in more)
+        total = total + sum(b - a for a, b in more)
     enough = int(np.searchsorted(np.cumsum([b - a for a, b in streams]), samples)) + 1
     return deal(streams[:enough], lanes, horizon)
 

@@ -26,12 +26,12 @@ def hanging(
     """
     # (N2). Margins beyond the middle of a short swing leave nothing of it.
     after, before = (round(margin * rate_hz) for margin in margins)
-    found = np.zeros(len(swing), dtype=bool)
+    hangs = np.zeros(len(swing), dtype=bool)
     for start, end in spans:
         edges = np.flatnonzero(np.diff(np.asarray(swing[start:end]) > 0, prepend=False, append=False))
         for lifted, landed in start + edges.reshape(-1, 2):
-            found[lifted + after : max(landed - before, lifted + after)] = True
-    return found
+            hangs[lifted + after : max(landed - before, lifted + after)] = True
+    return hangs
 
 
 def free_rows(recording: Path, layout: JointLayout, joints: Sequence[str], margins: Margins) -> NDArray[np.bool_]:

@@ -125,12 +125,12 @@ def unexpected_wrench(ends: Ends, tau: Array, expected: Collection[int]) -> Arra
     """
     rotation = ends.pose.rotation[0]
     origin = ends.pose.position[0]
-    found = np.concatenate([tau[:3], rotation @ tau[3:N_VIRTUAL]])
+    wrench = np.concatenate([tau[:3], rotation @ tau[3:N_VIRTUAL]])
     for e in expected:
         force, arm = ends.wrench[e, :3], ends.pose.position[ends.body[e]] - origin
-        found[:3] -= force
-        found[3:] -= ends.wrench[e, 3:] + np.cross(arm, force)
-    return found
+        wrench[:3] -= force
+        wrench[3:] -= ends.wrench[e, 3:] + np.cross(arm, force)
+    return wrench
 
 
 @compiled
@@ -184,7 +184,7 @@ def unexpected_forces(
 
 
 @compiled
-def tell_feet(ends: Ends, sensor: Array, swing: NDArray[Any], height_m: float, told: Array) -> None:
+def tell_feet(ends: Ends, sensor: Array, swing: NDArray[Any], height_m: float, readings: Array) -> None:
     """Write the wrenches of the ground as the feet's sensors would read them into told (2, 6), after `identify`.
 
     The first two end-effectors are the feet; `sensor` (3,) [m] is the place of the sensor in a foot. A foot that the
@@ -192,18 +192,18 @@ def tell_feet(ends: Ends, sensor: Array, swing: NDArray[Any], height_m: float, t
     it feels is something else, which would look like a landing.
     """
     arm = vector3()
-    for k in range(len(told)):
+    for k in range(len(readings)):
         rotation = ends.pose.rotation[ends.body[k]]
         wrench = ends.wrench[k]
         height = ends.pose.position[ends.body[k], 2] - ends.pose.position[ends.body[1 - k], 2]
         if swing[k] > IN_THE_AIR and height > height_m:
-            told[k] = 0.0
+            readings[k] = 0.0
             continue
         for i in range(3):
-            told[k, i] = told[k, 3 + i] = 0.0
+            readings[k, i] = readings[k, 3 + i] = 0.0
             for j in range(3):
-                told[k, i] += rotation[j, i] * wrench[j]
-                told[k, 3 + i] += rotation[j, i] * wrench[3 + j]
-        cross(sensor, told[k, :3], arm)
+                readings[k, i] += rotation[j, i] * wrench[j]
+                readings[k, 3 + i] += rotation[j, i] * wrench[3 + j]
+        cross(sensor, readings[k, :3], arm)
         for i in range(3):
-            told[k, 3 + i] -= arm[i]
+            readings[k, 3 + i] -= arm[i]

@@ -43,9 +43,9 @@ class FeedForward:
         legs = layout.limbs(layout.legs.values())
         law.left[:] = np.inf
         law.value[:] = 0.0
-        held = [joints.index(joint) for joint in legs]
+        columns = [joints.index(joint) for joint in legs]
         motors = [layout.actuated.index(joint) for joint in legs]
-        return cls(share, np.array(held), np.array(motors), law.value)
+        return cls(share, np.array(columns), np.array(motors), law.value)
 
     def feed(self, uncertainty: NDArray[Any]) -> None:
         """Make up for an uncertainty torque of the estimate's joints (n,) [N, N m], which acts as motors do."""

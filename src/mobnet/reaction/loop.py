@@ -142,12 +142,12 @@ def force_on(simulator: Simulator) -> Array:
 
 def columns_of(layout: JointLayout) -> Mapping[str, slice]:
     """Return field -> its columns in a row of a recording."""
-    found = dict[str, slice]()
+    slices = dict[str, slice]()
     at = 0
     for name, columns in recording_columns(layout).items():
-        found[name] = slice(at, at + len(columns))
+        slices[name] = slice(at, at + len(columns))
         at += len(columns)
-    return found
+    return slices
 
 
 def plan_steps(s: State, steps: Array) -> Array:

@@ -40,8 +40,8 @@ class LegWatcher:
 
     def ratio(self, state: DetectorState, sample: Sensed, estimate: Estimate) -> float:
         """Return how far the highest signal lies above its threshold in the watched part of a swing, else zero."""
-        own = some(estimate, self.columns)
-        return float(self.detector.step(state, sample, own, own.tau_ext).ratio)
+        of_leg = some(estimate, self.columns)
+        return float(self.detector.step(state, sample, of_leg, of_leg.tau_ext).ratio)
 
     def highest(self, state: DetectorState) -> int:
         """Return the signal that lay highest above its threshold at the last sample, counted from 0."""
@@ -71,9 +71,9 @@ class OwnLegWatcher:
 
     def ratio(self, state: OwnState, sample: Sensed, estimate: Estimate) -> float:
         """Return how far the highest signal lies above its threshold in the watched part of a swing, else zero."""
-        state.estimator, own = self.estimator.step(state.estimator, sample)
+        state.estimator, estimate_of_leg = self.estimator.step(state.estimator, sample)
         gating = estimate.tau_ext[self.columns]
-        return float(self.detector.step(state.detector, sample, some(own, self.held), gating).ratio)
+        return float(self.detector.step(state.detector, sample, some(estimate_of_leg, self.held), gating).ratio)
 
 
 @dataclass(frozen=True)

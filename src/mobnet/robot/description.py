@@ -191,11 +191,11 @@ def _axes(robot: RobotDescription, limb: tuple[str, ...]) -> str:
 
 def with_mirrored(rows: Iterable[Row]) -> tuple[Row, ...]:
     """Return rows of the left side, each with its mirror image in y, and other rows as they are."""
-    found = list[Row]()
+    both_sides = list[Row]()
     for row in rows:
-        found.append(row)
-        found += [_mirrored(row, name) for name in with_image(row.name)[1:]]
-    return tuple(found)
+        both_sides.append(row)
+        both_sides += [_mirrored(row, name) for name in with_image(row.name)[1:]]
+    return tuple(both_sides)
 
 
 def _mirrored(row: Row, name: str) -> Row:
@@ -219,8 +219,8 @@ def _with_unit_quaternion(row: BodyRow) -> BodyRow:
 def _posture(table: RobotTable) -> Posture:
     rows = dict[str, tuple[float, float, float]]()
     for limb, row in table.posture.items():
-        held = zip(row.angle_rad, row.stiffness_nm_rad, row.damping_nms_rad, strict=True)
-        rows.update(zip(table.groups[limb], held, strict=True))
+        springs = zip(row.angle_rad, row.stiffness_nm_rad, row.damping_nms_rad, strict=True)
+        rows.update(zip(table.groups[limb], springs, strict=True))
     joints = tuple(joint for joint in table.order.actuated if joint in rows)
     numbers = np.array([rows[joint] for joint in joints], dtype=np.float64).reshape(-1, 3)
     return Posture(joints, *np.ascontiguousarray(numbers.T))

@@ -69,13 +69,15 @@ def robot_of(tree: LinkTree, floating: bool | None, locked: Sequence[str]) -> Ro
 def _base(tree: LinkTree, robots: Sequence[int], hinges: Sequence[int]) -> int:
     """Return the link that floats: the one that does in the file, or else the one root with hinges."""
     roots = [k for k, link in enumerate(tree.links) if link.parent == WORLD and hinges[k]]
-    found = list(robots) or roots
-    if len(found) > 1:
-        names = " and ".join(tree.links[k].name for k in found[:5])
-        raise DataError(f"{len(found)} bases that float ({names}) are not accepted; accepted: one, or --base fixed")
-    if not found:
+    candidates = list(robots) or roots
+    if len(candidates) > 1:
+        names = " and ".join(tree.links[k].name for k in candidates[:5])
+        raise DataError(
+            f"{len(candidates)} bases that float ({names}) are not accepted; accepted: one, or --base fixed"
+        )
+    if not candidates:
         raise DataError("no hinge; accepted: a robot whose joints turn")
-    return found[0]
+    return candidates[0]
 
 
 def _is_free(link: Link) -> bool:
@@ -141,18 +143,18 @@ def _asked(joints: Iterable[Joint], locked: Sequence[str]) -> dict[int, float]:
         DataError: a word is no JOINT=ANGLE, or names no hinge or slide of the robot.
     """
     names = {joint.name: joint.index for joint in joints if joint.kind in UNITS and joint.name}
-    found = {}
+    angles = {}
     for word in locked:
         name, _, angle = (word, "", "0") if word in names else word.rpartition("=")
         if name not in names:
             raise DataError(not_accepted("--lock", name or word, names))
         try:
-            found[names[name]] = float(angle)
+            angles[names[name]] = float(angle)
         except ValueError:
             raise DataError(not_accepted("--lock", word, [f"{name}=ANGLE in rad"])) from None
-        if not math.isfinite(found[names[name]]):
+        if not math.isfinite(angles[names[name]]):
             raise DataError(not_accepted("--lock", word, [f"{name}=ANGLE in rad"]))
-    return found
+    return angles
 
 
 def _weld_idle(tree: LinkTree, robot: RobotSelection) -> Iterator[str]:

@@ -37,17 +37,17 @@ FAULTS = (DataError, ValueError, RuntimeError, KeyError, IndexError, mujoco.Fata
 
 
 def differences(
-    robot: RobotDescription, found: Imported, path: Path, notes: list[str] | None = None
+    robot: RobotDescription, imported: Imported, path: Path, notes: list[str] | None = None
 ) -> Iterator[tuple[str, float, float]]:
     """Yield another reading of a file, and by how much mass matrix and bias of the table differ from it.
 
     Both are shares of the largest entry, over some random poses. A reading that cannot be made is noted.
     """
     nominal = NominalModel(robot, gravity_m_s2=-GRAVITY[2])
-    readings = {"Pinocchio": _pinocchio, "MuJoCo": _mujoco} if found.kind == "URDF" else {"MuJoCo": _mujoco}
+    readings = {"Pinocchio": _pinocchio, "MuJoCo": _mujoco} if imported.kind == "URDF" else {"MuJoCo": _mujoco}
     for name, read in readings.items():
         try:
-            inertia, terms = _compared(nominal, read(robot, found, path))
+            inertia, terms = _compared(nominal, read(robot, imported, path))
         except FAULTS as error:
             if notes is not None:
                 said = " ".join(str(error).split()).partition("; accepted")[0]
@@ -87,43 +87,43 @@ def _apart(one: Array, other: Array, least: float) -> float:
     return float(np.abs(one - other).max() / max(np.abs(other).max(), least))
 
 
-def _pinocchio(robot: RobotDescription, found: Imported, path: Path) -> Terms:
+def _pinocchio(robot: RobotDescription, imported: Imported, path: Path) -> Terms:
     """Return mass matrix and bias by Pinocchio's own reading of a URDF."""
-    text = _plain(read_root(path), found)
+    text = _plain(read_root(path), imported)
     whole = pin.buildModelFromXML(text, pin.JointModelFreeFlyer()) if robot.floating else pin.buildModelFromXML(text)
-    names = ["root_joint"] * robot.floating + [f"j{joint.index}" for joint in found.hinges]
+    names = ["root_joint"] * robot.floating + [f"j{joint.index}" for joint in imported.hinges]
     locked = [k for k, name in enumerate(whole.names) if k and name not in names]
     start = pin.neutral(whole)
-    for index, value in found.robot.held.items():
+    for index, value in imported.robot.held.items():
         if whole.existJointName(f"j{index}"):
             _set(whole, start, whole.getJointId(f"j{index}"), value)
     model = pin.buildReducedModel(whole, locked, start)
     numbers = [model.getJointId(name) for name in names]
-    for number, mass in zip(numbers[::-1], found.masses[::-1], strict=False):  # a base that stands still is none
-        own = model.inertias[number]
+    for number, mass in zip(numbers[::-1], imported.masses[::-1], strict=False):  # a base that stands still is none
+        body = model.inertias[number]
         if mass.is_changed and not mass.dropped:
-            changed, moments = balanced(own.mass, own.inertia)
-            model.inertias[number] = pin.Inertia(changed, own.lever, moments)
+            changed, moments = balanced(body.mass, body.inertia)
+            model.inertias[number] = pin.Inertia(changed, body.lever, moments)
     data = model.createData()
     columns = np.concatenate([_columns(model, number) for number in numbers])
 
     def terms(q: Array, v: Array) -> tuple[Array, Array]:
-        own = pin.neutral(model)
+        body = pin.neutral(model)
         speeds = np.zeros(model.nv)
         turn = np.eye(model.nv)
         angles = q[len(q) - robot.layout.nu :]
         base = np.zeros(model.nv)
         speeds[columns] = v
         for number, angle in zip(numbers[robot.floating :], angles, strict=True):
-            _set(model, own, number, angle)
+            _set(model, body, number, angle)
         if robot.floating:  # its velocity is in the base's axes there
-            own[:7] = q[[0, 1, 2, 4, 5, 6, 3]]
-            turn[:3, :3] = pin.Quaternion(own[3:7]).matrix().T
+            body[:7] = q[[0, 1, 2, 4, 5, 6, 3]]
+            turn[:3, :3] = pin.Quaternion(body[3:7]).matrix().T
             speeds[:3] = turn[:3, :3] @ v[:3]
             base[:3] = -np.cross(speeds[3:6], speeds[:3])
-        upper = np.triu(pin.crba(model, data, own))
+        upper = np.triu(pin.crba(model, data, body))
         inertia = upper + np.triu(upper, 1).T
-        bias_terms = turn.T @ (pin.nonLinearEffects(model, data, own, speeds) + inertia @ base)
+        bias_terms = turn.T @ (pin.nonLinearEffects(model, data, body, speeds) + inertia @ base)
         inertia = (turn.T @ inertia @ turn)[np.ix_(columns, columns)]
         return inertia + np.diag([*np.zeros(len(v) - robot.layout.nu), *robot.armature]), bias_terms[columns]
 
@@ -145,21 +145,21 @@ def _set(model: Any, q: Array, number: int, value: float) -> None:
         q[joint.idx_q : joint.idx_q + 2] = np.cos(value), np.sin(value)
 
 
-def _plain(root: ET.Element, found: Imported) -> str:
+def _plain(root: ET.Element, imported: Imported) -> str:
     """Return a URDF with the links l0, l1 and the joints j0, j1 of a robot, and with the numbers of its file."""
-    names = {link.name: k for k, link in enumerate(found.tree.links)}
-    dropped = set(chain.from_iterable(mass.dropped for mass in found.masses))
+    names = {link.name: k for k, link in enumerate(imported.tree.links)}
+    dropped = set(chain.from_iterable(mass.dropped for mass in imported.masses))
     plain = ET.Element("robot", name="robot")
     for row in root.findall("link"):
         number = names[row.get("name", "")]
         inertial = row.find("inertial")
-        if found.robot.kept[number]:
+        if imported.robot.kept[number]:
             link = ET.SubElement(plain, "link", name=f"l{number}")
             if inertial is not None and number not in dropped:
                 link.append(_whole(inertial))
     for index, row in enumerate(root.findall("joint")):
         child = names[_end(row, "child")]
-        if found.robot.kept[child] and child != found.robot.base:
+        if imported.robot.kept[child] and child != imported.robot.base:
             kind = {"floating": "fixed", "planar": "fixed"}.get(row.get("type", ""), row.get("type", ""))
             joint = ET.SubElement(plain, "joint", name=f"j{index}", type=kind)
             for end in ("parent", "child"):
@@ -171,8 +171,8 @@ def _plain(root: ET.Element, found: Imported) -> str:
 
 
 def _end(joint: ET.Element, end: str) -> str:
-    found = joint.find(end)
-    return "" if found is None else found.get("link", "")
+    element = joint.find(end)
+    return "" if element is None else element.get("link", "")
 
 
 def _whole(inertial: ET.Element) -> ET.Element:
@@ -186,14 +186,18 @@ def _whole(inertial: ET.Element) -> ET.Element:
     return whole
 
 
-def _mujoco(robot: RobotDescription, found: Imported, path: Path) -> Terms:
+def _mujoco(robot: RobotDescription, imported: Imported, path: Path) -> Terms:
     """Return mass matrix and bias by MuJoCo's own reading of a file."""
-    model = _model(found, path)
-    joints = {joint.index: _number(model, found, joint.index) for joint in found.tree.joints() if joint.kind != FREE}
-    hinges = [joints[joint.index] for joint in found.hinges]
-    places = {joints.get(index, -1): value for index, value in found.robot.held.items()}
-    held = {int(model.jnt_qposadr[k]): value for k, value in places.items() if k >= 0 and model.jnt_type[k] in TURNING}
-    _change(model, found)
+    model = _model(imported, path)
+    joints = {
+        joint.index: _number(model, imported, joint.index) for joint in imported.tree.joints() if joint.kind != FREE
+    }
+    hinges = [joints[joint.index] for joint in imported.hinges]
+    places = {joints.get(index, -1): value for index, value in imported.robot.held.items()}
+    locked = {
+        int(model.jnt_qposadr[k]): value for k, value in places.items() if k >= 0 and model.jnt_type[k] in TURNING
+    }
+    _change(model, imported)
     model.opt.gravity[:] = GRAVITY
     model.opt.disableflags = mujoco.mjtDisableBit.mjDSBL_CONTACT | mujoco.mjtDisableBit.mjDSBL_CONSTRAINT
     model.tendon_armature[:] = 0.0
@@ -202,14 +206,14 @@ def _mujoco(robot: RobotDescription, found: Imported, path: Path) -> Terms:
     data = mujoco.MjData(model)
     first = 0
     if robot.floating:
-        body = _body(model, found, found.robot.base)
+        body = _body(model, imported, imported.robot.base)
         first = int(model.body_jntadr[body])
         dofs = np.concatenate([np.arange(BASE) + model.jnt_dofadr[first], dofs])
 
     def terms(q: Array, v: Array) -> tuple[Array, Array]:
         data.qpos[:] = model.qpos0
         data.qvel[:] = 0.0
-        data.qpos[list(held)] = list(held.values())
+        data.qpos[list(locked)] = list(locked.values())
         data.qpos[model.jnt_qposadr[hinges]] = q[len(q) - robot.layout.nu :]
         data.qvel[dofs] = v
         if robot.floating:
@@ -222,47 +226,47 @@ def _mujoco(robot: RobotDescription, found: Imported, path: Path) -> Terms:
     return terms
 
 
-def _model(found: Imported, path: Path) -> mujoco.MjModel:
+def _model(imported: Imported, path: Path) -> mujoco.MjModel:
     """Return MuJoCo's model of a file, its base free where the robot floats."""
-    if found.kind == "URDF":
-        spec = mujoco.MjSpec.from_string(_plain(read_root(path), found))
+    if imported.kind == "URDF":
+        spec = mujoco.MjSpec.from_string(_plain(read_root(path), imported))
         spec.compiler.fusestatic = False
     else:
         spec = spec_of(path)
-    if found.floating:
-        link = found.tree.links[found.robot.base]
-        if found.kind == "URDF":
-            spec.body(f"l{found.robot.base}").add_freejoint()
+    if imported.floating:
+        link = imported.tree.links[imported.robot.base]
+        if imported.kind == "URDF":
+            spec.body(f"l{imported.robot.base}").add_freejoint()
         elif not link.joints:
-            spec.bodies[found.robot.base + 1].add_freejoint()
+            spec.bodies[imported.robot.base + 1].add_freejoint()
     return compiled(spec)
 
 
-def _number(model: mujoco.MjModel, found: Imported, index: int) -> int:
+def _number(model: mujoco.MjModel, imported: Imported, index: int) -> int:
     """Return the number of a joint, -1 without one: a URDF is given to MuJoCo under other names."""
-    if found.kind == "URDF":
+    if imported.kind == "URDF":
         return mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_JOINT, f"j{index}")
-    added = found.floating and not found.tree.links[found.robot.base].joints
-    return index + int(added and index >= model.body_jntadr[found.robot.base + 1])
+    added = imported.floating and not imported.tree.links[imported.robot.base].joints
+    return index + int(added and index >= model.body_jntadr[imported.robot.base + 1])
 
 
-def _body(model: mujoco.MjModel, found: Imported, link: int) -> int:
+def _body(model: mujoco.MjModel, imported: Imported, link: int) -> int:
     """Return the number of a link's body."""
-    if found.kind == "URDF":
+    if imported.kind == "URDF":
         return mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_BODY, f"l{link}")
     return link + 1
 
 
-def _change(model: mujoco.MjModel, found: Imported) -> None:
+def _change(model: mujoco.MjModel, imported: Imported) -> None:
     """Give the first link of each body that the import has changed the mass of all of the body."""
-    for body, mass in zip(found.parts, found.masses, strict=True):
+    for body, mass in zip(imported.parts, imported.masses, strict=True):
         if mass.is_changed:
             first = body.parts[0]
             for part in body.parts:
-                number = _body(model, found, part.link)
+                number = _body(model, imported, part.link)
                 model.body_mass[number] = 0.0
                 model.body_inertia[number] = 0.0
-            number = _body(model, found, first.link)
+            number = _body(model, imported, first.link)
             moments, axes = np.linalg.eigh(first.turn.T @ mass.inertia @ first.turn)
             axes[:, 0] *= np.sign(np.linalg.det(axes))
             model.body_mass[number] = mass.mass

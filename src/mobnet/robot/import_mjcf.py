@@ -123,11 +123,11 @@ def _name(mesh: mujoco.MjsMesh) -> str:
 def _weighed(spec: mujoco.MjSpec) -> dict[str, str]:
     """Return the meshes from which the mass of a body follows, with the body."""
     always = spec.compiler.inertiafromgeom == mujoco.mjtInertiaFromGeom.mjINERTIAFROMGEOM_TRUE
-    found = {}
+    meshes = {}
     for body in spec.bodies[1:]:
         if always or not body.explicitinertial:
-            found |= {geom.meshname: body.name for geom in body.geoms if geom.meshname}
-    return found
+            meshes |= {geom.meshname: body.name for geom in body.geoms if geom.meshname}
+    return meshes
 
 
 def _link(model: mujoco.MjModel, b: int, couplings: Mapping[int, Follows]) -> Link:
@@ -208,7 +208,7 @@ def _largest(model: mujoco.MjModel, actuator: int) -> float:
 
 def _couplings(model: mujoco.MjModel) -> dict[int, Follows]:
     """Return what joints do that an equality constraint ties to another joint, or to one coordinate."""
-    found = {}
+    couplings = {}
     for k in range(model.neq):
         if model.eq_type[k] == mujoco.mjtEq.mjEQ_JOINT and model.eq_active0[k]:
             joint = int(model.eq_obj1id[k])
@@ -216,14 +216,16 @@ def _couplings(model: mujoco.MjModel) -> dict[int, Follows]:
             offset, factor = (float(value) for value in model.eq_data[k, :2])
             offset += float(model.qpos0[model.jnt_qposadr[joint]])  # both count from where the file places the joints
             if leader < 0:
-                found[joint] = Follows(None, 0.0, offset)
+                couplings[joint] = Follows(None, 0.0, offset)
             else:
-                found[joint] = Follows(leader, factor, offset - factor * float(model.qpos0[model.jnt_qposadr[leader]]))
-    return found
+                couplings[joint] = Follows(
+                    leader, factor, offset - factor * float(model.qpos0[model.jnt_qposadr[leader]])
+                )
+    return couplings
 
 
 def _gravity(model: mujoco.MjModel) -> Iterator[str]:
     """Yield that the file has another gravity than the table's models."""
     if np.abs(model.opt.gravity - GRAVITY).max() > NEAR:
-        own = ", ".join(f"{value:g}" for value in model.opt.gravity)
-        yield f"gravity of the file, [{own}] m/s^2, is not taken over; a table's z is up, with 9.81 m/s^2 down"
+        numbers = ", ".join(f"{value:g}" for value in model.opt.gravity)
+        yield f"gravity of the file, [{numbers}] m/s^2, is not taken over; a table's z is up, with 9.81 m/s^2 down"

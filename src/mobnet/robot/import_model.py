@@ -54,8 +54,8 @@ def robot_of_model(
     if limbs is not None:
         robot.groups = _renamed(limbs, robot)
     notes = [*robot.notes, *left_out(robot.hinges, 0, has_imu=False)]
-    told = tuple(note.replace("in the file", "in the model") for note in notes)
-    return replace(describe(_checked(values_of(robot))), notes=told)
+    model_notes = tuple(note.replace("in the file", "in the model") for note in notes)
+    return replace(describe(_checked(values_of(robot))), notes=model_notes)
 
 
 def tree_of(model: pin.Model, gravity_m_s2: float) -> LinkTree:

@@ -17,7 +17,7 @@ def words_of(names: Sequence[str], kind: str, taken: Collection[str] = ()) -> li
     """
     words = [_word(name, f"{kind}_{k}") for k, name in enumerate(names)]
     used = set(taken)
-    found = list[str]()
+    chosen = list[str]()
     kept = {name for name, word in zip(names, words, strict=True) if name == word and name not in used}
     for name, word in zip(names, words, strict=True):
         if name in kept:
@@ -26,8 +26,8 @@ def words_of(names: Sequence[str], kind: str, taken: Collection[str] = ()) -> li
         else:
             own = _free(word, used | kept)
         used.add(own)
-        found.append(own)
-    return found
+        chosen.append(own)
+    return chosen
 
 
 def _word(name: str, otherwise: str) -> str:
@@ -37,12 +37,12 @@ def _word(name: str, otherwise: str) -> str:
 
 def _free(word: str, used: Collection[str]) -> str:
     """Return a word, with a number if it is used."""
-    found = word
+    word_tried = word
     number = 2
-    while found in used:
-        found = f"{word[: LONGEST - NUMBER]}_{number}"
+    while word_tried in used:
+        word_tried = f"{word[: LONGEST - NUMBER]}_{number}"
         number = number + 1
-    return found
+    return word_tried
 
 
 def renamed(names: Iterable[str], words: Iterable[str], kind: str) -> Iterator[str]:
@@ -76,10 +76,10 @@ def limbs(bodies: Sequence[Mapping[str, Any]], joints: Sequence[Mapping[str, Any
             while carrier in parents and carrier not in moved:
                 carrier = parents[carrier]
             children.setdefault(carrier, []).append(body["name"])
-    found: dict[str, list[str]] = {}
+    chains: dict[str, list[str]] = {}
     roots = list[str]()
-    for carrier, own in children.items():
-        roots += own if carrier not in moved else []
+    for carrier, carried in children.items():
+        roots += carried if carrier not in moved else []
     waiting = roots[::-1]
     while waiting:
         body = waiting.pop()
@@ -87,9 +87,9 @@ def limbs(bodies: Sequence[Mapping[str, Any]], joints: Sequence[Mapping[str, Any
         while len(children.get(body, ())) == 1:
             (body,) = children[body]
             chain.append(moved[body])
-        found[_limb_name(chain, [*found, *moved.values()])] = chain
+        chains[_limb_name(chain, [*chains, *moved.values()])] = chain
         waiting += children.get(body, [])[::-1]
-    return found
+    return chains
 
 
 def _limb_name(chain: Sequence[str], taken: Iterable[str]) -> str:
@@ -98,8 +98,8 @@ def _limb_name(chain: Sequence[str], taken: Iterable[str]) -> str:
     common = set(parts[0]).intersection(*parts)
     shared = [word for word in parts[0] if word in common and word.lower() != "joint"]
     words = set[str]()
-    for own in parts:
-        words.update(word.lower() for word in own)
+    for piece in parts:
+        words.update(word.lower() for word in piece)
     shared += [part for part, marks in PARTS.items() if shared and marks & words and part not in shared]
     stem = "".join(shared)[: MOST_NAME - 2] if shared and shared[0][0].isalpha() else "limb"
     lowered = {name.casefold() for name in taken}

@@ -19,12 +19,12 @@ def body_rows(
     parts: Sequence[RigidBody], masses: Sequence[Mass], robot: RobotSelection, notes: list[str]
 ) -> list[dict[str, Any]]:
     """Return the rows of bodies, and note names that differ from those of the file."""
-    own = [body.name for body in parts]
+    names = [body.name for body in parts]
     if not robot.floating:
-        own[0] = "base"
-    words = words_of(own, "body", {"world"})
+        names[0] = "base"
+    words = words_of(names, "body", {"world"})
     first = 0 if robot.floating else 1
-    notes += renamed(own[first:], words[first:], "bodies")
+    notes += renamed(names[first:], words[first:], "bodies")
     shift = _shift(parts, robot, notes)
     rows = []
     for k, (body, mass) in enumerate(zip(parts, masses, strict=True)):
@@ -39,8 +39,8 @@ def _shift(parts: Sequence[RigidBody], robot: RobotSelection, notes: list[str]) 
     places = [body.pos for body in parts[1:] if body.parent == 0]
     if robot.floating or np.abs(places).max() <= MOST_M:
         return np.zeros(3)
-    told = ", ".join(f"{value:g}" for value in places[0])
-    notes.append(f"the robot stands at [{told}] m in the file; the table counts places from there")
+    numbers = ", ".join(f"{value:g}" for value in places[0])
+    notes.append(f"the robot stands at [{numbers}] m in the file; the table counts places from there")
     return places[0]
 
 

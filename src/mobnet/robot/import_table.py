@@ -32,13 +32,13 @@ NOTE = "note: "  # how a printed line of what the file lacks begins
 SECONDS = 60.0  # that reading a file may take; that of 1 MB takes 2 s
 
 
-def table_text(found: Imported, source: str) -> str:
+def table_text(imported: Imported, source: str) -> str:
     """Return the YAML of a table: a line for each body and each joint."""
-    values = values_of(found)
+    values = values_of(imported)
     lines = [
-        f"# {_line(found.name)}: from {_line(source)}, by {command('robot')}. SI units; quaternions w x y z.",
+        f"# {_line(imported.name)}: from {_line(source)}, by {command('robot')}. SI units; quaternions w x y z.",
         "# inertia: [xx, yy, zz, xy, xz, yz] about the centre of mass, in body axes.",
-        *(f"# {_line(note)}" for note in found.notes),
+        *(f"# {_line(note)}" for note in imported.notes),
     ]
     for key, value in values.items():
         if key in BY_NAME:
@@ -82,9 +82,9 @@ def made(options: Namespace) -> tuple[str, list[str]]:
         DataError: the file is no robot, a table cannot hold it, or the table differs from another reading of the file.
     """
     taken = options.torque_limit, options.speed_limit, options.armature, options.lock
-    found = import_robot(options.file, floats(options.base), *taken)
-    text = table_text(found, options.file.name)
-    return text, list(report_lines(robot_of_text(text, options.file), found, options.file))
+    imported = import_robot(options.file, floats(options.base), *taken)
+    text = table_text(imported, options.file.name)
+    return text, list(report_lines(robot_of_text(text, options.file), imported, options.file))
 
 
 def read_robot(path: Path) -> RobotDescription:
@@ -116,7 +116,7 @@ def main(words: list[str]) -> int:
     return printed(log, lambda: run(options))
 
 
-def report_lines(robot: RobotDescription, found: Imported, path: Path) -> Iterator[str]:
+def report_lines(robot: RobotDescription, imported: Imported, path: Path) -> Iterator[str]:
     """Yield what the command prints.
 
     Raises:
@@ -124,7 +124,7 @@ def report_lines(robot: RobotDescription, found: Imported, path: Path) -> Iterat
     """
     kind = "floating" if robot.floating else "fixed"
     notes = list[str]()
-    compared = list(differences(robot, found, path, notes))
+    compared = list(differences(robot, imported, path, notes))
     for reading, *apart in compared:
         if not max(apart) <= EQUAL:
             text = f"the table differs from {reading}'s own reading by {max(apart):.1e} of the largest entries"
@@ -132,9 +132,9 @@ def report_lines(robot: RobotDescription, found: Imported, path: Path) -> Iterat
                 f"{path}: {text}; accepted: at most {EQUAL:g}; this is a fault of the command, please report it"
             )
     yield f"{robot.name}: {robot.layout.nu} joints, {len(robot.bodies)} bodies, {robot.mass:.6g} kg, {kind} base"
-    yield from (f"limb {name}: {', '.join(joints)}" for name, joints in found.groups.items())
-    yield from (f"{NOTE}{_line(note)}" for note in [*found.notes, *notes])
-    changed = ", with these changes" if any(mass.is_changed for mass in found.masses) else ""
+    yield from (f"limb {name}: {', '.join(joints)}" for name, joints in imported.groups.items())
+    yield from (f"{NOTE}{_line(note)}" for note in [*imported.notes, *notes])
+    changed = ", with these changes" if any(mass.is_changed for mass in imported.masses) else ""
     for reading, inertia, terms in compared:
         apart = f"mass matrix {inertia:.1e}, bias {terms:.1e} of their largest entries"
         yield f"against {reading}'s own reading{changed}: {apart}"

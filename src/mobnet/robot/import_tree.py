@@ -103,10 +103,10 @@ class LinkTree:
 
     def below(self, link: int) -> list[bool]:
         """Return for each link whether it is another one or hangs on it."""
-        found: list[bool] = []
+        is_below: list[bool] = []
         for k, own in enumerate(self.links):
-            found.append(k == link or (own.parent != WORLD and found[own.parent]))
-        return found
+            is_below.append(k == link or (own.parent != WORLD and is_below[own.parent]))
+        return is_below
 
     def hinges_below(self) -> list[int]:
         """Return the number of hinges that move each link or what hangs on it."""
@@ -146,14 +146,14 @@ class RigidBody:
     parts: list[Part] = field(default_factory=list)
 
 
-def bodies_of(tree: LinkTree, base: int, kept: Sequence[bool], held: Mapping[int, float]) -> list[RigidBody]:
+def bodies_of(tree: LinkTree, base: int, kept: Sequence[bool], locked: Mapping[int, float]) -> list[RigidBody]:
     """Return the bodies of a robot, the base first and parents before children.
 
     Args:
         tree: all links of the file.
         base: the link that floats; `WORLD` where the base stands still.
         kept: whether each link is a part of the robot.
-        held: index of a joint -> angle [rad] or position [m] at which it is welded. Other hinges turn.
+        locked: index of a joint -> angle [rad] or position [m] at which it is welded. Other hinges turn.
     """
     first = "" if base == WORLD else tree.links[base].name
     bodies = [RigidBody(first, WORLD, np.zeros(3), np.eye(3))]
@@ -162,7 +162,7 @@ def bodies_of(tree: LinkTree, base: int, kept: Sequence[bool], held: Mapping[int
         if k == base:
             places[k] = 0, np.zeros(3), np.eye(3)
         elif kept[k] and link.parent in places:
-            places[k] = _hung(bodies, link, places[link.parent], held)
+            places[k] = _hung(bodies, link, places[link.parent], locked)
         else:
             continue
         body, pos, turn = places[k]
@@ -172,19 +172,19 @@ def bodies_of(tree: LinkTree, base: int, kept: Sequence[bool], held: Mapping[int
 
 
 def _hung(
-    bodies: list[RigidBody], link: Link, place: tuple[int, Array, Array], held: Mapping[int, float]
+    bodies: list[RigidBody], link: Link, place: tuple[int, Array, Array], locked: Mapping[int, float]
 ) -> tuple[int, Array, Array]:
     """Return body and place of a link whose parent has a place; each hinge that turns adds a body."""
     body, pos, turn = place
     pos = pos + turn @ link.pos
     turn = turn @ link.turn
-    turning = [joint for joint in link.joints if joint.kind == HINGE and joint.index not in held]
+    turning = [joint for joint in link.joints if joint.kind == HINGE and joint.index not in locked]
     for joint in link.joints:
         if joint.kind == HINGE:
-            angle = held.get(joint.index, 0.0) - joint.at
+            angle = locked.get(joint.index, 0.0) - joint.at
             anchor = pos + turn @ joint.pos
             turn = turn @ pin.exp3(angle * joint.axis)
-            if joint.index not in held:
+            if joint.index not in locked:
                 name = link.name if joint is turning[-1] else f"{link.name}_{joint.name}"
                 bodies.append(RigidBody(name, body, anchor, turn, joint))
                 body = len(bodies) - 1
@@ -192,7 +192,7 @@ def _hung(
                 turn = np.eye(3)
             pos = anchor - turn @ joint.pos
         elif joint.kind == SLIDE:
-            pos = pos + (held.get(joint.index, joint.at) - joint.at) * turn @ joint.axis
+            pos = pos + (locked.get(joint.index, joint.at) - joint.at) * turn @ joint.axis
     return body, pos, turn
 
 

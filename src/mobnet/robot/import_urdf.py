@@ -35,12 +35,12 @@ def read_urdf(root: ET.Element, path: Path) -> LinkTree:
         raise DataError(f"no link is not accepted; accepted: a URDF with links; of xacro, made by: {expanding(path)}")
     joints = [_Row(row, index, links) for index, row in enumerate(rows)]
     numbers = {row.name: row.index for row in joints}
-    found = [_link(links[name], row, numbers) for name, row in _depth_first(links, joints)]
-    places = {link.name: k for k, link in enumerate(found)}
+    read = [_link(links[name], row, numbers) for name, row in _depth_first(links, joints)]
+    places = {link.name: k for k, link in enumerate(read)}
     parents = {row.child: row.parent for row in joints}
-    for link in found:
+    for link in read:
         link.parent = places.get(parents.get(link.name, ""), WORLD)
-    return LinkTree(root.get("name", ""), found, notes=notes)
+    return LinkTree(root.get("name", ""), read, notes=notes)
 
 
 class _Row:
@@ -60,8 +60,8 @@ class _Row:
 
 def _tied(joint: _Row, end: str, links: Iterable[str]) -> str:
     """Return the link at an end of a joint."""
-    found = joint.row.find(end)
-    link = "" if found is None else found.get("link", "")
+    element = joint.row.find(end)
+    link = "" if element is None else element.get("link", "")
     if link not in links:
         raise DataError(not_accepted(f"joint {joint.name}: {end}", link, links))
     return link
@@ -121,15 +121,15 @@ def _depth_first(links: Iterable[str], joints: Sequence[_Row]) -> Iterator[tuple
         below.setdefault(joint.parent, []).append(joint)
     roots = [name for name in links if name not in above]
     if len(roots) != 1:
-        told = f"{len(roots)} roots ({', '.join(roots[:5])})" if roots else "no root (a loop of links)"
-        raise DataError(f"{told} is not accepted; accepted: one link on which all others hang")
+        roots_named = f"{len(roots)} roots ({', '.join(roots[:5])})" if roots else "no root (a loop of links)"
+        raise DataError(f"{roots_named} is not accepted; accepted: one link on which all others hang")
     waiting: list[tuple[str, _Row | None]] = [(roots[0], None)]
     seen = 0
     while waiting:
         name, joint = waiting.pop()
         seen += 1
         yield name, joint
-        waiting += [(own.child, own) for own in reversed(below.get(name, []))]
+        waiting += [(child.child, child) for child in reversed(below.get(name, []))]
     if seen != len(list(links)):
         raise DataError("links in a loop are not accepted; accepted: one link on which all others hang")
 
@@ -152,8 +152,8 @@ def _mass(row: ET.Element, where: str) -> tuple[float, Array, Array]:
     mass = 0.0 if weight is None else number(weight.get("value", "0"), f"{where}: mass")
     if mass < 0.0:
         raise DataError(f"{where}: mass {mass:g} kg is not accepted; accepted: 0 or more")
-    told = {} if moments is None else moments.attrib
-    xx, xy, xz, yy, yz, zz = (number(told.get(key, "0"), f"{where}: {key}") for key in MOMENTS)
+    numbers = {} if moments is None else moments.attrib
+    xx, xy, xz, yy, yz, zz = (number(numbers.get(key, "0"), f"{where}: {key}") for key in MOMENTS)
     com, turn = _origin(inertial, where)
     return mass, com, turn @ np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]) @ turn.T
 
@@ -161,14 +161,17 @@ def _mass(row: ET.Element, where: str) -> tuple[float, Array, Array]:
 def _joint(row: _Row, kind: str, numbers: Mapping[str, int]) -> Joint:
     """Return a joint with its limits."""
     where = f"joint {row.name}"
-    found = row.row.find("axis")
-    axis = np.array([1.0, 0.0, 0.0]) if found is None else _vector(found.get("xyz", "1 0 0"), f"{where}: axis")
+    element = row.row.find("axis")
+    axis = np.array([1.0, 0.0, 0.0]) if element is None else _vector(element.get("xyz", "1 0 0"), f"{where}: axis")
     length = float(np.linalg.norm(axis))
     if length < TURN and kind in (HINGE, SLIDE):
         raise DataError(f"{where}: axis {axis.tolist()} is not accepted; accepted: a direction")
-    told, damped = (found.attrib if (found := row.row.find(tag)) is not None else {} for tag in ("limit", "dynamics"))
+    limits, damped = (
+        element.attrib if (element := row.row.find(tag)) is not None else {} for tag in ("limit", "dynamics")
+    )
     low, high, torque, speed = (
-        number(told.get(key, "0"), f"{where}: {key}", finite=False) for key in ("lower", "upper", "effort", "velocity")
+        number(limits.get(key, "0"), f"{where}: {key}", finite=False)
+        for key in ("lower", "upper", "effort", "velocity")
     )
     if high < low:
         raise DataError(f"{where}: range {low:g} to {high:g} is not accepted; accepted: the lower end first")
@@ -201,11 +204,11 @@ def _coupling(row: ET.Element, where: str, numbers: Mapping[str, int]) -> Follow
 
 def _origin(row: ET.Element | None, where: str) -> tuple[Array, Array]:
     """Return position (3,) and rotation (3, 3) of an `origin`."""
-    found = None if row is None else row.find("origin")
-    if found is None:
+    element = None if row is None else row.find("origin")
+    if element is None:
         return np.zeros(3), np.eye(3)
-    angles = _vector(found.get("rpy", "0 0 0"), f"{where}: rpy")
-    return _vector(found.get("xyz", "0 0 0"), f"{where}: xyz"), pin.rpy.rpyToMatrix(angles)
+    angles = _vector(element.get("rpy", "0 0 0"), f"{where}: rpy")
+    return _vector(element.get("xyz", "0 0 0"), f"{where}: xyz"), pin.rpy.rpyToMatrix(angles)
 
 
 def _vector(text: str, where: str) -> Array:

@@ -43,18 +43,22 @@ def import_robot(
     return robot
 
 
-def _further(found: Imported, asked: bool | None) -> Iterator[str]:
+def _further(imported: Imported, asked: bool | None) -> Iterator[str]:
     """Yield what the file tells of the base, sensors and feet, and what it has that a table does not hold."""
-    if found.kind == "URDF" and asked is None:
-        base = "floating" if found.floating else "fixed"
+    if imported.kind == "URDF" and asked is None:
+        base = "floating" if imported.floating else "fixed"
         yield f"the base is taken as {base}, which a URDF does not say; --base tells the other"
-    if found.floating:
-        found.imu, notes = sensors_of(found.tree, found.parts, found.bodies)
+    if imported.floating:
+        imported.imu, notes = sensors_of(imported.tree, imported.parts, imported.bodies)
         yield from notes
         yield from feet_of(
-            found.tree.links[found.robot.base].turn, found.parts, found.bodies, found.groups, found.joints
+            imported.tree.links[imported.robot.base].turn,
+            imported.parts,
+            imported.bodies,
+            imported.groups,
+            imported.joints,
         )
-    yield from left_out(found.hinges, found.tree.chains, has_imu=found.imu is not None)
+    yield from left_out(imported.hinges, imported.tree.chains, has_imu=imported.imu is not None)
 
 
 def read_root(path: Path) -> ET.Element:

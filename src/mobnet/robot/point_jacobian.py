@@ -29,16 +29,16 @@ def point_jacobian(nominal: NominalModel, body: str, place: Sequence[float], q: 
     samples = np.shape(q)[:-1]
     positions = rows_of("q", q, samples, nominal.model.nq)
     joint, placement = carrier_of(robot, body)
-    found = np.zeros((len(positions), robot.layout.nu, 2, 3, 1))
+    jacobian = np.zeros((len(positions), robot.layout.nu, 2, 3, 1))
     if joint is not None:
         link = 1 + robot.layout.actuated.index(joint)
         point = placement.act(np.array(place, dtype=np.float64))
-        _fill(nominal.linkage, link, point, positions, robot.floating, found)
-    return np.swapaxes(found.reshape(len(positions), -1, 6), 1, 2)
+        _fill(nominal.linkage, link, point, positions, robot.floating, jacobian)
+    return np.swapaxes(jacobian.reshape(len(positions), -1, 6), 1, 2)
 
 
 @compiled(allocating=True)
-def _fill(linkage: Linkage, link: int, point: Array, q: Array, floating: bool, found: Array) -> None:
+def _fill(linkage: Linkage, link: int, point: Array, q: Array, floating: bool, jacobian: Array) -> None:
     """Fill the columns (T, nu, 2, 3, 1) of the joints from a link down to the base, for a point in the link's axes.
 
     Each is turned with the links between it and the base, joint by joint.
@@ -49,7 +49,7 @@ def _fill(linkage: Linkage, link: int, point: Array, q: Array, floating: bool, f
         k = link
         while k > 0:
             carrier = linkage.links[k]
-            columns = found[row]
+            columns = jacobian[row]
             axis = vector(carrier.axis)
             put(columns[k - 1, 0], 0, cross(axis, place))
             put(columns[k - 1, 1], 0, axis)
@@ -60,7 +60,7 @@ def _fill(linkage: Linkage, link: int, point: Array, q: Array, floating: bool, f
             k = carrier.parent
         if floating:
             turn_base(q[row], rotation, 0)
-            _turn_columns(linkage, link, 0, rotation, found[row])
+            _turn_columns(linkage, link, 0, rotation, jacobian[row])
 
 
 @compiled

@@ -17,7 +17,7 @@ OTHERWISE = re.compile(r"yes|no|on|off|true|false|null|nan|inf(inity)?", re.IGNO
 def flow(value: Any) -> str:
     """Return a value as YAML on one line; numbers keep all their digits, and texts are quoted where YAML needs it."""
     if isinstance(value, Mapping):
-        return "{" + ", ".join(f"{flow(key)}: {flow(own)}" for key, own in value.items()) + "}"
+        return "{" + ", ".join(f"{flow(key)}: {flow(entry)}" for key, entry in value.items()) + "}"
     if isinstance(value, (list, tuple)):
         return "[" + ", ".join(map(flow, value)) + "]"
     if isinstance(value, float):
@@ -45,12 +45,12 @@ def write_table(path: Path, table: RobotTable, head: Sequence[str]) -> None:
 
 def head_of(path: Path) -> list[str]:
     """Return the comments at the beginning of a table's file, without their `#`."""
-    found = list[str]()
+    comments = list[str]()
     for line in path.read_text(encoding="utf-8").splitlines():
         if not line.startswith("#"):
             break
-        found.append(line.removeprefix("#").strip())
-    return found
+        comments.append(line.removeprefix("#").strip())
+    return comments
 
 
 def _lines(values: dict[str, Any]) -> Iterator[str]:
@@ -58,9 +58,9 @@ def _lines(values: dict[str, Any]) -> Iterator[str]:
     for key, value in values.items():
         if isinstance(value, dict) and value:
             yield f"{key}:"
-            yield from (f"  {flow(name)}: {flow(own)}" for name, own in value.items())
+            yield from (f"  {flow(name)}: {flow(entry)}" for name, entry in value.items())
         elif isinstance(value, list) and value and isinstance(value[0], dict):
             yield f"{key}:"
-            yield from (f"  - {flow(own)}" for own in value)
+            yield from (f"  - {flow(entry)}" for entry in value)
         else:
             yield f"{key}: {flow(value)}"

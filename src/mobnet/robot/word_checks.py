@@ -56,8 +56,8 @@ def limb_named(layout: JointLayout, given: str | None) -> str:
     Raises:
         ConfigError: there is none.
     """
-    own = [name for name, joints in layout.groups.items() if not set(joints) & set(layout.virtual)]
-    limb = given or (own[0] if len(own) == 1 else None)
+    limbs = [name for name, joints in layout.groups.items() if not set(joints) & set(layout.virtual)]
+    limb = given or (limbs[0] if len(limbs) == 1 else None)
     if limb is None or limb not in layout.groups:
         raise ConfigError(not_accepted("--limb", limb or "nothing", layout.groups))
     return limb

@@ -60,34 +60,34 @@ def rising(path: Path, time_s: Array, bounds: RobotLog) -> Rising:
     hints = [f"clock: {len(time_s) - len(rows)} of {len(time_s)} rows have no time, and are left out"] * (
         len(rows) < len(time_s)
     )
-    own = time_s[rows]
+    times = time_s[rows]
     steps = np.diff(time_s[rows])
     # Rows that stand twice or were exchanged can be put in order; where more of them go back, the column is no clock.
-    if len(own) < 2 or np.mean(steps <= 0.0) > bounds.backward:
-        row = int(rows[1:][steps <= 0.0][0]) if len(own) > 1 else 0
+    if len(times) < 2 or np.mean(steps <= 0.0) > bounds.backward:
+        row = int(rows[1:][steps <= 0.0][0]) if len(times) > 1 else 0
         back = f"row {row} is not after the one before it" + f", as {(steps <= 0.0).sum()} of {len(time_s)} rows"
         accepted = "two samples, rising times; or rate_hz with a clock.column that the log does not have"
-        raise DataError(f"{path}: clock: {back if len(own) > 1 else f'{len(own)} row'}; accepted: {accepted}")
+        raise DataError(f"{path}: clock: {back if len(times) > 1 else f'{len(times)} row'}; accepted: {accepted}")
     if (steps > 0.0).all():
-        return Rising(own, rows if hints else None, len(time_s), tuple(hints))
+        return Rising(times, rows if hints else None, len(time_s), tuple(hints))
     # Episodes do not follow from each other: a pause that is longer than a gap ends a segment between them.
     pause = 2.0 * bounds.gap_intervals * float(np.median(steps[steps > 0.0]))
     anew = np.flatnonzero(steps < -pause) + 1
     few = anew[:, None] + np.arange(1, 1 + math.ceil(bounds.gap_intervals))
-    is_late = (own[np.minimum(few, len(own) - 1)] > own[anew - 1, None]).any(axis=1)  # one row, and others go on
+    is_late = (times[np.minimum(few, len(times) - 1)] > times[anew - 1, None]).any(axis=1)  # one row, and others go on
     anew = anew[~is_late]
-    forward = np.zeros(len(own))
-    forward[anew] = own[anew - 1] - own[anew] + pause
-    own = own + np.cumsum(forward)
+    forward = np.zeros(len(times))
+    forward[anew] = times[anew - 1] - times[anew] + pause
+    times = times + np.cumsum(forward)
     if len(anew):
         more = f" and {len(anew) - 1} more" if len(anew) > 1 else ""
         text = f"as those of episodes do: they count on after a pause of {pause:.3g} s, which ends a segment"
         hints.append(f"clock: times begin anew in row {rows[anew[0]]}{more}, {text}")
-    if back := int((np.diff(own) <= 0.0).sum()):
+    if back := int((np.diff(times) <= 0.0).sum()):
         text = "rows are put in order, and of two with one time the first is taken"
-        hints.append(f"clock: {back} of {len(own)} times are not after the one before: {text}")
-    kept = np.unique(own, return_index=True)[1]
-    return Rising(own[kept], rows[kept], len(time_s), tuple(hints))
+        hints.append(f"clock: {back} of {len(times)} times are not after the one before: {text}")
+    kept = np.unique(times, return_index=True)[1]
+    return Rising(times[kept], rows[kept], len(time_s), tuple(hints))
 
 
 def covered(clock: Array, times: Array, gap_intervals: float) -> NDArray[np.bool_]:
@@ -157,10 +157,10 @@ def _spans(
 
 def _long_enough(path: Path, segments: Iterable[tuple[int, int]]) -> Segments:
     """Return segments that are not empty."""
-    found = tuple((start, end) for start, end in segments if end > start)
-    if not found:
+    kept = tuple((start, end) for start, end in segments if end > start)
+    if not kept:
         raise DataError(f"{path}: clock: no two samples follow each other without a gap; accepted: a recording")
-    return found
+    return kept
 
 
 def at(signal: Timed, ticks: Array) -> Array:
@@ -169,9 +169,9 @@ def at(signal: Timed, ticks: Array) -> Array:
     start = signal.time_s[before]
     end = signal.time_s[before + 1]
     share = np.clip((ticks - start) / (end - start), 0.0, 1.0)[:, None]
-    found = signal.values[before]
-    found += share * (signal.values[before + 1] - found)
-    return found
+    values = signal.values[before]
+    values += share * (signal.values[before + 1] - values)
+    return values
 
 
 def stamp_hints(columns: Iterable[LogColumn], bounds: RobotLog) -> Iterator[str]:

@@ -88,18 +88,18 @@ def convert(path: Path, columns: Columns, meaning: LogMap, layout: JointLayout, 
         name = waiting.pop(0)
         signals[name] = _timed(path, left, given[name], meaning, clock, bounds, free.get(name, 0))
         needed = set(chain.from_iterable(given[other].columns for other in waiting))
-        left = {column: own for column, own in left.items() if column in needed}
+        left = {column: numbers for column, numbers in left.items() if column in needed}
     _turn_base(path, signals, given)
     rate_hz = meaning.rate_hz or rate_of(signals["q"].time_s)
     clocks = {name: signal.time_s for name, signal in signals.items()}
     ticks = common_ticks(path, clocks, rate_hz, bounds)
     values = {}
     while signals:
-        name, one = signals.popitem()
-        values[name] = at(one, ticks.time_s) if ticks.interpolated else one.values
-        del one
+        name, last_signal = signals.popitem()
+        values[name] = at(last_signal, ticks.time_s) if ticks.interpolated else last_signal.values
+        del last_signal
     wrenches = {foot.removesuffix("_foot"): values[foot] for foot in FEET if foot in values}
-    truth = {name: np.interp(ticks.time_s, *own) for name, own in known.items()}
+    truth = {name: np.interp(ticks.time_s, *numbers) for name, numbers in known.items()}
     recording, absent = _recording(values, layout, ticks.segments, rate_hz)
     return Converted(
         recording, wrenches, absent, clocks, ticks.interpolated, tuple(hints), ticks.time_s, values.get("tool"), truth
@@ -126,15 +126,17 @@ def _timed(
 
     So many columns before it are left free, and zero.
     """
-    own = [_own(path, name, columns[name], meaning, clock) for name in signal.columns]
-    time_s = max((column_time for column_time, _ in own), key=len)
-    for other, _ in own:
+    parts_of_signal = [_own(path, name, columns[name], meaning, clock) for name in signal.columns]
+    time_s = max((column_time for column_time, _ in parts_of_signal), key=len)
+    for other, _ in parts_of_signal:
         if not np.array_equal(other, time_s):
             time_s = time_s[np.isin(time_s, other) | covered(other, time_s, bounds.gap_intervals)]
     if len(time_s) < 2:
         text = f"{', '.join(signal.columns)}: {len(time_s)} times at which all have numbers"
         raise DataError(f"{path}: {text}; accepted: two or more")
-    parts = [part if np.array_equal(other, time_s) else np.interp(time_s, other, part) for other, part in own]
+    parts = [
+        part if np.array_equal(other, time_s) else np.interp(time_s, other, part) for other, part in parts_of_signal
+    ]
     scale, sign, offset = (np.asarray(part) for part in (signal.scale, signal.sign, signal.offset))
     factor = scale * SI.get(signal.unit or "-", 1.0)
     whole = np.empty((len(time_s), free + len(parts)))
@@ -143,12 +145,12 @@ def _timed(
     largest = 0.0
     # In pieces, as a temporary array as long as the log would cost more time than what is computed in it.
     for rows in pieces(0, len(values)):
-        own = np.stack([part[rows] for part in parts], axis=1, dtype=np.float64)
-        own *= factor
-        own -= offset
-        own *= sign
-        largest = max(largest, float(own.max()), -float(own.min()))
-        values[rows] = own
+        parts_of_signal = np.stack([part[rows] for part in parts], axis=1, dtype=np.float64)
+        parts_of_signal *= factor
+        parts_of_signal -= offset
+        parts_of_signal *= sign
+        largest = max(largest, float(parts_of_signal.max()), -float(parts_of_signal.min()))
+        values[rows] = parts_of_signal
     # The residual, which has squares of speeds, would leave the range of single precision.
     if largest > LARGEST:
         row, k = np.unravel_index(int(np.abs(values).argmax()), values.shape)
@@ -288,17 +290,17 @@ def _recording(
     return Recording(sensed, segments, rate_hz, meta, truth), absent
 
 
-def with_tool(found: Converted, nominal: NominalModel, tool: Tool) -> Converted:
+def with_tool(converted: Converted, nominal: NominalModel, tool: Tool) -> Converted:
     """Return a log whose recording has the external torque by the sensor of a tool (T, nv) [N] and [N m].
 
     Raises:
         ConfigError: the robot has no such body.
     """
-    if found.tool is None:
-        return found
-    read = found.recording
+    if converted.tool is None:
+        return converted
+    read = converted.recording
     axes = rotation(np.array(tool.quat))
-    torque = point_torque(nominal, tool.body, tool.pos, axes, read.sensed.q, found.tool)
-    absent = tuple(name for name in found.absent if name != EXTERNAL)
+    torque = point_torque(nominal, tool.body, tool.pos, axes, read.sensed.q, converted.tool)
+    absent = tuple(name for name in converted.absent if name != EXTERNAL)
     known = replace(read, truth=replace(read.truth, tau_ext=torque), meta={**read.meta, ABSENT: list(absent)})
-    return replace(found, recording=known, absent=absent)
+    return replace(converted, recording=known, absent=absent)

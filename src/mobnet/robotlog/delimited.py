@@ -240,22 +240,25 @@ def _separated(path: Path, layout: Layout, asked: Sequence[str]) -> dict[str, Lo
     wrong.clear()
     read.block_size = BLOCK_BYTES
     with arrow.open_csv(path, read, parse, arrow.ConvertOptions(**kept, column_types=kinds)) as file:
-        held = [k for k, kind in enumerate(file.schema.types) if is_numeric(kind)]
-        texts = [k for k in range(len(file.schema)) if k not in held]
-        names = [file.schema.names[k] for k in held]
+        numeric = [k for k, kind in enumerate(file.schema.types) if is_numeric(kind)]
+        texts = [k for k in range(len(file.schema)) if k not in numeric]
+        names = [file.schema.names[k] for k in numeric]
         most = _most_rows(path)
-        values = [np.empty(most) for _ in held]
+        values = [np.empty(most) for _ in numeric]
         others = dict[str, str]()
         rows = 0
         for batch in file:
             # Whole columns of Arrow's own reader would take twice the memory.
-            for column, k in zip(values, held, strict=True):
+            for column, k in zip(values, numeric, strict=True):
                 column[rows : rows + len(batch)] = numbers(batch.column(k))
             rows += len(batch)
             others = others or {file.schema.names[k]: _such_as(batch.column(k).to_pylist()) for k in texts}
     hint = " ".join(_left_out(wrong, len(layout.names)))
-    found = {name: LogColumn(own[:rows], hint=hint) for name, own in zip(names, values, strict=True)}
-    return found | {name: LogColumn(np.empty(0), found=text) for name, text in others.items()}
+    columns = {
+        name: LogColumn(values_of_column[:rows], hint=hint)
+        for name, values_of_column in zip(names, values, strict=True)
+    }
+    return columns | {name: LogColumn(np.empty(0), found=text) for name, text in others.items()}
 
 
 def _is_loose(kind: Any) -> bool:
@@ -308,13 +311,13 @@ def _spaced(path: Path, layout: Layout, asked: Sequence[str]) -> dict[str, LogCo
     is_cut = len(last) != len(layout.names)
     frame = frame.iloc[:-1] if is_cut else frame
     hint = " ".join(_left_out([len(last)] if is_cut else [], len(layout.names)))
-    found = dict[str, LogColumn]()
+    columns = dict[str, LogColumn]()
     for name in asked:
         kind = frame[name].dtype.kind
         is_text = kind not in "fiub"
         values = np.empty(0) if is_text else frame[name].to_numpy(np.float64)
-        found[name] = LogColumn(values, hint=hint, found=_such_as(list(frame[name])) if is_text else "")
-    return found
+        columns[name] = LogColumn(values, hint=hint, found=_such_as(list(frame[name])) if is_text else "")
+    return columns
 
 
 def _last_line(path: Path, encoding: str) -> str:

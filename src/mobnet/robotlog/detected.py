@@ -44,7 +44,7 @@ def detect_log(
     robot: RobotDescription,
     meaning: LogMap | None,
     network: OwnNetwork | None,
-    found: LimbThresholds,
+    thresholds: LimbThresholds,
     settings: Lab,
 ) -> LogDetection:
     """Estimate the external torque of a limb in a log, and flag what lies above its thresholds.
@@ -54,38 +54,40 @@ def detect_log(
             is watched in its swings is in the air.
         ConfigError: the map does not fit the robot.
     """
-    sampling = sampling_of(found)
+    sampling = sampling_of(thresholds)
     gravity = settings.plant.gravity_m_s2
     if meaning and meaning.rate_hz is None:
         meaning = meaning.model_copy(update={"rate_hz": sampling.rate_hz})
-    observed = observe_log(path, robot, meaning, found.torque, found.gain_hz, gravity, settings.robotlog)
+    observed = observe_log(path, robot, meaning, thresholds.torque, thresholds.gain_hz, gravity, settings.robotlog)
     read = observed.converted.recording
     if read.rate_hz != sampling.rate_hz:
         made = f"the thresholds were made at {sampling.rate_hz:g} Hz; a --map with rate_hz resamples the log"
         raise DataError(f"{path}: its rate is {read.rate_hz} Hz, and {made}")
-    own = OwnLog(path, read, observed.residual.astype(np.float32), sampling)
+    log = OwnLog(path, read, observed.residual.astype(np.float32), sampling)
     estimator = estimator_of(robot, gravity, sampling, network and network.networks)
-    (estimate,) = estimates_of([own], estimator, found.joints)
-    setup = setup_with(found, settings.detection, robot)
-    gate = _gate(path, setup, observed, estimate, found)
-    signals = watched_of(found).of(estimate, read.sensed.command)
-    alarm = run_segments(setup.chain(np.array([found.thresholds])), signals, gate, read.segments)
+    (estimate,) = estimates_of([log], estimator, thresholds.joints)
+    setup = setup_with(thresholds, settings.detection, robot)
+    gate = _gate(path, setup, observed, estimate, thresholds)
+    signals = watched_of(thresholds).of(estimate, read.sensed.command)
+    alarm = run_segments(setup.chain(np.array([thresholds.thresholds])), signals, gate, read.segments)
     low = setup.low_passed(estimate.tau_ext.astype(np.float64), read.segments)
     nominal = NominalModel(robot, gravity_m_s2=gravity)
     flags = tuple(
-        flags_of(alarm, observed.converted.time_s, read, low, estimate.std, found, nominal, settings.robotlog)
+        flags_of(alarm, observed.converted.time_s, read, low, estimate.std, thresholds, nominal, settings.robotlog)
     )
-    known = found_pushes(observed.converted, found.joints, flags, settings.robotlog.flag_gap_s)
+    known = found_pushes(observed.converted, thresholds.joints, flags, settings.robotlog.flag_gap_s)
     return LogDetection(observed, estimate, setup.low_passed(signals, read.segments), flags, known)
 
 
-def _gate(path: Path, setup: LimbSetup, observed: ObservedLog, estimate: Estimate, found: LimbThresholds) -> GateSignal:
+def _gate(
+    path: Path, setup: LimbSetup, observed: ObservedLog, estimate: Estimate, thresholds: LimbThresholds
+) -> GateSignal:
     """Return when the limb is watched; a DataError says that thresholds of swings do not fit the log."""
     read = observed.converted.recording
     if not isinstance(setup, LegSetup):
-        return always_on(len(read.sensed), read.segments, found.settle_s, read.rate_hz)
+        return always_on(len(read.sensed), read.segments, thresholds.settle_s, read.rate_hz)
     if missing := read.unplanned():
         # They would be zero, as of a foot on the ground: nothing would ever be watched.
         text = f"{', '.join(missing)}: missing in the log or its map"
-        raise DataError(f"{path}: {text}; accepted: a log with them, as {found.limb} is watched in its swings")
+        raise DataError(f"{path}: {text}; accepted: a log with them, as {thresholds.limb} is watched in its swings")
     return setup.record(path, read, estimate.tau_ext).gate

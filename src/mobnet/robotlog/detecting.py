@@ -28,15 +28,15 @@ PLOT = "flags"
 
 
 def write_detected(
-    made: LogDetection, robot: RobotDescription, network: OwnNetwork | None, found: LimbThresholds, out: Path
+    made: LogDetection, robot: RobotDescription, network: OwnNetwork | None, thresholds: LimbThresholds, out: Path
 ) -> None:
     """Write flags, estimate and plot into a folder."""
     read = made.observed.converted.recording
-    note = {"method": found.method, "network": network.fingerprint if network else None}
-    write_estimate(out / ESTIMATE, read, made.estimate, found.joints, robot.layout, note)
+    note = {"method": thresholds.method, "network": network.fingerprint if network else None}
+    write_estimate(out / ESTIMATE, read, made.estimate, thresholds.joints, robot.layout, note)
     write_text(out / FLAGS, csv_text(COLUMNS, [flag.row() for flag in made.flags]))
-    pushed = pushed_rows(made.observed.converted, found.joints)
-    plot_flags(made.observed.converted.time_s, read.segments, made.watched, made.flags, found, pushed, out / PLOT)
+    pushed = pushed_rows(made.observed.converted, thresholds.joints)
+    plot_flags(made.observed.converted.time_s, read.segments, made.watched, made.flags, thresholds, pushed, out / PLOT)
 
 
 def report_lines(made: LogDetection) -> Iterator[str]:
@@ -59,35 +59,35 @@ def detect(options: Namespace, settings: Lab) -> Iterator[str]:
     robot = given_robot(options.robot, settings)
     meaning = load_section(options.map, LogMap) if options.map else None
     network = read_network_folder(options.network, robot.layout, settings) if options.network else None
-    found = read_thresholds(options.thresholds)
-    if network and found.network is None:  # `calibrate` keeps the observer where that finds more
+    thresholds = read_thresholds(options.thresholds)
+    if network and thresholds.network is None:  # `calibrate` keeps the observer where that finds more
         network = None
         yield f"{options.thresholds} are thresholds of the observer alone: the network is not used"
-    check_thresholds(options.thresholds, found, robot, network)
-    if meaning and "torque" in meaning.model_fields_set and meaning.torque != found.torque:
-        made_with = f"{options.thresholds} was made with {found.torque!r}"
+    check_thresholds(options.thresholds, thresholds, robot, network)
+    if meaning and "torque" in meaning.model_fields_set and meaning.torque != thresholds.torque:
+        made_with = f"{options.thresholds} was made with {thresholds.torque!r}"
         raise DataError(
             f"{options.map}: torque is {meaning.torque!r}, but {made_with}; one of both has to be made anew"
         )
     if network:
-        check_sampling(options.thresholds, sampling_of(found), network.sampling, network.folder)
+        check_sampling(options.thresholds, sampling_of(thresholds), network.sampling, network.folder)
     nominal = NominalModel(robot)
-    places = [place_of(nominal, name, found.joints) for name in dict.fromkeys(options.wrench)]
+    places = [place_of(nominal, name, thresholds.joints) for name in dict.fromkeys(options.wrench)]
     out = options.out or Path(f"{options.log.stem}_detected")
     is_mcap = out.suffix == MCAP
     check_place(out.parent if is_mcap else out)
     sweep(out.parent if is_mcap else out)
-    made = detect_log(options.log, robot, meaning, network, found, settings)
+    made = detect_log(options.log, robot, meaning, network, thresholds, settings)
     read = made.observed.converted.recording
     numbers = settings.robotlog.wrench
     wrenches = [wrenches_of(nominal, place, read.sensed.q, made.estimate, numbers) for place in places]
     if is_mcap:
-        write_mcap(made, found, robot.layout.columns(found.joints), out)
+        write_mcap(made, thresholds, robot.layout.columns(thresholds.joints), out)
         yield from report_lines(made)
         yield f"written: {out}"
         return
-    write_detected(made, robot, network, found, out)
-    write_wrenches(wrenches, read, found.method, out)
+    write_detected(made, robot, network, thresholds, out)
+    write_wrenches(wrenches, read, thresholds.method, out)
     yield from report_lines(made)
     yield f"written: {out / FLAGS}, {out / ESTIMATE}.parquet, {out / PLOT}.png"
     yield from wrench_lines(wrenches, numbers, out)

@@ -50,7 +50,7 @@ def flags_of(
     read: SensedRecording,
     low: Array,
     std: NDArray[Any] | None,
-    found: LimbThresholds,
+    thresholds: LimbThresholds,
     nominal: NominalModel,
     bounds: RobotLog,
 ) -> Iterator[Flag]:
@@ -62,32 +62,32 @@ def flags_of(
         read: the recording.
         low: estimated torque of the limb's joints behind the low-pass (T, n) [N m].
         std: its standard deviation (T, n) [N m], where the estimate has one.
-        found: the thresholds.
+        thresholds: the thresholds.
         nominal: the model of the robot.
         bounds: says how close two stretches are one.
     """
     for start, end in stretches(alarm.ratio > ALARM_RATIO, read.segments, round(bounds.flag_gap_s * read.rate_hz)):
         row = start + int(np.argmax(alarm.ratio[start:end]))
         # What is usual in free motion: thresholds themselves, of a ratio times sigma, which cannot be one of sigma.
-        usual = np.array(found.thresholds)
-        if found.signal != "mean":
-            usual = usual * std[row] if found.signal == "ratio" and std is not None else np.ones(len(usual))
-        push = felt_push(nominal, found.joints, read.sensed.q[row], low[row], usual)
-        joint = found.joints[int(alarm.signal[row])]
+        usual = np.array(thresholds.thresholds)
+        if thresholds.signal != "mean":
+            usual = usual * std[row] if thresholds.signal == "ratio" and std is not None else np.ones(len(usual))
+        push = felt_push(nominal, thresholds.joints, read.sensed.q[row], low[row], usual)
+        joint = thresholds.joints[int(alarm.signal[row])]
         yield Flag(float(time_s[start]), float(time_s[end - 1]), joint, float(alarm.ratio[row]), push)
 
 
 def stretches(above: NDArray[np.bool_], segments: tuple[tuple[int, int], ...], gap: int) -> list[tuple[int, int]]:
     """Return the rows (start, end) of stretches above a threshold (T,); in a segment, those a gap apart are one."""
-    found: list[tuple[int, int]] = []
+    rows: list[tuple[int, int]] = []
     for first, last in segments:
         edges = np.flatnonzero(np.diff(np.r_[False, above[first:last], False])).reshape(-1, 2) + first
         for k, (start, end) in enumerate(edges.tolist()):
-            if k and start - found[-1][1] <= gap:
-                found[-1] = (found[-1][0], end)
+            if k and start - rows[-1][1] <= gap:
+                rows[-1] = (rows[-1][0], end)
             else:
-                found.append((start, end))
-    return found
+                rows.append((start, end))
+    return rows
 
 
 class PushCount(NamedTuple):
@@ -118,5 +118,5 @@ def found_pushes(log: Converted, joints: Sequence[str], flags: Sequence[Flag], l
     hits = list[list[bool]]()
     for start, end in spans:
         hits.append([start <= flag.end_s and flag.start_s <= end for flag in flags])
-    others = sum(not any(one) for one in zip(*hits, strict=True)) if hits else len(flags)
+    others = sum(not any(hits_of_push) for hits_of_push in zip(*hits, strict=True)) if hits else len(flags)
     return PushCount(len(spans), sum(map(any, hits)), others)

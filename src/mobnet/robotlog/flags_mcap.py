@@ -38,12 +38,12 @@ LOG_FIELDS: dict[str, Any] = {
 Message = tuple[str, float, dict[str, Any]]  # topic, time [s], content
 
 
-def write_mcap(made: LogDetection, found: LimbThresholds, columns: NDArray[np.intp], path: Path) -> None:
+def write_mcap(made: LogDetection, thresholds: LimbThresholds, columns: NDArray[np.intp], path: Path) -> None:
     """Write estimate, residual and flags of a log.
 
     Args:
         made: what was detected.
-        found: the thresholds.
+        thresholds: the thresholds.
         columns: numbers of the limb's joints among those of the residual, (n,).
         path: the file.
 
@@ -55,9 +55,9 @@ def write_mcap(made: LogDetection, found: LimbThresholds, columns: NDArray[np.in
     time_s = made.observed.converted.time_s
     if time_s[0] < 0.0:
         raise DataError(f"{path}: {not_accepted('first time of the log', float(time_s[0]), ['0 s or later'])}")
-    signals = signals_of(made, found, columns)
+    signals = signals_of(made, thresholds, columns)
     schemas = {
-        TORQUES: ("mobnet.Torques", mapping({name: of_joints(found.joints) for name in signals})),
+        TORQUES: ("mobnet.Torques", mapping({name: of_joints(thresholds.joints) for name in signals})),
         FLAGS: ("mobnet.Flag", mapping({name: TEXT if name in TEXTS else NUMBER for name in COLUMNS})),
         LOG: ("foxglove.Log", mapping(LOG_FIELDS)),
     }
@@ -68,13 +68,13 @@ def write_mcap(made: LogDetection, found: LimbThresholds, columns: NDArray[np.in
         for topic, (name, schema) in schemas.items():
             number = writer.register_schema(name, "jsonschema", json.dumps(schema).encode())
             channels[topic] = writer.register_channel(topic, "json", number)
-        for topic, stamp_s, content in in_order(made, found, signals):
+        for topic, stamp_s, content in in_order(made, thresholds, signals):
             stamp = round(stamp_s * NANO)
             writer.add_message(channels[topic], stamp, json.dumps(content).encode(), stamp)
         writer.finish()
 
 
-def signals_of(made: LogDetection, found: LimbThresholds, columns: NDArray[np.intp]) -> dict[str, Array]:
+def signals_of(made: LogDetection, thresholds: LimbThresholds, columns: NDArray[np.intp]) -> dict[str, Array]:
     """Return name -> signal of each joint of the limb in every sample, (T, n) [N m].
 
     `ratio`, what is watched over its threshold, has no unit; above 1 for long enough it is a flag.
@@ -83,26 +83,26 @@ def signals_of(made: LogDetection, found: LimbThresholds, columns: NDArray[np.in
     signals = {"tau_ext": estimate.tau_ext, "residual": made.observed.residual[:, columns]}
     if estimate.std is not None:
         signals["std"] = estimate.std
-    signals["ratio"] = np.abs(made.watched) / np.array(found.thresholds)
+    signals["ratio"] = np.abs(made.watched) / np.array(thresholds.thresholds)
     return {name: np.round(np.asarray(signal, dtype=np.float64), DIGITS) for name, signal in signals.items()}
 
 
-def in_order(made: LogDetection, found: LimbThresholds, signals: Mapping[str, Array]) -> Iterator[Message]:
+def in_order(made: LogDetection, thresholds: LimbThresholds, signals: Mapping[str, Array]) -> Iterator[Message]:
     """Yield the messages by their times: torques of every sample, and each flag where it begins."""
     waiting = list(made.flags)
     for row, stamp_s in enumerate(made.observed.converted.time_s.tolist()):
         content: dict[str, Any] = {}
         for name, signal in signals.items():
-            content[name] = dict(zip(found.joints, signal[row].tolist(), strict=True))
+            content[name] = dict(zip(thresholds.joints, signal[row].tolist(), strict=True))
         yield TORQUES, stamp_s, content
         while waiting and waiting[0].start_s <= stamp_s:
-            yield from messages_of(waiting.pop(0), found.limb)
+            yield from messages_of(waiting.pop(0), thresholds.limb)
 
 
 def messages_of(flag: Flag, limb: str) -> Iterator[Message]:
     """Yield a flag as numbers, without what it does not tell, and as a line for the log panel."""
-    told = dict(zip(COLUMNS, flag.row(), strict=True))
-    yield FLAGS, flag.start_s, {name: value for name, value in told.items() if value != ""}
+    numbers = dict(zip(COLUMNS, flag.row(), strict=True))
+    yield FLAGS, flag.start_s, {name: value for name, value in numbers.items() if value != ""}
     stamp = {"sec": int(flag.start_s), "nsec": round(flag.start_s % 1.0 * NANO)}
     text = f"{flag.joint} at {flag.ratio:.2f} times its threshold until {flag.end_s:.3f} s"
     content = {"timestamp": stamp, "level": WARNING, "message": text, "name": limb, "file": "", "line": 0}

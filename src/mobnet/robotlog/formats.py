@@ -59,9 +59,9 @@ def read_log(path: Path, wanted: Collection[str] | None = None) -> Columns:
         raise DataError(f"{path}: {not_accepted('column', missing[0], columns)}")
     texts = {name: column.found for name, column in columns.items() if column.found}
     if texts and wanted is not None:
-        name, found = next(iter(texts.items()))
+        name, text = next(iter(texts.items()))
         accepted = "numbers, dates as 2026-05-03T12:00:00.5, or durations of Parquet"
-        raise DataError(f"{path}: column {name!r} holds {found}; accepted: {accepted}")
+        raise DataError(f"{path}: column {name!r} holds {text}; accepted: {accepted}")
     columns = {name: column for name, column in columns.items() if not column.found}
     if not columns:
         raise DataError(f"{path}: holds no column of numbers; accepted: at least positions, velocities and torques")

@@ -87,34 +87,34 @@ class FreeCheck:
 
 def held_out(network: Runnable, data: LimbData, cut: int) -> Held:
     """Run a network on the samples from a row on, and on as many before it."""
-    held = [(max(start, cut), end) for start, end in data.segments if end > cut]
-    length = sum(end - start for start, end in held)
+    spans_held_out = [(max(start, cut), end) for start, end in data.segments if end > cut]
+    length = sum(end - start for start, end in spans_held_out)
     first = next((start for start, end in data.segments if start < cut <= end), 0)
     # An error that is larger on what is held out than on data that trained the network says that more data would help.
-    spans = [*held, (max(first, cut - length), cut)]
-    found = network.run_all([data.inputs[start:end] for start, end in spans])
-    errors = [data.targets[a:b] - one.mean for (a, b), one in zip(spans, found, strict=True)]
-    stds = [one.std for one in found[:-1] if one.std is not None]
-    ends = np.cumsum([end - start for start, end in held]).tolist()
+    spans = [*spans_held_out, (max(first, cut - length), cut)]
+    predictions = network.run_all([data.inputs[start:end] for start, end in spans])
+    errors = [data.targets[a:b] - prediction.mean for (a, b), prediction in zip(spans, predictions, strict=True)]
+    stds = [prediction.std for prediction in predictions[:-1] if prediction.std is not None]
+    ends = np.cumsum([end - start for start, end in spans_held_out]).tolist()
     segments = tuple(zip([0, *ends[:-1]], ends, strict=True))
-    rows = np.concatenate([np.arange(a, b) for a, b in held])
+    rows = np.concatenate([np.arange(a, b) for a, b in spans_held_out])
     return Held(rows, segments, Estimate(np.concatenate(errors[:-1]), np.concatenate(stds)), errors[-1])
 
 
-def free_check(held: Held, data: LimbData, label: Array, cut: int, units: Sequence[str], margin: float) -> FreeCheck:
+def free_check(rest: Held, data: LimbData, label: Array, cut: int, units: Sequence[str], margin: float) -> FreeCheck:
     """Measure what a network did on the part of logs that is held out.
 
     Args:
-        held: the network on that part.
+        rest: the network on that part.
         data: of the whole logs; targets are the residual less the label.
         label: external torque of the joints that is known (N, n) [N, N m].
         cut: first row that is held out.
         units: of the joints' torques (n,).
         margin: share of an input's range by which it may lie outside.
     """
-    rows = held.rows
-    errors = held.estimate.tau_ext
-    std = held.estimate.std
+    rows = rest.rows
+    errors = rest.estimate.tau_ext
+    std = rest.estimate.std
     assert std is not None
     low = data.inputs[:cut].min(axis=0)
     high = data.inputs[:cut].max(axis=0)
@@ -127,7 +127,7 @@ def free_check(held: Held, data: LimbData, label: Array, cut: int, units: Sequen
         zero=_size(label[rows]),
         observer=_size(data.targets[rows]),
         network=_size(errors),
-        seen=_size(held.seen),
+        seen=_size(rest.seen),
         covered=coverage(errors, std, SHARES),
         outside=float(beyond.any(axis=1).mean()),
         widest=data.input_names[int(np.argmax(often))] if often.any() else "",
@@ -141,51 +141,53 @@ def course_of(metrics: Path, kept: int) -> ValidationSummary:
 
 
 def lines_of(
-    found: FreeCheck, labels: str, numbers: LogLearning, course: ValidationSummary, planted: PlantedCheck | None = None
+    check: FreeCheck, labels: str, numbers: LogLearning, course: ValidationSummary, planted: PlantedCheck | None = None
 ) -> Iterator[str]:
     """Yield what the command prints of a check by some labels, of a training, and of pushes planted into that part."""
     what = "free-motion check" if labels == "free" else f"check by the labels {labels!r}"
-    yield f"{what}, the last {found.seconds:.0f} s, which the network never saw: root mean square errors"
-    width = max(map(len, ("joint", *found.joints)))
+    yield f"{what}, the last {check.seconds:.0f} s, which the network never saw: root mean square errors"
+    width = max(map(len, ("joint", *check.joints)))
     yield f"  {'joint':<{width}} {'nothing':>9}{'observer':>10}{'network':>9}      sigma holds 68 %   95 %"
-    for k, joint in enumerate(found.joints):
-        sizes = f"{found.zero[k]:9.3f}{found.observer[k]:10.3f}{found.network[k]:9.3f} {found.units[k]:<4}"
-        yield f"  {joint:<{width}} {sizes}{found.covered[0, k]:16.0%}{found.covered[1, k]:9.0%}"
+    for k, joint in enumerate(check.joints):
+        sizes = f"{check.zero[k]:9.3f}{check.observer[k]:10.3f}{check.network[k]:9.3f} {check.units[k]:<4}"
+        yield f"  {joint:<{width}} {sizes}{check.covered[0, k]:16.0%}{check.covered[1, k]:9.0%}"
     if planted:
         yield planted.line()
-    faults = [*_faults(found, numbers), *_faults_of_course(found, course, numbers)]
+    faults = [*_faults(check, numbers), *_faults_of_course(check, course, numbers)]
     if planted and not planted.has_network:
         faults.append("a detector with the network does not find more than one without it: record for longer")
     yield f"the log suffices: {'yes' if not faults else 'no'}"
     yield from (f"  {fault}" for fault in faults)
 
 
-def _faults(found: FreeCheck, numbers: LogLearning) -> Iterator[str]:
+def _faults(check: FreeCheck, numbers: LogLearning) -> Iterator[str]:
     """Yield why a log does not suffice."""
-    if found.outside > numbers.outside:
+    if check.outside > numbers.outside:
         yield (
-            f"{found.outside:.1%} of the held-out samples have an input outside the range of training, most often "
-            f"{found.widest}: record more varied motion"
+            f"{check.outside:.1%} of the held-out samples have an input outside the range of training, most often "
+            f"{check.widest}: record more varied motion"
         )
-    ratio = np.sqrt(np.mean(np.square(found.network / np.maximum(found.seen, 1e-12))))
+    ratio = np.sqrt(np.mean(np.square(check.network / np.maximum(check.seen, 1e-12))))
     if ratio > numbers.worse:
         yield f"the error is {ratio:.1f} times that on data that trained the network: record for longer"
-    if worse := [joint for k, joint in enumerate(found.joints) if found.network[k] >= found.observer[k]]:
+    if worse := [joint for k, joint in enumerate(check.joints) if check.network[k] >= check.observer[k]]:
         yield f"the network's error is not below the observer's at {', '.join(worse)}: keep the observer alone there"
 
 
-def _faults_of_course(found: FreeCheck, course: ValidationSummary, numbers: LogLearning) -> Iterator[str]:
+def _faults_of_course(check: FreeCheck, course: ValidationSummary, numbers: LogLearning) -> Iterator[str]:
     """Yield what a training and its standard deviation say against a log."""
     if course.last > course.loss + numbers.rises:
         yield (
             f"the validation rises after epoch {course.kept} of {course.epochs}, which is kept, from {course.loss:.2f} "
             f"to {course.last:.2f}: the network learns this log by heart, record for longer"
         )
-    held = found.covered[0]
-    if wrong := [joint for joint, own in zip(found.joints, held, strict=True) if abs(own - SHARES[0]) > numbers.sigma]:
+    covered = check.covered[0]
+    if wrong := [
+        joint for joint, share in zip(check.joints, covered, strict=True) if abs(share - SHARES[0]) > numbers.sigma
+    ]:
         yield (
-            f"sigma holds {held.min():.0%} to {held.max():.0%} of the errors in place of {SHARES[0]:.0%}, wrong at "
-            f"{', '.join(wrong)}: record more varied motion"
+            f"sigma holds {covered.min():.0%} to {covered.max():.0%} of the errors in place of {SHARES[0]:.0%}, "
+            f"wrong at {', '.join(wrong)}: record more varied motion"
         )
 
 

@@ -58,10 +58,10 @@ def read_free_log(path: Path, robot: RobotDescription, meaning: LogMap | None, s
         ConfigError: the map does not fit the robot.
     """
     if (path / f"{RECORDING}.json").exists():
-        own = read_log_folder(path, robot.layout)
-        return FreeLog(path, own.recording, own.sampling.torque)
-    found = converted_log(path, robot.layout, meaning, settings.robotlog)
-    return FreeLog(path, found.recording, meaning.torque if meaning else "sample")
+        log = read_log_folder(path, robot.layout)
+        return FreeLog(path, log.recording, log.sampling.torque)
+    converted = converted_log(path, robot.layout, meaning, settings.robotlog)
+    return FreeLog(path, converted.recording, meaning.torque if meaning else "sample")
 
 
 def identify(
@@ -80,17 +80,17 @@ def identify(
     numbers = settings.robotlog.identify
     gravity = settings.plant.gravity_m_s2
     carrier = carrier_named(robot, payload) if payload else None
-    windows = [windows_of(robot, one.recording, one.torque, gravity, numbers, carrier) for one in logs]
+    windows = [windows_of(robot, log.recording, log.torque, gravity, numbers, carrier) for log in logs]
     known, held_out = split(windows, numbers)
     fits, carried = fit_joints(known, held_out, columns_of(numbers), terms, numbers)
     # Of a joint that rests a log tells no friction: it keeps the numbers of the table.
-    speeds = moved([one.recording for one in logs], robot.layout.nu)
-    found = {
+    speeds = moved([log.recording for log in logs], robot.layout.nu)
+    fits_of_moving = {
         joint: fit
         for joint, fit, speed in zip(robot.layout.actuated, fits, speeds, strict=True)
         if speed >= numbers.least_speed_rad_s
     }
-    return found, carried
+    return fits_of_moving, carried
 
 
 def split(windows: Sequence[RegressorWindows], numbers: Identification) -> tuple[RegressorWindows, RegressorWindows]:
@@ -99,9 +99,9 @@ def split(windows: Sequence[RegressorWindows], numbers: Identification) -> tuple
     Raises:
         DataError: there are too few windows.
     """
-    cuts = [len(one) - round(numbers.held_out * len(one)) for one in windows]
-    known = together([one[:cut] for one, cut in zip(windows, cuts, strict=True)])
-    held_out = together([one[cut:] for one, cut in zip(windows, cuts, strict=True)])
+    cuts = [len(windows_of_log) - round(numbers.held_out * len(windows_of_log)) for windows_of_log in windows]
+    known = together([windows_of_log[:cut] for windows_of_log, cut in zip(windows, cuts, strict=True)])
+    held_out = together([windows_of_log[cut:] for windows_of_log, cut in zip(windows, cuts, strict=True)])
     if len(known) < numbers.least_windows or not len(held_out):
         seconds = numbers.window_s * (len(known) + len(held_out))
         least = numbers.window_s * numbers.least_windows / (1 - numbers.held_out)
@@ -109,11 +109,11 @@ def split(windows: Sequence[RegressorWindows], numbers: Identification) -> tuple
     return known, held_out
 
 
-def with_numbers(table: RobotTable, found: Mapping[str, JointFit]) -> RobotTable:
+def with_numbers(table: RobotTable, fits: Mapping[str, JointFit]) -> RobotTable:
     """Return a table with the numbers of joints in place of its own; other joints keep theirs."""
-    rows = {joint: friction_row(fit) for joint, fit in found.items()}
+    rows = {joint: friction_row(fit) for joint, fit in fits.items()}
     joints = tuple(
-        row.model_copy(update={"armature": _rounded(found[row.id].factors["armature"])}) if row.id in found else row
+        row.model_copy(update={"armature": _rounded(fits[row.id].factors["armature"])}) if row.id in fits else row
         for row in table.joints
     )
     ordered = {row.id: rows.get(row.id) or table.friction.get(row.id) for row in joints}
@@ -121,7 +121,7 @@ def with_numbers(table: RobotTable, found: Mapping[str, JointFit]) -> RobotTable
     return table.model_copy(update={"joints": joints, "friction": friction})
 
 
-def with_payload(table: RobotTable, body: str, found: Payload) -> RobotTable:
+def with_payload(table: RobotTable, body: str, payload: Payload) -> RobotTable:
     """Return a table with one more body, a payload welded to one of its bodies; published totals are left out."""
     names = [row.name for row in table.bodies]
     name = PAYLOAD
@@ -129,16 +129,16 @@ def with_payload(table: RobotTable, body: str, found: Payload) -> RobotTable:
     while name in names:
         name = f"{PAYLOAD}_{number}"
         number += 1
-    own = _rounded(found.inertia)
-    (x, y, z) = map(_rounded, found.com)
+    inertia = _rounded(payload.inertia)
+    (x, y, z) = map(_rounded, payload.com)
     row = BodyRow(
         name=name,
         parent=body,
         pos=(0.0, 0.0, 0.0),
         quat=(1.0, 0.0, 0.0, 0.0),
-        mass=_rounded(found.mass),
+        mass=_rounded(payload.mass),
         com=(x, y, z),
-        inertia=(own, own, own, 0.0, 0.0, 0.0),
+        inertia=(inertia, inertia, inertia, 0.0, 0.0, 0.0),
     )
     # Bodies of a table stand depth-first: the payload comes right after the body that carries it.
     place = names.index(body) + 1
@@ -161,7 +161,7 @@ def _rounded(value: float) -> float:
     return float(f"{value:.{DIGITS}g}")
 
 
-def report_lines(found: Mapping[str, JointFit], robot: RobotDescription, held_out: float) -> Iterator[str]:
+def report_lines(fits: Mapping[str, JointFit], robot: RobotDescription, held_out: float) -> Iterator[str]:
     """Yield what the command prints."""
     units = {
         "coulomb": "Coulomb [N m]",
@@ -171,10 +171,10 @@ def report_lines(found: Mapping[str, JointFit], robot: RobotDescription, held_ou
         "armature": "rotor inertia [kg m^2]",
         "scale": "scale - 1 [-]",
     }
-    fitted = set(chain.from_iterable(fit.factors for fit in found.values()))
+    fitted = set(chain.from_iterable(fit.factors for fit in fits.values()))
     shown = [term for term in units if term in fitted]
     rows = [["joint", *(units[term] for term in shown), "sign", "residual, held out", "explained"]]
-    for joint, fit in found.items():
+    for joint, fit in fits.items():
         cells = [_cell(fit, term) for term in shown]
         kind, number = fit.sign
         sign = f"tanh, {number:g} rad/s" if kind == "smoothing" else f"Dahl, {number:g} rad"
@@ -185,7 +185,7 @@ def report_lines(found: Mapping[str, JointFit], robot: RobotDescription, held_ou
     for row in rows:
         cells = [f"{cell:<{width}}" for cell, width in zip(row, widths, strict=True)]
         yield "  ".join(cells).rstrip()
-    if still := [joint for joint in robot.layout.actuated if joint not in found]:
+    if still := [joint for joint in robot.layout.actuated if joint not in fits]:
         yield f"did not move, and keep the numbers of the table: {', '.join(still)}"
 
 
@@ -204,14 +204,14 @@ def run(options: Namespace) -> Iterator[str]:
     meaning = load_section(options.map, LogMap) if options.map else None
     logs = [read_free_log(path, robot, meaning, settings) for path in options.logs]
     terms = (*TERMS, *(term for term in FURTHER if getattr(options, term)))
-    found, carried = identify(robot, logs, terms, settings, options.payload)
+    fits, carried = identify(robot, logs, terms, settings, options.payload)
     head = head_of(options.robot) if options.robot else []
     made = f"friction and armature: from {', '.join(path.name for path in options.logs)}, by {command('identify')}."
-    made_table = with_numbers(table, found)
+    made_table = with_numbers(table, fits)
     made_table = with_payload(made_table, options.payload, carried) if carried else made_table
     write_table(out, made_table, [*head, made])
     load_section(out, RobotTable)
-    yield from report_lines(found, robot, settings.robotlog.identify.held_out)
+    yield from report_lines(fits, robot, settings.robotlog.identify.held_out)
     if carried:
         place = ", ".join(f"{x:.3f} ± {half:.2g}" for x, half in zip(carried.com, carried.com_half, strict=True))
         mass = f"{carried.mass:.4g} ± {carried.mass_half:.2g} kg"

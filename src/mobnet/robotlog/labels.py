@@ -58,7 +58,7 @@ def limb_data(logs: Sequence[OwnLog], labels: Sequence[Array], layout: JointLayo
     joints = layout.limbs(limb.joints)
     columns = layout.columns(joints)
     x = np.concatenate([inputs(log.recording.sensed) for log in logs])
-    y = np.concatenate([(log.residual - own)[:, columns] for log, own in zip(logs, labels, strict=True)])
+    y = np.concatenate([(log.residual - label)[:, columns] for log, label in zip(logs, labels, strict=True)])
     starts = np.cumsum([0, *(len(log.residual) for log in logs)]).tolist()
     segments = list[tuple[int, int]]()
     for start, log in zip(starts, logs, strict=False):

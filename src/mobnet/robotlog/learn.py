@@ -118,7 +118,7 @@ def learn(
     robot = describe(table)
     first = logs[0].sampling
     nominal = NominalModel(robot, gravity_m_s2=settings.plant.gravity_m_s2)
-    known = [label_of(one, nominal, labels) for one in logs]
+    known = [label_of(log, nominal, labels) for log in logs]
     training = training_of(settings, table, limb, labels, first.rate_hz, epochs)
     data = limb_data(logs, known, robot.layout, training.network)
     cut = len(data.inputs) - round(settings.robotlog.learn.held_out * len(data.inputs))
@@ -130,16 +130,16 @@ def learn(
     units = [robot.layout.unit(joint) for joint in data.joints]
     label = np.concatenate(known)[:, columns]
     numbers = settings.robotlog.learn
-    held = held_out(load_network(out), data, cut)
-    found = free_check(held, data, label, cut, units, numbers.margin)
-    planted = _planted(logs, nominal, limb, data, label, held, settings)
+    rest = held_out(load_network(out), data, cut)
+    check = free_check(rest, data, label, cut, units, numbers.margin)
+    planted = _planted(logs, nominal, limb, data, label, rest, settings)
     note = read_json(out / RUN)
     course = course_of(out / METRICS, note["best"]["epoch"])
-    learned = {"folders": [str(one.folder) for one in logs], "recordings": [one.footer for one in logs]}
-    told = {**learned, "labels": labels, **first.note(), "check": found.note()}
-    told |= {"planted": planted.note()} if planted else {}
-    write_json(out / RUN, {**note, **told})
-    return [*lines_of(found, labels, numbers, course, planted), f"written: {out}"]
+    learned = {"folders": [str(log.folder) for log in logs], "recordings": [log.footer for log in logs]}
+    run_note = {**learned, "labels": labels, **first.note(), "check": check.note()}
+    run_note |= {"planted": planted.note()} if planted else {}
+    write_json(out / RUN, {**note, **run_note})
+    return [*lines_of(check, labels, numbers, course, planted), f"written: {out}"]
 
 
 def _planted(
@@ -148,7 +148,7 @@ def _planted(
     limb: str,
     data: LimbData,
     label: Array,
-    held: Held,
+    rest: Held,
     settings: Lab,
 ) -> PlantedCheck | None:
     """Return which detectors of a limb find pushes that are planted into what is held out.
@@ -159,21 +159,21 @@ def _planted(
     gravity = settings.plant.gravity_m_s2
     if data.joints != robot.layout.limb(limb):
         return None
-    observers: list[NDArray[Any]] = [data.targets[held.rows]]
+    observers: list[NDArray[Any]] = [data.targets[rest.rows]]
     # `calibrate` keeps the observer without the formula of friction where that finds more: it is tried here, too.
     if robot.friction:
-        bare = np.concatenate([one.residual for one in without_friction(logs, robot, gravity)])
-        observers.insert(0, bare[held.rows][:, robot.layout.columns(data.joints)] - label[held.rows])
-    q = np.concatenate([one.recording.sensed.q for one in logs])[held.rows]
-    return planted_check(nominal, limb, logs[0].sampling, q, held.segments, held.estimate, observers, settings)
+        bare = np.concatenate([log.residual for log in without_friction(logs, robot, gravity)])
+        observers.insert(0, bare[rest.rows][:, robot.layout.columns(data.joints)] - label[rest.rows])
+    q = np.concatenate([log.recording.sensed.q for log in logs])[rest.rows]
+    return planted_check(nominal, limb, logs[0].sampling, q, rest.segments, rest.estimate, observers, settings)
 
 
 def _is_new(fingerprint: str, out: Path, *, force: bool) -> bool:
     """Return whether a network has to be trained; a DataError says that a folder holds another one."""
     if not (out / RUN).exists():
         return True
-    held = read_json(out / RUN).get("fingerprint")
-    if held == fingerprint:
+    fingerprint_there = read_json(out / RUN).get("fingerprint")
+    if fingerprint_there == fingerprint:
         log.info("%s: already trained from these logs in this way", out)
         return False
     if not force:
@@ -192,8 +192,8 @@ def run(options: Namespace) -> list[str]:
     check_place(out)
     logs = [read_log_folder(folder, table.layout) for folder in options.folders]
     refuse_twice(logs, "else what is held out trains too")
-    for one in logs:
-        check_drives(one.folder, one.sampling.drives, describe(table))
+    for log in logs:
+        check_drives(log.folder, log.sampling.drives, describe(table))
     sweep(out)
     sweep(out / STATE)
     return learn(settings, table, logs, limb, options.labels, epochs, out, force=options.force)

@@ -38,40 +38,40 @@ def default_map(path: Path, names: Collection[str], layout: JointLayout) -> LogM
     """
     fields = recording_columns(layout)
     taken = dict[str, Signal]()
-    held = set(names)
+    there = set(names)
     base = 7 if layout.virtual else 0
-    own = dict[str, list[str]]()
+    signals = dict[str, list[str]]()
     for key, group in fields.items():
-        own[key] = [name for name, *_ in group]
+        signals[key] = [name for name, *_ in group]
     groups = {
-        "q": own["q"][base:],
-        "v": own["v"][6 if base else 0 :],
-        "tau_motor": own["tau_motor"],
-        "position": own["q"][:3] if base else [],
-        "quaternion": own["q"][3:base],
-        "acc": own["acc_base_in_base"],
-        "velocity": own["v"][:3] if base else [],
-        "omega": own["v"][3:6] if base else [],
-        **{foot: own[f"wrench_{foot}"] for foot in FEET},
-        "swing": own["swing"],
-        "landing": own["landing"],
+        "q": signals["q"][base:],
+        "v": signals["v"][6 if base else 0 :],
+        "tau_motor": signals["tau_motor"],
+        "position": signals["q"][:3] if base else [],
+        "quaternion": signals["q"][3:base],
+        "acc": signals["acc_base_in_base"],
+        "velocity": signals["v"][:3] if base else [],
+        "omega": signals["v"][3:6] if base else [],
+        **{foot: signals[f"wrench_{foot}"] for foot in FEET},
+        "swing": signals["swing"],
+        "landing": signals["landing"],
     }
-    if not any(held.intersection(groups[key]) for key in MOTORS):
+    if not any(there.intersection(groups[key]) for key in MOTORS):
         # A JointState says nothing of a base, so that no map can be guessed for one that floats.
         if base:
             raise DataError(f"{path}: {_needs_map(names, groups['q'])}")
         groups = {key: [f"{_joint_state(path, names, layout)}.{field}"] for key, field in JOINT_STATE.items()}
     for key, group in groups.items():
-        if group and (key in MOTORS or set(group) <= held):
+        if group and (key in MOTORS or set(group) <= there):
             taken[key] = Signal(columns=tuple(group))
     clocks = [name for name in names if name.lower() in CLOCKS]
     clock = min(clocks, key=lambda name: CLOCKS.index(name.lower()), default=CLOCKS[0])
     return LogMap.model_validate({**taken, "clock": Clock(column=clock)})
 
 
-def _needs_map(names: Collection[str], own: Sequence[str]) -> str:
+def _needs_map(names: Collection[str], unit_names: Sequence[str]) -> str:
     """Return the message about a log whose columns a map has to name."""
-    return f"has no column {own[0]} or the like; accepted: a --map of its columns, which are {listed([*names])}"
+    return f"has no column {unit_names[0]} or the like; accepted: a --map of its columns, which are {listed([*names])}"
 
 
 def _joint_state(path: Path, names: Collection[str], layout: JointLayout) -> str:
@@ -104,10 +104,10 @@ def _joint_state(path: Path, names: Collection[str], layout: JointLayout) -> str
         if field not in topics[near]:
             raise DataError(f"{path}: {near}: {field} is empty; accepted: position, velocity and effort of each joint")
         if missing := [joint for joint in layout.actuated if joint not in topics[near][field]]:
-            held = sorted(topics[near][field])
+            joint_names = sorted(topics[near][field])
             accepted = "all joints of the robot, or `joints` of a --map for other names"
             raise DataError(
-                f"{path}: {near}: {field} has {listed(held)}, and not {listed(missing)}; accepted: {accepted}"
+                f"{path}: {near}: {field} has {listed(joint_names)}, and not {listed(missing)}; accepted: {accepted}"
             )
     raise DataError(f"{path}: {_needs_map(names, layout.actuated)}")
 
@@ -122,7 +122,7 @@ def resolved(path: Path, meaning: LogMap, names: Collection[str], layout: JointL
         DataError: a column is missing; the line has the names that are most like it.
     """
     given = given_signals(meaning)
-    held = set(names)
+    there = set(names)
     needed = [*MOTORS, *(BASE if layout.virtual else ())]
     if missing := [name for name in needed if name not in given]:
         why = "a robot with a floating base, such as the one taken without --robot, needs them"
@@ -132,7 +132,7 @@ def resolved(path: Path, meaning: LogMap, names: Collection[str], layout: JointL
     widths = dict.fromkeys(MOTORS, layout.nu) | {name: len(ends) for name, ends in ENDS.items()}
     widths |= dict.fromkeys(("swing", "landing"), len(layout.legs))
     joints = meaning.joints or layout.actuated
-    full = {key: _full(key, signal, held, joints, widths[key]) for key, signal in given.items()}
+    full = {key: _full(key, signal, there, joints, widths[key]) for key, signal in given.items()}
     faults = list[str]()
     for key, signal in full.items():
         faults += _faults(key, signal, names, widths[key])
@@ -142,9 +142,9 @@ def resolved(path: Path, meaning: LogMap, names: Collection[str], layout: JointL
 
 def wanted_columns(meaning: LogMap, names: Collection[str]) -> list[str]:
     """Return the columns that a map by full names needs, with its clock and the truth where the log has them."""
-    own = chain.from_iterable(signal.columns for signal in given_signals(meaning).values())
+    of_signals = chain.from_iterable(signal.columns for signal in given_signals(meaning).values())
     clock = [name for name in names if name == meaning.clock.column]
-    return list(dict.fromkeys([*clock, *own, *filter(is_truth, names)]))
+    return list(dict.fromkeys([*clock, *of_signals, *filter(is_truth, names)]))
 
 
 def is_truth(name: str) -> bool:
@@ -152,10 +152,10 @@ def is_truth(name: str) -> bool:
     return name == PUSHED or name.startswith(f"{EXTERNAL}.")
 
 
-def _full(key: str, signal: Signal, held: Collection[str], joints: Collection[str], width: int) -> Signal:
+def _full(key: str, signal: Signal, there: Collection[str], joints: Collection[str], width: int) -> Signal:
     """Return a signal with the columns below the one that it names, if it names one alone."""
     stem = signal.columns[0]
-    if len(signal.columns) > 1 or (stem in held and width == 1):
+    if len(signal.columns) > 1 or (stem in there and width == 1):
         return signal
     named = [f"{stem}.{end}" for end in (joints if key in MOTORS else ENDS.get(key, ()))]
     numbered = [f"{stem}.{k}" for k in range(width)]
@@ -164,7 +164,7 @@ def _full(key: str, signal: Signal, held: Collection[str], joints: Collection[st
     starred = [by_names, by_numbers] if "*" in stem else []
     # Names before numbers, as messages may list joints and axes in any order.
     for columns in (named, *starred, numbered):
-        if columns and set(columns) <= set(held):
+        if columns and set(columns) <= set(there):
             by_name = {"order": "wxyz"} if key == "quaternion" and columns is named else {}
             return signal.model_copy(update={"columns": tuple(columns), **by_name})
     return signal
@@ -173,8 +173,8 @@ def _full(key: str, signal: Signal, held: Collection[str], joints: Collection[st
 def _faults(key: str, signal: Signal, names: Collection[str], width: int) -> Iterator[str]:
     """Yield what does not fit about the columns of a signal."""
     count = len(signal.columns)
-    held = set(names)
-    missing = [name for name in signal.columns if name not in held]
+    there = set(names)
+    missing = [name for name in signal.columns if name not in there]
     if missing:
         more = f"; {len(missing) - 1} more columns of {key} are missing" if len(missing) > 1 else ""
         yield not_accepted("column", missing[0], names) + more

@@ -46,10 +46,10 @@ class Entry:
     def __call__(self, items: Sequence[Any]) -> Any:
         """Return the object."""
         if self.place >= len(items) or self.own_name(items[self.place]) != self.name:
-            found = next((k for k, item in enumerate(items) if self.own_name(item) == self.name), None)
-            if found is None:
+            index = next((k for k, item in enumerate(items) if self.own_name(item) == self.name), None)
+            if index is None:
                 raise AbsentError(self.name)
-            self.place = found
+            self.place = index
         return items[self.place]
 
 
@@ -74,18 +74,18 @@ class Gathered:
 
 def message_names(path: Path) -> list[str]:
     """Return the columns in the first messages of each topic of a log."""
-    found = []
+    names = []
     with opened(path) as source:
         for topic in source.topics:
             for _, _, content in islice(source.messages([topic]), FIRST):
                 for part in _parts(content, topic):
-                    found += _in(part, content)
-        if not found and source.hint:
+                    names += _in(part, content)
+        if not names and source.hint:
             raise DataError(f"{path}: {source.hint}, which is before its first message; accepted: a log with messages")
-        if not found and source.unread:
+        if not names and source.unread:
             topics = ", ".join(f"{topic} ({encoding})" for topic, encoding in source.unread.items())
             raise DataError(f"{path}: cannot be decoded: {topics}; accepted: messages in {', '.join(ENCODINGS)}")
-    return list(dict.fromkeys(found))
+    return list(dict.fromkeys(names))
 
 
 def message_columns(path: Path, wanted: Collection[str]) -> dict[str, LogColumn]:
@@ -101,11 +101,13 @@ def message_columns(path: Path, wanted: Collection[str]) -> dict[str, LogColumn]
                 topics.append(topic)
         gathered = _gathered(source.messages(topics), set(wanted)) if topics else {}
         hint = source.hint
-    began = min((min(own.recorded) for own in gathered.values()), default=0)
-    found = dict[str, LogColumn]()
-    for topic, own in gathered.items():
-        found |= {name: column for name, column in _columns_of(topic, own, began, hint).items() if name in wanted}
-    return found
+    began = min((min(of_topic.recorded) for of_topic in gathered.values()), default=0)
+    columns = dict[str, LogColumn]()
+    for topic, of_topic in gathered.items():
+        columns |= {
+            name: column for name, column in _columns_of(topic, of_topic, began, hint).items() if name in wanted
+        }
+    return columns
 
 
 def _parts(
@@ -190,8 +192,8 @@ def _stamp_of(content: Any) -> Callable[[Any], int] | None:
     (whole, rest) = pair
 
     def stamp_ns(message: Any) -> int:
-        own = stamp(header(message))
-        return whole(own) * 1_000_000_000 + rest(own)
+        stamped = stamp(header(message))
+        return whole(stamped) * 1_000_000_000 + rest(stamped)
 
     return stamp_ns
 
@@ -199,20 +201,20 @@ def _stamp_of(content: Any) -> Callable[[Any], int] | None:
 def _gathered(messages: Iterator[Message], wanted: Collection[str]) -> dict[str, Gathered]:
     """Return what messages hold of wanted columns, by topic."""
     topics = dict[str, Gathered]()
-    told = time.monotonic()
+    last_told = time.monotonic()
     for count, (topic, recorded_ns, content) in enumerate(messages, 1):
-        own = topics.get(topic)
-        if own is None:
-            own = topics[topic] = Gathered(_stamp_of(content))
-        if len(own.recorded) < FIRST:  # several nodes may publish one topic, each its own joints
+        of_topic = topics.get(topic)
+        if of_topic is None:
+            of_topic = topics[topic] = Gathered(_stamp_of(content))
+        if len(of_topic.recorded) < FIRST:  # several nodes may publish one topic, each its own joints
             parts = (part for part in _parts(content, topic) if _is_wanted(part.name, wanted))
-            own.parts = {**{part.name: part for part in parts}, **own.parts}
-        own.recorded.append(recorded_ns)
-        own.stamps.append(own.stamp(content) if own.stamp else 0)
-        for part in own.parts.values():
-            _gather(own, part, content)
-        if count % LOOKED == 0 and time.monotonic() - told > TOLD_S:
-            told = time.monotonic()
+            of_topic.parts = {**{part.name: part for part in parts}, **of_topic.parts}
+        of_topic.recorded.append(recorded_ns)
+        of_topic.stamps.append(of_topic.stamp(content) if of_topic.stamp else 0)
+        for part in of_topic.parts.values():
+            _gather(of_topic, part, content)
+        if count % LOOKED == 0 and time.monotonic() - last_told > TOLD_S:
+            last_told = time.monotonic()
             log.info("%d messages read", count)
     return topics
 
@@ -227,7 +229,7 @@ def _in(part: MessageField, content: Any) -> tuple[str, ...]:
     return _entries(part, content, _at(content, part.steps))
 
 
-def _gather(own: Gathered, part: MessageField, content: Any) -> None:
+def _gather(of_topic: Gathered, part: MessageField, content: Any) -> None:
     """Add the numbers of a message."""
     try:
         values = _at(content, part.steps)
@@ -236,30 +238,32 @@ def _gather(own: Gathered, part: MessageField, content: Any) -> None:
         # What stands in some of the messages alone gets the times of those.
         return
     except (AttributeError, IndexError, KeyError, TypeError):
-        text = not_accepted(f"message {len(own.recorded)}", "it", [f"one with {part.name}, as one before it has"])
+        text = not_accepted(f"message {len(of_topic.recorded)}", "it", [f"one with {part.name}, as one before it has"])
         raise DataError(f"{part.name}: {text}") from None
-    rows, numbers = own.rows.setdefault(part.name, {}).setdefault(names, ([], []))
-    rows.append(len(own.recorded) - 1)
+    rows, numbers = of_topic.rows.setdefault(part.name, {}).setdefault(names, ([], []))
+    rows.append(len(of_topic.recorded) - 1)
     numbers.append(values)
 
 
-def _columns_of(topic: str, own: Gathered, began_ns: int, hint: str) -> dict[str, LogColumn]:
+def _columns_of(topic: str, of_topic: Gathered, began_ns: int, hint: str) -> dict[str, LogColumn]:
     """Return the columns of a topic; what stands in some of its messages alone has their times."""
-    recorded = NANO * (np.array(own.recorded) - began_ns)
-    is_stamped = 2 * own.stamps.count(0) <= len(own.stamps) if own.stamp else None  # a simulation begins at zero
-    times = NANO * (np.array(own.stamps) - began_ns) if is_stamped else recorded
+    recorded = NANO * (np.array(of_topic.recorded) - began_ns)
+    is_stamped = (
+        2 * of_topic.stamps.count(0) <= len(of_topic.stamps) if of_topic.stamp else None
+    )  # a simulation begins at zero
+    times = NANO * (np.array(of_topic.stamps) - began_ns) if is_stamped else recorded
     pieces: dict[str, list[tuple[list[int], NDArray[Any]]]] = {}
-    for layouts in own.rows.values():
+    for layouts in of_topic.rows.values():
         for names, (rows, numbers) in layouts.items():
             block = np.asarray(numbers, dtype=np.float64).reshape(len(rows), -1)
             for k, name in enumerate(names):
                 pieces.setdefault(name, []).append((rows, block[:, k]))
-    found = dict[str, LogColumn]()
+    columns = dict[str, LogColumn]()
     for name, parts in pieces.items():
         # Several nodes may publish one topic, and a node may list its entries in another order: a column has pieces.
         rows = np.concatenate([rows for rows, _ in parts])
         values = np.concatenate([values for _, values in parts])
         order = np.argsort(rows, kind="stable")
         clocks = (times, recorded) if len(rows) == len(times) else (times[rows[order]], recorded[rows[order]])
-        found[name] = LogColumn(values[order], *clocks, topic, is_stamped, hint)
-    return found
+        columns[name] = LogColumn(values[order], *clocks, topic, is_stamped, hint)
+    return columns

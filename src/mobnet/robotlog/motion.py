@@ -63,16 +63,16 @@ def write_log(pieces: Iterable[Recording], robot: RobotDescription, out: Path, t
     """
     if out.suffix not in WRITERS:
         raise DataError(not_accepted("ending", out.suffix, WRITERS))
-    told = Told()
+    written = Told()
     with atomic_path(out) as temporary, contextlib.ExitStack() as closed:
         writer = None
         for piece in pieces:
-            table = _table(piece, robot, told.samples, truth)
+            table = _table(piece, robot, written.samples, truth)
             if writer is None:
                 writer = closed.enter_context(WRITERS[out.suffix](temporary, table.schema))
             writer.write_table(table)
-            told.add(piece, robot)
-    return told
+            written.add(piece, robot)
+    return written
 
 
 def _table(piece: Recording, robot: RobotDescription, first: int, truth: bool) -> pa.Table:
@@ -86,15 +86,15 @@ def _table(piece: Recording, robot: RobotDescription, first: int, truth: bool) -
     return pa.table(columns)
 
 
-def report_lines(told: Told, robot: RobotDescription, rate_hz: float, out: Path, truth: bool) -> Iterator[str]:
+def report_lines(written: Told, robot: RobotDescription, rate_hz: float, out: Path, truth: bool) -> Iterator[str]:
     """Yield what the command prints."""
-    held = "; the base is held in the air" if robot.floating else ""
+    base = "; the base is held in the air" if robot.floating else ""
     apart = "shapes keep apart" if robot.shapes else "the table has no shapes: nothing keeps its bodies apart"
-    samples = told.samples
-    yield f"{robot.name}: {samples} samples at {rate_hz:g} Hz, {samples / rate_hz:g} s{held}; {apart}"
-    yield f"largest speed {told.speed:.2f} rad/s, largest torque {told.share:.0%} of what its motor gives"
+    samples = written.samples
+    yield f"{robot.name}: {samples} samples at {rate_hz:g} Hz, {samples / rate_hz:g} s{base}; {apart}"
+    yield f"largest speed {written.speed:.2f} rad/s, largest torque {written.share:.0%} of what its motor gives"
     if truth:
-        yield f"{told.pushes} pushes, {told.pushed / samples:.0%} of the time; truth: tau_ext.JOINT, pushed"
+        yield f"{written.pushes} pushes, {written.pushed / samples:.0%} of the time; truth: tau_ext.JOINT, pushed"
     yield f"written: {out}"
 
 
@@ -111,8 +111,8 @@ def run(options: Namespace) -> Iterator[str]:
     seconds = 60.0 * options.minutes
     pieces = motion_pieces(robot, numbers, seconds, options.seed, options.ideal, options.pushes)
     truth = options.pushes or robot.floating
-    told = write_log(pieces, robot, options.out, truth)
-    yield from report_lines(told, robot, settings.rates.data_hz, options.out, truth)
+    written = write_log(pieces, robot, options.out, truth)
+    yield from report_lines(written, robot, settings.rates.data_hz, options.out, truth)
 
 
 def main(words: list[str]) -> int:

@@ -129,22 +129,22 @@ def converted_log(path: Path, layout: JointLayout, meaning: LogMap | None, bound
 
 
 def looked_at(
-    found: Converted, nominal: NominalModel, torque: TorqueKind, gravity_m_s2: float, bounds: RobotLog
+    converted: Converted, nominal: NominalModel, torque: TorqueKind, gravity_m_s2: float, bounds: RobotLog
 ) -> tuple[list[str], list[str]]:
     """Return what looks wrong with a log whose torques are of a kind, each as one line with numbers.
 
     The second list says what the residual comes from, if neither motion nor torques are wrong.
     """
-    read = found.recording
+    read = converted.recording
     layout = nominal.robot.layout
     sensed = read.sensed
     spans = read.spans()
     rate_hz = read.rate_hz
-    hints = list(found.hints)
+    hints = list(converted.hints)
     # With a clock in another unit all speeds and delays are wrong, and no other hint means anything.
-    if units := list(unit_hints(found.clocks)):
+    if units := list(unit_hints(converted.clocks)):
         return hints + units, []
-    hints += clock_hints(found.clocks, bounds)
+    hints += clock_hints(converted.clocks, bounds)
     hints += column_hints(sensed, layout.actuated, bounds)
     hints += limit_hints(sensed, layout)
     motors = sensed.q[:, -layout.nu :], sensed.v[:, -layout.nu :]
@@ -155,21 +155,21 @@ def looked_at(
     hints += late
     if nominal.robot.floating:
         hints += base_column_hints(sensed, bounds)
-        own = list(base_hints(sensed, spans, rate_hz, bounds))
-        wrong += own
-        hints += own
+        of_base = list(base_hints(sensed, spans, rate_hz, bounds))
+        wrong += of_base
+        hints += of_base
     # Torques that a wrong motion would need say nothing.
     if wrong:
         return hints, []
     # Of feet that do not carry the weight the wrenches are wrong, and would make torques of the legs look wrong.
-    heavy = list(weight_hints(nominal, sensed, found.wrenches, gravity_m_s2, bounds))
-    wrenches = {} if heavy else found.wrenches
-    torques, explained = _torques_looked_at(found, nominal, torque, wrenches, bool(late), bounds)
+    heavy = list(weight_hints(nominal, sensed, converted.wrenches, gravity_m_s2, bounds))
+    wrenches = {} if heavy else converted.wrenches
+    torques, explained = _torques_looked_at(converted, nominal, torque, wrenches, bool(late), bounds)
     return hints + heavy + torques, explained
 
 
 def _torques_looked_at(
-    found: Converted,
+    converted: Converted,
     nominal: NominalModel,
     torque: TorqueKind,
     wrenches: Mapping[str, Array],
@@ -177,7 +177,7 @@ def _torques_looked_at(
     bounds: RobotLog,
 ) -> tuple[list[str], list[str]]:
     """Return what looks wrong with torques, or else what explains the residual; speeds may be known to be late."""
-    read = found.recording
+    read = converted.recording
     log_of = read.sensed, read.spans(), read.rate_hz, wrenches
     windows = windows_of(*log_of, torque, 0.0, bounds)
     if windows is None:
@@ -185,8 +185,8 @@ def _torques_looked_at(
     known = known_joints(nominal, windows, windows.asked(nominal), bounds)
     # Late speeds make torques look early, and so do the gears of arms and a waist, which alone are left where legs tell
     # nothing for want of a sensor at the foot.
-    told = not late and set(nominal.robot.feet) <= set(wrenches)
-    delay = torque_delay(nominal, *log_of, known, torque, bounds) if told else None
+    is_known = not late and set(nominal.robot.feet) <= set(wrenches)
+    delay = torque_delay(nominal, *log_of, known, torque, bounds) if is_known else None
     if delay:
         windows = windows_of(*log_of, torque, delay.samples, bounds) or windows
     hints = list(torque_hints(nominal, windows, bounds))
@@ -195,17 +195,17 @@ def _torques_looked_at(
     return hints, [] if hints or late else list(explanation(nominal, windows, bounds))
 
 
-def write_observed(found: ObservedLog, robot: RobotDescription, gain_hz: float, torque: str, out: Path) -> None:
+def write_observed(observed: ObservedLog, robot: RobotDescription, gain_hz: float, torque: str, out: Path) -> None:
     """Write recording, estimate and plot into a folder."""
-    read = found.converted.recording
+    read = observed.converted.recording
     meta = {**read.meta, "gain_hz": gain_hz, "torque": torque, **({DRIVES: robot.drives} if robot.drives else {})}
     _write_recording(out / RECORDING, replace(read, meta=meta), robot.layout)
     columns = torque_columns(robot.layout, [EXTERNAL], robot.layout.names)
     recorded = read_array_note(file_of(out / RECORDING, NOTE))["footer"]
     note = {"rate_hz": read.rate_hz, **meta, "method": OBSERVER, "recording": recorded}
-    write_array(out / ESTIMATE, found.residual, columns, note, read.segments)
-    pushed = pushed_rows(found.converted, robot.layout.actuated)
-    plot_residual(read, found.residual, pushed, robot.layout, out / PLOT)
+    write_array(out / ESTIMATE, observed.residual, columns, note, read.segments)
+    pushed = pushed_rows(observed.converted, robot.layout.actuated)
+    plot_residual(read, observed.residual, pushed, robot.layout, out / PLOT)
 
 
 def _write_recording(stem: Path, recording: Recording, layout: JointLayout) -> None:
@@ -218,31 +218,31 @@ def _write_recording(stem: Path, recording: Recording, layout: JointLayout) -> N
         writer.close({"rate_hz": recording.rate_hz, **recording.meta}, recording.segments)
 
 
-def report_lines(found: ObservedLog, robot: RobotDescription, out: Path) -> Iterator[str]:
+def report_lines(observed: ObservedLog, robot: RobotDescription, out: Path) -> Iterator[str]:
     """Yield what the command prints."""
-    read = found.converted.recording
+    read = observed.converted.recording
     rows = len(read.sensed)
     count = len(read.segments)
-    way = "interpolated linearly" if found.converted.interpolated else "as they are in the log"
+    way = "interpolated linearly" if observed.converted.interpolated else "as they are in the log"
     parts = f"{count} segment{'s' * (count > 1)}"
     yield f"{rows} samples at {read.rate_hz:g} Hz, {rows / read.rate_hz:.6g} s in {parts}, {way}"
-    if found.converted.interpolated:
-        yield f"rates of the log: {', '.join(_rates(found.converted.clocks))}"
-    if absent := [name for name in found.converted.absent if name != EXTERNAL]:
+    if observed.converted.interpolated:
+        yield f"rates of the log: {', '.join(_rates(observed.converted.clocks))}"
+    if absent := [name for name in observed.converted.absent if name != EXTERNAL]:
         yield f"not in the log, and zero in the recording: {', '.join(absent)}"
-    size = root_mean_square(found.residual)
+    size = root_mean_square(observed.residual)
     motor = root_mean_square(read.sensed.tau_motor)
     yield "residual: what the model does not explain, root mean square beside that of the motor"
     width = max(map(len, robot.layout.names))
     for k, (name, value) in enumerate(zip(robot.layout.names, size, strict=True)):
-        own = k - len(robot.layout.virtual)
-        beside = f"  of {motor[own]:8.3f}" if own >= 0 else ""
+        motor_number = k - len(robot.layout.virtual)
+        beside = f"  of {motor[motor_number]:8.3f}" if motor_number >= 0 else ""
         yield f"  {name:<{width}} {value:9.3f}{beside} {robot.layout.unit(name)}"
-    if found.explained:
+    if observed.explained:
         yield "explained, by least squares:"
-    yield from (f"  {line}" for line in found.explained)
-    yield "hints: none" if not found.hints else f"hints: {len(found.hints)}"
-    yield from (f"  {hint}" for hint in found.hints)
+    yield from (f"  {line}" for line in observed.explained)
+    yield "hints: none" if not observed.hints else f"hints: {len(observed.hints)}"
+    yield from (f"  {hint}" for hint in observed.hints)
     yield f"written: {out / RECORDING}.parquet, {out / ESTIMATE}.parquet, {out / PLOT}.png"
 
 
@@ -268,18 +268,18 @@ def run(options: Namespace) -> Iterator[str]:
     out = options.out or Path(f"{options.log.stem}_observed")
     check_place(out)
     sweep(out)
-    found = observe_log(options.log, robot, meaning, torque, gain_hz, gravity, bounds)
-    wrenches = [_wrench(found, robot, place, bounds) for place in places]
-    write_observed(found, robot, gain_hz, torque, out)
-    write_wrenches(wrenches, found.converted.recording, OBSERVER, out)
-    yield from report_lines(found, robot, out)
+    observed = observe_log(options.log, robot, meaning, torque, gain_hz, gravity, bounds)
+    wrenches = [_wrench(observed, robot, place, bounds) for place in places]
+    write_observed(observed, robot, gain_hz, torque, out)
+    write_wrenches(wrenches, observed.converted.recording, OBSERVER, out)
+    yield from report_lines(observed, robot, out)
     yield from wrench_lines(wrenches, bounds.wrench, out)
 
 
-def _wrench(found: ObservedLog, robot: RobotDescription, place: WrenchPoint, bounds: RobotLog) -> Wrenches:
+def _wrench(observed: ObservedLog, robot: RobotDescription, place: WrenchPoint, bounds: RobotLog) -> Wrenches:
     """Return what the residual of the joints of a place tells of a wrench there."""
-    residual = found.residual[:, robot.layout.columns(place.joints)]
-    q = found.converted.recording.sensed.q
+    residual = observed.residual[:, robot.layout.columns(place.joints)]
+    q = observed.converted.recording.sensed.q
     return wrenches_of(NominalModel(robot), place, q, Estimate(residual), bounds.wrench)
 
 

@@ -89,12 +89,12 @@ def planted_check(
     count = len(observers)
     names = [*(BARE, ALONE)[-count:], *NETWORKS]
     estimates = [*map(Estimate, observers), *(network,) * len(NETWORKS)]
-    found = dict[str, int]()
+    counts = dict[str, int]()
     for name, estimate in zip(names, estimates, strict=True):
         watched = watched_signal(WATCHED[name])
         low = setup.low_passed(watched.of(estimate, leg.command), segments)
         # Nothing touched the robot here: these are the lowest thresholds that raise no false alarm.
         thresholds = np.abs(low[gate.watched]).max(axis=0)
         hits = found_pushes(setup, watched, thresholds, [leg], [estimate], planted)
-        found[name] = int(np.count_nonzero(hits))
-    return PlantedCheck(sum(len(one.spans) for one in planted), found)
+        counts[name] = int(np.count_nonzero(hits))
+    return PlantedCheck(sum(len(push.spans) for push in planted), counts)

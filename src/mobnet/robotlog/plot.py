@@ -65,7 +65,7 @@ def plot_flags(
     segments: Sequence[tuple[int, int]],
     signals: Array,
     flags: Sequence[Flag],
-    found: LimbThresholds,
+    thresholds: LimbThresholds,
     pushed: NDArray[np.bool_] | None,
     stem: Path,
 ) -> None:
@@ -78,16 +78,16 @@ def plot_flags(
     from matplotlib.figure import Figure
     from matplotlib.patches import Patch
 
-    count = len(found.joints)
+    count = len(thresholds.joints)
     figure = Figure(figsize=(PAGE_INCH, PANEL_INCH * count + 0.4), layout="constrained")
     axes = figure.subplots(count, 1, squeeze=False, sharex=True)[:, 0]
     step = max(1, len(signals) // MOST_POINTS)
     pushes = [] if pushed is None else stretches(pushed, tuple(segments), 0)
-    for k, (axis, joint, threshold) in enumerate(zip(axes, found.joints, found.thresholds, strict=True)):
+    for k, (axis, joint, threshold) in enumerate(zip(axes, thresholds.joints, thresholds.thresholds, strict=True)):
         for number, (start, end) in enumerate(segments):
             times, values = _peaks(time_s[start:end], signals[start:end, k], step)
             axis.plot(times, values, linewidth=0.7, color="C0", label=None if number else "estimate")
-        for side in (1.0, -1.0) if found.signal != "std" else (1.0,):
+        for side in (1.0, -1.0) if thresholds.signal != "std" else (1.0,):
             axis.axhline(side * threshold, linewidth=0.7, linestyle="--", color="0.3", label=_once("threshold", side))
         for start, end in pushes:
             axis.axvspan(time_s[start], time_s[end - 1], ymax=FOOT, color="0.2", linewidth=1.0)
@@ -95,7 +95,7 @@ def plot_flags(
             alpha = DARK if flag.joint == joint else PALE
             axis.axvspan(flag.start_s, flag.end_s, color="C3", alpha=alpha, linewidth=1.0)
         axis.set_title(joint, loc="left", fontsize="medium")
-        axis.set_ylabel(LABELS[found.signal])
+        axis.set_ylabel(LABELS[thresholds.signal])
         axis.set_xlim(time_s[0], time_s[-1])
     lines, _ = axes[0].get_legend_handles_labels()
     bands = [

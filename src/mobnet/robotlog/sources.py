@@ -98,12 +98,17 @@ def _bag(path: Path) -> Iterator[MessageLog]:
     with highlevel.AnyReader([path], default_typestore=stores.get_typestore(stores.Stores.LATEST)) as bag:
 
         def messages(topics: Collection[str]) -> Iterator[Message]:
-            own = [connection for connection in bag.connections if connection.topic in topics]
-            for connection, recorded, raw in bag.messages(own):
+            wanted = [connection for connection in bag.connections if connection.topic in topics]
+            for connection, recorded, raw in bag.messages(wanted):
                 yield Message(connection.topic, recorded, bag.deserialize(raw, connection.msgtype))
 
         known = bag.typestore.fielddefs
-        yield MessageLog(sorted({one.topic for one in bag.connections if one.msgtype in known}), messages)
+        yield MessageLog(
+            sorted(
+                {connection_of_bag.topic for connection_of_bag in bag.connections if connection_of_bag.msgtype in known}
+            ),
+            messages,
+        )
 
 
 def _check_magic(path: Path) -> None:
@@ -127,17 +132,27 @@ def _database(path: Path) -> Iterator[MessageLog]:
         # The bag has the definitions of messages of one's own; bags of before Iron have none.
         for connection in reader.connections:
             if connection.msgdef.format.name == "MSG":
-                own = stores.get_types_from_msg(connection.msgdef.data, connection.msgtype)
-                types.register({name: kind for name, kind in own.items() if name not in types.fielddefs})
+                wanted = stores.get_types_from_msg(connection.msgdef.data, connection.msgtype)
+                types.register({name: kind for name, kind in wanted.items() if name not in types.fielddefs})
 
         def messages(topics: Collection[str]) -> Iterator[Message]:
-            own = [connection for connection in reader.connections if connection.topic in topics]
-            for connection, recorded, raw in reader.messages(own):
+            wanted = [connection for connection in reader.connections if connection.topic in topics]
+            for connection, recorded, raw in reader.messages(wanted):
                 yield Message(connection.topic, recorded, types.deserialize_cdr(raw, connection.msgtype))
 
-        known = {one.topic for one in reader.connections if one.msgtype in types.fielddefs}
+        known = {
+            connection_of_bag.topic
+            for connection_of_bag in reader.connections
+            if connection_of_bag.msgtype in types.fielddefs
+        }
         yield MessageLog(
-            sorted(known), messages, {one.topic: one.msgtype for one in reader.connections if one.topic not in known}
+            sorted(known),
+            messages,
+            {
+                connection_of_bag.topic: connection_of_bag.msgtype
+                for connection_of_bag in reader.connections
+                if connection_of_bag.topic not in known
+            },
         )
 
 

@@ -44,39 +44,39 @@ def parquet_columns(path: Path, wanted: Collection[str]) -> dict[str, LogColumn]
         parts = _parquet_parts(file)
         asked = {name: parts[name] for name in wanted if name in parts}
         check_memory(path, file.metadata.num_rows, len(asked))
-        found = dict[str, LogColumn]()
+        columns = dict[str, LogColumn]()
         lists = dict[str, NDArray[Any]]()
         kinds = {field.name: field.type for field in file.schema_arrow}
         for name, part in asked.items():
             if part.number is not None:
                 if part.array not in lists:
                     lists[part.array] = _lists(path, part.array, file.read([part.array]).column(part.array))
-                found[name] = LogColumn(np.ascontiguousarray(lists[part.array][:, part.number]))
+                columns[name] = LogColumn(np.ascontiguousarray(lists[part.array][:, part.number]))
             elif is_numeric(kinds[part.array]):
                 # One at a time: a whole table of Arrow's would stay beside the columns. A copy: Arrow gives its memory
                 # to the next column, and not back to the system when a column is done with.
                 column = file.read([part.array], use_threads=False).column(part.array).combine_chunks()
-                found[name] = LogColumn(numbers(column).copy())
+                columns[name] = LogColumn(numbers(column).copy())
             else:
-                found[name] = LogColumn(np.empty(0), found=str(kinds[part.array]))
-        return found
+                columns[name] = LogColumn(np.empty(0), found=str(kinds[part.array]))
+        return columns
 
 
 def _parquet_parts(file: Any) -> dict[str, TableColumn]:
     """Return the columns of a Parquet file by their names; those of lists by the length of the first one."""
     from pyarrow import types
 
-    found = dict[str, TableColumn]()
+    parts = dict[str, TableColumn]()
     for field in file.schema_arrow:
         is_list = types.is_list(field.type) or types.is_large_list(field.type) or types.is_fixed_size_list(field.type)
         if not is_list:
-            found[field.name] = TableColumn(field.name)
+            parts[field.name] = TableColumn(field.name)
         elif is_numeric(field.type.value_type):
             first = next(file.iter_batches(batch_size=1, columns=[field.name]), None)
             width = len(first.column(0)[0].as_py() or ()) if first else 0
             if width <= MOST:
-                found |= {f"{field.name}.{k}": TableColumn(field.name, number=k) for k in range(width)}
-    return found
+                parts |= {f"{field.name}.{k}": TableColumn(field.name, number=k) for k in range(width)}
+    return parts
 
 
 def _lists(path: Path, name: str, column: Any) -> NDArray[Any]:
@@ -109,7 +109,7 @@ def array_names(path: Path) -> list[str]:
 def array_columns(path: Path, wanted: Collection[str]) -> dict[str, LogColumn]:
     """Read columns of a file of arrays; an array is read once."""
     asked = dict[tuple[str, str | None], dict[str, int | None]]()
-    found = dict[str, LogColumn]()
+    log_columns = dict[str, LogColumn]()
     with _arrays(path) as arrays:
         parts = _array_parts(arrays)
         for name in wanted:
@@ -123,8 +123,10 @@ def array_columns(path: Path, wanted: Collection[str]) -> dict[str, LogColumn]:
             if values.ndim == 2 and values.shape[0] < values.shape[1]:
                 values = values.T
             for name, k in columns.items():
-                found[name] = LogColumn(np.atleast_1d(values) if k is None else np.ascontiguousarray(values[:, k]))
-    return found
+                log_columns[name] = LogColumn(
+                    np.atleast_1d(values) if k is None else np.ascontiguousarray(values[:, k])
+                )
+    return log_columns
 
 
 @contextlib.contextmanager
@@ -141,17 +143,17 @@ def _arrays(path: Path) -> Iterator[Mapping[str, Any]]:
 
         yield dict(_flat(loadmat(path, simplify_cells=True)))
         return
-    found = dict[str, Any]()
+    arrays = dict[str, Any]()
 
     def visit(name: str, item: Any) -> None:
         if isinstance(item, h5py.Dataset):
             if item.external or item.is_virtual:  # any file of this machine could become a column of the recording
                 raise DataError(f"{path}: {name!r} takes its numbers from other files; accepted: a file that holds all")
-            found[name] = item
+            arrays[name] = item
 
     with h5py.File(path, "r") as file:
         file.visititems(visit)
-        yield found
+        yield arrays
 
 
 def _flat(content: Mapping[str, Any], above: str = "") -> Iterator[tuple[str, NDArray[Any]]]:
@@ -165,7 +167,7 @@ def _flat(content: Mapping[str, Any], above: str = "") -> Iterator[tuple[str, ND
 
 def _array_parts(arrays: Mapping[str, Any]) -> dict[str, TableColumn]:
     """Return the columns of arrays by their names."""
-    found = dict[str, TableColumn]()
+    parts = dict[str, TableColumn]()
     for array, item in arrays.items():
         for field in item.dtype.names or [None]:
             kind = item.dtype if field is None else item.dtype[field]
@@ -176,7 +178,7 @@ def _array_parts(arrays: Mapping[str, Any]) -> dict[str, TableColumn]:
             if base.kind not in "fiub" or len(axes) > 2 or (len(axes) == 2 and min(axes) > MOST):
                 continue
             if len(axes) < 2:
-                found[name] = TableColumn(array, field)
+                parts[name] = TableColumn(array, field)
             else:
-                found |= {f"{name}.{k}": TableColumn(array, field, k) for k in range(min(axes))}
-    return found
+                parts |= {f"{name}.{k}": TableColumn(array, field, k) for k in range(min(axes))}
+    return parts

@@ -70,20 +70,20 @@ def place_of(nominal: NominalModel, name: str, joints: Sequence[str] | None = No
     """
     robot = nominal.robot
     body, pos, carrier = point_named(robot, name, joints)
-    own = tuple(joints or robot.layout.limb(robot.layout.limb_of[carrier]))
+    names = tuple(joints or robot.layout.limb(robot.layout.limb_of[carrier]))
     ahead = _joints_ahead(nominal, carrier)
-    return WrenchPoint(name, body, pos, own, len([joint for joint in own if joint in ahead]))
+    return WrenchPoint(name, body, pos, names, len([joint for joint in names if joint in ahead]))
 
 
 def _joints_ahead(nominal: NominalModel, joint: str) -> list[str]:
     """Return a joint and those that carry it."""
     joints = nominal.robot.layout.actuated
     link = 1 + nominal.robot.layout.actuated.index(joint)
-    found = []
+    ahead = []
     while link > 0:
-        found.append(joints[link - 1])
+        ahead.append(joints[link - 1])
         link = int(nominal.linkage.links[link]["parent"])
-    return found
+    return ahead
 
 
 def wrenches_of(
@@ -98,7 +98,7 @@ def wrenches_of(
     usual = numbers.torque_error * nominal.robot.torque_limits[columns]
     large = np.repeat([numbers.force_n, numbers.moment_nm], 3)[: place.parts]
     shape = (len(q), place.parts)
-    mean, std, told = (np.empty(shape, dtype=np.float32) for _ in range(3))
+    mean, std, told_share = (np.empty(shape, dtype=np.float32) for _ in range(3))
     for start in range(0, len(q), BLOCK_ROWS):
         rows = slice(start, start + BLOCK_ROWS)
         error = usual if torque.std is None else torque.std[rows].astype(np.float64)
@@ -111,23 +111,23 @@ def wrenches_of(
         mean[rows] = large * (covariance @ seen)[..., 0]
         variance = np.diagonal(covariance, axis1=1, axis2=2)
         std[rows] = large * np.sqrt(variance)
-        told[rows] = np.clip(1.0 - variance, 0.0, 1.0)
-    return Wrenches(place, mean, None if torque.std is None else std, told)
+        told_share[rows] = np.clip(1.0 - variance, 0.0, 1.0)
+    return Wrenches(place, mean, None if torque.std is None else std, told_share)
 
 
-def wrench_table(found: Sequence[Wrenches]) -> tuple[NDArray[np.float32], list[Column]]:
+def wrench_table(wrenches: Sequence[Wrenches]) -> tuple[NDArray[np.float32], list[Column]]:
     """Return the array (T, n) and the columns of wrenches at several points."""
     arrays: list[NDArray[np.float32]] = []
     columns: list[Column] = []
-    for one in found:
-        own = list(zip(NAMES, UNITS, strict=True))[: one.place.parts]
-        arrays.append(one.mean)
-        columns += [(f"{name}.{one.place.name}", unit, "world") for name, unit in own]
-        if one.std is not None:
-            arrays.append(one.std)
-            columns += [(f"std_{name}.{one.place.name}", unit, "world") for name, unit in own]
-        arrays.append(one.told)
-        columns += [(f"told_{name}.{one.place.name}", "-", "world") for name, _ in own]
+    for at_place in wrenches:
+        components = list(zip(NAMES, UNITS, strict=True))[: at_place.place.parts]
+        arrays.append(at_place.mean)
+        columns += [(f"{name}.{at_place.place.name}", unit, "world") for name, unit in components]
+        if at_place.std is not None:
+            arrays.append(at_place.std)
+            columns += [(f"std_{name}.{at_place.place.name}", unit, "world") for name, unit in components]
+        arrays.append(at_place.told)
+        columns += [(f"told_{name}.{at_place.place.name}", "-", "world") for name, _ in components]
     return np.concatenate(arrays, axis=1), columns
 
 
@@ -141,33 +141,35 @@ def wrench_columns(places: Iterable[str]) -> list[str]:
     return columns
 
 
-def write_wrenches(found: Sequence[Wrenches], recording: SensedRecording | Recording, method: str, out: Path) -> None:
+def write_wrenches(
+    wrenches: Sequence[Wrenches], recording: SensedRecording | Recording, method: str, out: Path
+) -> None:
     """Write the wrenches of a recording by a method into a folder; where there are none, those of before go."""
     for file in files_of(out / WRENCH):
         file.unlink(missing_ok=True)
-    if found:
-        array, columns = wrench_table(found)
+    if wrenches:
+        array, columns = wrench_table(wrenches)
         write_array(out / WRENCH, array, columns, {"rate_hz": recording.rate_hz, "method": method}, recording.segments)
 
 
-def wrench_lines(found: Sequence[Wrenches], numbers: WrenchEstimate, out: Path) -> Iterator[str]:
+def wrench_lines(wrenches: Sequence[Wrenches], numbers: WrenchEstimate, out: Path) -> Iterator[str]:
     """Yield what is printed of wrenches: their sizes, where the joints do not tell them, and the file."""
-    for one in found:
-        force, *moment = (_size(part) for part in np.split(one.mean, one.place.parts // 3, axis=1))
+    for at_place in wrenches:
+        force, *moment = (_size(part) for part in np.split(at_place.mean, at_place.place.parts // 3, axis=1))
         beside = "".join(f" and moment of {size:.3g} N m" for size in moment)
-        yield f"wrench at {one.place.name}, world axes: force of {force:.3g} N{beside}, root mean square"
+        yield f"wrench at {at_place.place.name}, world axes: force of {force:.3g} N{beside}, root mean square"
         if not moment:
-            count = one.place.moved_by
+            count = at_place.place.moved_by
             moving = "1 joint of the limb moves" if count == 1 else f"{count} joints of the limb move"
             yield f"  {moving} it: a moment there is taken as none"
-        unsure = np.asarray(one.told < numbers.told)
+        unsure = np.asarray(at_place.told < numbers.told)
         never = np.atleast_1d(unsure.all(axis=0))
         if never.any():
             names = ", ".join(name for name, is_so in zip(NAMES, never, strict=False) if is_so)
             yield f"  the joints never tell {names}: what is written of it is as good as nothing"
         if singular := float(unsure[:, ~never].any(axis=1).mean()):
             yield f"  near a singular pose in {singular:.2%} of the samples: see the columns told_..."
-    if found:
+    if wrenches:
         yield f"written: {out / WRENCH}.parquet"
 
 

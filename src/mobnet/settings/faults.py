@@ -23,8 +23,8 @@ BOUNDS = {"exclusiveMinimum": "above", "minimum": "from", "exclusiveMaximum": "b
 Kind = TypeVar("Kind", bound=BaseModel)
 
 
-def validated(kind: type[Kind], values: Mapping[str, Any], typed: object, told: Callable[[Place, str], str]) -> Kind:
-    """Return a section with these values; `told` makes a line of a place and a text.
+def validated(kind: type[Kind], values: Mapping[str, Any], typed: object, line_of: Callable[[Place, str], str]) -> Kind:
+    """Return a section with these values; `line_of` makes a line of a place and a text.
 
     Raises:
         ConfigError: a line for each fault in the values as they were typed.
@@ -32,7 +32,7 @@ def validated(kind: type[Kind], values: Mapping[str, Any], typed: object, told: 
     try:
         return kind.model_validate(values)
     except ValidationError as error:
-        raise ConfigError(once(told(*problem) for problem in problems(error, kind, typed))) from None
+        raise ConfigError(once(line_of(*problem) for problem in problems(error, kind, typed))) from None
 
 
 def refuse_faults(lines: Iterable[str]) -> None:
@@ -49,19 +49,19 @@ def once(lines: Iterable[str]) -> str:
 def problems(error: ValidationError, kind: type[BaseModel], given: object) -> Iterator[tuple[Place, str]]:
     """Yield place and text of all that pydantic found in the values given of a section, with what is accepted."""
     schema = _schema_of(kind)
-    found = dict[Place, list[Fault]]()
+    faults = dict[Place, list[Fault]]()
     errors = cast("list[Mapping[str, Any]]", error.errors(include_url=False))
     for each in errors:
         loc = tuple(each["loc"])
         place, union, branch = _typed(loc, each["type"], given)
         if each["type"] != "too_short" or not any(loc == other["loc"][: len(loc)] != other["loc"] for other in errors):
-            found.setdefault(union if branch else place, []).append((place, branch, each))
-    for union, own in found.items():
-        deepest, branch, _ = max(own, key=lambda fault: len(fault[0]))
+            faults.setdefault(union if branch else place, []).append((place, branch, each))
+    for union, of_union in faults.items():
+        deepest, branch, _ = max(of_union, key=lambda fault: len(fault[0]))
         if branch and deepest == union:
             yield union, f"{_short(_at(given, union))} is not accepted; accepted: {accepted_at(schema, union)}"
             continue
-        yield from ((place, _text(place, each, schema, given)) for place, of, each in own if of == branch)
+        yield from ((place, _text(place, each, schema, given)) for place, of, each in of_union if of == branch)
 
 
 @cache
@@ -90,11 +90,11 @@ def _typed(loc: Place, what: str, given: object) -> tuple[Place, Place, str]:
     return tuple(place), union, branch
 
 
-def _text(place: Place, found: Mapping[str, Any], schema: Schema, given: object) -> str:
+def _text(place: Place, details: Mapping[str, Any], schema: Schema, given: object) -> str:
     """Return the text of one error of pydantic at its place."""
-    what = found["type"]
-    context = found.get("ctx", {})
-    if found["loc"][-1:] == ("[key]",):
+    what = details["type"]
+    context = details.get("ctx", {})
+    if details["loc"][-1:] == ("[key]",):
         accepted = context.get("pattern") or context.get("expected") or "a shorter name"
         return f"key {place[-1]!r} is not accepted; accepted: {accepted}"
     if what == "extra_forbidden":
@@ -106,8 +106,8 @@ def _text(place: Place, found: Mapping[str, Any], schema: Schema, given: object)
         return f"key is missing; accepted: {accepted_at(schema, place)}"
     if what == "value_error":
         text = str(context["error"])
-        return f"{_short(found['input'])} is not accepted; {text}" if text.startswith("accepted: ") else text
-    return f"{_short(found['input'])} is not accepted; accepted: {accepted_at(schema, place)}"
+        return f"{_short(details['input'])} is not accepted; {text}" if text.startswith("accepted: ") else text
+    return f"{_short(details['input'])} is not accepted; accepted: {accepted_at(schema, place)}"
 
 
 def _short(value: object) -> str:
@@ -132,14 +132,14 @@ def _at(value: Any, place: Place) -> Any:
 
 def _schemas_at(schema: Schema, place: Place) -> list[Schema]:
     """Return the schemas of what may stand at a place."""
-    found = list(_parts(schema, schema))
+    schemas = list(_parts(schema, schema))
     for key in place:
-        parents = found
-        found = list[Schema]()
+        parents = schemas
+        schemas = list[Schema]()
         for node in parents:
             for below in _below(node, key):
-                found += _parts(below, schema)
-    return found
+                schemas += _parts(below, schema)
+    return schemas
 
 
 def _parts(node: Schema, schema: Schema) -> Iterator[Schema]:

@@ -15,9 +15,9 @@ from mobnet.settings.reading import Place
 Use = tuple[Place, str, str]  # place, kind of name, name
 
 
-def unknown(found: Iterable[Use], accepted: Mapping[str, Collection[str]]) -> Iterator[tuple[Place, str]]:
+def unknown(uses_found: Iterable[Use], accepted: Mapping[str, Collection[str]]) -> Iterator[tuple[Place, str]]:
     """Yield the place of every name that does not exist among those of its kind, and what is accepted there."""
-    for place, kind, name in found:
+    for place, kind, name in uses_found:
         if name not in accepted[kind]:
             text = not_accepted(kind, name, accepted[kind])
             yield place, text.removeprefix(f"{kind}: ") if place[-1:] == (kind,) else text  # no "scale: scale:"

@@ -51,8 +51,8 @@ def _possible(inertia: Tensor) -> Tensor:
     """Check that a rigid body can have an inertia."""
     if not is_possible(inertia):
         low, middle, high = principal_moments(inertia)
-        found = f"{list(inertia)} with the principal moments {low:.6g}, {middle:.6g}, {high:.6g} is not accepted"
-        raise ValueError(f"{found}; accepted: all above 0 and none above the sum of the others")
+        refused = f"{list(inertia)} with the principal moments {low:.6g}, {middle:.6g}, {high:.6g} is not accepted"
+        raise ValueError(f"{refused}; accepted: all above 0 and none above the sum of the others")
     return inertia
 
 

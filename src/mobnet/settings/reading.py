@@ -152,13 +152,13 @@ class Document:
             return None, 1
         if isinstance(node, yaml.MappingNode):
             return self._mapping(node, place)
-        found = [self._value(item, (*place, i)) for i, item in enumerate(node.value)]
-        return [value for value, _ in found], 1 + sum(size for _, size in found)
+        items = [self._value(item, (*place, i)) for i, item in enumerate(node.value)]
+        return [value for value, _ in items], 1 + sum(size for _, size in items)
 
     def _mapping(self, node: Node, place: Place) -> tuple[dict[str, Any], int]:
         """Return a mapping, what is merged into it first, and its size."""
         merged = dict[str, Any]()
-        own = dict[str, Any]()
+        entries = dict[str, Any]()
         lines = dict[str, int]()
         total = 1
         for key_node, value_node in node.value:
@@ -176,12 +176,12 @@ class Document:
                 value, size = self._value(value_node, place if is_merge else (*place, key))
                 total += size
                 if not is_merge:
-                    own[key] = value
+                    entries[key] = value
                 elif isinstance(value, dict):
                     merged = cast("dict[str, Any]", value)
                 else:
                     self._refuse(line, (*place, key), "what is merged is not accepted; accepted: one mapping")
-        return {**merged, **own}, total
+        return {**merged, **entries}, total
 
 
 def _check_depth(text: str) -> None:

@@ -88,10 +88,10 @@ class RobotTable(Section):
     @property
     def posture_rad(self) -> dict[str, float]:
         """Joint -> angle [rad] at which it is held where nothing moves it."""
-        found = dict[str, float]()
+        angles = dict[str, float]()
         for limb, row in self.posture.items():
-            found.update(zip(self.groups[limb], row.angle_rad, strict=True))
-        return found
+            angles.update(zip(self.groups[limb], row.angle_rad, strict=True))
+        return angles
 
     @property
     def accepted_names(self) -> dict[str, Collection[str]]:

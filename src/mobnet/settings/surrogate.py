@@ -121,12 +121,12 @@ class Surrogate(Section):
 
 def _laid_over(numbers: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
     """Return numbers, nested at any depth, with changes in their places."""
-    found: dict[str, Any] = dict(numbers)
+    changed: dict[str, Any] = dict(numbers)
     for name, value in changes.items():
-        inside: Any = found.get(name)
+        inside: Any = changed.get(name)
         nested = isinstance(inside, dict) and isinstance(value, dict)
-        found[name] = _laid_over(cast("dict[str, Any]", inside), cast("dict[str, Any]", value)) if nested else value
-    return found
+        changed[name] = _laid_over(cast("dict[str, Any]", inside), cast("dict[str, Any]", value)) if nested else value
+    return changed
 
 
 class SurrogateRobot(Section):

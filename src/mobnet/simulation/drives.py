@@ -93,7 +93,7 @@ def draw_drives(
         rotor = max(robot.joints[k].armature, drive.rotor_min_kg_m2)
         either = rng.choice([-1.0, 1.0])
         shared = rotor * link[k] / (rotor + link[k])
-        found = {
+        drawn = {
             "constant": rng.uniform(*drive.torque_constant),
             "lag": rng.uniform(*drive.lag_s),
             "delay": round(rng.uniform(*drive.delay_s) * rate_hz),
@@ -116,7 +116,7 @@ def draw_drives(
             "warm": rng.uniform(*drive.warm_share),
             "warm_s": rng.uniform(*drive.warm_s),
         }
-        for name, value in found.items():
+        for name, value in drawn.items():
             law[name][k] = value
         for name in ("ripple_phase", "cogging_phase", "cable_phase"):
             law[name][k] = rng.uniform(-np.pi, np.pi)

@@ -131,7 +131,7 @@ def run(held: HeldValue, commands: Array, log: NDArray[np.float32]) -> int:
     tau_push = np.zeros(nv)
     wrenches = np.zeros((2, 6))
     touch = np.zeros(2)
-    told = np.zeros(4)
+    push_record = np.zeros(4)
     for row in range(len(log)):
         pushed = 0
         tau_des[:] = 0.0
@@ -141,7 +141,7 @@ def run(held: HeldValue, commands: Array, log: NDArray[np.float32]) -> int:
         tau_push[:] = 0.0
         wrenches[:] = 0.0
         touch[:] = 0.0
-        told[:] = 0.0
+        push_record[:] = 0.0
         for _ in range(plant.every):
             follow(upper, s.clock, walker.posture, walker.posture_rate)
             loads = sensors.told if sensors.estimated == 1 else sensors.wrenches
@@ -159,7 +159,7 @@ def run(held: HeldValue, commands: Array, log: NDArray[np.float32]) -> int:
                 plant.dt,
                 rng_pushes,
                 tau_push,
-                told,
+                push_record,
             )
             active = pushes.state.active.sum()
             pushed += active
@@ -182,7 +182,7 @@ def run(held: HeldValue, commands: Array, log: NDArray[np.float32]) -> int:
             tau_ext,
             tau_random,
             tau_push,
-            told,
+            push_record,
             wrenches,
             touch,
             pushed,
@@ -302,7 +302,7 @@ def _write(
     tau_ext: Array,
     tau_random: Array,
     tau_push: Array,
-    told: Array,
+    push_record: Array,
     wrenches: Array,
     touch: Array,
     pushed: int,
@@ -327,8 +327,8 @@ def _write(
     row[at + 2] = pushed > 0
     at = _put(row, at + 3, tau_random, 1.0 / every)
     at = _put(row, at, tau_push, 1.0 / every)
-    row[at] = told[0]
-    _put(row, at + 1, told[1:], 1.0 / every)
+    row[at] = push_record[0]
+    _put(row, at + 1, push_record[1:], 1.0 / every)
 
 
 @compiled

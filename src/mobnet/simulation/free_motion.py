@@ -68,8 +68,8 @@ def plan_motion(
         with_stop = [*points[-DEGREE:], new, new, new]
         return not any(fault(with_stop[k : k + DEGREE + 1]) for k in range(DEGREE))
 
-    if (found := fault([*points, points[-1]])) is not None:
-        raise SimulationError(f"motion of {robot.name}: its posture is not accepted as a start: {found}")
+    if (text := fault([*points, points[-1]])) is not None:
+        raise SimulationError(f"motion of {robot.name}: its posture is not accepted as a start: {text}")
     for _ in range(int(np.ceil(seconds / settings.knot_s)) + 1):
         ends = (np.maximum(low, points[-1] - step), np.minimum(high, points[-1] + step))
         drawn = (points[-1] + reach * (rng.uniform(*ends) - points[-1]) for reach in REACHES)

@@ -62,9 +62,9 @@ def record_motion(
 ) -> Recording:
     """Simulate a robot that moves for so long [s], as `motion_pieces` does, and return it as one recording."""
     parts = list(motion_pieces(robot, numbers, seconds, seed, ideal, pushed))
-    sensed = [np.concatenate([getattr(one.sensed, field.name) for one in parts]) for field in fields(Sensed)]
-    truth = [np.concatenate([getattr(one.truth, field.name) for one in parts]) for field in fields(Truth)]
-    whole = ((0, sum(len(one.sensed) for one in parts)),)
+    sensed = [np.concatenate([getattr(piece.sensed, field.name) for piece in parts]) for field in fields(Sensed)]
+    truth = [np.concatenate([getattr(piece.truth, field.name) for piece in parts]) for field in fields(Truth)]
+    whole = ((0, sum(len(piece.sensed) for piece in parts)),)
     return Recording(Sensed(*sensed), whole, parts[0].rate_hz, parts[0].meta, Truth(*truth))
 
 
@@ -81,8 +81,8 @@ def motion_pieces(
     Raises:
         SimulationError: no motion is found that meets the limits of the robot.
     """
-    own = zlib.crc32(robot.name.encode())
-    rng = {**streams(STREAMS, [own, seed]), **streams(HIDDEN, [own])}
+    robot_seed = zlib.crc32(robot.name.encode())
+    rng = {**streams(STREAMS, [robot_seed, seed]), **streams(HIDDEN, [robot_seed])}
     settings = numbers.motion
     gravity = numbers.plant.gravity_m_s2
     motion = plan_motion(robot, settings, seconds, gravity, rng["motion"])
@@ -138,14 +138,14 @@ class FreeRun:
         nv = self.model.nv
         self.before = self.control(*(self.motion(0.0, order) for order in range(3)))
         self.held, self.pushed = np.zeros(nv), np.zeros(nv)  # over the sample that ends at the next tick
-        told = time.monotonic()
+        last_told_s = time.monotonic()
         for start in range(0, rows, PIECE):
             count = min(PIECE, rows - start)
             widths = (self.model.nq, nv, 3, self.robot.layout.nu, nv, nv, 1)
             samples = RunPiece(*(np.zeros((count, width)) for width in widths))
             for first in range(0, count, CHUNK):
-                if time.monotonic() - told > TOLD_S:
-                    told = time.monotonic()
+                if time.monotonic() - last_told_s > TOLD_S:
+                    last_told_s = time.monotonic()
                     log.info("%.0f of %.0f s simulated", (start + first) / rate_hz, rows / rate_hz)
                 chunk = RunPiece(*(values[first : first + CHUNK] for values in samples))
                 self._through(chunk, (start + first + np.arange(len(chunk.q))) / rate_hz, pushes)
@@ -180,7 +180,7 @@ class FreeRun:
         model = self.model
         data = self.data
         rates = self.numbers.rates
-        held = np.zeros(model.nv)
+        holding = np.zeros(model.nv)
         pushed = np.zeros(model.nv)
         every = round(rates.plant_hz / rates.data_hz)
         data.ctrl[:] = self.constants * torque
@@ -189,9 +189,9 @@ class FreeRun:
             if self.friction is not None:
                 model.dof_damping[-len(torque) :] = damping_of(self.friction, data.qvel[-len(torque) :], data.ctrl)
             mujoco.mj_step(model, data)
-            held += data.qfrc_constraint / every
+            holding += data.qfrc_constraint / every
             pushed += data.qfrc_applied / every
-        return held, pushed
+        return holding, pushed
 
 
 class SensorNoise:
@@ -216,14 +216,16 @@ class SensorNoise:
         """Return the samples that follow the last ones, with noise; what they hold is overwritten."""
         robot = self._robot
         noise = self._numbers.plant.noise
-        own = self._numbers.plant.own_noise
+        noise_numbers = self._numbers.plant.own_noise
         share = self._numbers.motion.joints.torque_noise_share
         (rows, nu) = samples.tau.shape
-        samples.q[:, -nu:] = own.encoder_step_rad * np.rint(samples.q[:, -nu:] / own.encoder_step_rad)
+        samples.q[:, -nu:] = noise_numbers.encoder_step_rad * np.rint(
+            samples.q[:, -nu:] / noise_numbers.encoder_step_rad
+        )
         samples.v[:, -nu:] += noise.joint_velocity_rad_s * self._v.normal(size=(rows, nu))
         samples.tau[:] += share * robot.torque_limits * self._tau.normal(size=(rows, nu))
         if robot.floating:
-            half = self._offset + own.orientation_rad * self._quaternion.normal(size=(rows, 3))
+            half = self._offset + noise_numbers.orientation_rad * self._quaternion.normal(size=(rows, 3))
             samples.q[:, 3:NQ_BASE] = slightly_turned(samples.q[:, 3:NQ_BASE], half / 2)
             samples.v[:, 3:N_VIRTUAL] += noise.base_angular_velocity_rad_s * self._omega.normal(size=(rows, 3))
         if robot.imu:
@@ -233,10 +235,10 @@ class SensorNoise:
 
 def _apart(rng: np.random.Generator, rows: int, width: int) -> np.random.Generator:
     """Return a generator of the next normal numbers (rows, width); the given one goes on behind them."""
-    own = deepcopy(rng)
+    copied = deepcopy(rng)
     for start in range(0, rows, CHUNK):
         rng.normal(size=(min(CHUNK, rows - start), width))
-    return own
+    return copied
 
 
 def slightly_turned(quaternion: Array, half: Array) -> Array:

@@ -109,16 +109,16 @@ def offsets() -> tuple[int, ...]:
     model = mujoco.MjModel.from_xml_string(BALL)
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
-    found = tuple(offset(field) for field in READ)
-    for (field, kind), at in zip(READ.items(), found, strict=True):
-        told = read_at(data._address + at, field)
+    offsets_read = tuple(offset(field) for field in READ)
+    for (field, kind), at in zip(READ.items(), offsets_read, strict=True):
+        read = read_at(data._address + at, field)
         viewed = np.asarray(getattr(data, field))
         wanted = viewed.ctypes.data if viewed.ndim else int(viewed)
-        if told != wanted:
-            raise SimulationError(f"mjData.{field}: {told} by its address, Python says {wanted}")
+        if read != wanted:
+            raise SimulationError(f"mjData.{field}: {read} by its address, Python says {wanted}")
         if viewed.ndim and viewed.dtype != kind:
             raise SimulationError(f"mjData.{field}: type {viewed.dtype} is not accepted; accepted: {np.dtype(kind)}")
-    return found
+    return offsets_read
 
 
 def offset(field: str) -> int:

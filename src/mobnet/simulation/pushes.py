@@ -93,12 +93,12 @@ def make_pushes(settings: Mapping[str, Push], model: mujoco.MjModel, robot: Robo
 
 def _sines(rows: Sequence[Sines | None]) -> Array:
     """Return the lines of pushes (n, m, 3), as in `Pushes.sines`; those that a push lacks have a share of zero."""
-    found = np.zeros((len(rows), max((len(row.share) for row in rows if row), default=0), 3))
-    for lines, row in zip(found, rows, strict=True):
+    lines_of = np.zeros((len(rows), max((len(row.share) for row in rows if row), default=0), 3))
+    for lines, row in zip(lines_of, rows, strict=True):
         if row:
             columns = 2.0 * np.pi * np.array(row.frequency_hz), np.deg2rad(row.phase_deg), row.share
             lines[: len(row.share)] = np.stack(columns, axis=1)
-    return found
+    return lines_of
 
 
 def _law(row: Push, model: mujoco.MjModel, robot: RobotDescription) -> tuple[Any, ...]:
@@ -277,14 +277,14 @@ def push(
     dt: float,
     rng: np.random.Generator,
     tau_joints: Array,
-    told: Array,
+    push_record: Array,
 ) -> None:
     """Apply what pushes in a step of dt [s]: forces into xfrc (nbody, 6) [N, N m], joint torques to qfrc (nv,) [N m].
 
     xfrc holds wrenches at the bodies' centres of mass, world axes, and is overwritten for pushed bodies. The joint
-    torques alone are added to tau_joints (nv,) [N m]: unlike forces they leave no trace in MuJoCo. `told` (4,) has of
-    forces the row that pushes, counted from 1, and the sum [N], to which this step's is added. Points (nsite, 3),
-    centres of mass (nbody, 3) [m] and axes (nbody, 9) are MuJoCo's; the clock of the walking state s tells the time.
+    torques alone are added to tau_joints (nv,) [N m]: unlike forces they leave no trace in MuJoCo. `push_record` (4,)
+    has of forces the row that pushes, counted from 1, and the sum [N], to which this step's is added. Points (nsite,
+    3), centres of mass (nbody, 3) [m] and axes (nbody, 9) are MuJoCo's; the clock of the walking state s tells time.
     """
     for k in range(len(pushes.law)):
         if pushes.law[k].dof < 0:
@@ -298,10 +298,10 @@ def push(
         elif size != 0.0:
             p = pushes.state[k]
             _force_at(site_xpos[law.site], xipos[law.body], size, p.direction, xfrc[law.body])
-            told[0] = k + 1
+            push_record[0] = k + 1
             for i in range(3):
                 xfrc[law.body, 3 + i] += size / p.size * p.moment[i]
-                told[1 + i] += size * p.direction[i]
+                push_record[1 + i] += size * p.direction[i]
 
 
 @compiled

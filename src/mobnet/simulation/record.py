@@ -142,20 +142,20 @@ def _episode(
     simulator.start(begin / rate_hz)
     width = simulator.width
     fallen = simulator.run(np.zeros((settle, width), dtype=np.float32)) < settle
-    held: deque[Rows] = deque()
+    waiting: deque[Rows] = deque()
     walked = 0
     while walked < longest and not fallen:
         rows = np.zeros((min(chunk, longest - walked), width), dtype=np.float32)
         done = simulator.run(rows)
         fallen = done < len(rows)
         walked += done
-        held.append(rows[:done])
-        while not fallen and sum(map(len, held)) - len(held[0]) >= dropped:
-            yield held.popleft()
+        waiting.append(rows[:done])
+        while not fallen and sum(map(len, waiting)) - len(waiting[0]) >= dropped:
+            yield waiting.popleft()
     if fallen:
         course.falls += 1
         log.info("fall %d: the last %g s before it are dropped", course.falls, settings.dropped_before_fall_s)
-    rest = np.concatenate(held) if held else np.zeros((0, width), dtype=np.float32)
+    rest = np.concatenate(waiting) if waiting else np.zeros((0, width), dtype=np.float32)
     rest = rest[: max(0, len(rest) - dropped)] if fallen else rest
     if len(rest):
         yield rest

@@ -60,12 +60,12 @@ def check_spec(robot: RobotDescription, reach_m: float) -> mujoco.MjSpec:
     """Return the robot whose own shapes collide, all that come nearer than `reach_m` [m], and nothing else."""
     spec = robot_spec(robot)
     for geom in spec.geoms:
-        own = OWN_TYPE if geom.group == SHAPE_GROUP else 0
-        geom.contype = own
-        geom.conaffinity = own
+        type_of_shape = OWN_TYPE if geom.group == SHAPE_GROUP else 0
+        geom.contype = type_of_shape
+        geom.conaffinity = type_of_shape
         geom.condim = 1
         geom.margin = reach_m / 2  # MuJoCo adds the two margins of a pair
-        if own and geom.type == mujoco.mjtGeom.mjGEOM_BOX:
+        if type_of_shape and geom.type == mujoco.mjtGeom.mjGEOM_BOX:
             _as_hull(spec, geom)
     for i, body in enumerate(robot.bodies):
         for other in robot.bodies[:i]:

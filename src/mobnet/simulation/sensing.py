@@ -53,18 +53,18 @@ def make_sensors(
     if errors is not None:
         acc_std = errors.acceleration_noise_m_s2
         omega_std = errors.angular_velocity_noise_rad_s
-    own = plant.own_noise
+    noise = plant.own_noise
     noisy = level.noise != "none"
     return Sensors(
         q_std=q_std,
         v_std=v_std,
         acc_std=acc_std,
         omega_std=omega_std,
-        encoder_step=noisy * own.encoder_step_rad,
-        turn_std=noisy * own.orientation_rad,
-        offset_std=noisy * own.orientation_offset_rad,
-        force_std=noisy * own.foot_force_n,
-        moment_std=noisy * own.foot_moment_nm,
+        encoder_step=noisy * noise.encoder_step_rad,
+        turn_std=noisy * noise.orientation_rad,
+        offset_std=noisy * noise.orientation_offset_rad,
+        force_std=noisy * noise.foot_force_n,
+        moment_std=noisy * noise.foot_moment_nm,
         sensed_base=int(level.base_state == "sensed"),
         gyro=int(model.sensor("imu_gyro").adr[0]),
         acc=int(model.sensor("imu_acc").adr[0]),

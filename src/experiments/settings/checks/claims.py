@@ -49,8 +49,8 @@ def _cell_problems(results: Results, cell: Cell) -> Iterator[Problem]:
     wanted = {"table", "where", "column"} if cell.table else wanted
     given = {key for key, value in cell if value and key != "metric"}
     if given != wanted:
-        found = f"a cell with {', '.join(sorted(given)) or 'nothing'}"
-        yield (), misfit(found, f"{', '.join(sorted(wanted))}, all of them")
+        cell_keys = f"a cell with {', '.join(sorted(given)) or 'nothing'}"
+        yield (), misfit(cell_keys, f"{', '.join(sorted(wanted))}, all of them")
     elif cell.table:
         accepted = results.claimed_tables()
         if cell.table not in accepted:

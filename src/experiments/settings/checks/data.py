@@ -186,12 +186,12 @@ def _scenario_problems(settings: Settings, name: str, row: Scenario) -> Iterator
 
 def _draw_problems(settings: Settings, name: str, row: Scenario) -> Iterator[Problem]:
     """Yield where a scenario that uses the random draws of another one differs in what is drawn."""
-    own = {"pushes", "random_torque", "draws"}
+    may_differ = {"pushes", "random_torque", "draws"}
     other = settings.scenarios[str(row.draws)]
     if other.draws is not None or row.draws == name:
         yield ("draws",), not_accepted("scenario", row.draws, [k for k, v in settings.scenarios.items() if not v.draws])
     for key, value in other:
-        if key not in own and getattr(row, key) != value:
+        if key not in may_differ and getattr(row, key) != value:
             yield (key,), misfit(f"what differs from scenario {row.draws}", "the same, as it draws alike")
 
 

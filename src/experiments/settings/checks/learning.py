@@ -160,12 +160,12 @@ def _tuning_problems(catalogue: Catalogue, name: str, method: Method) -> Iterato
         if limb not in first.limbs:
             yield ("start",), misfit(method.start, f"a method that trains {limb}")
             continue
-        own, other = (catalogue.network(row, limb) for row in (name, str(method.start)))
-        differs = any(getattr(own, key) != getattr(other, key) for key in NetworkCell.model_fields)
-        if own.cell != "GRU" or own.spectral or differs:
+        tuned, other = (catalogue.network(row, limb) for row in (name, str(method.start)))
+        differs = any(getattr(tuned, key) != getattr(other, key) for key in NetworkCell.model_fields)
+        if tuned.cell != "GRU" or tuned.spectral or differs:
             yield ("start",), misfit(method.start, f"a method with the same GRU for {limb}, without `spectral`")
         legs = [settings.layout.limb(foot.limb) for foot in settings.robot.feet.values()]
-        joints = set(settings.layout.limbs(own.joints))
+        joints = set(settings.layout.limbs(tuned.joints))
         if swings and not any(joints <= set(leg) for leg in legs):
             yield ("learning", "labels"), misfit("swing", "`labels: swing` of networks of one leg")
 

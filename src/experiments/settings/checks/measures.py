@@ -35,10 +35,10 @@ def coverage_problems(section: Coverage, results: Results, place: Place) -> Iter
 def calibration_test_problems(section: CalibrationTest, results: Results, place: Place) -> Iterator[Problem]:
     """Yield what does not fit in any test, and limbs that no method predicts."""
     yield from coverage_test_problems(section, results, place)
-    held = set[str]()
+    predicted = set[str]()
     for name in section.methods:
-        held.update(results.catalogue.estimated(name, section.scenario, section.level))
-    if not held.issuperset(results.layout.limbs(section.limbs)):
+        predicted.update(results.catalogue.estimated(name, section.scenario, section.level))
+    if not predicted.issuperset(results.layout.limbs(section.limbs)):
         text = misfit("a limb that no method predicts", "limbs of the networks of `methods`")
         yield (*place, "limbs"), text
 

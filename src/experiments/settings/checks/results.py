@@ -131,8 +131,8 @@ class Results:
 
     def claimed_tables(self) -> dict[str, tuple[str, ...]]:
         """Return the tables whose fields claims may name -> their columns."""
-        own = {name: row.columns for name, row in PRODUCTS.items() if row.columns}
-        return {**dict.fromkeys(self.settings.evaluation.tables, ERRORS), **own}
+        of_products = {name: row.columns for name, row in PRODUCTS.items() if row.columns}
+        return {**dict.fromkeys(self.settings.evaluation.tables, ERRORS), **of_products}
 
     def pushed_joints(self, scenario: str) -> list[str]:
         """Return the joints that the pushes of a scenario turn."""

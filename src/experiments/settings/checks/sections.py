@@ -33,32 +33,32 @@ Refused = tuple[Place, type[BaseModel], Mapping[str, Any], ValidationError]
 
 def asked_problems(catalogue: Catalogue) -> Iterator[Problem]:
     """Yield methods that do not estimate what is shown of them, or that do not learn from what robots record."""
-    for one in catalogue.asked:
-        for text in (*_estimate_faults(catalogue, one), *_fleet_faults(catalogue, one)):
-            yield one.place, text
+    for request in catalogue.asked:
+        for text in (*_estimate_faults(catalogue, request), *_fleet_faults(catalogue, request)):
+            yield request.place, text
 
 
-def _estimate_faults(catalogue: Catalogue, one: RunRequest) -> Iterator[str]:
+def _estimate_faults(catalogue: Catalogue, request: RunRequest) -> Iterator[str]:
     """Yield joints that are shown of a run and that its method does not estimate."""
     groups = catalogue.layout.groups
-    held = catalogue.estimated(one.method, one.scenario, one.level)
-    shown = chain.from_iterable(groups.get(name, (name,)) for name in one.shown)
-    missing = [joint for joint in shown if joint not in held]
-    if missing and not (one.partly and held):
-        yield misfit(one.method, f"methods that estimate {missing[0]} in {one.scenario}, {one.level}")
+    estimated = catalogue.estimated(request.method, request.scenario, request.level)
+    shown = chain.from_iterable(groups.get(name, (name,)) for name in request.shown)
+    missing = [joint for joint in shown if joint not in estimated]
+    if missing and not (request.partly and estimated):
+        yield misfit(request.method, f"methods that estimate {missing[0]} in {request.scenario}, {request.level}")
 
 
-def _fleet_faults(catalogue: Catalogue, one: RunRequest) -> Iterator[str]:
+def _fleet_faults(catalogue: Catalogue, request: RunRequest) -> Iterator[str]:
     """Yield data that a method learns from and that the robots of the fleet do not record, where they walk."""
     fleet = catalogue.settings.fleet
-    source = catalogue.source_of(one.method)
-    if one.level not in fleet.levels:
+    source = catalogue.source_of(request.method)
+    if request.level not in fleet.levels:
         return
-    learned = [(one.method, limb) for limb in catalogue.method(catalogue.network_source_of(one.method)).limbs]
+    learned = [(request.method, limb) for limb in catalogue.method(catalogue.network_source_of(request.method)).limbs]
     learned += [(source, limb) for limb in catalogue.method(source).fitted]
     data = [catalogue.network(*pair).data for pair in learned]
     yield from (
-        misfit(f"{one.method}, which learns from {name}", f"methods that learn from {', '.join(fleet.sets)}")
+        misfit(f"{request.method}, which learns from {name}", f"methods that learn from {', '.join(fleet.sets)}")
         for name in data
         if name not in fleet.sets
     )
@@ -144,11 +144,11 @@ def _place_of(catalogue: Catalogue, method: str, part: str) -> Place:
 def inconsistencies(catalogue: Catalogue) -> Iterator[Problem]:
     """Yield the place and the text of everything that does not fit together."""
     settings = catalogue.settings
-    found = [*walking_problems(settings), *data_problems(settings), *surrogate_problems(settings)]
-    found += learning_problems(catalogue)
-    if not found:  # only then can sizes and results be looked up
-        found = [*size_problems(catalogue), *shown_problems(catalogue)]
-    yield from found
+    problems_found = [*walking_problems(settings), *data_problems(settings), *surrogate_problems(settings)]
+    problems_found += learning_problems(catalogue)
+    if not problems_found:  # only then can sizes and results be looked up
+        problems_found = [*size_problems(catalogue), *shown_problems(catalogue)]
+    yield from problems_found
     for name, scale in settings.scales.items():
-        if scale.decides and not found:  # only then is known what a claim counts
+        if scale.decides and not problems_found:  # only then is known what a claim counts
             yield from outcome_problems(catalogue.at_scale(name))

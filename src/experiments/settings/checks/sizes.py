@@ -138,20 +138,20 @@ def _filling_problems(catalogue: Catalogue, name: str, limb: str) -> Iterator[Pr
     size = settings.training_sets[network.data].sizes[scale]
     horizon = network.horizon_steps
     contiguous = min(size.shard_s, settings.recording.episode_s) * rate
-    own: Place = ("learning",) if settings.sizes.stream_s is None else ("scales", scale)
+    key: Place = ("learning",) if settings.sizes.stream_s is None else ("scales", scale)
     where = f"of {name}-{limb} at scale {scale}"
     if not horizon / rate <= learning.stream_s <= size.shard_s:
         accepted = f"{horizon / rate:g} (horizon_steps) to {size.shard_s:g} (shard_s) {where}"
-        yield (*own, "stream_s"), misfit(learning.stream_s, accepted)
+        yield (*key, "stream_s"), misfit(learning.stream_s, accepted)
     if not size.held_out and contiguous * learning.validation_share < horizon:
         accepted = f"at least {horizon / contiguous:.3g}, a horizon {where}"
         yield ("learning", "validation_share"), misfit(learning.validation_share, accepted)
     share = 1 - size.held_out / size.shards if size.held_out else 1 - learning.validation_share
-    held = size.shards * size.shard_s * rate * share / learning.data_parts
-    own = ("learning",) if settings.sizes.batch_size is None else ("scales", scale)
-    if learning.batch_size * horizon > held:
-        accepted = f"at most {held // horizon:.0f}, the horizons in the data {where}"
-        yield (*own, "batch_size"), misfit(learning.batch_size, accepted)
+    rows_kept = size.shards * size.shard_s * rate * share / learning.data_parts
+    key = ("learning",) if settings.sizes.batch_size is None else ("scales", scale)
+    if learning.batch_size * horizon > rows_kept:
+        accepted = f"at most {rows_kept // horizon:.0f}, the horizons in the data {where}"
+        yield (*key, "batch_size"), misfit(learning.batch_size, accepted)
     most = PASSES_MAX * size.shards * size.shard_s * rate
     wanted = training.epoch_samples
     if wanted is not None and not learning.batch_size * horizon <= wanted <= most:

@@ -29,10 +29,10 @@ def column_problems(results: Results, columns: Sequence[str | Mean], place: Plac
             yield (*place, index), misfit(name, "columns with names of their own")
         names += new
         if isinstance(column, Mean):
-            held = results.joints_of(column)
-            if len(set(held)) < len(held):
+            joints = results.joints_of(column)
+            if len(set(joints)) < len(joints):
                 yield (*place, index, "joints"), misfit(list(column.joints), "each joint once")
-            units = {results.layout.unit(joint) for joint in held}
+            units = {results.layout.unit(joint) for joint in joints}
             if len(units) > 1:
                 yield (*place, index, "joints"), misfit(list(column.joints), "joints with one unit, N or N m")
 
@@ -46,10 +46,10 @@ def error_table_problems(section: ErrorTable, results: Results, place: Place) ->
     for name in section.names.keys() - shown:
         yield (*place, "names", name), not_accepted("method", name, shown)
     for index, row in enumerate(section.rows):
-        own = (*place, "rows", index)
+        row_place = (*place, "rows", index)
         if text := results.not_printed(str(place[-1]), row.paper):
-            yield (*own, "paper"), text
-        yield from _row_problems(section, results, row, own)
+            yield (*row_place, "paper"), text
+        yield from _row_problems(section, results, row, row_place)
 
 
 def _row_problems(section: ErrorTable, results: Results, row: ErrorRow, place: Place) -> Iterator[Problem]:

@@ -29,11 +29,11 @@ def _robot_problems(settings: Settings) -> Iterator[Problem]:
     robot = settings.robot
     legs = [robot.groups[robot.feet[side].limb] for side in ("left", "right") if side in robot.feet]
     above = robot.order.actuated[sum(map(len, legs)) :]
-    held = set(chain.from_iterable(robot.groups[limb] for limb in robot.posture))
+    joints = set(chain.from_iterable(robot.groups[limb] for limb in robot.posture))
     needed = {
         "base": robot.base == "floating", "feet": len(legs) == 2 and all(len(leg) == LEG_JOINTS for leg in legs),
         "order": [*robot.order.actuated[: len(sum(legs, ()))]] == [*sum(legs, ())], "leg": robot.leg,
-        "hands": len(robot.hands) == 2, "imu": robot.imu, "posture": held == set(above),
+        "hands": len(robot.hands) == 2, "imu": robot.imu, "posture": joints == set(above),
     }  # fmt: skip
     for key, there in needed.items():
         if not there:

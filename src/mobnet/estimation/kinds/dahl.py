@@ -132,12 +132,12 @@ def fit(
     of what is left of it [N m].
     """
     angles = np.array(options.breakaway_rad)
-    found = dict[str, Mapping[str, float]]()
+    numbers = dict[str, Mapping[str, float]]()
     for limb, pairs in training.items():
         terms = fitted_joints(layout, TERMS, OF_TORQUE, [networks[limb]])
         sums = square_sums(partial(_columns, angles), list(terms), observer.gain_hz, pairs)
-        found |= {joint: logged(joint, _solve(sums[joint], terms[joint], angles)) for joint in terms}
-    return {"law": "dahl", "joints": {joint: found[joint] for joint in layout.actuated if joint in found}}
+        numbers |= {joint: logged(joint, _solve(sums[joint], terms[joint], angles)) for joint in terms}
+    return {"law": "dahl", "joints": {joint: numbers[joint] for joint in layout.actuated if joint in numbers}}
 
 
 def _columns(angles: Array, velocity: Array, torque: Array, rate_hz: float) -> Array:
@@ -148,9 +148,9 @@ def _columns(angles: Array, velocity: Array, torque: Array, rate_hz: float) -> A
 
 def _solve(products: Array, terms: Sequence[str], angles: Array) -> dict[str, float]:
     """Return the numbers of (O20) of one joint, with the best angle (k,) [rad], and the root mean squares [N m]."""
-    found = [_at_angle(products, terms, i, len(angles)) for i in range(len(angles))]
-    best = min(range(len(angles)), key=lambda i: found[i][1])
-    factors, left = found[best]
+    solutions = [_at_angle(products, terms, i, len(angles)) for i in range(len(angles))]
+    best = min(range(len(angles)), key=lambda i: solutions[i][1])
+    factors, left = solutions[best]
     return {
         "breakaway_rad": float(angles[best]),
         **{term: factors.get(term, 0.0) for term in TERMS},

@@ -191,10 +191,10 @@ def fit(
     """
     # By section 4.2.2 the load counts for the legs alone: there the limb's network sees the torque, its `T` in Table 1.
     law = Law(options.smoothing_rad_s, options.stribeck_rad_s, observer.gain_hz)
-    found: dict[str, Mapping[str, float]] = {}
+    factors: dict[str, Mapping[str, float]] = {}
     for limb, pairs in training.items():
-        found |= regress(law, fitted_joints(layout, options.terms, ("load",), [networks[limb]]), pairs)
-    ordered = {joint: found[joint] for joint in layout.actuated if joint in found}
+        factors |= regress(law, fitted_joints(layout, options.terms, ("load",), [networks[limb]]), pairs)
+    ordered = {joint: factors[joint] for joint in layout.actuated if joint in factors}
     return {"smoothing_rad_s": options.smoothing_rad_s, "joints": ordered}
 
 
@@ -205,14 +205,14 @@ def fitted_joints(
 
     Terms `of_torque` are those of joints alone whose network sees the torque.
     """
-    found: dict[str, list[Named]] = {}
+    terms_of: dict[str, list[Named]] = {}
     for limb in limbs:
         learned = layout.limbs(limb.joints)
         seen = layout.limbs(limb.T)
         for joint in learned:
             if joint in layout.actuated:
-                found[joint] = [term for term in terms if term not in of_torque or joint in seen]
-    return found
+                terms_of[joint] = [term for term in terms if term not in of_torque or joint in seen]
+    return terms_of
 
 
 def read_friction(path: Path, joints: Sequence[str]) -> FittedFriction:
@@ -221,12 +221,12 @@ def read_friction(path: Path, joints: Sequence[str]) -> FittedFriction:
     Raises:
         DataError: the file is missing, damaged, or names a joint that the robot does not have.
     """
-    found = read_note(path, FrictionNote)
-    rows = found.joints
+    note = read_note(path, FrictionNote)
+    rows = note.joints
     refuse(path, [not_accepted("joint", name, joints) for name in rows if name not in joints])
     fitted = [rows[joint].terms() if joint in rows else dict.fromkeys(TERMS, 0.0) for joint in joints]
     terms = dict[str, Array]()
     for term in TERMS:
         terms[term] = np.array([factors[term] for factors in fitted], dtype=np.float64)
     stribeck = np.array([rows[joint].stribeck_rad_s if joint in rows else 1.0 for joint in joints], dtype=np.float64)
-    return FittedFriction(terms, stribeck, found.smoothing_rad_s)
+    return FittedFriction(terms, stribeck, note.smoothing_rad_s)

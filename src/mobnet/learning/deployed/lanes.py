@@ -29,7 +29,7 @@ def side_by_side(lanes: Sequence[Array], state: State, advance: Advance[State]) 
     (h, B, m).
     """
     order = sorted(range(len(lanes)), key=lambda i: -len(lanes[i]))
-    found: list[list[Array]] = [[] for _ in lanes]
+    outputs_of: list[list[Array]] = [[] for _ in lanes]
     for start in range(0, len(lanes[order[0]]), CHUNK):
         alive = [i for i in order if len(lanes[i]) > start]
         parts = [lanes[i][start : start + CHUNK] for i in alive]
@@ -38,8 +38,8 @@ def side_by_side(lanes: Sequence[Array], state: State, advance: Advance[State]) 
             inputs[: len(part), lane] = part
         state, outputs = advance(state[:, : len(alive)], inputs)
         for lane, (i, part) in enumerate(zip(alive, parts, strict=True)):
-            found[i].append(outputs[: len(part), lane])
-    return [np.concatenate(parts) for parts in found]
+            outputs_of[i].append(outputs[: len(part), lane])
+    return [np.concatenate(parts) for parts in outputs_of]
 
 
 def gru_states(weights: Sequence[Array], state: Array, inputs: Array) -> tuple[Array, Array]:
@@ -55,7 +55,7 @@ def gru_states(weights: Sequence[Array], state: Array, inputs: Array) -> tuple[A
     gates = np.empty((1, 4, hidden * up(lanes)), np.float32)
     states = np.zeros((steps + 1, hidden, up(lanes)), np.float32)
     states[0, :, :lanes] = state[0].T
-    found = np.empty((steps + 1, up(lanes), hidden), np.float32)
+    all_states = np.empty((steps + 1, up(lanes), hidden), np.float32)
     flat = states.reshape(steps + 1, -1)
-    go_forward(w_state, room(hidden, up(lanes), False), columns, w_in, bias, gates, flat, found)
-    return found[-1:, :lanes], found[1:, :lanes]
+    go_forward(w_state, room(hidden, up(lanes), False), columns, w_in, bias, gates, flat, all_states)
+    return all_states[-1:, :lanes], all_states[1:, :lanes]

@@ -66,12 +66,12 @@ def advance(net: GruWeights, state: Array, x: Array, after: Array, mean: Array, 
     open_gates(inner, reset, update, new, state, after)
     joints = len(mean)
     zero = np.float32(0.0)
-    one = np.float32(1.0)
+    unit = np.float32(1.0)
     for k in range(joints):
         mean[k] = (net.b_out[k] + dot(net.w_out[k], after)) * net.target_std[k] + net.target_mean[k]
         raw = net.b_out[joints + k] + dot(net.w_out[joints + k], after)
         # (N10), the softplus in a form that does not overflow, and (N11).
-        soft = max(raw, zero) + math.log(one + math.exp(-abs(raw)))
+        soft = max(raw, zero) + math.log(unit + math.exp(-abs(raw)))
         std[k] = max(soft, net.std_min) * net.std_unit[k]
 
 
@@ -105,9 +105,9 @@ def row_of(networks: Sequence[GruWeights], columns: Sequence[NDArray[np.intp]]) 
 
 
 @compiled(allocating=True)
-def advance_row(held: HeldValue, signals: Array, state: Array, after: Array, mean: Array, std: Array) -> None:
+def advance_row(row: HeldValue, signals: Array, state: Array, after: Array, mean: Array, std: Array) -> None:
     """Write of networks of which a `GruRow` is held, one after the other, what `advance` writes of each."""
-    _advance_each(held.value, signals, state, after, mean, std)
+    _advance_each(row.value, signals, state, after, mean, std)
 
 
 @compiled
@@ -136,8 +136,8 @@ def _advance_each(row: GruRow, signals: Array, state: Array, after: Array, mean:
         scores = (input_mean, input_std, target_mean, target_std, std_unit)
         net = GruWeights(w_in, w_state, bias, w_out, b_out, *scores, row.std_min[k], *room)
         units = slice(unit, unit + hidden)
-        own = slice(joint, joint + joints)
-        advance(net, state[units], x, after[units], mean[own], std[own])
+        columns = slice(joint, joint + joints)
+        advance(net, state[units], x, after[units], mean[columns], std[columns])
         column += inputs
         unit += hidden
         joint += joints

@@ -56,16 +56,18 @@ def read_weights(path: Path) -> tuple[dict[str, Array], WeightsNote]:
     """
     try:
         with safe_open(path, framework="numpy") as file:
-            told = file.metadata() or {}
+            metadata = file.metadata() or {}
             tensors = {name: file.get_tensor(name) for name in file.keys()}  # noqa: SIM118, not a dict
     except FileNotFoundError:
         raise DataError(f"{path}: file is missing; accepted: a file of safetensors") from None
     except (SafetensorError, OSError, TypeError, ValueError, KeyError, AttributeError) as error:
         text = f"not the weights of a limb network ({' '.join(str(error).split())}); accepted: a file of safetensors"
         raise DataError(f"{path}: {text}") from None
-    if set(told) != {NOTE}:
-        raise DataError(not_accepted(f"{path}: metadata", sorted(told), [f"just {NOTE!r}, as a training writes it"]))
-    note = checked(path, parse_json(told[NOTE], f"{path}: {NOTE}"), WeightsNote)
+    if set(metadata) != {NOTE}:
+        raise DataError(
+            not_accepted(f"{path}: metadata", sorted(metadata), [f"just {NOTE!r}, as a training writes it"])
+        )
+    note = checked(path, parse_json(metadata[NOTE], f"{path}: {NOTE}"), WeightsNote)
     refuse(path, _faults(tensors, note))
     return tensors, note
 
@@ -88,8 +90,8 @@ def _faults(tensors: Mapping[str, Array], note: WeightsNote) -> Iterator[str]:
     try:
         expected = shapes(note.cell, len(note.inputs), len(note.joints))
     except ValidationError as error:
-        for found in error.errors(include_url=False):
-            yield fault_of({**found, "loc": ("network", *found["loc"])}, WeightsNote)
+        for details in error.errors(include_url=False):
+            yield fault_of({**details, "loc": ("network", *details["loc"])}, WeightsNote)
         return
     for name in expected.keys() - tensors.keys() - {STD_SCALE}:
         yield f"tensor {name!r} is missing; accepted: shape {list(expected[name])}"
@@ -137,14 +139,14 @@ def _cell_shapes(cell: NetworkCell, inputs: int) -> tuple[int, dict[str, Shape]]
         return hidden, shapes
     if cell.cell == "constant":
         return 0, {}
-    found = {}
+    shape_of = {}
     width = inputs
     for k in range(len(cell.dilations or ()) if cell.cell == "TCN" else 0):
         convolutions = {"first": (width, cell.kernel_steps), "second": (hidden, cell.kernel_steps)}
         if width != hidden:
             convolutions["shortcut"] = (width, 1)
         for name, (channels, taps) in convolutions.items():
-            found |= {f"blocks.{k}.{name}.weight": (hidden, channels, taps, 1), f"blocks.{k}.{name}.bias": (hidden,)}
+            shape_of |= {f"blocks.{k}.{name}.weight": (hidden, channels, taps, 1), f"blocks.{k}.{name}.bias": (hidden,)}
         width = hidden
     units = (cell.head or 0) if cell.cell == "TCN" else hidden
-    return units, {**found, "layer.weight": (units, width, steps, 1), "layer.bias": (units,)}
+    return units, {**shape_of, "layer.weight": (units, width, steps, 1), "layer.bias": (units,)}

@@ -121,12 +121,12 @@ class WindowCells:
 
     def run(self, weights: Weights, x: Tensor, state: Tensor) -> tuple[Tensor, Tensor]:
         """See `StackedCell`."""
-        own = {name: weight for name, weight in weights.items() if name.startswith("cell.")}
+        cell_weights = {name: weight for name, weight in weights.items() if name.startswith("cell.")}
 
         def one(weights: dict[str, Tensor], x: Tensor, state: Tensor) -> tuple[Tensor, Tensor]:
             return torch.func.functional_call(self._runner, weights, (x, state))
 
-        return torch.vmap(one, randomness="different")(own, x, state)
+        return torch.vmap(one, randomness="different")(cell_weights, x, state)
 
 
 class _Runner(nn.Module):

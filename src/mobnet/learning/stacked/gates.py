@@ -150,15 +150,15 @@ def gates_of(device: torch.device) -> Gates:
     if device.type != "cuda":
         return TorchGates()
     try:
-        found = KernelGates()
-        difference = disagreement(found, device)
+        gates = KernelGates()
+        difference = disagreement(gates, device)
     except Exception as error:  # noqa: BLE001, whatever an installation of CUDA lacks
         log.warning("gates run in torch's operations, which takes longer: no kernel could be compiled: %s", error)
         return TorchGates()
     if not difference < AGREE:
         log.warning("gates run in torch's operations, which takes longer: kernels differ by %.1e", difference)
         return TorchGates()
-    return found
+    return gates
 
 
 def disagreement(gates: Gates, device: torch.device) -> float:
@@ -174,13 +174,13 @@ def disagreement(gates: Gates, device: torch.device) -> float:
     states = drawn(3, steps + 1, lanes, hidden)
     given = drawn(3, steps, lanes, hidden)[:, 1]
     later = drawn(3, lanes, hidden)
-    found: list[Tensor] = []
+    gradients: list[Tensor] = []
     for way in (TorchGates(), gates):
-        own = states.clone()
+        copies = states.clone()
         kept = torch.zeros(3, steps, lanes, 4 * hidden, device=device)
         sums = torch.zeros_like(kept)
         earlier = torch.zeros(3, lanes, hidden, device=device)
-        way.forward(x, h, own[:, 1], own[:, 2], kept[:, 1])
-        way.back(later, given, kept[:, 1], own[:, 1], sums[:, 1], earlier)
-        found.append(torch.cat([own.flatten(), kept.flatten(), sums.flatten(), earlier.flatten()]))
-    return float((found[0] - found[1]).abs().max())
+        way.forward(x, h, copies[:, 1], copies[:, 2], kept[:, 1])
+        way.back(later, given, kept[:, 1], copies[:, 1], sums[:, 1], earlier)
+        gradients.append(torch.cat([copies.flatten(), kept.flatten(), sums.flatten(), earlier.flatten()]))
+    return float((gradients[0] - gradients[1]).abs().max())

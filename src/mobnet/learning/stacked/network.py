@@ -98,7 +98,7 @@ class StackedLosses:
     def __init__(self, learnings: Sequence[Learning], device: torch.device) -> None:
         """Take the sections of all networks."""
         squared = [learning.loss == "squared" for learning in learnings]
-        powers = [2.0 * own.loss_beta if own.loss == "beta_likelihood" else 0.0 for own in learnings]
+        powers = [2.0 * section.loss_beta if section.loss == "beta_likelihood" else 0.0 for section in learnings]
         self._squared = torch.tensor(squared, device=device)[:, None, None, None]
         self._powers = torch.tensor(powers, device=device)[:, None, None, None]
 

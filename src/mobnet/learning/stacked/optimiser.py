@@ -35,14 +35,14 @@ class StackedOptimiser:
         self.state: dict[str, dict[str, Tensor]] = {}
         for name, weight in self._weights.items():
             shaped = self._shaped(name, weight.detach())
-            own = {"first": torch.zeros_like(shaped), "second": torch.zeros_like(shaped)}
-            own["steps"] = torch.zeros(len(weight), device=weight.device)
+            moments = {"first": torch.zeros_like(shaped), "second": torch.zeros_like(shaped)}
+            moments["steps"] = torch.zeros(len(weight), device=weight.device)
             if name in self._gated:
                 for side, average in SIDES.items():
                     size = shaped.shape[2 if side == "left" else 3]
-                    own[average] = shaped.new_zeros(*shaped.shape[:2], size, size)
-                    own[side] = torch.zeros_like(own[average])
-            self.state[name] = own
+                    moments[average] = shaped.new_zeros(*shaped.shape[:2], size, size)
+                    moments[side] = torch.zeros_like(moments[average])
+            self.state[name] = moments
 
     def _shaped(self, name: str, array: Tensor) -> Tensor:
         """Return a weight or its gradient; of gates (K, gates, rows, columns)."""
@@ -52,14 +52,14 @@ class StackedOptimiser:
     def begin(self, gradients: Mapping[str, Tensor]) -> None:
         """Give gated matrices their first bases, those of their first gradients, which move nothing else of them."""
         for name in self._gated:
-            own = self.state[name]
+            moments = self.state[name]
             gradient = self._shaped(name, gradients[name])
             for side, square in _squares(gradient).items():
-                average = own[SIDES[side]]
+                average = moments[SIDES[side]]
                 average.copy_((1 - self._beta_basis) * square)
                 finite = average.isfinite().all(-1).all(-1)[..., None, None]
                 safe = torch.where(finite, average, torch.eye(average.shape[-1], device=average.device))
-                own[side].copy_(torch.linalg.eigh(safe).eigenvectors.flip(-1))
+                moments[side].copy_(torch.linalg.eigh(safe).eigenvectors.flip(-1))
 
     @torch.no_grad()
     def step(self, gradients: Mapping[str, Tensor], rates: Tensor, active: Tensor, *, first: bool = False) -> None:
@@ -69,41 +69,41 @@ class StackedOptimiser:
             gated = name in self._gated
             if gated and first:
                 continue
-            own = self.state[name]
+            moments = self.state[name]
             gradient = self._shaped(name, gradients[name])
             moving = spread(active, gradient)
-            turned = own["left"].mT @ gradient @ own["right"] if gated else gradient
-            own["steps"] += active
-            moment = own["first"].lerp_(turned, (1 - slow) * moving)
-            square = own["second"].lerp_(turned.square(), (1 - fast) * moving)
-            count = own["steps"].clamp(min=1.0)
+            turned = moments["left"].mT @ gradient @ moments["right"] if gated else gradient
+            moments["steps"] += active
+            moment = moments["first"].lerp_(turned, (1 - slow) * moving)
+            square = moments["second"].lerp_(turned.square(), (1 - fast) * moving)
+            count = moments["steps"].clamp(min=1.0)
             root = (square / spread(1 - fast**count, square)).sqrt_().add_(EPSILON)
             step = moment / root
             if gated:
-                step = own["left"] @ step @ own["right"].mT
+                step = moments["left"] @ step @ moments["right"].mT
             size = rates * active / (1 - slow**count)
             self._shaped(name, weight).sub_(spread(size, step) * step)
             if gated:
                 for side, product in _squares(gradient).items():
-                    own[SIDES[side]].lerp_(product, (1 - self._beta_basis) * moving)
+                    moments[SIDES[side]].lerp_(product, (1 - self._beta_basis) * moving)
 
     @torch.no_grad()
     def renew(self, networks: Sequence[int]) -> None:
         """Renew the bases of some networks with one power iteration, and turn the moments along (`soap`)."""
         for name in self._gated:
-            own = self.state[name]
+            moments = self.state[name]
             for side, average in SIDES.items():
-                chosen = torch.tensor(networks, device=own[side].device)
-                old, first, second = (own[key][chosen] for key in (side, "first", "second"))
-                powered = own[average][chosen] @ old
+                chosen = torch.tensor(networks, device=moments[side].device)
+                old, first, second = (moments[key][chosen] for key in (side, "first", "second"))
+                powered = moments[average][chosen] @ old
                 order = (old * powered).sum(-2).argsort(dim=-1, descending=True, stable=True)
                 new = orthogonal(powered.gather(-1, order[..., None, :].expand_as(old)), old)
                 turn = new.mT @ old
                 left = side == "left"
                 index = (order[..., :, None] if left else order[..., None, :]).expand_as(second)
-                own["first"][chosen] = turn @ first if left else first @ turn.mT
-                own["second"][chosen] = second.gather(-2 if left else -1, index)
-                own[side][chosen] = new
+                moments["first"][chosen] = turn @ first if left else first @ turn.mT
+                moments["second"][chosen] = second.gather(-2 if left else -1, index)
+                moments[side][chosen] = new
 
 
 def _squares(gradient: Tensor) -> dict[str, Tensor]:

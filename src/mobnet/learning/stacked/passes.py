@@ -145,20 +145,20 @@ class Updates:
         """
         self._rates.copy_(rates)
         self._horizons.begin(plan)
-        found = [plan.rows.new_zeros(len(plan), len(rates), dtype=torch.float32) for _ in range(3)]
+        totals = [plan.rows.new_zeros(len(plan), len(rates), dtype=torch.float32) for _ in range(3)]
         moves = (plan.active & ~frozen).cpu()
         for update in range(len(plan)):
             self._horizons.go_to(plan, update)
             self._horizons.active.mul_(~frozen)
             begins = not done.any()
             self._first_update() if begins else self._replayed()
-            for row, value in zip(found, (self._losses, self._norms, self._told), strict=True):
+            for row, value in zip(totals, (self._losses, self._norms, self._told), strict=True):
                 row[update] = value
             done += moves[update]
             if not begins:
                 self._renew(moves[update], done)
-        losses, norms, told = found
-        return losses, norms, told > 0
+        losses, norms, notes = totals
+        return losses, norms, notes > 0
 
     def _renew(self, moved: Tensor, done: Tensor) -> None:
         """Renew the bases of networks that have made as many updates of their gates as it takes."""
@@ -235,8 +235,8 @@ class Validation:
         if known is not None:
             counted = counted & known
         _, loss = self._objective.of(mean, std, target, counted)
-        found = counted.flatten(1).any(1) * self._horizons.active
+        is_counted = counted.flatten(1).any(1) * self._horizons.active
         squares = torch.where(counted, (mean - target).square(), 0.0).sum((1, 2))
-        self._loss += torch.where(found > 0, loss, 0.0)
-        self._squares += squares / counted.sum((1, 2)).clamp(min=1) * spread(found, squares)
-        self._counted += found
+        self._loss += torch.where(is_counted > 0, loss, 0.0)
+        self._squares += squares / counted.sum((1, 2)).clamp(min=1) * spread(is_counted, squares)
+        self._counted += is_counted

@@ -84,10 +84,10 @@ def side_by_side(plans: Sequence[EpochPlan], device: torch.device) -> StackedPla
     active = np.zeros((updates, len(plans)), bool)
     used = np.zeros((len(plans), lanes), bool)
     for k, plan in enumerate(plans):
-        own = plan.rows.shape[1]
-        rows[: len(plan), k, :own] = plan.rows
-        fresh[: len(plan), k, :own] = plan.fresh
+        width = plan.rows.shape[1]
+        rows[: len(plan), k, :width] = plan.rows
+        fresh[: len(plan), k, :width] = plan.fresh
         active[: len(plan), k] = True
-        used[k, :own] = True
+        used[k, :width] = True
     arrays = (torch.from_numpy(array).to(device) for array in (rows, fresh, active, used))
     return StackedPlan(*arrays, stride=plans[0].stride)

@@ -38,8 +38,12 @@ def train_stack(members: Sequence[Member], state: Path, out: Path) -> None:
     done = trainer.run(state)
     best, rows = told_of(done)
     share = done.seconds / len(members)
-    for own, row in zip(members, rows, strict=True):
-        row |= {"name": own.name, "fingerprint": trainer.fingerprints[own.name], "told": done.told.get(own.name)}
+    for member, row in zip(members, rows, strict=True):
+        row |= {
+            "name": member.name,
+            "fingerprint": trainer.fingerprints[member.name],
+            "told": done.told.get(member.name),
+        }
     note = {"networks": rows, "device": device.type, "seconds": share}
     write_checkpoint(out, trainer.fingerprint, best, note)
     (state / CHECKPOINT).unlink(missing_ok=True)

@@ -86,9 +86,9 @@ class StackedTrainer:
         self._schedules: list[Schedule] = []
         arrays: dict[str, tuple[Tensor, Tensor]] = {}  # by the hash of the data, which several networks may share
         digests: list[str] = []
-        for own in members:
-            data = own.load()
-            self._schedules.append(Schedule(own.job, data, device, own.start))
+        for member in members:
+            data = member.load()
+            self._schedules.append(Schedule(member.job, data, device, member.start))
             if data.digest not in arrays:
                 inputs, targets = (torch.from_numpy(array).to(device) for array in (data.inputs, data.targets))
                 arrays[data.digest] = inputs, targets
@@ -101,7 +101,7 @@ class StackedTrainer:
         self._samples = StackedSamples(list(arrays.values()), places, self._schedules)
         self._network = StackedNetwork([schedule.network() for schedule in self._schedules], device)
         self._optimiser = StackedOptimiser(self._network.weights, self._network.width, learning)
-        self._losses = StackedLosses([own.job.training.learning for own in members], device)
+        self._losses = StackedLosses([member.job.training.learning for member in members], device)
         horizon = self._job.horizon
         scored = self._schedules[0].scored
         self._epochs = Updates(self._network, self._samples, self._optimiser, self._losses, learning, horizon, scored)
@@ -118,7 +118,7 @@ class StackedTrainer:
     def fingerprints(self) -> dict[str, str]:
         """The hash of what the weights of each network depend on, by its name."""
         pairs = zip(self._members, self._schedules, strict=True)
-        return {own.name: schedule.fingerprint for own, schedule in pairs}
+        return {member.name: schedule.fingerprint for member, schedule in pairs}
 
     def run(self, state: Path) -> Taught:
         """Run all epochs, or those that a killed run did not finish; the folder `state` has the checkpoint."""
@@ -131,8 +131,8 @@ class StackedTrainer:
             done.epochs += 1
             done.seconds += time.monotonic() - started
             self._save(path, done)
-            for own, schedule, progress in zip(self._members, self._schedules, done.progress, strict=True):
-                write_metrics(own.state / METRICS, progress, schedule.joints)
+            for member, schedule, progress in zip(self._members, self._schedules, done.progress, strict=True):
+                write_metrics(member.state / METRICS, progress, schedule.joints)
             left = done.seconds / done.epochs * (epochs - done.epochs)
             log.info("%d of %d epochs of %d networks, %.0f s left", done.epochs, epochs, len(self._members), left)
         return done
@@ -143,20 +143,22 @@ class StackedTrainer:
         stride = self._job.stride(epoch)
         if epoch and (before := self._job.stride(epoch - 1)) != stride:
             self._network.keep_longer(before / stride)
-        rates = [own.job.rate(epoch) for own in self._members]
+        rates = [member.job.rate(epoch) for member in self._members]
         plan = side_by_side([schedule.plan(epoch, stride) for schedule in self._schedules], self._device)
         moved = torch.tensor(rates, device=self._device)
         with seeded(self._schedules[0].seed("dropout", epoch)):
-            found = self._epochs.run(plan, moved, self._frozen, done.updates)
-        losses, norms, told = (one.cpu() for one in found)
+            totals = self._epochs.run(plan, moved, self._frozen, done.updates)
+        losses, norms, notes = (total.cpu() for total in totals)
         validations, errors = self._validate(stride)
         weights = {name: weight.detach().cpu() for name, weight in self._network.weights.items()}
-        for k, (own, schedule, progress) in enumerate(zip(self._members, self._schedules, done.progress, strict=True)):
+        for k, (member, schedule, progress) in enumerate(
+            zip(self._members, self._schedules, done.progress, strict=True)
+        ):
             if self._frozen[k]:
                 continue
-            counted = told[:, k]
+            counted = notes[:, k]
             if not counted.any():
-                raise DataError(f"{own.name}: no target of the training data is known; accepted: a swing of the leg")
+                raise DataError(f"{member.name}: no target of the training data is known; accepted: a swing of the leg")
             validation = float(validations[k])
             try:
                 schedule.check_losses(epoch, losses[counted, k].median().item(), rates[k])
@@ -165,7 +167,7 @@ class StackedTrainer:
                 log.warning("%s; the others go on", error)
                 self._frozen[k] = True
                 progress.diverged = True
-                done.told[own.name] = str(error)
+                done.told[member.name] = str(error)
                 continue
             loss = losses[counted, k].mean().item()
             norm = norms[counted, k].mean().item()
@@ -187,8 +189,8 @@ class StackedTrainer:
     def _save(self, path: Path, done: Taught) -> None:
         """Write a checkpoint of all networks."""
         tensors = {f"last.{name}": weight.detach().cpu() for name, weight in self._network.weights.items()}
-        for name, own in self._optimiser.state.items():
-            tensors |= {f"optimizer.{name}.{key}": tensor.cpu() for key, tensor in own.items()}
+        for name, moments in self._optimiser.state.items():
+            tensors |= {f"optimizer.{name}.{key}": tensor.cpu() for key, tensor in moments.items()}
         tensors["updates"] = done.updates
         best, rows = told_of(done)
         note = {"rows": rows, "epochs": done.epochs, "told": done.told, "seconds": done.seconds}
@@ -196,11 +198,11 @@ class StackedTrainer:
 
     def _resumed(self, path: Path) -> Taught:
         """Load a checkpoint of this stack; without one nothing is done yet."""
-        found = read_checkpoint(path, self.fingerprint)
+        checkpoint = read_checkpoint(path, self.fingerprint)
         fresh = [Progress(chosen_by=schedule.chosen_by) for schedule in self._schedules]
-        if found is None:
+        if checkpoint is None:
             return Taught(fresh, torch.zeros(len(fresh), dtype=torch.int64))
-        tensors, note = found
+        tensors, note = checkpoint
         with torch.no_grad():
             for name, weight in self._network.weights.items():
                 weight.copy_(tensors[f"last.{name}"])
@@ -221,10 +223,10 @@ def check_alike(members: Sequence[Member], sizes: Sequence[tuple[int, int]]) -> 
         ConfigError: one differs from the first.
     """
     first = {**common_of(members[0]), "inputs and joints": sizes[0]}
-    for own, size in zip(members[1:], sizes[1:], strict=True):
-        for name, value in {**common_of(own), "inputs and joints": size}.items():
+    for member, size in zip(members[1:], sizes[1:], strict=True):
+        for name, value in {**common_of(member), "inputs and joints": size}.items():
             if value != first[name]:
-                raise ConfigError(f"{own.name} beside {members[0].name}: {not_accepted(name, value, [first[name]])}")
+                raise ConfigError(f"{member.name} beside {members[0].name}: {not_accepted(name, value, [first[name]])}")
 
 
 def common_of(member: Member) -> dict[str, object]:
@@ -240,17 +242,17 @@ def told_of(done: Taught) -> tuple[dict[str, Tensor], list[dict[str, Any]]]:
     """Return the best weights, those of network k below `best.k.`, and a row of numbers for each network."""
     best: dict[str, Tensor] = {}
     rows: list[dict[str, Any]] = []
-    for k, own in enumerate(done.progress):
-        best |= {f"best.{k}.{name}": weight for name, weight in own.best.items()}
-        epochs = [asdict(epoch) for epoch in own.epochs]
-        rows.append({"epochs": epochs, "errors": own.errors, "diverged": own.diverged})
+    for k, progress in enumerate(done.progress):
+        best |= {f"best.{k}.{name}": weight for name, weight in progress.best.items()}
+        epochs = [asdict(epoch) for epoch in progress.epochs]
+        rows.append({"epochs": epochs, "errors": progress.errors, "diverged": progress.diverged})
     return best, rows
 
 
 def progress_of(tensors: dict[str, Tensor], rows: Sequence[dict[str, Any]], chosen_by: Sequence[str]) -> list[Progress]:
     """Return the progress of each network from what `told_of` returned."""
-    found: list[Progress] = []
+    progress: list[Progress] = []
     for k, (row, column) in enumerate(zip(rows, chosen_by, strict=True)):
         epochs = [Epoch(**epoch) for epoch in row["epochs"]]
-        found.append(Progress(epochs, row["errors"], below(f"best.{k}.", tensors), 0.0, row["diverged"], column))
-    return found
+        progress.append(Progress(epochs, row["errors"], below(f"best.{k}.", tensors), 0.0, row["diverged"], column))
+    return progress

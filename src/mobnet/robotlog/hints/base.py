@@ -78,14 +78,16 @@ def _turning(quat: Array, omega: Array, spans: Sequence[slice], rate_hz: float, 
     turns = [np.zeros((3, 0))]
     integrals = [np.zeros((3, 0))]
     for span in spans:
-        own = quat[:, span]
+        quat_of_span = quat[:, span]
         travelled = np.cumsum(omega[:, span], axis=1) / rate_hz
-        turns.append(turn(own[:, :-steps:steps], own[:, steps::steps]))
+        turns.append(turn(quat_of_span[:, :-steps:steps], quat_of_span[:, steps::steps]))
         integrals.append(np.diff(travelled[:, ::steps], axis=1)[:, : turns[-1].shape[1]])
     change = np.concatenate(turns, axis=1)
     integral = np.concatenate(integrals, axis=1)
     axis = int(np.argmax(np.square(integral).sum(axis=1)))
-    one = change[axis]
+    component = change[axis]
     other = integral[axis]
-    both = float(one @ other) / max(float(np.linalg.norm(one) * np.linalg.norm(other)), np.finfo(float).tiny)
-    return float(one @ other) / float(one @ one) if abs(both) > ALIKE else None
+    both = float(component @ other) / max(
+        float(np.linalg.norm(component) * np.linalg.norm(other)), np.finfo(float).tiny
+    )
+    return float(component @ other) / float(component @ component) if abs(both) > ALIKE else None

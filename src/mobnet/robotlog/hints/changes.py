@@ -101,22 +101,22 @@ def factor_changes(seen: Seen) -> Iterator[Change]:
     """Yield factors of torques: of a single joint, or of all that are not explained, one or for each its own."""
     # A joint whose motion needs next to nothing has no factor to tell.
     large = size_of(seen.asked.needed) > seen.bounds.least_torque * seen.nominal.robot.torque_limits
-    own = {k: _best_factor(seen, [k]) for k in sorted(seen.suspects) if large[k]}
-    own = {
+    factors = {k: _best_factor(seen, [k]) for k in sorted(seen.suspects) if large[k]}
+    factors = {
         k: factor
-        for k, factor in own.items()
+        for k, factor in factors.items()
         if _improves(*seen.with_factors(k, np.array([factor, 1.0]), ANY), seen.bounds)
     }
-    for k, factor in own.items():
+    for k, factor in factors.items():
         yield from _factor_change(seen, {k: factor}, 1)
-    if len(own) > 1:
-        common = _best_factor(seen, list(own))
-        same = dict.fromkeys(own, common)
+    if len(factors) > 1:
+        common = _best_factor(seen, list(factors))
+        same = dict.fromkeys(factors, common)
         # A joint that its own factor does not explain either has none to tell.
-        told = {k: float(seen.with_factors(k, np.array([own[k]]))[0]) < seen.bounds.suspect for k in own}
-        each = {k: factor if told[k] else common for k, factor in own.items()}
-        better = _sum_of_logs(seen, each) + seen.bounds.number * (len(own) - 1) < _sum_of_logs(seen, same)
-        yield from _factor_change(seen, each if better else same, len(own) if better else 1)
+        is_sure = {k: float(seen.with_factors(k, np.array([factors[k]]))[0]) < seen.bounds.suspect for k in factors}
+        each = {k: factor if is_sure[k] else common for k, factor in factors.items()}
+        better = _sum_of_logs(seen, each) + seen.bounds.number * (len(factors) - 1) < _sum_of_logs(seen, same)
+        yield from _factor_change(seen, each if better else same, len(factors) if better else 1)
 
 
 def _best_factor(seen: Seen, joints: Sequence[int]) -> float:
@@ -158,9 +158,9 @@ def order_changes(seen: Seen) -> Iterator[Change]:
     from scipy.optimize import linear_sum_assignment  # here, as it takes a second to import
 
     left = np.array([seen.with_torque(i, torque[:, suspects]) for i in suspects])
-    place, own = linear_sum_assignment(_logs(left, seen.bounds))
+    place, assigned = linear_sum_assignment(_logs(left, seen.bounds))
     order = np.arange(nu)
-    order[[suspects[k] for k in place]] = [suspects[k] for k in own]
+    order[[suspects[k] for k in place]] = [suspects[k] for k in assigned]
     moved = tuple(np.flatnonzero(order != np.arange(nu)).tolist())
     if len(moved) >= LEAST_ORDER:
         names = seen.nominal.robot.layout.actuated
@@ -269,8 +269,8 @@ def _needed_by_angle(seen: Seen, windows: MotionWindows, i: int) -> Array:
 
 def _waves(angles: Array) -> Array:
     """Return a constant, and cosine and sine of angles (n,) [rad] and of twice the angles, (n, WAVES)."""
-    one = np.ones(len(angles))
-    return np.stack([one, np.cos(angles), np.sin(angles), np.cos(2 * angles), np.sin(2 * angles)], axis=-1)
+    constant = np.ones(len(angles))
+    return np.stack([constant, np.cos(angles), np.sin(angles), np.cos(2 * angles), np.sin(2 * angles)], axis=-1)
 
 
 def _left_by_shifts(
@@ -291,10 +291,10 @@ def feet_changes(seen: Seen) -> Iterator[Moved]:
     """Yield the exchange of the sensors of both feet, for the joints of the legs."""
     robot = seen.nominal.robot
     legs = set(robot.layout.limbs(foot.limb for foot in robot.feet.values()))
-    own = tuple(k for k in sorted(seen.suspects) if robot.layout.actuated[k] in legs)
-    if own and len(seen.windows.loads) > 1:
+    joints_of_legs = tuple(k for k in sorted(seen.suspects) if robot.layout.actuated[k] in legs)
+    if joints_of_legs and len(seen.windows.loads) > 1:
         text = "the sensors of the left and the right foot are exchanged"
-        yield _with_feet_exchanged, (Change(text, own, 1, _unchanged),)
+        yield _with_feet_exchanged, (Change(text, joints_of_legs, 1, _unchanged),)
 
 
 def _improves(left: float, before: float, bounds: RobotLog) -> bool:

@@ -38,10 +38,10 @@ def column_hints(sensed: Sensed, joints: Sequence[str], bounds: RobotLog) -> Ite
             if _same(few, i, j) and _same(values, i, j):
                 yield f"{name} of {joints[i]} and {joints[j]}: the same numbers in both columns"
     for name in ("v", "tau_motor"):
-        held = held_share(signals[name])
-        late = (held > bounds.held) & changes[name]
+        repeated = held_share(signals[name])
+        late = (repeated > bounds.held) & changes[name]
         if late.any():
-            yield f"{name} of {listed(joints, late)}: {_repeats(held[late].max())}"
+            yield f"{name} of {listed(joints, late)}: {_repeats(repeated[late].max())}"
     clipped = _clipped(signals["tau_motor"], *ends["tau_motor"])
     cut = clipped > bounds.clipped
     if cut.any():
@@ -64,14 +64,14 @@ def limit_hints(sensed: Sensed, layout: JointLayout) -> Iterator[str]:
     """Yield hints on joints whose position, speed or torque is beyond the wide bounds of `mobnet.core.contract`."""
     joints = layout.actuated
     for signal, values in (("q", sensed.q), ("v", sensed.v), ("tau_motor", sensed.tau_motor)):
-        own = np.maximum(*map(np.abs, ranges(values[:, -len(joints) :])))
+        largest = np.maximum(*map(np.abs, ranges(values[:, -len(joints) :])))
         rules = [rule_of(f"{signal}.{joint}", layout) for joint in joints]
         most = np.array([max(abs(rule.low), abs(rule.high)) for rule in rules])
-        far = own > most
+        far = largest > most
         if far.any():
-            k = int(np.argmax(own / most))
-            degrees = ": in degrees?" if signal == "q" and TURN < own[k] <= np.degrees(most[k]) else ""
-            text = f"{joints[k]} reaches {own[k]:.4g} {rules[k].places[0][0]}, accepted are {most[k]:.4g}"
+            k = int(np.argmax(largest / most))
+            degrees = ": in degrees?" if signal == "q" and TURN < largest[k] <= np.degrees(most[k]) else ""
+            text = f"{joints[k]} reaches {largest[k]:.4g} {rules[k].places[0][0]}, accepted are {most[k]:.4g}"
             yield f"{signal} of {listed(joints, far)}: beyond the robot's table: {text}{degrees}"
 
 
@@ -116,14 +116,14 @@ def _repeats(share: float) -> str:
 
 def held_share(speed: NDArray[np.floating]) -> NDArray[np.float64]:
     """Return the share of samples that repeat the one before, where the joint moves (n,)."""
-    held, moved = np.zeros((2, speed.shape[1]), dtype=np.intp)
+    repeated, moved = np.zeros((2, speed.shape[1]), dtype=np.intp)
     for rows in pieces(1, len(speed)):
         now = speed[rows]
         before = speed[rows.start - 1 : rows.stop - 1]
         moves = now != 0.0
         moved += np.count_nonzero(moves, axis=0)
-        held += np.count_nonzero((now == before) & moves, axis=0)
-    return held / np.maximum(moved, 1)
+        repeated += np.count_nonzero((now == before) & moves, axis=0)
+    return repeated / np.maximum(moved, 1)
 
 
 def _clipped(
@@ -143,11 +143,11 @@ def _clipped(
 
 def _together(clocks: Mapping[str, Array]) -> Iterator[tuple[str, Array]]:
     """Yield the names of signals with one clock, and the clock."""
-    found: list[tuple[list[str], Array]] = []
+    groups: list[tuple[list[str], Array]] = []
     for name, clock in clocks.items():
-        own = next((names for names, other in found if np.array_equal(other, clock)), None)
-        if own is None:
-            found.append(([name], clock))
+        names_so_far = next((names for names, other in groups if np.array_equal(other, clock)), None)
+        if names_so_far is None:
+            groups.append(([name], clock))
         else:
-            own.append(name)
-    yield from ((", ".join(names), clock) for names, clock in found)
+            names_so_far.append(name)
+    yield from ((", ".join(names), clock) for names, clock in groups)

@@ -53,10 +53,10 @@ def torque_delay(
     smooth = max(1, round(SMOOTH_S * rate_hz))
     swing = max(1, round(SWING_S * rate_hz))
     kept = stretches(spans, span + 2 * most + smooth + swing)
-    told = np.flatnonzero(joints & (held_share(sensed.tau_motor) <= bounds.held))  # a held torque is late by itself
-    if most < 1 or not kept or not len(told):
+    columns = np.flatnonzero(joints & (held_share(sensed.tau_motor) <= bounds.held))  # a held torque is late by itself
+    if most < 1 or not kept or not len(columns):
         return None
-    told = told[np.linspace(0, len(told) - 1, min(bounds.few, len(told))).round().astype(int)]
+    columns = columns[np.linspace(0, len(columns) - 1, min(bounds.few, len(columns))).round().astype(int)]
     middle = np.arange(0, span, max(1, round(ROWS_S * rate_hz)))
     lags = np.arange(0, 2 * most + 1, step)
     terms = []
@@ -64,7 +64,7 @@ def torque_delay(
     for rows in kept:
         asked, torque = _asked(rows, nominal, sensed, rate_hz, wrenches, kind)
         # Errors of the model change slowly, as gravity does, and say nothing of a delay: changes are compared.
-        near, far = (_swings(values[:, told], smooth, swing) for values in (asked, torque))
+        near, far = (_swings(values[:, columns], smooth, swing) for values in (asked, torque))
         terms.append(near[most + middle])
         given.append(far[middle[:, None] + lags])
     shares = _unexplained(np.concatenate(terms), np.concatenate(given))
@@ -117,11 +117,13 @@ def speed_delay_hints(
 
 def stretches(spans: Sequence[slice], rows: int) -> list[slice]:
     """Return stretches of so many contiguous rows, evenly spread over the spans."""
-    found = list[slice]()
+    slices = list[slice]()
     for span in spans:
-        found += [slice(first, first + rows) for first in range(span.start, span.stop - rows + 1, rows)]
-    picked = np.unique(np.linspace(0, len(found) - 1, min(STRETCHES, len(found))).round().astype(int)) if found else []
-    return [found[k] for k in picked]
+        slices += [slice(first, first + rows) for first in range(span.start, span.stop - rows + 1, rows)]
+    picked = (
+        np.unique(np.linspace(0, len(slices) - 1, min(STRETCHES, len(slices))).round().astype(int)) if slices else []
+    )
+    return [slices[k] for k in picked]
 
 
 def _lowest_at(left: Array, best: int) -> float:
@@ -157,10 +159,10 @@ def _unexplained(terms: Array, given: Array) -> Array:
     Terms are (R, joints, p), torques (R, n, joints); those of a wrong sign are taken with the other one.
     """
     shares = []
-    for own, torque in zip(np.moveaxis(terms, 1, 0), np.moveaxis(given, 2, 0), strict=True):
+    for joint_terms, torque in zip(np.moveaxis(terms, 1, 0), np.moveaxis(given, 2, 0), strict=True):
         size = np.square(torque).sum(axis=0)
-        cross = own.T @ torque
-        explained = [(sign * cross * positive_fit(own, sign * torque)).sum(axis=0) for sign in (1.0, -1.0)]
+        cross = joint_terms.T @ torque
+        explained = [(sign * cross * positive_fit(joint_terms, sign * torque)).sum(axis=0) for sign in (1.0, -1.0)]
         shares.append(np.maximum(1.0 - quotient(np.maximum(*explained), size), EXACT))
     return np.array(shares)
 

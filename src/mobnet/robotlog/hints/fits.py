@@ -55,9 +55,9 @@ def positive_fit(terms: Array, targets: Array) -> Array:
     # A joint at rest, whose terms are zero, gets numbers, too.
     gram += (SMALL * gram.max(axis=(-1, -2), keepdims=True) + TINY) * np.eye(count)
     chosen, both, others = _choices(count)
-    own = gram[..., None, :, :] * both + others
+    normal_matrix = gram[..., None, :, :] * both + others
     wanted = cross[..., None, :, :] * chosen[:, :, None]
-    numbers = np.linalg.solve(own, wanted)  # (..., choices, p, m), zero where not chosen
+    numbers = np.linalg.solve(normal_matrix, wanted)  # (..., choices, p, m), zero where not chosen
     explained = np.where((numbers >= 0.0).all(axis=-2), (numbers * wanted).sum(axis=-2), -np.inf)
     best = explained.argmax(axis=-2)[..., None, None, :]
     return np.take_along_axis(numbers, best, axis=-3)[..., 0, :, :]

@@ -43,7 +43,7 @@ def motion_hints(
     if moves.any() and _are_exchanged(change, integral, turns(v, q, spans, rate_hz, bounds.window_s), moves, bounds):
         yield f"q and v of {listed(joints, moves)}: v changes by the integral of q, and not q by that of v: exchanged"
         return
-    told: dict[str, list[str]] = {}
+    names_by_text: dict[str, list[str]] = {}
     for k in np.flatnonzero(moves).tolist():
         twin = int(np.argmax(np.abs(match[k])))
         if abs(match[k, k]) < ALIKE < abs(match[k, twin]) and moves[twin]:
@@ -52,8 +52,8 @@ def motion_hints(
             text = f"changes by {slope[k]:.3g} times the integral of v{_meaning(slope[k], rate_hz, bounds)}"
         else:
             continue
-        told.setdefault(text, []).append(joints[k])
-    for text, names in told.items():
+        names_by_text.setdefault(text, []).append(joints[k])
+    for text, names in names_by_text.items():
         yield f"q of {', '.join(names)}: {text}"
 
 
@@ -63,10 +63,10 @@ def turns(q: Array, v: Array, spans: Sequence[slice], rate_hz: float, window_s: 
     change = [np.zeros((0, q.shape[1]))]
     integral = [np.zeros((0, q.shape[1]))]
     for span in spans:
-        own = q[span]
+        q_of_span = q[span]
         speed = v[span]
-        if len(own) > steps:
-            change.append(np.diff(own[::steps], axis=0))
+        if len(q_of_span) > steps:
+            change.append(np.diff(q_of_span[::steps], axis=0))
             integral.append(np.diff(_travelled(speed, steps, rate_hz), axis=0))
     return np.concatenate(change), np.concatenate(integral)
 
@@ -75,15 +75,15 @@ def _travelled(speed: Array, steps: int, rate_hz: float) -> Array:
     """Return the integral of speeds (T, nu) [rad/s] from the first row to every so manieth one, (W + 1, nu) [rad]."""
     last = (len(speed) - 1) // steps * steps
     travelled = np.zeros(speed.shape[1])
-    found = [np.zeros((1, speed.shape[1]))]
+    parts = [np.zeros((1, speed.shape[1]))]
     for rows in pieces(0, last, steps * max(1, PIECE_ROWS // steps)):
         sums = speed[rows.start + 1 : rows.stop + 1] + speed[rows]
         sums /= 2 * rate_hz
         sums[0] += travelled
         np.cumsum(sums, axis=0, out=sums)
         travelled = sums[-1]
-        found.append(sums[steps - 1 :: steps])
-    return np.concatenate(found)
+        parts.append(sums[steps - 1 :: steps])
+    return np.concatenate(parts)
 
 
 def jump_hints(q: Array, spans: Sequence[slice], rate_hz: float, layout: JointLayout) -> Iterator[str]:
@@ -127,7 +127,7 @@ def _meaning(slope: float, rate_hz: float, bounds: RobotLog) -> str:
     return f": {', or '.join(texts)}" if texts else ""
 
 
-def _correlation(one: NDArray[np.floating], other: NDArray[np.floating]) -> Array:
+def _correlation(first: NDArray[np.floating], other: NDArray[np.floating]) -> Array:
     """Return the correlation without means of each column of one with each of another, (n, n)."""
-    sizes = np.outer(np.linalg.norm(one, axis=0), np.linalg.norm(other, axis=0))
-    return quotient(one.T @ other, sizes)
+    sizes = np.outer(np.linalg.norm(first, axis=0), np.linalg.norm(other, axis=0))
+    return quotient(first.T @ other, sizes)

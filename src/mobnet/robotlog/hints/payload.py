@@ -43,32 +43,32 @@ def payloads(
         return []
     from scipy.optimize import lsq_linear  # here, as it takes a second to import
 
-    own = list(joints)
-    rest = (windows.torque - asked.needed)[:, own]
-    weight = quotient(np.ones(len(own)), (np.sqrt(left) * size_of(windows.torque))[own])
-    friction = np.zeros((*rest.shape, len(own), asked.terms.shape[-1]))  # of each joint alone
-    friction[:, np.arange(len(own)), np.arange(len(own))] = asked.terms[:, own]
-    found = []
+    columns = list(joints)
+    rest = (windows.torque - asked.needed)[:, columns]
+    weight = quotient(np.ones(len(columns)), (np.sqrt(left) * size_of(windows.torque))[columns])
+    friction = np.zeros((*rest.shape, len(columns), asked.terms.shape[-1]))  # of each joint alone
+    friction[:, np.arange(len(columns)), np.arange(len(columns))] = asked.terms[:, columns]
+    explanations = []
     for joint in (k for k in range(1, nominal.model.njoints) if not len(nominal.model.children[k])):
         carried = _torque_of_mass(nominal, windows, joint)
-        terms = np.concatenate([carried[:, own], friction.reshape(*rest.shape, -1)], axis=-1) * weight[:, None]
+        terms = np.concatenate([carried[:, columns], friction.reshape(*rest.shape, -1)], axis=-1) * weight[:, None]
         # Friction and inertia take no torque away from what moves a joint; a centre of mass may lie on any side.
         low = np.where(np.arange(terms.shape[-1]) < carried.shape[-1], -np.inf, 0.0)
         numbers = lsq_linear(terms.reshape(-1, terms.shape[-1]), (rest * weight).ravel(), (low, np.inf)).x[:4]
         if numbers[0] > LEAST_KG:
             body = _body_of(nominal, joint)
-            found.append(PayloadHint(float(numbers[0]), numbers[1:] / numbers[0], body, carried @ numbers))
-    return found
+            explanations.append(PayloadHint(float(numbers[0]), numbers[1:] / numbers[0], body, carried @ numbers))
+    return explanations
 
 
 def _torque_of_mass(nominal: NominalModel, windows: MotionWindows, joint: int) -> Array:
     """Return the torques for a mass at the origin of a joint's link, and for its first moments (W, nu, 4)."""
     without = windows.needed(nominal)
-    found = [windows.needed(_loaded(nominal, joint, np.zeros(3))) - without]
+    torques = [windows.needed(_loaded(nominal, joint, np.zeros(3))) - without]
     for axis in PLACE_M * np.eye(3):
         ahead, behind = (windows.needed(_loaded(nominal, joint, place)) for place in (axis, -axis))
-        found.append((ahead - behind) / (2 * PLACE_M))
-    return np.stack(found, axis=-1)
+        torques.append((ahead - behind) / (2 * PLACE_M))
+    return np.stack(torques, axis=-1)
 
 
 def _loaded(nominal: NominalModel, joint: int, place: Array) -> NominalModel:

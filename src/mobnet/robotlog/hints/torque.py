@@ -49,18 +49,18 @@ class Mistake(NamedTuple):
 def torque_hints(nominal: NominalModel, windows: MotionWindows, bounds: RobotLog) -> Iterator[str]:
     """Yield what looks wrong with torques, or with joints as a whole, of those that tell of themselves."""
     asked = windows.asked(nominal)
-    told = dict[str, list[str]]()
+    names_by_text = dict[str, list[str]]()
     for _ in range(MOST):
-        found = _best(_seen(nominal, windows, asked, bounds))
-        if not found:
+        mistake = _best(_seen(nominal, windows, asked, bounds))
+        if not mistake:
             break
         # A mistake is undone before the next one is looked for (docs/notes/robot_logs.md).
-        best, *others = found
+        best, *others = mistake
         windows = best.windows
         asked = best.asked
         meant = "".join(f"; or {_named(other.change, nominal)}: {other.change.text}" for other in others)
-        told.setdefault(best.change.text + meant, []).append(_named(best.change, nominal))
-    for text, joints in told.items():
+        names_by_text.setdefault(best.change.text + meant, []).append(_named(best.change, nominal))
+    for text, joints in names_by_text.items():
         yield f"{', '.join(joints)}: {text}"
 
 
@@ -83,8 +83,8 @@ def _best(seen: Seen) -> list[Mistake]:
     """Return the mistake that explains most, and one that explains hardly less; none where nothing is wrong."""
     if not seen.suspects:
         return []
-    found = sorted(chain(_of_torque(seen), _of_motion(seen)), key=lambda mistake: mistake.score)
-    return [one for one in found if one.score < found[0].score + seen.bounds.close][:2]
+    mistakes = sorted(chain(_of_torque(seen), _of_motion(seen)), key=lambda mistake: mistake.score)
+    return [other for other in mistakes if other.score < mistakes[0].score + seen.bounds.close][:2]
 
 
 def _of_torque(seen: Seen) -> Iterator[Mistake]:
@@ -126,10 +126,10 @@ def _of_motion(seen: Seen) -> Iterator[Mistake]:
 
 def _cleared(change: Change, windows: MotionWindows, asked: MotorDemand, seen: Seen) -> Iterator[Mistake]:
     """Yield a change with its score, if it clears its joints and is better than none."""
-    own = list(change.joints)
+    joints = list(change.joints)
     left = left_of(asked, windows.torque, seen.nominal, seen.bounds, range(len(seen.left)))
     score = _score(left, seen) + seen.bounds.number * change.numbers
-    if _clears(left[own], seen.left[own], seen.bounds) and score < _score(seen.left, seen):
+    if _clears(left[joints], seen.left[joints], seen.bounds) and score < _score(seen.left, seen):
         yield Mistake(change, windows, asked, score)
 
 

@@ -139,10 +139,10 @@ def known_joints(
 
 def left_of(asked: MotorDemand, torque: Array, nominal: NominalModel, bounds: RobotLog, joints: Sequence[int]) -> Array:
     """Return the share of the square torque of some joints that motion and friction leave unexplained (n,)."""
-    own = list(joints)
-    offsets = bounds.offset * nominal.robot.torque_limits[own]
-    terms = np.moveaxis(asked.terms[:, own], 1, 0)
-    needed, measured = (values[:, own].T[..., None] for values in (asked.needed, torque))
+    columns = list(joints)
+    offsets = bounds.offset * nominal.robot.torque_limits[columns]
+    terms = np.moveaxis(asked.terms[:, columns], 1, 0)
+    needed, measured = (values[:, columns].T[..., None] for values in (asked.needed, torque))
     return np.minimum(unexplained(terms, needed, measured, offsets)[:, 0], 1.0)
 
 

@@ -110,7 +110,7 @@ def fit_joints(
         rest = unseen[:, :, j] - problem.own(held_out, j) @ tried.joints[j]
         # A payload becomes a body of the table, so that it counts here; errors of the links do not get there.
         rest = rest - held_out.payload[:, :, j] @ carried
-        factors, widths = (dict(zip(terms, one[j].tolist(), strict=True)) for one in (final.joints, half))
+        factors, widths = (dict(zip(terms, numbers[j].tolist(), strict=True)) for numbers in (final.joints, half))
         fits.append(JointFit(columns.signs[sign], factors, widths, _rms(unseen[:, :, j]), _rms(rest)))
     return fits, payload
 
@@ -129,7 +129,7 @@ def solved(
     by_links = np.zeros(windows.joints.shape[:3])
     given = windows
     problem = Problem(columns, tuple(terms), (0,) * nu, np.ones(nu), prior)
-    found = None
+    solution_so_far = None
     for _ in range(ROUNDS):
         windows = linearised(given, near, settings.payload_kg_m3) if loaded else given
         targets = windows.joints[..., -1] - by_links
@@ -138,24 +138,24 @@ def solved(
         ]
         problem = replace(problem, signs=tuple(signs))
         problem = replace(problem, weights=_weights(windows, problem, by_links))
-        found = solution(windows, problem)
-        by_links = windows.links @ found.links
-        near = found.links[-NUMBERS:]
-    assert found is not None
-    return problem, found
+        solution_so_far = solution(windows, problem)
+        by_links = windows.links @ solution_so_far.links
+        near = solution_so_far.links[-NUMBERS:]
+    assert solution_so_far is not None
+    return problem, solution_so_far
 
 
 def _weights(windows: RegressorWindows, problem: Problem, by_links: Array) -> Array:
     """Return one over the variance of what is left of each joint (nu,), in whole windows."""
-    found = np.empty(len(problem.signs))
-    for j in range(len(found)):
-        own = problem.own(windows, j)
+    weights = np.empty(len(problem.signs))
+    for j in range(len(weights)):
+        columns = problem.own(windows, j)
         target = windows.joints[:, :, j, -1] - by_links[:, :, j]
-        rest = target - own @ joint_numbers(_products(own, target).sum(axis=0), problem.terms)
+        rest = target - columns @ joint_numbers(_products(columns, target).sum(axis=0), problem.terms)
         # Samples of a window are alike: the square of their sum is larger than the sum of their squares.
         alike = np.square(rest.sum(axis=1)).mean() / rest.shape[1]
-        found[j] = 1.0 / max(float(np.square(rest).mean()), float(alike), LEAST)
-    return found
+        weights[j] = 1.0 / max(float(np.square(rest).mean()), float(alike), LEAST)
+    return weights
 
 
 def chosen_sign(joint: Array, target: Array, columns: Columns, terms: Sequence[str], settings: Identification) -> int:
@@ -178,9 +178,9 @@ def chosen_sign(joint: Array, target: Array, columns: Columns, terms: Sequence[s
     return int(np.argmin(scores))
 
 
-def _products(own: Array, target: Array) -> Array:
+def _products(columns: Array, target: Array) -> Array:
     """Return the products of columns (windows, rows, n) and a target (windows, rows) in each window, target last."""
-    table = np.concatenate([own, target[..., None]], axis=2)
+    table = np.concatenate([columns, target[..., None]], axis=2)
     return table.transpose(0, 2, 1) @ table
 
 
@@ -196,8 +196,8 @@ def _bounded(matrix: Array, right: Array, free: Array) -> Array:
     root = np.linalg.cholesky(matrix).T
     target = np.linalg.solve(root.T, right)
     low = np.where(free, -np.inf, 0.0)
-    found = np.asarray(np.linalg.solve(root, target), dtype=np.float64)
-    return found if (found >= low).all() else lsq_linear(root, target, (low, np.inf), method="bvls").x
+    numbers = np.asarray(np.linalg.solve(root, target), dtype=np.float64)
+    return numbers if (numbers >= low).all() else lsq_linear(root, target, (low, np.inf), method="bvls").x
 
 
 def solution(windows: RegressorWindows, problem: Problem) -> Solution:
@@ -210,44 +210,44 @@ def solution(windows: RegressorWindows, problem: Problem) -> Solution:
     behind = slice(nu * count, None)
     matrix[behind, behind] = np.diag(problem.prior**-2)
     for j in range(nu):
-        own = problem.own(windows, j).reshape(-1, count)
+        columns = problem.own(windows, j).reshape(-1, count)
         links = windows.links[:, :, j].reshape(-1, d)
         target = windows.joints[:, :, j, -1].ravel()
         weight = problem.weights[j]
         place = slice(j * count, (j + 1) * count)
-        matrix[place, place] = weight * own.T @ own
-        matrix[place, behind] = weight * own.T @ links
+        matrix[place, place] = weight * columns.T @ columns
+        matrix[place, behind] = weight * columns.T @ links
         matrix[behind, place] = matrix[place, behind].T
         matrix[behind, behind] += weight * links.T @ links
-        right[place] = weight * own.T @ target
+        right[place] = weight * columns.T @ target
         right[behind] += weight * links.T @ target
     size = np.sqrt(np.maximum(np.diag(matrix), LEAST))
     own_free = [term in FREE for term in problem.terms]
     free = np.array([*own_free * nu, *[True] * d])
     # A log cannot tell all numbers apart; a small share of the diagonal keeps the solution unique.
     scaled = matrix / np.outer(size, size) + LEAST * np.eye(len(size))
-    found = _bounded(scaled, right / size, free) / size
-    return Solution(found[: nu * count].reshape(nu, count), found[nu * count :], matrix)
+    numbers = _bounded(scaled, right / size, free) / size
+    return Solution(numbers[: nu * count].reshape(nu, count), numbers[nu * count :], matrix)
 
 
-def half_widths(windows: RegressorWindows, problem: Problem, found: Solution, confidence: float) -> Array:
+def half_widths(windows: RegressorWindows, problem: Problem, solution: Solution, confidence: float) -> Array:
     """Return half the widths of the intervals of the joints' numbers and of the links' errors, (nu * terms + d,)."""
-    (nu, count) = found.joints.shape
+    (nu, count) = solution.joints.shape
     d = len(problem.prior)
     groups = len(windows)
     # Errors that vary with the motion are alike for about a second: windows are independent, their samples are not.
     scores = np.zeros((groups, nu * count + d))
     for j in range(nu):
-        own = problem.own(windows, j)
+        columns = problem.own(windows, j)
         links = windows.links[:, :, j]
-        rest = windows.joints[:, :, j, -1] - own @ found.joints[j] - links @ found.links
-        scores[:, j * count : (j + 1) * count] = problem.weights[j] * np.einsum("gr,grk->gk", rest, own)
+        rest = windows.joints[:, :, j, -1] - columns @ solution.joints[j] - links @ solution.links
+        scores[:, j * count : (j + 1) * count] = problem.weights[j] * np.einsum("gr,grk->gk", rest, columns)
         scores[:, nu * count :] += problem.weights[j] * np.einsum("gr,grk->gk", rest, links)
     middle = groups / (groups - 1) * scores.T @ scores
     # What the prior leaves open of the links adds its own variance.
     middle[nu * count :, nu * count :] += np.diag(problem.prior**-2)
-    size = np.sqrt(np.maximum(np.diag(found.matrix), LEAST))
-    scaled = found.matrix / np.outer(size, size) + LEAST * np.eye(len(size))
+    size = np.sqrt(np.maximum(np.diag(solution.matrix), LEAST))
+    scaled = solution.matrix / np.outer(size, size) + LEAST * np.eye(len(size))
     inverse = np.linalg.inv(scaled)
     variance = np.diag(inverse @ (middle / np.outer(size, size)) @ inverse) / size**2
     return float(t.ppf((1 + confidence) / 2, groups - 1)) * np.sqrt(variance)

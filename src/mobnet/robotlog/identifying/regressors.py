@@ -74,9 +74,9 @@ class RegressorWindows:
 
 def together(windows: Sequence[RegressorWindows]) -> RegressorWindows:
     """Return windows of several logs."""
-    joints = np.concatenate([one.joints for one in windows])
-    links = np.concatenate([one.links for one in windows])
-    payload = np.concatenate([one.payload for one in windows])
+    joints = np.concatenate([part.joints for part in windows])
+    links = np.concatenate([part.links for part in windows])
+    payload = np.concatenate([part.payload for part in windows])
     return RegressorWindows(joints, links, payload)
 
 
@@ -110,7 +110,7 @@ def windows_of(
     columns = columns_of(settings)
     every = max(1, int(read.rate_hz / (OVERSAMPLED * settings.low_pass_hz)))
     rows = round(settings.window_s * read.rate_hz / every)
-    found = list[RegressorWindows]()
+    pieces = list[RegressorWindows]()
     for span in read.spans():
         sensed = read.sensed[span]
         if len(sensed) <= rows * every:
@@ -119,13 +119,13 @@ def windows_of(
         regressor = _links(nominal, sensed, *parts)
         links = regressor @ link_directions(nominal.model, robot.layout.nu)
         payload = regressor[..., 10 * carrier : 10 * carrier + 10] if carrier is not None else regressor[..., :0]
-        found.append(RegressorWindows(_joints(observer, sensed, columns, *parts), links, payload))
-    if not found:
+        pieces.append(RegressorWindows(_joints(observer, sensed, columns, *parts), links, payload))
+    if not pieces:
         nu = robot.layout.nu
         width = 2 * len(columns.signs) + len(PLAIN) + 1
         sizes = width, len(LINK) * nu, 0 if carrier is None else 10
         return RegressorWindows(*(np.zeros((0, rows, nu, size)) for size in sizes))
-    return together(found)
+    return together(pieces)
 
 
 class _Filter:
@@ -152,7 +152,7 @@ def _joints(observer: RobotObserver, sensed: Sensed, columns: Columns, thin: _Fi
     residual = observer.residual(sensed)[:, -nu:]
     v = sensed.v[:, -nu:].astype(np.float64)
     tau = sensed.tau_motor.astype(np.float64)
-    found = list[Array]()
+    columns_of_joints = list[Array]()
     for j in range(nu):  # one after another: all columns of a humanoid's hour do not fit into the memory
         signs = [_sign(kind, number, v[:, j], rate_hz) for kind, number in columns.signs]
         loaded = [np.abs(tau[:, j]) * sign for sign in signs]
@@ -160,8 +160,8 @@ def _joints(observer: RobotObserver, sensed: Sensed, columns: Columns, thin: _Fi
         turned = np.diff(v[:, j], prepend=v[0, j]) * rate_hz
         applied = tau[:, j] if observer.torque == "mean" else _means(tau[:, j])
         table = np.column_stack([at_ticks, turned, -applied, -residual[:, j]])
-        found.append(_cut(thin(table[1:])[:: thin.every], rows))
-    return np.stack(found, axis=2)
+        columns_of_joints.append(_cut(thin(table[1:])[:: thin.every], rows))
+    return np.stack(columns_of_joints, axis=2)
 
 
 def _links(nominal: NominalModel, sensed: Sensed, thin: _Filter, rows: int) -> Array:
@@ -174,22 +174,22 @@ def _links(nominal: NominalModel, sensed: Sensed, thin: _Filter, rows: int) -> A
     acceleration = np.gradient(velocity, axis=0) * thin.rate_hz
     keep = slice(1, None, thin.every)
     q = nominal.positions(sensed.q[keep])
-    found = np.empty((len(q), nu, 10 * nu))
+    regressors = np.empty((len(q), nu, 10 * nu))
     for k, state in enumerate(zip(q, velocity[keep], acceleration[keep], strict=True)):
-        found[k] = pin.computeJointTorqueRegressor(model, data, *state)[-nu:, -10 * nu :]
-    return _cut(found, rows)
+        regressors[k] = pin.computeJointTorqueRegressor(model, data, *state)[-nu:, -10 * nu :]
+    return _cut(regressors, rows)
 
 
 def link_directions(model: pin.Model, nu: int) -> Array:
     """Return how the ten parameters of each moving link change by its errors, (10 nu, d); Pinocchio's order."""
-    found = np.zeros((10 * nu, len(LINK) * nu))
+    directions = np.zeros((10 * nu, len(LINK) * nu))
     for k, inertia in enumerate(list(model.inertias)[-nu:]):
         rows = slice(10 * k, 10 * k + 10)
         first = len(LINK) * k
-        found[rows, first] = inertia.toDynamicParameters()
+        directions[rows, first] = inertia.toDynamicParameters()
         for axis in range(3):
-            found[rows, first + 1 + axis] = _by_lever(inertia, np.eye(3)[axis])
-    return found
+            directions[rows, first + 1 + axis] = _by_lever(inertia, np.eye(3)[axis])
+    return directions
 
 
 def _by_lever(inertia: pin.Inertia, along: Array) -> Array:
@@ -220,5 +220,5 @@ def _means(values: Array) -> Array:
 
 def moved(read: Sequence[SensedRecording], nu: int) -> Array:
     """Return the root mean square speed of each joint (nu,) [rad/s] in recordings."""
-    squares = np.concatenate([np.square(one.sensed.v[:, -nu:].astype(np.float64)) for one in read])
+    squares = np.concatenate([np.square(recording.sensed.v[:, -nu:].astype(np.float64)) for recording in read])
     return np.sqrt(squares.mean(axis=0))

@@ -34,11 +34,11 @@ def joints_above(table: RobotTable, body: str) -> list[str]:
     """Return the ids of the joints that move a body, from the base on."""
     parents = {row.name: row.parent for row in table.bodies}
     moved = {row.body: row.id for row in table.joints}
-    found = list[str]()
+    joints = list[str]()
     while body in parents:
-        found += [moved[body]] if body in moved else []
+        joints += [moved[body]] if body in moved else []
         body = parents[body]
-    return found[::-1]
+    return joints[::-1]
 
 
 def shapes_of_looks(table: RobotTable) -> Sequence[ShapeRow]:
@@ -57,8 +57,8 @@ def _repeated(table: RobotTable) -> Iterator[Problem]:
         ("points",): _with_images(table.points),
         ("looks", "shapes"): _with_images(shapes_of_looks(table)),
     }
-    for kind, found in (("groups", table.groups), ("networks", table.networks)):
-        lists[kind,] = [*lists.get((kind,), []), *(name.casefold() for name in found)]  # names of files
+    for kind, given_lists in (("groups", table.groups), ("networks", table.networks)):
+        lists[kind,] = [*lists.get((kind,), []), *(name.casefold() for name in given_lists)]  # names of files
     for place, names in lists.items():
         for name in sorted({name for name in names if names.count(name) > 1}):
             yield place, f"{name!r} {names.count(name)} times is not accepted; accepted: each name once"
@@ -71,8 +71,8 @@ def _with_images(rows: Sequence[PointRow]) -> list[str]:
 
 def _numbered(rows: Mapping[Place, Sequence[Row]]) -> Iterator[tuple[Place, int, Row]]:
     """Yield the rows of several lists, each with the place of its list and its number there."""
-    for place, own in rows.items():
-        for index, row in enumerate(own):
+    for place, of_list in rows.items():
+        for index, row in enumerate(of_list):
             yield place, index, row
 
 
@@ -103,8 +103,8 @@ def _order_problems(table: RobotTable) -> Iterator[Problem]:
         "joints": [joint.id for joint in table.joints],
         "bodies": [moved[body.name] for body in table.bodies if body.name in moved],
     }
-    for kind, found in lists.items():
-        for index, (name, accepted) in enumerate(zip_longest(found, table.order.actuated)):
+    for kind, names in lists.items():
+        for index, (name, accepted) in enumerate(zip_longest(names, table.order.actuated)):
             if name != accepted:
                 yield (kind,), f"joint {index}, {name!r}, is not accepted; accepted: {accepted!r}, by `order.actuated`"
                 break
@@ -162,8 +162,8 @@ def _foot_problems(table: RobotTable) -> Iterator[Problem]:
     for limb, joints in table.groups.items():
         limbs |= dict.fromkeys(joints, limb)
     for side, body in table.hands.items():
-        found = {limbs[joint] for joint in joints_above(table, body)[-1:] if joint in limbs}
-        if found and not any(limb.casefold().startswith(side[0]) for limb in found):
+        limbs_above = {limbs[joint] for joint in joints_above(table, body)[-1:] if joint in limbs}
+        if limbs_above and not any(limb.casefold().startswith(side[0]) for limb in limbs_above):
             yield ("hands", side), misfit(body, f"a body at the end of a limb of the {side} side")
     for place, bodies in sides:
         if len(bodies) == 2 and right_of(bodies["left"]) != bodies["right"]:
