@@ -39,18 +39,20 @@ TEST = CoverageTest(scenario="walk_test", level="all_uncertainty")
 def test_an_inner_test_is_inside_and_a_far_one_outside(rng: np.random.Generator) -> None:
     training = rng.uniform(-1, 1, (4000, 2))
     references = [refer(factor * training, [0.01, 0.99], np.zeros(2), np.ones(2)) for factor in (1.0, 0.1)]
-    rows = {(row.measure, row.joint): row for row in outside(TEST, [0.5 * training[:500]], references, NAMES, ["LL1"])}
+    rows = {
+        (row["measure"], row["joint"]): row for row in outside(TEST, [0.5 * training[:500]], references, NAMES, ["LL1"])
+    }
     for measure in OUTSIDE.values():
-        assert rows[measure, "LL1"].with_rte == 0.0
-        assert rows[measure, "LL1"].without_rte == pytest.approx(0.8, abs=0.05)
-        assert rows[measure, ALL].without_rte == rows[measure, "LL1"].without_rte
+        assert rows[measure, "LL1"]["with_rte"] == 0.0
+        assert rows[measure, "LL1"]["without_rte"] == pytest.approx(0.8, abs=0.05)
+        assert rows[measure, ALL]["without_rte"] == rows[measure, "LL1"]["without_rte"]
 
 
 def test_about_two_percent_of_training_lie_outside_its_own_range(rng: np.random.Generator) -> None:
     training = rng.normal(size=(5000, 2))
     reference = refer(training, [0.01, 0.99], np.zeros(2), np.ones(2))
     for row in outside(TEST, [training], [reference, reference], NAMES, ["LL1"]):
-        assert row.with_rte == pytest.approx(0.02, abs=0.001)
+        assert row["with_rte"] == pytest.approx(0.02, abs=0.001)
 
 
 def test_distance_to_the_nearest_sample_has_its_closed_form_in_units_of_the_common_spread(
@@ -63,21 +65,21 @@ def test_distance_to_the_nearest_sample_has_its_closed_form_in_units_of_the_comm
     ]
     block = (np.array([[5.0, 2.0], [1.0, 2.0], [3.0, 2.0]]) - mean) / std  # 2, 0 and 1 away from the first set
     rows = list(nearest(TEST, [block, block], references, evaluation.statistics))
-    assert [row.measure for row in rows] == list(NEAREST)
-    assert rows[0].with_rte == pytest.approx(1.0)
-    assert rows[0].without_rte == pytest.approx(np.sqrt(2.0))
-    assert rows[0].ratio.with_ends == pytest.approx((np.sqrt(0.5),) * 3)
+    assert [row["measure"] for row in rows] == list(NEAREST)
+    assert rows[0]["with_rte"] == pytest.approx(1.0)
+    assert rows[0]["without_rte"] == pytest.approx(np.sqrt(2.0))
+    assert [rows[0][name] for name in ("ratio", "low", "high")] == pytest.approx([np.sqrt(0.5)] * 3)
 
 
 def test_the_wider_set_visits_more_of_the_plane_and_equal_sets_equally_much(
     rng: np.random.Generator, evaluation: Evaluation
 ) -> None:
     wide, plane = rng.uniform(-1, 1, (3000, 2)), evaluation.coverage.model_copy(update={"cell_range": (0.0, 1.0)})
-    assert {row.ratio.value for row in visited(AREA, [wide, wide], NAMES, ["LL1"], plane)} == {1.0}
+    assert {row["ratio"] for row in visited(AREA, [wide, wide], NAMES, ["LL1"], plane)} == {1.0}
     for row in visited(AREA, [wide, 0.5 * wide], NAMES, ["LL1"], plane):
-        assert row.measure == AREA
-        assert row.with_rte == pytest.approx(1.0, abs=0.02)
-        assert row.ratio.value == pytest.approx(4.0, rel=0.5)
+        assert row["measure"] == AREA
+        assert row["with_rte"] == pytest.approx(1.0, abs=0.02)
+        assert row["ratio"] == pytest.approx(4.0, rel=0.5)
 
 
 def test_intervals_over_stretches_of_the_walks_hold_the_ratio_of_two_walks_without_end(
@@ -96,10 +98,10 @@ def test_intervals_over_stretches_of_the_walks_hold_the_ratio_of_two_walks_witho
             left_out.append(training_rows(kept, kept, names, ["LL1"], coverage))
         rows = [with_interval(row, left_out, evaluation.statistics) for row in
                 training_rows(sets, sets, names, ["LL1"], coverage)]  # fmt: skip
-        (row,) = (row for row in rows if (row.measure, row.joint) == (WIDTH["phase"], ALL))
-        assert row.ratio.low is not None
-        assert row.ratio.high is not None
-        held += row.ratio.low <= 1.2 <= row.ratio.high
+        (row,) = (row for row in rows if (row["measure"], row["joint"]) == (WIDTH["phase"], ALL))
+        assert row["low"] is not None
+        assert row["high"] is not None
+        held += row["low"] <= 1.2 <= row["high"]
     assert held >= 0.88 * DRAWS
 
 
@@ -144,9 +146,9 @@ def test_equivalent_sets_come_out_even_and_tests_without_pushes_are_left_out(
     coverage = evaluation.coverage.model_copy(update={"tests": (TEST, pushed)})
     ports, walk, tests = settings.robot.networks["LL"], data_sets["walk"], [data_sets["test"], []]
     rows = covered(coverage, layout, ports, evaluation.statistics, walk, walk, tests)
-    assert {row.scenario for row in rows} == {"training", "walk_test"}
-    assert all(row.with_rte == row.without_rte for row in rows)
-    assert all(row.ratio.value == 1.0 for row in rows if row.measure in NEAREST or row.measure == AREA)
+    assert set(rows["scenario"]) == {"training", "walk_test"}
+    assert (rows["with_rte"] == rows["without_rte"]).all()
+    assert (rows[rows["measure"].isin([*NEAREST, AREA])]["ratio"] == 1.0).all()
 
 
 def test_torques_at_their_phase_are_outside_where_pooled_ones_are_inside(
@@ -158,14 +160,14 @@ def test_torques_at_their_phase_are_outside_where_pooled_ones_are_inside(
     wide = np.concatenate([state, 10 * phase + rng.normal(0, 2, phase.shape), phase], axis=1)
     narrow = np.concatenate([state, 10 * phase + rng.normal(0, 1, phase.shape), phase], axis=1)
     ranges = conditional([wide, narrow], names, ["LL1"], evaluation.coverage.model_copy(update={"phases": 20}))
-    width = {(row.measure, row.joint): row for row in widths(ranges)}
-    assert width[WIDTH["phase"], "LL1"].ratio.value == pytest.approx(2.0, rel=0.1)
-    assert width[WIDTH["phase"], ALL].with_rte == width[WIDTH["phase"], "LL1"].with_rte
-    assert width[WIDTH["position and velocity"], "LL1"].with_rte > 10.0
+    width = {(row["measure"], row["joint"]): row for row in widths(ranges)}
+    assert width[WIDTH["phase"], "LL1"]["ratio"] == pytest.approx(2.0, rel=0.1)
+    assert width[WIDTH["phase"], ALL]["with_rte"] == width[WIDTH["phase"], "LL1"]["with_rte"]
+    assert width[WIDTH["position and velocity"], "LL1"]["with_rte"] > 10.0
     late = np.column_stack([narrow[:, :3], (narrow[:, 3] + 0.5) % 1.0])
-    found = {(row.measure, row.joint): row for row in beyond(TEST, [late], ranges, names)}
-    assert found[BEYOND["phase"], "LL1"].without_rte > 0.95
-    assert 0.5 < found[BEYOND["phase"], "LL1"].with_rte < found[BEYOND["phase"], "LL1"].without_rte
-    assert found[BEYOND["position and velocity"], ALL].without_rte < 0.05
+    found = {(row["measure"], row["joint"]): row for row in beyond(TEST, [late], ranges, names)}
+    assert found[BEYOND["phase"], "LL1"]["without_rte"] > 0.95
+    assert 0.5 < found[BEYOND["phase"], "LL1"]["with_rte"] < found[BEYOND["phase"], "LL1"]["without_rte"]
+    assert found[BEYOND["position and velocity"], ALL]["without_rte"] < 0.05
     unknown = np.column_stack([narrow[:, :3], np.full(len(narrow), np.nan)])
-    assert {row.measure for row in beyond(TEST, [unknown], ranges, names)} == {BEYOND["position and velocity"]}
+    assert {row["measure"] for row in beyond(TEST, [unknown], ranges, names)} == {BEYOND["position and velocity"]}

@@ -7,12 +7,14 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pandas as pd
 import pytest
 import scipy.stats
 from paper_settings import STATISTICS
 
 from experiments.evaluation.measure.learning.taught import HITS, ROUGHNESS, SHARE_OF_HIT, WALKING, judged
 from experiments.evaluation.measure.learning.trials import Known, read_walks
+from experiments.evaluation.number.frames import rows_of
 from experiments.evaluation.tables.further.factorial import ALL, EFFECTS, effects_of, table_of
 from experiments.evaluation.tables.layout import write_table
 from experiments.plan.jobs import scoring
@@ -52,33 +54,32 @@ def found() -> dict[str, dict[str, Any]]:
 
 
 def test_an_effect_is_the_geometric_mean_of_ratios_with_its_interval_over_robots(found: dict[str, Any]) -> None:
-    effects = list(effects_of(found, CELLS, TORQUE, STATISTICS))
-    assert len(effects) == 3 * (4 + 1)
+    effects = effects_of(found, CELLS, TORQUE, STATISTICS)
+    assert len(effects) == 2 * 3 * (4 + 1)
     for factor, (_, _, title) in EFFECTS.items():
-        own = [effect for effect in effects if effect.name == title]
+        own = rows_of(effects, name=title)
         logs = np.log(CHANGES[factor])
         reach = scipy.stats.t.ppf(0.975, 2) * logs.std(ddof=1) / np.sqrt(3)
         wanted = np.exp([logs.mean(), logs.mean() - reach, logs.mean() + reach])
-        for effect in own:
-            for measure in (WALKING, HITS):
-                assert effect.numbers[measure].with_ends == pytest.approx(wanted, rel=1e-6)
-        levels = {(effect.torque_nm, effect.pushes, effect.commands) for effect in own}
-        assert len(levels) == len(own)
-        assert (None, None, None) in levels
+        for ends in own[["value", "low", "high"]].to_numpy():
+            assert ends == pytest.approx(wanted, rel=1e-6)
+        levels = rows_of(own, measure=HITS)[["random_torque_nm", "pushes", "commands"]]
+        assert len(levels.drop_duplicates()) == len(levels) == 5
+        assert levels.isna().all(axis=1).sum() == 1
 
 
 def test_of_one_robot_an_effect_has_no_interval(found: dict[str, Any]) -> None:
     alone = {name: {key: values[:1] for key, values in own.items()} for name, own in found.items()}
-    for effect in effects_of(alone, CELLS, TORQUE, STATISTICS):
-        assert effect.numbers[HITS].value is not None
-        assert effect.numbers[HITS].low is None
+    effects = effects_of(alone, CELLS, TORQUE, STATISTICS)
+    assert effects["value"].notna().all()
+    assert effects["low"].isna().all()
 
 
 def test_a_set_of_another_day_takes_no_place_of_a_cell(found: dict[str, Any]) -> None:
     """It has the factors of one of them."""
     day = {**found, "day": {key: 10.0 * values for key, values in found["cell_0"].items()}}
-    with_day = list(effects_of(day, {**CELLS, "day": CELLS["cell_0"]}, TORQUE, STATISTICS))
-    assert with_day == list(effects_of(found, CELLS, TORQUE, STATISTICS))
+    with_day = effects_of(day, {**CELLS, "day": CELLS["cell_0"]}, TORQUE, STATISTICS)
+    pd.testing.assert_frame_equal(with_day, effects_of(found, CELLS, TORQUE, STATISTICS))
 
 
 def test_the_table_has_every_set_robot_and_effect(found: dict[str, Any], settings: Settings, tmp_path: Path) -> None:
@@ -87,7 +88,7 @@ def test_the_table_has_every_set_robot_and_effect(found: dict[str, Any], setting
     )
     shares = {name: {**own, SHARE_OF_HIT: own[HITS] / 20.0} for name, own in found.items()}
     beside = {"day": shares["cell_0"], "MOB": shares["cell_1"]}
-    effects = list(effects_of(found, CELLS, TORQUE, STATISTICS))
+    effects = effects_of(found, CELLS, TORQUE, STATISTICS)
     cells = {**CELLS, "day": CELLS["cell_0"]}
     robots = ["robot_1", "robot_2", "robot_3"]
     table = table_of(trial, robots, {**shares, **beside}, cells, TORQUE, effects, STATISTICS)
@@ -104,10 +105,10 @@ def test_the_table_has_every_set_robot_and_effect(found: dict[str, Any], setting
             assert held[measure, ALL]["pushes"] == ("often" if factors.pushes else "none")
     parts = [row["part"] for row in rows]
     per_set = 3 * (len(robots) + 1)
-    counts = {"training sets": len(CELLS) * per_set, "beside": 2 * per_set, "effects": 2 * len(effects)}
+    counts = {"training sets": len(CELLS) * per_set, "beside": 2 * per_set, "effects": len(effects)}
     assert {part: parts.count(part) for part in counts} == counts
     lines = (tmp_path / "out.md").read_text().splitlines()[2:]
-    assert len(lines) == len(CELLS) + 2 + len(effects)
+    assert len(lines) == len(CELLS) + 2 + len(effects) // 2
     assert sum(line.startswith("| MOB-Net | ") for line in lines) == len(CELLS)
     assert sum(line.startswith("| MOB-Net, another day | 0 | none | varied | ") for line in lines) == 1
     # A ratio over all levels names none.

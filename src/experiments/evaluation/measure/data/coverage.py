@@ -8,12 +8,12 @@ in training, in the inputs of a limb's network (Table 1). Both sets have equally
 
 import logging
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
 from itertools import product
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pandas as pd
 from numpy.typing import NDArray
 
 from experiments.evaluation.compare.windows import pushed_of
@@ -43,11 +43,13 @@ BEYOND = {condition: f"outside torque given {condition}" for condition in GIVEN}
 
 Ranges = Mapping[tuple[str, str], Sequence[TorqueRange]]  # condition, joint -> of each training set
 Samples = Sequence[NDArray[Any]]  # of each training set, (n, n_in)
+Row = dict[str, Any]  # column of COVERAGE -> value
 
 
-@dataclass(frozen=True)
-class Covered:
-    """One measure of a test against both training sets, with and without random torque exploration: a row of the table.
+def row_of(
+    scenario: str, level: str, measure: str, joint: str, block_count: int, pair: Sequence[float], ratio: Number
+) -> Row:  # fmt: skip
+    """Return one measure of a test against training sets with and without random torque exploration: a row of COVERAGE.
 
     The measure is AREA, AIR_AREA or a value of OUTSIDE or BEYOND, all shares, a value of WIDTH [N m], or a name of
     NEAREST, a distance in z-scored inputs; the joint may be ALL, the mean over joints or inputs together. The scenario
@@ -55,22 +57,17 @@ class Covered:
     contiguous in time. The ratio, with over without, has its interval over blocks, and where no test is needed over
     stretches of the training walks; shares of test samples have none, as they may be zero.
     """
-
-    scenario: str
-    level: str
-    measure: str
-    joint: str
-    block_count: int
-    with_rte: float
-    without_rte: float
-    ratio: Number
+    have, lack = pair
+    value, low, high = ratio.with_ends
+    place = {"scenario": scenario, "level": level, "measure": measure, "joint": joint, "block_count": block_count}
+    return {**place, "with_rte": have, "without_rte": lack, "ratio": value, "low": low, "high": high}
 
 
 def covered(
     settings: Coverage, layout: JointLayout, ports: Limb, statistics: Statistics,
     explored: Sequence[Path], plain: Sequence[Path], tests: Sequence[Sequence[Path]],
-) -> list[Covered]:  # fmt: skip
-    """Return all measures of two training sets, with and without exploration, and of every test against them.
+) -> pd.DataFrame:  # fmt: skip
+    """Return all measures of two training sets, with and without exploration, and of tests against them: COVERAGE.
 
     `ports` are what the network of the leg sees.
     """
@@ -88,7 +85,7 @@ def covered(
     references = [refer(array, settings.range, mean, std) for array in bare]
     ranges = conditional(samples, names, joints, settings)
     in_training = training_rows(samples, airborne, names, joints, settings)
-    left_out: list[list[Covered]] = []
+    left_out: list[list[Row]] = []
     for part in range(settings.parts):
         kept = [without_part(both, part, settings.parts) for both in (samples, airborne)]
         left_out.append(training_rows(kept[0], kept[1], names, joints, settings))
@@ -102,12 +99,12 @@ def covered(
         rows += outside(test, seen, references, inputs.names, joints)
         rows += beyond(test, blocks, ranges, names)
         rows += nearest(test, [(block - mean) / std for block in seen], references, statistics)
-    return rows
+    return pd.DataFrame(rows)
 
 
 def training_rows(
     samples: Samples, airborne: Samples, names: Sequence[str], joints: Sequence[str], settings: Coverage
-) -> list[Covered]:
+) -> list[Row]:
     """Return what two training sets hold without regard to tests, of all samples (n, n_in) and of those in the air."""
     return [
         *visited(AREA, samples, names, joints, settings),
@@ -125,31 +122,33 @@ def without_part(sets: Samples, part: int, parts: int) -> list[NDArray[Any]]:
     return found
 
 
-def with_interval(row: Covered, left_out: Sequence[Sequence[Covered]], statistics: Statistics) -> Covered:
+def with_interval(row: Row, left_out: Sequence[Sequence[Row]], statistics: Statistics) -> Row:
     """Return a row with the interval of its ratio over stretches of the training walks, on a log scale.
 
     `left_out` are the rows without each of them. The jackknife stands for other walks: what changes little when a
     stretch is left out would change little in another walk. There is no interval where a row lacks one of its ratios.
     """
-    ratios = [other.ratio.value for rows in left_out for other in rows if _is_of(row, other)]
+    ratios: list[float | None] = []
+    for rows in left_out:
+        ratios += [other["ratio"] for other in rows if _is_of(row, other)]
     known = [ratio for ratio in ratios if ratio is not None and np.isfinite(ratio) and ratio > 0.0]
-    value = row.ratio.value
+    value = row["ratio"]
     if not value or not np.isfinite(value) or len(known) < len(left_out):
         return row
     logs = np.log(known)
     count = len(logs)
     std = float(np.sqrt((count - 1) / count * ((logs - logs.mean()) ** 2).sum()))
     factor = float(np.exp(quantile_of(count - 1, statistics.confidence) * std))
-    return replace(row, ratio=Number(value, value / factor, value * factor))
+    return {**row, "low": value / factor, "high": value * factor}
 
 
-def _is_of(row: Covered, other: Covered) -> bool:
-    return (row.measure, row.joint) == (other.measure, other.joint)
+def _is_of(row: Row, other: Row) -> bool:
+    return (row["measure"], row["joint"]) == (other["measure"], other["joint"])
 
 
 def visited(
     measure: str, samples: Sequence[NDArray[Any]], names: Sequence[str], joints: Sequence[str], settings: Coverage
-) -> Iterator[Covered]:
+) -> Iterator[Row]:
     """Yield the share of a joint's velocity-torque plane that each training set visits (Figure 19).
 
     The plane is a rectangle of both sets together, without their rarest samples, cut into equal cells. The samples (n,
@@ -165,12 +164,12 @@ def visited(
         bounds = list(zip(*np.quantile(both, settings.cell_range, axis=0), strict=True))
         shares.append([float(np.mean(np.histogramdd(plane, settings.cells, bounds)[0] > 0)) for plane in planes])
     for joint, (have, lack) in zip([*joints, ALL], [*shares, np.mean(shares, axis=0).tolist()], strict=True):
-        yield Covered("training", "", measure, joint, 0, have, lack, Number(have / lack))
+        yield row_of("training", "", measure, joint, 0, (have, lack), Number(have / lack))
 
 
 def outside(
     test: CoverageTest, blocks: Blocks, references: Sequence[Reference], names: Sequence[str], joints: Sequence[str]
-) -> Iterator[Covered]:
+) -> Iterator[Row]:
     """Yield the share of test samples outside the central range, for each joint and the mean over joints.
 
     The blocks (n, n_in) and the references, with and without random torque exploration, have these names of inputs
@@ -182,9 +181,9 @@ def outside(
     for quantity, measure in OUTSIDE.items():
         columns = {joint: [where[f"{quantity}.{joint}"]] for joint in joints}
         for joint, picked in (columns | {ALL: [column for (column,) in columns.values()]}).items():
-            have, lack = (float(share[picked].mean()) for share in shares)
+            pair = [float(share[picked].mean()) for share in shares]
             # Shares may be zero, so that their ratio has no interval.
-            yield Covered(test.scenario, test.level, measure, joint, len(blocks), have, lack, Number(None))
+            yield row_of(test.scenario, test.level, measure, joint, len(blocks), pair, Number(None))
 
 
 def conditional(
@@ -209,7 +208,7 @@ def conditional(
     return found
 
 
-def widths(ranges: Ranges) -> Iterator[Covered]:
+def widths(ranges: Ranges) -> Iterator[Row]:
     """Yield the mean width [N m] of the conditional ranges for each joint, and the mean over joints."""
     for condition, measure in WIDTH.items():
         known: dict[str, list[float]] = {}
@@ -217,10 +216,10 @@ def widths(ranges: Ranges) -> Iterator[Covered]:
             if given == condition:
                 known[joint] = [one.width for one in both]
         for joint, (have, lack) in _with_all(known):
-            yield Covered("training", "", measure, joint, 0, have, lack, Number(have / lack))
+            yield row_of("training", "", measure, joint, 0, (have, lack), Number(have / lack))
 
 
-def beyond(test: CoverageTest, blocks: Blocks, ranges: Ranges, names: Sequence[str]) -> Iterator[Covered]:
+def beyond(test: CoverageTest, blocks: Blocks, ranges: Ranges, names: Sequence[str]) -> Iterator[Row]:
     """Yield the share of test samples whose torque lies outside its conditional range, by joint and their mean.
 
     The blocks (n, n_in) have these names of inputs (n_in,). Samples without a phase do not count.
@@ -236,8 +235,8 @@ def beyond(test: CoverageTest, blocks: Blocks, ranges: Ranges, names: Sequence[s
             own = samples[np.isfinite(samples[:, columns]).all(axis=1)]
             if len(own):
                 known[joint] = [float(one.outside(own[:, columns], own[:, torque]).mean()) for one in both]
-        for joint, (have, lack) in _with_all(known):
-            yield Covered(test.scenario, test.level, measure, joint, len(blocks), have, lack, Number(None))
+        for joint, pair in _with_all(known):
+            yield row_of(test.scenario, test.level, measure, joint, len(blocks), pair, Number(None))
 
 
 def _columns_of(condition: str, joint: str, names: Sequence[str]) -> tuple[list[int], int]:
@@ -256,7 +255,7 @@ def _with_all(known: Mapping[str, Sequence[float]]) -> Iterator[tuple[str, Seque
 
 def nearest(
     test: CoverageTest, blocks: Blocks, references: Sequence[Reference], statistics: Statistics
-) -> Iterator[Covered]:
+) -> Iterator[Row]:
     """Yield quantiles of the distance to the nearest training sample, means over blocks, and their ratio.
 
     The blocks (n, n_in) are z-scored; the references are with and without random torque exploration.
@@ -268,7 +267,7 @@ def nearest(
         # Neighbouring samples are alike: blocks of time, and not samples, take the place of walks in the interval.
         have, lack = (_quantiles(found, share) for found in distances)
         ratio = summarise([have, lack], statistics, RATIO)
-        yield Covered(test.scenario, test.level, measure, ALL, len(blocks), have.mean, lack.mean, ratio)
+        yield row_of(test.scenario, test.level, measure, ALL, len(blocks), (have.mean, lack.mean), ratio)
 
 
 def _quantiles(distances: Sequence[NDArray[Any]], share: float) -> RunGrid:

@@ -5,20 +5,25 @@ the ratio of the errors on two levels of a factor, means over a robot's walks. I
 over the other factors where it stands for all of their levels; its interval is that of its logarithm over robots.
 """
 
+# pandas has no complete types, which the strict rules of this folder ask for.
+# pyright: standard
+
 import logging
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Mapping, Sequence
 from itertools import product
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 
 from experiments.evaluation.measure.learning.taught import HITS, SHARE_OF_HIT, WALKING, judged
 from experiments.evaluation.measure.learning.trials import Known, read_walks
+from experiments.evaluation.number.frames import ordered, records_of, rows_of
 from experiments.evaluation.number.intervals import Formula, RunGrid, summarise
-from experiments.evaluation.number.number import Number
-from experiments.evaluation.number.rows import Field
-from experiments.evaluation.tables.layout import Line, Table, in_blocks, write_table
+from experiments.evaluation.number.laws import ENDS, fields_of
+from experiments.evaluation.number.number import is_missing
+from experiments.evaluation.tables.layout import Table, write_table
+from experiments.evaluation.tables.look import ShownColumn, TableLook, lines_of
 from experiments.plan.runs import TaughtRobot, Tried
 from experiments.settings.measures import Peaks
 from experiments.settings.runs import Statistics
@@ -40,23 +45,10 @@ EFFECTS = {  # factor -> its level above and below in an effect, and the name of
 }
 PUSHES = {False: "none", True: "often"}
 COMMANDS = {"joystick": "joystick", "random": "varied"}
+OF = {"random_torque": "random_torque_nm", "pushes": "pushes", "commands": "commands"}  # factor -> column of its level
 LOGS = Formula(lambda means: means.mean(axis=0, keepdims=True))  # a mean of numbers of either sign
 log = logging.getLogger(__name__)
 ByRobot = Mapping[str, Mapping[str, Array]]  # variant -> measure -> numbers of walks (robots, walks)
-
-
-@dataclass(frozen=True)
-class Effect:
-    """A ratio of errors on two levels of a factor, at levels of the others or, where they are None, over all of them.
-
-    `numbers` leads from a measure to the ratio [-].
-    """
-
-    name: str
-    torque_nm: float | None
-    pushes: str | None
-    commands: str | None
-    numbers: Mapping[str, Number]
 
 
 def factorial(
@@ -88,18 +80,22 @@ def factorial(
             for key, row in numbers.items():
                 found.setdefault(_label(tried), {}).setdefault(key, []).append(row)
     by_robot = {name: {key: np.array(rows) for key, rows in own.items()} for name, own in found.items()}
-    effects = [*effects_of(by_robot, cells, torque_nm, statistics)]
-    effects.append(_ratio(ANOTHER_DAY, by_robot, [(settings.another_day, settings.same_day)], statistics))
+    effects = effects_of(by_robot, cells, torque_nm, statistics)
+    another = ratios(by_robot, [(settings.another_day, settings.same_day)], statistics)
+    effects = pd.concat([effects, another.assign(name=ANOTHER_DAY)])
     write_table(out, table_of(settings, list(robots), by_robot, cells, torque_nm, effects, statistics))
 
 
-def effects_of(
-    found: ByRobot, cells: Mapping[str, Factors], torque_nm: float, statistics: Statistics
-) -> Iterator[Effect]:
-    """Yield the effect of each factor at each pair of levels of the other two, then over all of them."""
+def effects_of(found: ByRobot, cells: Mapping[str, Factors], torque_nm: float, statistics: Statistics) -> pd.DataFrame:
+    """Return the effect of each factor at each pair of levels of the other two, then over all of them.
+
+    A row has the name of an effect, `measure` and the ratio of errors on two levels of a factor [-]. Levels of the
+    others are `random_torque_nm`, `pushes` and `commands`; they are missing where it is over all of them.
+    """
     names: dict[Factors, str] = {}
     for name, factors in cells.items():
         names.setdefault(factors, name)  # the set of another day comes last, and has a cell's factors
+    rows: list[pd.DataFrame] = []
     for factor, (above, below, title) in EFFECTS.items():
         others = [other for other in EFFECTS if other != factor]
         pairs: list[tuple[str, str]] = []
@@ -107,25 +103,23 @@ def effects_of(
             held = dict(zip(others, levels, strict=True))
             pair = names[Factors(**held, **{factor: above})], names[Factors(**held, **{factor: below})]
             pairs.append(pair)
-            torque = None if factor == "random_torque" else torque_nm * bool(held["random_torque"])
-            pushes = None if factor == "pushes" else PUSHES[bool(held["pushes"])]
-            commands = None if factor == "commands" else COMMANDS[str(held["commands"])]
-            effect = _ratio(title, found, [pair], statistics)
-            yield replace(effect, torque_nm=torque, pushes=pushes, commands=commands)
-        yield _ratio(title, found, pairs, statistics)
+            shown = {name: text for name, text in levels_of(cells[pair[0]], torque_nm).items() if name != OF[factor]}
+            rows.append(ratios(found, [pair], statistics).assign(name=title, **shown))
+        rows.append(ratios(found, pairs, statistics).assign(name=title))
+    return pd.concat(rows, ignore_index=True)
 
 
-def _ratio(name: str, found: ByRobot, pairs: Sequence[tuple[str, str]], statistics: Statistics) -> Effect:
-    """Return the ratio of the errors of pairs of training sets, their geometric mean if there are several."""
-    numbers: dict[str, Number] = {}
+def ratios(found: ByRobot, pairs: Sequence[tuple[str, str]], statistics: Statistics) -> pd.DataFrame:
+    """Return the ratio of the errors of pairs of training sets by measure, of several their geometric mean."""
+    rows: list[dict[str, object]] = []
     for measure in ERRORS:
         logs: list[Array] = []
         for above, below in pairs:
             logs.append(np.log(found[above][measure].mean(axis=1) / found[below][measure].mean(axis=1)))
         number = summarise([_grid(np.mean(logs, axis=0)[:, None])], statistics, LOGS)
         value, low, high = (None if end is None else float(np.exp(end)) for end in number.with_ends)
-        numbers[measure] = Number(value, low, high)
-    return Effect(name, None, None, None, numbers)
+        rows.append({"measure": measure, "value": value, "low": low, "high": high, "unit": "-"})
+    return pd.DataFrame(rows).astype(dict.fromkeys(ENDS, float))
 
 
 def table_of(
@@ -134,61 +128,57 @@ def table_of(
     found: ByRobot,
     cells: Mapping[str, Factors],
     torque_nm: float,
-    effects: Sequence[Effect],
+    effects: pd.DataFrame,
     statistics: Statistics,
 ) -> Table:
     """Return the table: a line for each training set and each method beside them, then those of the effects."""
-    rows: list[Sequence[Field]] = []
-    blocks: dict[str, list[list[str]]] = {"training sets": [], "beside": [], "effects": []}
+    sets: list[dict[str, object]] = []
     for name, numbers in found.items():
-        means = {key: _mean(numbers[key], unit, statistics) for key, unit in UNITS.items()}
         part = "training sets" if name in settings.cells else "beside"
-        levels = _levels(cells[name], torque_nm) if name in cells else (None, None, None)
-        for key, number in means.items():
-            for robot, value in zip(robots, numbers[key].mean(axis=1), strict=True):
-                rows.append((part, name, *levels, key, robot, float(value), None, None, number.unit))
-            rows.append((part, name, *levels, key, ALL, *number.with_ends, number.unit))
-        titles = {**dict.fromkeys(settings.cells, settings.method), settings.another_day: DAY.format(settings.method)}
-        blocks[part].append([titles.get(name, name), *_texts(levels), *_cells(list(means.values()))])
-    for effect in effects:
-        levels = effect.torque_nm, effect.pushes, effect.commands
-        for key, number in effect.numbers.items():
-            rows.append(("effects", effect.name, *levels, key, ALL, *number.with_ends, number.unit))
-        blocks["effects"].append([effect.name, *_texts(levels), *_cells(list(effect.numbers.values())), "", ""])
-    interval = f"{statistics.confidence:.0%}"
-    header = ["", "Random torque [N m]", "Pushes", "Commands", "Walking [N m]", interval]
-    header += [f"Hits, {settings.joint} [N m]", interval, "Share of a hit", interval]
-    lines: list[Line] = in_blocks(([], own) for own in blocks.values())
-    return Table(FACTORIAL, rows, header, lines, left=4)
+        place = {"part": part, "name": name, **(levels_of(cells[name], torque_nm) if name in cells else {})}
+        for measure, unit in UNITS.items():
+            for robot, value in zip(robots, numbers[measure].mean(axis=1), strict=True):
+                sets.append({**place, "measure": measure, "robot": robot, "value": float(value), "unit": unit})
+            number = summarise([_grid(numbers[measure])], statistics, unit=unit)
+            sets.append({**place, "measure": measure, "robot": ALL, **fields_of(number)})
+    both = pd.concat([pd.DataFrame(sets), effects.assign(part="effects", robot=ALL)], ignore_index=True)
+    rows = both.reindex(columns=list(FACTORIAL))
+    titles = {**dict.fromkeys(settings.cells, settings.method), settings.another_day: DAY.format(settings.method)}
+    shown = ordered(rows_of(rows, robot=ALL), part=["training sets", "beside", "effects"])
+    shown = shown.sort_values("part", kind="stable")
+    levels = [torque_text(torque) for torque in shown["random_torque_nm"].tolist()]
+    shown = shown.assign(title=shown["name"].replace(titles), torque=levels)
+    shown = shown.fillna({"pushes": "", "commands": ""})
+    look = look_of(settings, statistics)
+    return Table(FACTORIAL, records_of(rows, FACTORIAL), look.header, lines_of(shown, look), left=4)
 
 
-def _mean(values: Array, unit: str, statistics: Statistics) -> Number:
-    """Return the mean of the numbers of walks (robots, walks) [unit], with its interval over robots."""
-    return summarise([_grid(values)], statistics, unit=unit)
+def look_of(settings: Factorial, statistics: Statistics) -> TableLook:
+    """Return what a reader sees: a line for each training set, method and effect."""
+    heads = {WALKING: "Walking [N m]", HITS: f"Hits, {settings.joint} [N m]", SHARE_OF_HIT: "Share of a hit"}
+    ends = f"{statistics.confidence:.0%}"
+    shown = [ShownColumn(head, {"measure": measure}, ends=ends, none="") for measure, head in heads.items()]
+    labels = {"title": "", "torque": "Random torque [N m]", "pushes": "Pushes", "commands": "Commands"}
+    return TableLook(labels, shown, blocks=["part"])
+
+
+def torque_text(torque_nm: float) -> str:
+    """Return the largest random torque [N m] as text; nothing where there is none, or all."""
+    return "" if is_missing(torque_nm) else f"{torque_nm:g}"
+
+
+def levels_of(factors: Factors, torque_nm: float) -> dict[str, float | str]:
+    """Return the largest random torque [N m], pushes and commands of a training set as the table names them."""
+    return {
+        "random_torque_nm": torque_nm * factors.random_torque,
+        "pushes": PUSHES[factors.pushes],
+        "commands": COMMANDS[factors.commands],
+    }
 
 
 def _grid(values: Array) -> RunGrid:
     """Return numbers of robots and their own walks (robots, walks) [any unit] as runs."""
     return RunGrid(values, robots=tuple(range(len(values))))
-
-
-def _levels(factors: Factors, torque_nm: float) -> tuple[float | None, str | None, str | None]:
-    """Return the largest random torque [N m], pushes and commands of a training set as the table names them."""
-    return torque_nm * factors.random_torque, PUSHES[factors.pushes], COMMANDS[factors.commands]
-
-
-def _texts(levels: tuple[float | None, str | None, str | None]) -> list[str]:
-    """Return levels of the factors as text; nothing where there are none, or all."""
-    torque, pushes, commands = levels
-    return ["" if torque is None else f"{torque:g}", pushes or "", commands or ""]
-
-
-def _cells(numbers: Sequence[Number]) -> list[str]:
-    """Return the texts of numbers, each before that of its interval."""
-    cells: list[str] = []
-    for number in numbers:
-        cells += [number.text(), number.interval()]
-    return cells
 
 
 def _label(tried: Tried) -> str:
