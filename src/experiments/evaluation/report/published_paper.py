@@ -57,7 +57,7 @@ def published_paper(stored: Stored, out: Path) -> None:
         copy_sources({".": [MAIN, REFERENCES], TABLES: tables_of(plan, stored.results)}, folder)
         (folder / FIGURES).mkdir()
         shown = draw_figures(stored, plan.drawn, folder / FIGURES)
-        log.info("%d figures are drawn; TeX sets the paper", len(shown))
+        log.info("%d figures are drawn or copied; TeX sets the paper", len(shown))
         deviations(DEVIATIONS, folder / TABLES / "deviations.tex")
         absent = write_texts(plan, stored.results, shown, folder)
         if absent:
