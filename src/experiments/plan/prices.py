@@ -17,8 +17,7 @@ LIKE = {  # kind of jobs -> that whose rates count where it has none
     "train_stack": "train",  # both read and are prepared
     "falls": "collect",  # both walk robots
     "claims_tolerance": "claims_summary",  # both count what the table of claims holds
-    "why_share": "figure_18",  # both draw what stands in tables
-    "hit_path": "figure_18",
+    "figure": "pages",  # any figure that the published run did not draw; both read tables
 }
 Rates = Mapping[str, float]  # amount -> what a unit of it takes
 
@@ -62,8 +61,9 @@ class Priced:
 
 
 def kind_of(work: Work, kinds: Mapping[str, Kind]) -> Kind | None:
-    """Return the rates of a job's kind, or of the one that is like it; None where there are none."""
-    return kinds.get(work.kind) or kinds.get(LIKE.get(work.kind, work.kind))
+    """Return the rates of a job's kind, or of the one that is like it or its rule; None where there are none."""
+    rule = work.job.partition("/")[0]
+    return kinds.get(work.kind) or kinds.get(LIKE.get(work.kind, LIKE.get(rule, "")))
 
 
 def priced(plan: Plan, rates: RatesNote, gpu: GpuRates | None, planned: Iterable[PlannedJob]) -> list[Priced]:

@@ -52,10 +52,10 @@ MORE = {
     "phases": 5,
     "changed": 10,
     "hourly": 6,
-    "table_09": 6,
+    "table_09": 7,  # this and the next ones: settings.counts says how much a cell of theirs counts
     "safety": 6,
-    "sensorless": 5,
-    "found_by_rate": 5,
+    "sensorless": 6,
+    "found_by_rate": 6,
     "smallest_force": 5,
     "latency": 6,
     "claims_summary": 8,
@@ -125,7 +125,7 @@ def test_few_files_name_a_product() -> None:
         paths += (ROOT / folder).rglob("*.py")
     named: list[set[str]] = []
     for path in paths:
-        is_section = path.parent.name == "settings" and path.stem in SECTIONS
+        is_section = path.parent.name in ("settings", "checks") and path.stem in SECTIONS  # and its checks
         if not is_section and path != Path(__file__):
             named.append(names_in(path))
     counts = {name: sum(name in names for names in named) for name in ROWS}

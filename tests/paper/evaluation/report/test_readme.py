@@ -173,8 +173,8 @@ def test_a_run_without_a_control_tells_of_none(results: Path) -> None:
 def test_sentences_have_the_numbers_of_tables_and_the_falls_of_reactions_that_do_not_wait(results: Path) -> None:
     text = made(results)
     assert "it shows 75 % in the mean; MOB-Net, trained with few pushes as the original, shows 40 %" in text
-    assert "finds 50 % of the hits on a swinging leg with 2.5 counted false alarms an hour" in text
-    assert "1 of 20 end in a fall where the robot steps back after an alarm, 20 of 20 where it does not" in text
+    assert "finds 50 % of the hits on a swinging leg (2.5 counted false alarms an hour)" in text
+    assert "1 of 20 end in a fall if the robot steps back after an alarm, 20 of 20 if not" in text
 
 
 @pytest.mark.parametrize("claim", SAID)
@@ -248,7 +248,7 @@ def test_what_a_stranger_sees_first_is_the_finding_the_original_the_commands_and
 def test_every_word_that_a_stranger_does_not_know_is_explained_before_or_in_the_glossary() -> None:
     text = " ".join(README.read_text().split())
     for word, told in (
-        ("the torque of MOB-Net-pushed", "MOB-Net-pushed, trained with a push in nearly every swing"),
+        ("MOB-Net-pushed, as torque", "MOB-Net-pushed, trained with a push in nearly every swing"),
         ("best friction formula has", "Our best formula was chosen"),
         ("the residual,", "What it cannot explain"),
     ):
