@@ -25,10 +25,10 @@ class Ranges:
     size: Bounds | None
     sign: Bounds | None
 
-    @property
-    def shown(self) -> Bounds:
-        """The range that pictures and tables show: that of the size, or else that of the sign."""
-        return self.size or self.sign or ANY
+
+def shown_range(ranges: Ranges) -> Bounds:
+    """Return the range that pictures and tables show: that of the size, or else that of the sign."""
+    return ranges.size or ranges.sign or ANY
 
 
 def ranges_of(claim: Claim) -> Ranges:

@@ -24,7 +24,7 @@ from experiments.evaluation.measure.learning.taught import HITS, ROUGHNESS, SHAR
 from experiments.evaluation.number.number import Number, number_text, shown_name
 from experiments.evaluation.report.blocks import with_block
 from experiments.evaluation.tables.layout import markdown_table
-from experiments.settings.claim_ranges import Bounds, apart, range_text, ranges_of, within
+from experiments.settings.claim_ranges import Bounds, apart, range_text, ranges_of, shown_range, within
 from experiments.settings.load import load_settings
 from experiments.settings.settings import Settings
 from mobnet.core.errors import DataError
@@ -99,8 +99,8 @@ def predictions_of(settings: Settings) -> list[Predicted]:
         if at.scenario == settings.trials.why.as_in:
             measure = SHARE_OF_HIT if at.metric == SHOWN else HITS
         cells = [_cell(cell.method or "", way) for cell in claim.cells]
-        found.append(Predicted(says, f"`{name}`", measure, cells, ranges_of(claim).shown))
-    least = ranges_of(settings.claims[LEAST_RATIO]).shown[0]
+        found.append(Predicted(says, f"`{name}`", measure, cells, shown_range(ranges_of(claim))))
+    least = shown_range(ranges_of(settings.claims[LEAST_RATIO]))[0]
     pair = [LearnedCell(WITH_TORQUE, method, way) for method in (END_TO_END, MOB_NET)]
     says = "error under hits with the original's inputs, FTS-e2e over MOB-Net"
     found.append(Predicted(says, "", HITS, pair, (None, least)))

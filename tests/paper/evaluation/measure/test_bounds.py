@@ -7,7 +7,7 @@ import yaml
 from csv_files import GOLDEN
 
 from experiments.evaluation.measure.claims.verdicts import rows_of
-from experiments.settings.claim_ranges import Bounds, apart, common, range_text, ranges_of, within
+from experiments.settings.claim_ranges import Bounds, apart, common, range_text, ranges_of, shown_range, within
 from experiments.settings.claims import Claim
 from experiments.settings.settings import Settings
 from experiments.settings.verdicts import NOT_PRINTED
@@ -93,7 +93,7 @@ def test_no_bound_is_wider_than_before_but_those_that_the_header_names(settings:
     older = yaml.safe_load((GOLDEN / "older_bounds.yaml").read_text())
     assert older.keys() <= settings.claims.keys()
     for name in older.keys() - BY_SIGN - BY_A_FIFTH - BY_DIFFERENCE:
-        before, now = older[name][0], ranges_of(settings.claims[name]).shown
+        before, now = older[name][0], shown_range(ranges_of(settings.claims[name]))
         for end, was, is_ in zip((-1.0, 1.0), before, now, strict=True):
             assert was is None or (is_ is not None and end * (is_ - was) <= ROUNDED * abs(was)), name
 

@@ -25,7 +25,7 @@ from experiments.evaluation.measure.claims.places import (
 )
 from experiments.evaluation.measure.claims.verdicts import Judged
 from experiments.evaluation.number.number import Number
-from experiments.settings.claim_ranges import range_text
+from experiments.settings.claim_ranges import range_text, shown_range
 from experiments.settings.table_columns import FOREST
 from experiments.settings.verdicts import (
     DESCRIPTION,
@@ -172,7 +172,7 @@ def _row(axis: Axes, row: float, statement: StatementPosition) -> None:
     ours = "not measured" if judged.ours.value is None else f"{value} {interval}{unit}"
     _text(axis, COLUMN_INCH["ours"], row, ours, color=colour)
     printed = Number(claim.published, unit=judged.ours.unit).texts()[0]
-    other = range_text(judged.ranges.shown) if place.axis == BEYOND_BOUND else printed
+    other = range_text(shown_range(judged.ranges)) if place.axis == BEYOND_BOUND else printed
     _text(axis, COLUMN_INCH["other"], row, other, ha="right")
     _place(axis, row, place)
 

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from experiments.evaluation.measure.claims.verdicts import WORST_FIRST, Judged
-from experiments.settings.claim_ranges import Bounds
+from experiments.settings.claim_ranges import Bounds, shown_range
 from experiments.settings.verdicts import VERDICTS
 
 OVER_PAPER, BEYOND_BOUND = "ours over the original's", "beyond the bound"  # what an axis has
@@ -67,7 +67,7 @@ def over_paper(judged: Judged) -> ClaimPosition:
         return (1.0 - number) / (1.0 - published) if is_cut else number / published
 
     (value, low, high) = map(over, judged.ours.with_ends)
-    (first, last) = map(over, judged.ranges.shown)
+    (first, last) = map(over, shown_range(judged.ranges))
     return ClaimPosition(judged, OVER_PAPER, (value, *in_order(low, high, is_cut)), in_order(first, last, is_cut))
 
 
@@ -78,7 +78,7 @@ def in_order(low: float | None, high: float | None, turned: bool) -> tuple[float
 
 def beyond_bound(judged: Judged) -> ClaimPosition:
     """Return how far our number lies on the claimed side of its bound, as a share of the farthest end [-]."""
-    found = [None if number is None else margin(number, judged.ranges.shown) for number in judged.ours.with_ends]
+    found = [None if number is None else margin(number, shown_range(judged.ranges)) for number in judged.ours.with_ends]
     held = [each for each in found if each is not None]
     scale = max(map(abs, held), default=0.0) or 1.0
     value, low, high = (None if each is None else each / scale for each in found)

@@ -14,7 +14,7 @@ from experiments.evaluation.measure.claims.cells import Evidence, listed
 from experiments.evaluation.measure.claims.deciding import Effort, effort_of, text_of
 from experiments.evaluation.number.number import Number
 from experiments.evaluation.number.quantities import QUANTITIES, difference_of
-from experiments.settings.claim_ranges import Bounds, Ranges, apart, ranges_of, within
+from experiments.settings.claim_ranges import Bounds, Ranges, apart, ranges_of, shown_range, within
 from experiments.settings.claims import Claim, MadeNumber, TrainingMetric, by_other_reading
 from experiments.settings.runs import Statistics
 from experiments.settings.verdicts import (
@@ -188,7 +188,7 @@ def judged(row: Row, found: ClaimNumbers, score: str, statistics: Statistics) ->
     size, sign, verdict = verdicts_of(found, ranges)
     explained = False
     if verdict in (NOT_REPRODUCED, SIGN_ONLY) and found.without is not None:
-        explained = is_within(found.without, ranges.shown)
+        explained = is_within(found.without, shown_range(ranges))
     efforts: list[Effort] = []
     if size == OPEN and ranges.size:
         efforts.append(effort_of(row.claim, found.ours, ranges.size, "size", statistics))

@@ -7,7 +7,7 @@ from experiments.evaluation.measure.claims.verdicts import Judged
 from experiments.evaluation.number.number import number_text
 from experiments.evaluation.number.rows import Field
 from experiments.evaluation.tables.layout import GAP, Line, Table, long_table, tex_escape, write_table
-from experiments.settings.claim_ranges import ANY, range_text
+from experiments.settings.claim_ranges import ANY, range_text, shown_range
 from experiments.settings.table_columns import CLAIMS
 from experiments.settings.verdicts import STAND_INS
 
@@ -75,7 +75,15 @@ def line_of(each: Judged) -> list[str]:
     claim = each.row.claim
     unit = "" if each.ours.unit == "-" else f" {each.ours.unit}"
     ours = [number_text(claim.published), *each.ours.texts()]
-    return [says(each), claim.printed, *ours, range_text(each.ranges.shown) + unit, each.size, each.sign, each.verdict]
+    return [
+        says(each),
+        claim.printed,
+        *ours,
+        range_text(shown_range(each.ranges)) + unit,
+        each.size,
+        each.sign,
+        each.verdict,
+    ]
 
 
 def with_remarks(judged: Sequence[Judged]) -> Iterator[Line]:
