@@ -61,7 +61,7 @@ def test_rules_make_bounds_of_the_number_of_the_paper(made: Claim, size: Bounds 
     assert (found.size is None) == (size is None)
     assert found.size is None or found.size == pytest.approx(size)
     assert found.sign == sign
-    assert found.shown == (found.size or sign)
+    assert shown_range(found) == (found.size or sign)
 
 
 def test_a_growth_of_thirty_percent_does_not_reproduce_one_of_seven(settings: Settings) -> None:
