@@ -173,6 +173,7 @@ def test_a_figure_of_a_trial_is_drawn_where_its_data_are(
     plan: Plan, monkeypatch: Any, tmp_path: Path, name: str, kept: str
 ) -> None:
     monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("experiments.plan.project.ROOT", tmp_path)
     assert name not in {product.name for product in make_plan(plan.settings, with_pdf=False).products}
     (tmp_path / "docs/trials").mkdir(parents=True)
     (tmp_path / kept).touch()

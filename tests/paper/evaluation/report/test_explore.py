@@ -222,7 +222,8 @@ def test_without_any_push_there_is_no_page(recorded, settings, robot_table, tmp_
     scenes = {"b": scene_of(recorded, settings, from_s=6.0)}
     with pytest.raises(DataError, match="no recording has a push that the page shows"):
         explore(evaluation.explore, evaluation.story, settings.detection, evaluation.peaks, robot_table, None, scenes,
-                tmp_path / "c.csv", tmp_path / "d.csv", [REPO / EXPLORE[0]], tmp_path / "explore.html")  # fmt: skip
+                tmp_path / "c.csv", tmp_path / "d.csv", [REPO / TEMPLATES / EXPLORE[0]],
+                tmp_path / "explore.html")  # fmt: skip
 
 
 def test_the_page_is_written_and_its_numbers_are_json(recorded, settings, robot_table, tmp_path):
@@ -231,7 +232,7 @@ def test_the_page_is_written_and_its_numbers_are_json(recorded, settings, robot_
     scenes = {"b": scene_of(recorded, settings), "c": scene_of(recorded, settings, from_s=6.0)}
     explore(evaluation.explore, evaluation.story, settings.detection, evaluation.peaks, robot_table,
             robot_table.looks, scenes, tmp_path / "c.csv", tmp_path / "d.csv",
-            [REPO / path for path in EXPLORE], out)  # fmt: skip
+            [REPO / TEMPLATES / name for name in EXPLORE], out)  # fmt: skip
     told = json.loads(re.search(r'id="told">(.*?)</script>', out.read_text(), re.DOTALL)[1])
     assert [scene["name"] for scene in told["scenes"]] == ["b"]
     assert told["scenes"][0]["flags"]["pushed"] == [[LEAD + 1700, LEAD + 1800]]
