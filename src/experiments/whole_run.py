@@ -28,6 +28,7 @@ from experiments.plan.plan import (
     with_precision,
     with_stacks,
 )
+from experiments.plan.project import in_project
 from experiments.plan.room import check_room, share_at_once
 from experiments.plan.schedule import TimedJob
 from experiments.plan.targets import faults_of_words, made_line
@@ -136,7 +137,7 @@ class WorkflowRun:
         """End with one line where a word of the call names no target and no rule, once there are rules."""
         if self._words is None:
             return
-        if DOCS in self._targets and self._folder != self._root:
+        if DOCS in self._targets and not in_project():
             sys.exit(f"{DOCS}: the pages are made in the folder of the project alone; leave --directory out")
         rules = list(self._workflow.rules)
         fault = next(faults_of_words(self._words, rules, self.plan.shown, self.settings.scales), None)
