@@ -16,6 +16,7 @@ HELD = "held"
 LIKE = {  # kind of jobs -> that whose rates count where it has none
     "train_stack": "train",  # both read and are prepared
     "falls": "collect",  # both walk robots
+    "ten_first": "claims_summary",  # both read the table of claims
     "claims_tolerance": "claims_summary",  # both count what the table of claims holds
     "figure": "pages",  # any figure that the published run did not draw; both read tables
 }

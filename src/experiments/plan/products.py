@@ -28,7 +28,7 @@ EXPLORE = (
     "explore_robot.js", "explore_plots.js", "explore_state.js", "explore.js",
 )  # fmt: skip
 TABLE, FIGURE = ("csv", "tex", "md"), ("pdf", "svg", "png", "csv")  # endings of a table's and of a figure's files
-COUNTED = ("claims_summary", "claims_tolerance")  # tables of what the table of claims holds
+COUNTED = ("claims_summary", "claims_tolerance", "ten_first")  # tables of what the table of claims holds
 STILL = "push"  # the picture beside the film
 FILM, DRAWN = ("webp", "gif", "png", "csv"), ("method", "robot")  # endings of the film's files; drawings
 TESTS = (  # scenario and level of those whose errors the lists of trainings show, the first that has a network

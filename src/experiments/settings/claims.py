@@ -27,6 +27,7 @@ from mobnet.settings.base import (
 )
 from mobnet.settings.reading import Place, mapping
 
+MOST_FIRST = 10  # statements that stand before all others
 SHORT_CELL = ("level", "method", "joint")
 Quantity = Literal[
     "value",
@@ -211,7 +212,9 @@ class Claim(MadeNumber):
     joint: its cells have this joint, and the paper prints this number. `sign` is the range of the claimed sign, where
     the rule does not make it, and `sign_of` the number that has it, where that is not the claim's own. `decided_at` are
     the scales whose walks decide it, where not all do that decide claims; elsewhere it stays open. `about` is the
-    method that it speaks for, where that is not MOB-Net or else the first network that it names.
+    method that it speaks for, where that is not MOB-Net or else the first network that it names. `described` is why it
+    is shown and never judged. `first` is its place among the ten statements that stand before all others, `picture` the
+    figure that shows it.
     """
 
     statement: ClaimName | None = None
@@ -228,6 +231,9 @@ class Claim(MadeNumber):
     decided_at: tuple[ScaleName, ...] = ()
     cause: Cause | None = None
     other: OtherReading | None = None
+    described: Text | None = None
+    first: Annotated[int, Field(ge=1, le=MOST_FIRST)] | None = None
+    picture: LowerName | None = None
 
     @model_validator(mode="after")
     def _has_what_its_rule_needs(self) -> Claim:

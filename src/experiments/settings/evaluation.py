@@ -420,6 +420,7 @@ CLAIMED: Mapping[str, MadeBy] = {  # products made from the claims, which are no
     ),
     "claims_summary": MadeBy("tables.further.claims_summary:claims_summary", table=True),
     "claims_tolerance": MadeBy("tables.further.claims_tolerance:claims_tolerance", table=True),
+    "ten_first": MadeBy("tables.further.ten_first:ten_first", table=True),
 }
 ENTRIES = ("tables", "figures")  # fields whose entries are products, each by its own name
 PRODUCTS: Mapping[str, MadeBy] = {**rows_of(Evaluation), **CLAIMED}

@@ -15,7 +15,8 @@ STAND_INS = {"zero": "with_zero", "MOB": "with_mob", SHUFFLED: "with_shuffled"}
 # Outcomes of them: statements that a method could be judged on, and those that would be reproduced
 JUDGED_WITH, REPRODUCED_WITH = "judged with {}", "reproduced with {}"
 # Verdicts on the size and on the sign of a claim; both together, in the order in which they are shown: what counts
-# against us first. A description would be reproduced, but its number tells too little to be counted as that.
+# against us first. A description would be reproduced, but its number tells too little to be counted as that, or it is
+# never judged.
 OPEN = "open"
 INSIDE, OUTSIDE = "inside", "outside"
 SIZE_VERDICTS = (INSIDE, OUTSIDE, OPEN)

@@ -129,6 +129,11 @@ def commit() -> str:
     return f"{name}{CHANGED}" if _git("status", "--porcelain", "--untracked-files=no") else name
 
 
+def commit_of(file: Path) -> str:
+    """Return the last commit that changed a file of this checkout; `unknown` without git."""
+    return _git("log", "-1", "--format=%H", "--", str(file)) or UNKNOWN
+
+
 def _git(*words: str) -> str | None:
     """Return what git says about this checkout, or None without git."""
     try:

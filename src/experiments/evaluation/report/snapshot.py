@@ -24,6 +24,7 @@ from experiments.evaluation.report.model_card import CARD, card
 from experiments.evaluation.report.paper import missing_packages
 from experiments.evaluation.report.rates import measured
 from experiments.evaluation.report.readme import tell_readme
+from experiments.evaluation.report.registered import check_registered, note_registered
 from experiments.evaluation.report.single_rows import write_single_rows
 from experiments.evaluation.report.walked import SEEDS, check_seeds, read_history, walked, write_history
 from experiments.plan.demo import FOLDER
@@ -298,6 +299,7 @@ def store(manifest: Path) -> None:
     """
     settings = load_settings()
     # Everything is checked before the first file is replaced: a refused snapshot leaves the old one whole.
+    check_registered(settings)
     check_run(RESULTS, manifest)
     check_fingerprints("all")
     plan = make_plan(settings, with_pdf=not missing_packages())
@@ -305,6 +307,7 @@ def store(manifest: Path) -> None:
     run = walked(plan.files, commit())
     check_seeds(run, published)
     write_snapshot(settings, TABLES, FIGURES, FURTHER, SNAPSHOT)
+    note_registered(SNAPSHOT)
     store_paper(PAPER, SNAPSHOT)
     detections = all_detections(plan.files)
     reactions = all_reactions(plan.files)

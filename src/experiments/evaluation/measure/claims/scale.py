@@ -146,7 +146,13 @@ def control_of(claim: Claim, results: Evidence, statistics: Statistics, known: K
 
 
 def scaled(judged: Judged, control: Mapping[str, str], known: KnownMethods) -> Judged:
-    """Return a judged claim with its control; one that tells too little to be counted becomes a description."""
+    """Return a judged claim with its control; one that tells too little to be counted becomes a description.
+
+    A claim that is only described is one whatever its number, against us or for us.
+    """
+    described = judged.row.claim.described
+    if described and judged.verdict != NOT_MEASURED:
+        return replace(judged, control=control, verdict=DESCRIPTION, weaknesses=(described,), efforts=())
     weaknesses = weaknesses_of(judged, control, known)
     if judged.verdict != REPRODUCED or not weaknesses:
         return replace(judged, control=control)

@@ -41,6 +41,7 @@ DETECTOR = re.compile("-(OR|mean|sigma|ratio)$")  # what the name of a detector 
 NO_CAUSE = "No cause found."
 TO_MEASURE = "Not measured: the run lacks a test or training for it, or defined the number otherwise."
 NOT_COUNTED = "Not counted as reproduced: {}."
+NOT_JUDGED = "Described, not judged: {}"
 WORST_FIRST = (NOT_REPRODUCED, SIGN_ONLY, NOT_MEASURED, OPEN, DESCRIPTION, SIGN_AT_LEAST, REPRODUCED)
 
 
@@ -136,6 +137,8 @@ class Judged:
         """
         if self.verdict == NOT_MEASURED:
             return TO_MEASURE
+        if self.row.claim.described:
+            return NOT_JUDGED.format(self.row.claim.described)
         if self.verdict == DESCRIPTION:
             return NOT_COUNTED.format("; ".join(self.weaknesses))
         if self.verdict in (NOT_REPRODUCED, SIGN_ONLY):
