@@ -27,7 +27,8 @@ def test_there_are_ten_and_each_has_one_picture(settings: Settings) -> None:
     first = [claim for claim in settings.claims.values() if claim.first]
     assert {claim.first for claim in first} == {*range(1, MOST_FIRST + 1)}
     pictures = Counter(claim.first for claim in first if claim.picture)
-    assert set(pictures.values()) == {1} and pictures.keys() == {claim.first for claim in first}
+    assert set(pictures.values()) == {1}
+    assert pictures.keys() == {claim.first for claim in first}
     drawn = {*settings.evaluation.figures, *type(settings.evaluation).model_fields}
     assert {claim.picture for claim in first if claim.picture} <= drawn
 
