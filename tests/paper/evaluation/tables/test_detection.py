@@ -212,6 +212,7 @@ def test_pairs_and_shares_at_a_counted_rate_stand_in_the_table(settings: Setting
     assert rows["MOB-Net-sigma", "collision", "robot_1", "reference alone"].value == 12
     assert rows["MOB-Net-sigma", "collision", "all", "this alone"].value == 0
     assert rows["MOB-Net-sigma", "collision", "all", "sign test"].value == pytest.approx(2.0**-11)
+    assert rows["MOB-Net-sigma", "collision", "all", "reference's share"].value == 1.0
     assert ("MOB-Net-OR", "collision", "all", "this alone") not in rows
     # ratios of quiet swings end at 1.0098 of the threshold: at most 2 of 200 lie above it, 10 an hour in 0.2 h
     assert rows["MOB-Net-OR", "counted", "all", "found at a counted rate"].value == pytest.approx(1.0)

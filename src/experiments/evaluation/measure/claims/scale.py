@@ -81,8 +81,11 @@ def is_training(cell: Cell) -> bool:
 def in_place(claim: Claim, network: str, stand_in: str) -> Claim | None:
     """Return a claim with another method in the place of a network.
 
-    It is None where the claim is about trainings, and where the other method would be compared with itself.
+    It is None where the claim is about trainings, where the other method would be compared with itself, and where no
+    cell names the network, as of a pair of detectors of which the table names the other one.
     """
+    if network not in {name_of(cell) for cell in claim.cells}:
+        return None
     made = _with(claim, network, stand_in)
     signed = _with(claim.sign_of, network, stand_in) if claim.sign_of else None
     if made is None or (claim.sign_of and signed is None):

@@ -17,7 +17,7 @@ from experiments.evaluation.measure.detection.results import (
     read_of_leg,
     sign_test,
 )
-from experiments.evaluation.number.clusters import share_in
+from experiments.evaluation.number.clusters import ClusterKey, share_in
 from experiments.evaluation.number.frames import rows_of
 from experiments.evaluation.number.laws import fields_of, mean, measured, share
 from experiments.evaluation.number.number import Number
@@ -35,6 +35,7 @@ DELAY = "delay"
 COUNTED = "found at a counted rate"
 FIRST_ONLY, THIS_ONLY = "reference alone", "this alone"  # numbers of collisions
 CHANCE = "sign test"
+PREFERRED = "reference's share"  # of the collisions that only one of both finds
 LEAST_CHANCE = 0.01  # that is written out
 MEASURED = "counted"  # rule of thresholds at which a rate of false alarms was counted
 PLACE = ["level", "detector", "leg", "kind", "cell"]
@@ -63,7 +64,7 @@ def found_by_rate(
         parts.append(rows_of(counted, level=level, detector=name))
         reference = rows_of(at_collisions, level=level, detector=settings.reference)
         if name != settings.reference and len(reference):
-            parts.append(pairs_of(reference, own))
+            parts.append(pairs_of(reference, own, statistics))
     rows = pd.concat(parts, ignore_index=True)
     sentences: list[str] = []
     for level, own in found.groupby("level", observed=True):
@@ -113,9 +114,13 @@ def counted_of(
     return pd.DataFrame(rows)
 
 
-def pairs_of(reference: pd.DataFrame, tried: pd.DataFrame) -> pd.DataFrame:
-    """Return how many collisions the reference alone and a detector alone find, robot by robot and together."""
+def pairs_of(reference: pd.DataFrame, tried: pd.DataFrame, statistics: Statistics) -> pd.DataFrame:
+    """Return how many collisions the reference alone and a detector alone find, robot by robot and together.
+
+    Of those that only one of both finds stands the share of the reference, with an interval over robots.
+    """
     pairs = only_one(reference, tried)
+    preferred = preferred_share(pairs, statistics)
     pairs.loc[ALL] = pairs.sum()
     place = dict(tried[["level", "detector", "leg", "kind"]].iloc[0])
     rows: list[dict[str, object]] = []
@@ -125,7 +130,19 @@ def pairs_of(reference: pd.DataFrame, tried: pd.DataFrame) -> pd.DataFrame:
         for quantity, value in numbers.items():
             number = fields_of(Number(value))
             rows.append({**place, "cell": cell, "quantity": quantity, **number, "count": counts[quantity]})
+    discordant = int(pairs.loc[ALL].sum())
+    rows.append({**place, "cell": ALL, "quantity": PREFERRED, **fields_of(preferred), "count": discordant})
     return pd.DataFrame(rows)
+
+
+def preferred_share(pairs: pd.DataFrame, statistics: Statistics) -> Number:
+    """Return the share of collisions that the first detector finds of those that only one finds, robot by robot [-]."""
+    flags: list[bool] = []
+    places: list[ClusterKey] = []
+    for robot, first, second in pairs.itertuples():
+        flags += [True] * first + [False] * second
+        places += [ClusterKey(robot, 0)] * (first + second)
+    return share_in(flags, places, statistics)
 
 
 def _chance_text(row: Row) -> str:
