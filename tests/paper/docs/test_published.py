@@ -113,7 +113,7 @@ def test_the_walks_that_figure_22_shows_falling_are_counted() -> None:
     assert {row["case"] for row in rows if row["fell"] == "1"} == {case for case in drawn if shares[case] > 0.0}
     assert r"\cellshare{safety@door@MOB-Net-pushed-ratio@reaction@0@falls}" in MAIN
     caption = (ROOT / "workflow/report/figures/figure_22.rst").read_text()
-    assert "{cellshare:safety@door@MOB-Net-pushed-ratio@reaction@0@falls}" in caption
+    assert 'cellshare("safety@door@MOB-Net-pushed-ratio@reaction@0@falls")' in caption
     assert "the title counts all walks of the case" in " ".join(caption.split())
 
 

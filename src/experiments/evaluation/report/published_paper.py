@@ -91,9 +91,9 @@ def draw_figures(stored: Stored, names: tuple[str, ...], folder: Path) -> set[st
 
 def write_texts(plan: Plan, results: Path, shown: Collection[str], folder: Path) -> list[str]:
     """Write the numbers and captions that the text takes; return the names of the numbers that it lacks."""
+    write_text(folder / TABLES / CAPTIONS, captions_tex(captions_of(plan, shown)))
     values = values_in(plan, results)
-    write_text(folder / TABLES / CAPTIONS, captions_tex(captions_of(plan, shown), values))
-    asked = names_in(read_text(folder / MAIN.name) + read_text(folder / TABLES / CAPTIONS))
+    asked = names_in(read_text(folder / MAIN.name))
     absent = [name for name in asked if name not in values]
     write_text(folder / TABLES / NUMBERS, numbers_tex(values, absent))
     return absent

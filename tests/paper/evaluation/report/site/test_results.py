@@ -20,7 +20,8 @@ def pages(tmp_path: Path, settings) -> dict[str, str]:
         for name in names:
             captions.append(tmp_path / kind / f"{name}.rst")
             captions[-1].parent.mkdir(exist_ok=True)
-            captions[-1].write_text(f"Title of {kind} {name}\n\nText of ``{name}`` and {{found:mob-exact}} N m.\n")
+            field = '{{ found("mob-exact") }}'
+            captions[-1].write_text(f"Title of {kind} {name}\n\nText of ``{name}`` and {field} N m.\n")
     for name in ("sigma.png", "figure_06.png", "figures/figure_06.csv.gz", "figures/figure_06_bars.csv.gz"):
         (results / name).touch()
     for name in ("sigma", "table_05"):
