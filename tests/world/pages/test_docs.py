@@ -9,7 +9,7 @@ import pytest
 from browser import with_browser
 from links import broken, outside
 
-from experiments.evaluation.report.docs import SEARCHED, accessible, build, modules_of, relinked, with_words
+from experiments.site.docs import SEARCHED, accessible, build, modules_of, relinked, with_words
 from mobnet.core.errors import DataError
 from mobnet.settings.reading import read_yaml
 
