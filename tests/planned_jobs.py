@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from experiments.evaluation.report.machines import stacks_word
 from experiments.plan.dry_run import dry_run
+from experiments.site.machines import stacks_word
 
 ROOT = Path(__file__).parents[1]
 COMPILED = Path(".cache") / "numba"

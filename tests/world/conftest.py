@@ -5,8 +5,8 @@ from once import once
 from paper_settings import recipe_of, settings, settings_at
 from planned_jobs import ROOT
 
-from experiments.evaluation.report.docs import docs
 from experiments.plan.plan import make_plan
+from experiments.site.docs import docs
 
 __all__ = ["recipe_of", "settings"]
 

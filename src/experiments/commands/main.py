@@ -26,9 +26,9 @@ MODULES = {  # command -> the module that `python -m` runs, with words that come
     "demo": ("experiments.demo",),
     "cost": ("experiments.evaluation.report.cost",),
     "sheet": ("experiments.sheet",),
-    "draw": ("experiments.evaluation.report.redraw",),
-    "paper": ("experiments.evaluation.report.published_paper",),
-    **{name: ("experiments.evaluation.report.snapshot", name) for name in ("verify", "compare", "snapshot")},
+    "draw": ("experiments.site.redraw",),
+    "paper": ("experiments.site.published_paper",),
+    **{name: ("experiments.site.snapshot", name) for name in ("verify", "compare", "snapshot")},
 }
 # Their words are files of the caller, no code of ours.
 OUTSIDE = ("check", "demo", *LAB)

@@ -76,7 +76,7 @@ def documentation(files: Files) -> Iterator[Product]:
     out = files.shared / "docs"
     settings = files.settings
     shared = {"claims": settings.claims, "statistics": settings.evaluation.statistics, "out": out}
-    call = Call("experiments.evaluation.report.docs:docs", {**given, **shared})
+    call = Call("experiments.site.docs:docs", {**given, **shared})
     yield Product("docs", call, tuple(made_by_jobs(given)), (str(out),))
 
 

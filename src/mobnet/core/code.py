@@ -134,6 +134,12 @@ def commit_of(file: Path) -> str:
     return _git("log", "-1", "--format=%H", "--", str(file)) or UNKNOWN
 
 
+def changed_between(first: str, second: str) -> list[str] | None:
+    """Return the files of this checkout in which two commits differ; None where git does not know both."""
+    names = _git("diff", "--name-only", "--no-renames", first, second)
+    return None if names is None else names.splitlines()
+
+
 def _git(*words: str) -> str | None:
     """Return what git says about this checkout, or None without git."""
     try:

@@ -317,7 +317,7 @@ def test_the_hash_of_a_rule_has_its_script() -> None:
             assert hashed == scripts or (scripts == ["product"] and "**product(" in rule), rule
             found += scripts
     assert set(found) | {"warm"} == {path.stem for path in code.ROOT.glob("workflow/scripts/*.py")}
-    call = Call("experiments.evaluation.report.docs:docs", {})
+    call = Call("experiments.site.docs:docs", {})
     script = code.ROOT / "workflow" / "scripts" / "product.py"
     assert Product("docs", call, (), ()).code == code_hash(script, call.module)
 

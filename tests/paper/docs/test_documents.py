@@ -16,9 +16,9 @@ from links import broken
 from snakemake.cli import get_argument_parser
 
 from experiments.commands.words import PARSERS, parse
-from experiments.evaluation.report.readme import FOUND, FOUND_TEMPLATE, TEMPLATE, found, readme, scales
 from experiments.plan.plan import make_plan
 from experiments.settings.load import load_settings
+from experiments.site.readme import FOUND, FOUND_TEMPLATE, TEMPLATE, found, readme, scales
 from mobnet.commands import COMMANDS as LAB
 from mobnet.commands import demo_parser
 from mobnet.core.errors import MobnetError
@@ -168,7 +168,7 @@ def test_a_command_that_there_is_not_is_found(line, made):
 
 
 def test_readme_findings_and_guide_have_the_numbers_of_the_published_results():
-    """`python -m experiments.evaluation.report.readme` writes them."""
+    """`python -m experiments.site readme` writes them."""
     results = ROOT / "docs" / "results"
     assert (ROOT / FOUND).read_text() == found(results, ROOT / FOUND_TEMPLATE)
     assert (ROOT / "README.md").read_text() == readme(results, ROOT / TEMPLATE)

@@ -8,11 +8,11 @@ from pathlib import Path
 import pytest
 
 from experiments.evaluation.measure.claims.verdicts import NO_CAUSE
-from experiments.evaluation.report.judge_again import judged_again
 from experiments.evaluation.tables.further.claims_table import record_of
 from experiments.settings.claim_ranges import apart, within
 from experiments.settings.load import load_settings
 from experiments.settings.verdicts import DESCRIPTION, NOT_MEASURED, NOT_PRINTED, NOT_REPRODUCED, OPEN, OURS, SIGN_ONLY
+from experiments.site.judge_again import judged_again
 from mobnet.core.rows import read_texts
 
 ROOT = Path(__file__).parents[3]
@@ -113,7 +113,7 @@ def test_the_walks_that_figure_22_shows_falling_are_counted() -> None:
     assert {row["case"] for row in rows if row["fell"] == "1"} == {case for case in drawn if shares[case] > 0.0}
     assert r"\cellshare{safety@door@MOB-Net-pushed-ratio@reaction@0@falls}" in MAIN
     caption = (ROOT / "workflow/report/figures/figure_22.rst").read_text()
-    assert "{cellshare:safety@door@MOB-Net-pushed-ratio@reaction@0@falls}" in caption
+    assert 'cellshare("safety@door@MOB-Net-pushed-ratio@reaction@0@falls")' in caption
     assert "the title counts all walks of the case" in " ".join(caption.split())
 
 

@@ -9,7 +9,6 @@ import pytest
 
 from experiments.evaluation.report.compute import HOUR_S, WHOLE
 from experiments.evaluation.report.cost import costs
-from experiments.evaluation.report.machines import ASKED, PAGE, block_of, row, table
 from experiments.evaluation.report.paper import missing_packages
 from experiments.plan.dry_run import dry_run
 from experiments.plan.files import made_by_jobs
@@ -19,6 +18,7 @@ from experiments.plan.plan import make_plan
 from experiments.plan.prices import RATES, RatesNote, kind_of, priced
 from experiments.plan.work import works_of
 from experiments.settings.load import load_settings
+from experiments.site.machines import ASKED, PAGE, block_of, row, table
 from mobnet.core.notes import read_note
 
 ROOT = Path(__file__).parents[3]
@@ -111,7 +111,7 @@ def test_the_core_of_the_paper_is_section_5_1_alone(planned):
 
 @pytest.mark.parametrize("asked", ASKED, ids=lambda asked: asked.name)
 def test_the_page_says_what_each_scale_takes_on_which_machine(planned, asked):
-    """`python -m experiments.evaluation.report.machines` renews it."""
+    """`python -m experiments.site machines` renews it."""
     alone, beside = (planned(asked.scale, asked.target, side_by_side=yes) for yes in (False, True))
     expected = row(asked, alone, beside, ROOT)
     text = block_of((ROOT / PAGE).read_text())

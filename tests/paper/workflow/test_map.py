@@ -7,9 +7,9 @@ from pathlib import Path
 import pytest
 from paper_settings import settings_at
 
-from experiments.evaluation.report.paper_map import MAP, SOURCE, files_of, paper_map, read_known
 from experiments.plan.plan import make_plan
 from experiments.plan.products import CAPTIONS
+from experiments.site.paper_map import MAP, SOURCE, files_of, paper_map, read_known
 from mobnet.core.code import start_of
 from mobnet.core.errors import ConfigError
 
@@ -37,7 +37,7 @@ def outputs(plan):
 
 
 def test_the_map_is_current(plan):
-    remedy = "python -m experiments.evaluation.report.paper_map writes it"
+    remedy = "python -m experiments.site map writes it"
     assert (ROOT / MAP).read_text() == paper_map(plan, KNOWN), remedy
 
 

@@ -76,7 +76,7 @@ CALLED = {
     "check": ["-m", "experiments.check", "README.md"],
     "calibrate": ["-m", "mobnet.detection.calibrate", "--recording", "x", "--estimate", "x"],
     "demo": ["-m", "experiments.demo", "--out", ".cache/demo.png"],
-    "compare": ["-m", "experiments.evaluation.report.snapshot", "compare"],
+    "compare": ["-m", "experiments.site.snapshot", "compare"],
     "cost": ["-m", "experiments.evaluation.report.cost", "--config", "scale=smoke"],
     "schema": ["-m", "experiments.settings"],
     "snakemake": ["-m", "snakemake", "-n", "--config", "scale=smoke", "--", "tables/smoke/table_01.csv"],

@@ -12,10 +12,10 @@ from paper_settings import settings_at
 
 from experiments.evaluation.report.compute import HOUR_S, WHOLE
 from experiments.evaluation.report.cost import costs
-from experiments.evaluation.report.rates import measured
 from experiments.plan.plan import make_plan
 from experiments.plan.work import works_of
 from experiments.running.accounts import read_account
+from experiments.site.rates import measured
 
 from .clicks import choose, explain, show, text_of_frame
 from .smoke import SMOKE, accounts, reproduce, told

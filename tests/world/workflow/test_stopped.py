@@ -18,7 +18,7 @@ import sys
 from pathlib import Path
 from mobnet.core.errors import DataError
 from experiments.evaluation.report.manifest import manifest
-from experiments.evaluation.report.snapshot import check_fingerprints, check_run
+from experiments.site.snapshot import check_fingerprints, check_run
 
 results = Path("results/smoke")
 listed = Path("listed.sha256")

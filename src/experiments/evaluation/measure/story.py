@@ -4,7 +4,7 @@ Its files are those of `experiments.plan.demo`; docs/demo has those of the publi
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from itertools import product
 from pathlib import Path
@@ -13,21 +13,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 from experiments.evaluation.compare.windows import FLAG
-from experiments.evaluation.measure.push_scene import FORCE, PushAlarm, PushScene, story_push
+from experiments.evaluation.measure.push_scene import FORCE, PushAlarm, PushScene
 from experiments.evaluation.number.rows import read_detections
-from experiments.plan.demo import RECORDING, estimate_place, fit_place, network_place
+from experiments.plan.demo import RECORDING, fit_place, network_place
 from experiments.records.collisions import Collision
 from experiments.settings.catalogue import Catalogue
 from experiments.settings.pages import Story
 from experiments.settings.settings import Settings
 from mobnet.core.arrays import Array
-from mobnet.core.columns import EXTERNAL, PUSH, PUSH_TORQUE, STD, named
+from mobnet.core.columns import EXTERNAL, PUSH, PUSH_TORQUE, named
 from mobnet.core.detections import Threshold
 from mobnet.core.errors import ConfigError, DataError, not_accepted, refuse
 from mobnet.core.estimator import Estimate, TorqueEstimator
-from mobnet.core.notes import read_array_note
 from mobnet.core.recording import SensedRecording, read_sensed
-from mobnet.core.store import NOTE, check_rate, file_of, read_array
+from mobnet.core.store import check_rate, read_array
 from mobnet.detection.detector import ALARM_RATIO, LegDetector
 from mobnet.detection.numbers import watched_signals
 from mobnet.detection.signals import Watched
@@ -144,28 +143,6 @@ class StoredPush:
         tau = np.array([one.tau_ext for one in steps])
         std = [one.std for one in steps if one.std is not None]
         return Estimate(tau[:, held], np.array(std)[:, held] if std else None)
-
-    def published(self) -> tuple[Collision, PushScene]:
-        """Return the push, and it as the run that stored it estimated it, with the alarm of that run.
-
-        Raises:
-            DataError: a file is missing or damaged.
-        """
-        story = self.story
-        files = {name: self.folder / f"{name}.csv" for name in ("collisions", "detected")}
-        kind = self.settings.evaluation.push_film.kind
-        hit, alarm = story_push(story, files, self.collision.seed, kind)
-        push = self.scene({method: self._of_the_run(method) for method in story.methods})
-        return hit, replace(push, alarm=alarm)
-
-    def _of_the_run(self, method: str) -> Estimate:
-        """Return the estimate of the leg's joints that the run made, (T, n) [N m]."""
-        stem = self.folder / estimate_place(method)
-        columns = [column["name"] for column in read_array_note(file_of(stem, NOTE))["columns"]]
-        tau = read_array(stem, named(EXTERNAL, self.joints))[0]
-        sigmas = named(STD, self.joints)
-        has_std = set(sigmas) <= set(columns)
-        return Estimate(tau, read_array(stem, sigmas)[0] if has_std else None)
 
     def _alarm_s(self, estimates: Mapping[str, Estimate], pushed: NDArray[np.bool_]) -> float | None:
         """Return how long after the beginning of the push the detector of the story says so [s], None if it does not.

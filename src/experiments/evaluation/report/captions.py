@@ -1,17 +1,21 @@
 r"""Captions of tables and figures: reStructuredText with numbers of the results, as TeX and as plain text.
 
-A field is a macro of the paper's prose: `{found:rte-walk}` is `\found{rte-walk}`, and `MACROS` has them all. Several
-arguments of a macro are separated by semicolons. The guards `{holds:claim;verdict,...}` and `{below:cell;cell}` stand
-behind words that depend on results and print a dagger where these turned.
+A caption is a template of Jinja. A field is a macro of the paper's prose: `{{ found("rte-walk") }}` is
+`\found{rte-walk}`, and `MACROS` has them all. The guards `{{ holds("claim", "verdict", ...) }}` and
+`{{ below("cell", "cell") }}` stand behind words that depend on results and print a dagger where these turned.
 
 The paper prints the title and the first paragraph without a field, which says what is drawn: what follows from it, the
 paragraphs with fields, is what the paper's text says, and what is after it are details for the report.
 """
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from pathlib import Path
 
+from jinja2 import TemplateSyntaxError, UndefinedError
+
+from experiments.evaluation.report import html
 from experiments.evaluation.tables.layout import tex_escape
 from mobnet.core.errors import DataError
 from mobnet.core.files import read_text, write_text
@@ -26,8 +30,8 @@ ITEM = re.compile(
 THEIRS = re.compile(r"[Tt]he original's ((?:Table|Figure|section) \d+(?:\.\d+)*)")
 QUOTED = re.compile(r'"([^"]*)"')
 CITED = r"~of~\cite{lim2023mobnet}"
-FIELD = re.compile(r"\{(?P<macro>\w+):(?P<names>[^{}]+)\}")
-MARKUP = re.compile(rf"``(?P<code>.+?)``|\*\*(?P<bold>.+?)\*\*|\*(?P<italic>.+?)\*|(?P<field>{FIELD.pattern})")
+FIELD = "{{"  # begins a field
+MARKUP = re.compile(r"``(?P<code>.+?)``|\*\*(?P<bold>.+?)\*\*|\*(?P<italic>.+?)\*")
 COMMANDS = {"code": "texttt", "bold": "textbf", "italic": "emph"}
 CALL = re.compile(r"\\(?P<macro>\w+)(?P<given>(?:\{[^{}]*\})+)")  # of a macro in TeX
 HEAD = r"""\newcommand{\capt}[1]{\ifcsname capt@#1\endcsname\csname capt@#1\endcsname
@@ -56,29 +60,28 @@ MACROS = {  # name -> name of the text that it looks up, # being its arguments i
     "counted": "counted@#@#",
     "size": "size@#",
 }
-HOLDS, BELOW = "holds", "below"
 DAGGER = "\N{DAGGER}"
 TURNED = f"\n\n{DAGGER} The results shown here do not bear out this sentence.\n"
 
 
-def captions_tex(files: Sequence[Path], values: Mapping[str, str]) -> str:
+def captions_tex(files: Sequence[Path]) -> str:
     r"""Return TeX that defines \capt{tables/NAME} and \capt{figures/NAME}: the title in bold, then the text.
 
     `files` are those of `workflow/report`: a title, an empty line, and paragraphs with ``code``, *emphasis*, **bold**
-    and fields; `values`: name -> text of the numbers that fields may name.
+    and fields.
 
     Raises:
-        DataError: a file is missing, has no text or a single backtick, or names a number that is none.
+        DataError: a file is missing, has no text, no paragraph without a field, or a single backtick.
     """
-    texts = {f"{path.parent.name}/{path.stem}": caption_tex(path, values) for path in files}
+    texts = {f"{path.parent.name}/{path.stem}": caption_tex(path) for path in files}
     lines = (rf"\expandafter\def\csname capt@{name}\endcsname{{{text}}}" + "\n" for name, text in texts.items())
     return HEAD + "".join(lines)
 
 
-def caption_tex(path: Path, values: Mapping[str, str]) -> str:
-    """Return the caption of a file as TeX: title and what is drawn. Guards, which print a dagger there, stay macros."""
-    title, _, text = filled(path, values, keep_fields=True).partition("\n")
-    words = cited(QUOTED.sub(r"``\1''", inline_tex(drawn(text))), path.parents[1])
+def caption_tex(path: Path) -> str:
+    """Return the caption of a file as TeX: title and what is drawn."""
+    title, _, text = written(path).partition("\n")
+    words = cited(QUOTED.sub(r"``\1''", inline_tex(drawn(text, path))), path.parents[1])
     bare = ASIDE.sub("", PRINTED.sub("", title.strip()))
     printed = PRINTED.match(title)
     after = f"After {printed['kind']}~{printed['number']}{CITED}." if printed else ""
@@ -87,11 +90,16 @@ def caption_tex(path: Path, values: Mapping[str, str]) -> str:
     return rf"\textbf{{{inline_tex(bare[:1].upper() + bare[1:])}.}} {words} {after}".rstrip()
 
 
-def drawn(text: str) -> str:
-    """Return the paragraph of a caption that says what is drawn: the first without a field, or the first of all."""
-    paragraphs = [" ".join(part.split()) for part in text.strip().split("\n\n")]
-    plain = [part for part in paragraphs if not FIELD.search(part)]
-    return [*plain, *paragraphs][0]
+def drawn(text: str, path: Path) -> str:
+    """Return the paragraph of a caption that says what is drawn: the first without a field.
+
+    Raises:
+        DataError: each has a field; `path` is the caption's file.
+    """
+    for paragraph in text.strip().split("\n\n"):
+        if FIELD not in paragraph:
+            return " ".join(paragraph.split())
+    raise DataError(f"{path}: every paragraph has a field; accepted: one without, which says what is drawn")
 
 
 def cited(text: str, folder: Path) -> str:
@@ -114,14 +122,11 @@ def inline_tex(text: str) -> str:
     """Return a line of reStructuredText as TeX."""
     done = ""
     end = 0
-    for found in MARKUP.finditer(text):
-        done += tex_escape(text[end : found.start()])
-        if found["field"]:
-            done += rf"\{found['macro']}" + "".join(f"{{{name}}}" for name in found["names"].split(";"))
-        else:
-            kind = next(kind for kind in COMMANDS if found[kind])
-            done += rf"\{COMMANDS[kind]}{{{tex_escape(found[kind])}}}"
-        end = found.end()
+    for mark in MARKUP.finditer(text):
+        kind = next(kind for kind in COMMANDS if mark[kind])
+        done += tex_escape(text[end : mark.start()])
+        done += rf"\{COMMANDS[kind]}{{{tex_escape(mark[kind])}}}"
+        end = mark.end()
     return done + tex_escape(text[end:])
 
 
@@ -131,45 +136,92 @@ def fill_captions(files: Sequence[Path], values: Mapping[str, str], folder: Path
         write_text(folder / path.parent.name / path.name, filled(path, values))
 
 
-def filled(path: Path, values: Mapping[str, str], *, keep_fields: bool = False) -> str:
+def written(path: Path) -> str:
+    """Return a caption as it is written, with its fields.
+
+    Raises:
+        DataError: the file is missing, or has no text or a single backtick.
+    """
+    text = read_text(path)
+    if not text.partition("\n")[2].strip():
+        raise DataError(f"{path}: no text below the title")
+    if alone := re.search(r"\S*(?<!`)`(?!`)\S*", text):
+        raise DataError(f"{path}: {alone[0]!r} is not accepted; accepted: ``code`` in double backticks")
+    return text
+
+
+def filled(path: Path, values: Mapping[str, str]) -> str:
     """Return the text of a caption with its numbers, and what a dagger means where a guard turned.
+
+    Args:
+        path: file of the caption.
+        values: name -> text of the numbers that fields may name.
 
     Raises:
         DataError: the file is missing, has no text or a single backtick, or names a number that is none.
     """
-    raw = read_text(path)
-    if not raw.partition("\n")[2].strip():
-        raise DataError(f"{path}: no text below the title")
-    if alone := re.search(r"\S*(?<!`)`(?!`)\S*", raw):
-        raise DataError(f"{path}: {alone[0]!r} is not accepted; accepted: ``code`` in double backticks")
-    # A line may break within a field, whose name has single spaces then.
-    text = FIELD.sub(lambda field: f"{{{field['macro']}:{' '.join(field['names'].split())}}}", raw)
-    plain = FIELD.sub(lambda field: field_text(path, field["macro"], field["names"], values), text)
-    if keep_fields:
-        return text
-    plain = re.sub(r"^ +", "", plain, flags=re.MULTILINE)  # after an empty field, as an indented line is a quotation
+    written(path)
+    functions = fields(values)
+    try:
+        text = html.filled(path, functions)
+    except UndefinedError as fault:
+        raise DataError(f"{path}: {fault.message}; accepted: {', '.join(functions)}") from None
+    except TemplateSyntaxError as fault:
+        raise DataError(f"{path}, line {fault.lineno}: {fault.message}; accepted: a template of Jinja") from None
+    except DataError as fault:
+        raise DataError(f"{path}: {fault}") from None
+    plain = re.sub(r"^ +", "", text, flags=re.MULTILINE)  # after an empty field, as an indented line is a quotation
     return plain.rstrip() + TURNED if DAGGER in plain else plain
 
 
-def field_text(path: Path, macro: str, names: str, values: Mapping[str, str]) -> str:
-    """Return what a field stands for, of a caption that is named where it fails."""
-    given = names.split(";")
-    if macro in (HOLDS, BELOW):
-        if len(given) != 2:
-            raise DataError(
-                f"{path}: {{{macro}:{names}}} is not accepted; accepted: two names with a semicolon between"
-            )
-        looked_up = [f"verdict@{given[0]}"] if macro == HOLDS else [f"cell@{name}" for name in given]
-    elif macro not in MACROS or MACROS[macro].count("#") != len(given):
-        raise DataError(f"{path}: {{{macro}:{names}}} is not accepted; accepted: {', '.join([*MACROS, HOLDS, BELOW])}")
-    else:
-        looked_up = [named(MACROS[macro], given)]
-    missing = [name for name in looked_up if name not in values]
-    if missing:
-        raise DataError(f"{path}: {{{macro}:{names}}}: no table has {missing[0]!r}; accepted: a name of numbers.tex")
-    if macro in (HOLDS, BELOW):
-        return "" if guard_holds(macro, given[0], given[1], values) else DAGGER
-    return values[looked_up[0]]
+def fields(values: Mapping[str, str]) -> dict[str, Callable[..., str]]:
+    """Return the functions that captions call, macros and guards by their names, over name -> text of numbers."""
+    macros = {macro: partial(number_text, values, macro) for macro in MACROS}
+    return {**macros, "holds": partial(holds, values), "below": partial(below, values)}
+
+
+def number_text(values: Mapping[str, str], macro: str, *arguments: str) -> str:
+    """Return the number that a macro looks up."""
+    pattern = MACROS[macro]
+    return text_of(values, named(pattern, checked(macro, arguments, pattern.count("#"))))
+
+
+def holds(values: Mapping[str, str], *words: str) -> str:
+    """Return a dagger where a claim, the first word, has none of the verdicts that follow."""
+    claim, *verdicts = checked("holds", words, max(len(words), 2))
+    return "" if text_of(values, f"verdict@{claim}") in verdicts else DAGGER
+
+
+def below(values: Mapping[str, str], *cells: str) -> str:
+    """Return a dagger where the number of the first of two cells is not below the second one's."""
+    first, second = checked("below", cells, 2)
+    text_of(values, f"cell@{first}")
+    text_of(values, f"cell@{second}")
+    low, high = values.get(f"value@{first}"), values.get(f"value@{second}")
+    return "" if low is not None and high is not None and float(low) < float(high) else DAGGER
+
+
+def text_of(values: Mapping[str, str], name: str) -> str:
+    """Return the text of a number.
+
+    Raises:
+        DataError: there is none of this name.
+    """
+    if name not in values:
+        raise DataError(f"no table has {name!r}; accepted: a name of numbers.tex")
+    return values[name]
+
+
+def checked(macro: str, arguments: Sequence[str], count: int) -> list[str]:
+    """Return the arguments of a field, each in one line.
+
+    Raises:
+        DataError: they are not as many as it takes.
+    """
+    if len(arguments) != count:
+        given = ", ".join(f'"{argument}"' for argument in arguments)
+        raise DataError(f"{macro}({given}): {len(arguments)} arguments are not accepted; accepted: {count}")
+    return [" ".join(argument.split()) for argument in arguments]  # a line may break within a name
 
 
 def names_in(text: str) -> list[str]:
@@ -187,11 +239,3 @@ def named(pattern: str, arguments: Sequence[str]) -> str:
     """Return a pattern with its arguments in place of each #."""
     first, *others = pattern.split("#")
     return first + "".join(argument + other for argument, other in zip(arguments, others, strict=True))
-
-
-def guard_holds(macro: str, first: str, second: str, values: Mapping[str, str]) -> bool:
-    """Return whether a claim has one of some verdicts, or whether the first cell's number is below the second one's."""
-    if macro == HOLDS:
-        return values.get(f"verdict@{first}") in [one.strip() for one in second.split(",")]
-    low, high = (values.get(f"value@{name}") for name in (first, second))
-    return low is not None and high is not None and float(low) < float(high)

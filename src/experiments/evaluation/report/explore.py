@@ -132,35 +132,20 @@ def page_of(
         # The page computes with the rounded torques that it gets: the table has numbers of the same.
         stored[name] = as_stored(scene.push, settings.step_nm)
         parts += parts_of(scene, settings)
+    scenes: dict[str, dict[str, Any]] = {}
+    numbers: dict[str, list[PushNumbers]] = {}
+    steps: dict[str, dict[str, PushNumbers]] = {}
+    judged_s = judged_before_s(story)
+    for name, scene in shown.items():
+        note = scene_note(name, scene, robot, settings, alarm if name == STORY else None)
+        scenes[name] = note
+        numbers[name] = push_numbers(stored[name], note["joint"], note["threshold"], detection, peaks, judged_s)
+        steps[name] = {row.method: row for row in numbers[name]}
     told = {
         "settings": page_numbers(settings, detection, peaks, story),
         "robot": robot_parts(robot),
-        "scenes": [
-            scene_note(name, scene, robot, settings, alarm if name == STORY else None) for name, scene in shown.items()
-        ],
+        "scenes": list(scenes.values()),
     }
-    return page_with(told, packed(parts), stored, story, detection, peaks, robot, template)
-
-
-def page_with(
-    told: Mapping[str, Any],
-    data: str,
-    stored: Mapping[str, PushScene],
-    story: Story,
-    detection: Detection,
-    peaks: Peaks,
-    robot: RobotDescription,
-    template: Path,
-) -> str:
-    """Return the page of what a page must know of scenes, their packed arrays, and the pushes that these hold."""
-    judged_s = judged_before_s(story)
-    scenes = {note["name"]: note for note in told["scenes"]}
-    numbers: dict[str, list[PushNumbers]] = {}
-    steps: dict[str, dict[str, PushNumbers]] = {}
-    for name, push in stored.items():
-        note = scenes[name]
-        numbers[name] = push_numbers(push, note["joint"], note["threshold"], detection, peaks, judged_s)
-        steps[name] = {row.method: row for row in numbers[name]}
     return rendered(
         template,
         told=json.dumps(told, separators=(",", ":")),
@@ -168,7 +153,7 @@ def page_with(
         scenes=scenes,
         role_of=role_of,
         network=next((method for method in steps.get(STORY, {}) if role_of(method) == NETWORK), None),
-        data=data,
+        data=packed(parts),
         detection=detection,
         peaks=peaks,
         judged_s=judged_s,

@@ -8,8 +8,8 @@ from pathlib import Path
 from markdown_it import MarkdownIt
 
 from experiments.evaluation.report.claims_page import first_counts, read_statements, verdict_counts
+from experiments.evaluation.report.headline import headline
 from experiments.evaluation.report.html import rendered
-from experiments.evaluation.report.readme import headline
 from experiments.settings.verdicts import OURS
 from mobnet.core.errors import DataError
 from mobnet.core.files import read_text

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from jinja2 import Environment, FileSystemLoader, StrictUndefined, Template
+from jinja2 import Environment, FileSystemLoader, StrictUndefined, Template, Undefined, UndefinedError
 
 
 def rendered(template: Path, **values: Any) -> str:
@@ -29,5 +29,13 @@ def _template(template: Path, *, is_escaped: bool) -> Template:
         trim_blocks=True,
         lstrip_blocks=True,
         keep_trailing_newline=True,
+        finalize=_not_a_function,
     )
     return settings.get_template(template.name)
+
+
+def _not_a_function(value: Any) -> Any:
+    """Return what a template prints; a function there was meant to be called."""
+    if callable(value) and not isinstance(value, Undefined):
+        raise UndefinedError("a field without its arguments in parentheses")
+    return value

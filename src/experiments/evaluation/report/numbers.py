@@ -88,7 +88,7 @@ def numbers(
     values = {f"size@{name}": text for name, text in size_texts(scale, rates, sizes, fleet, train).items()}
     values |= texts_of(table_csvs, further_csvs, claims_csv, summary_csv)
     write_text(out, numbers_tex(values))
-    write_text(out.with_name("captions.tex"), captions_tex(captions, values))
+    write_text(out.with_name("captions.tex"), captions_tex(captions))
     fill_captions(captions, values, captions_dir)
     main_tables(compared, sources, out.with_name("legs.csv"))
 

@@ -22,7 +22,7 @@ VALUES = {
     "value@peaks@all noise@MOB": "-0.8000", "cell@peaks@all noise@MOB-Net": "0.50",
     "value@peaks@all noise@MOB-Net": "0.5000",
 }  # fmt: skip
-BELOW = "{below:peaks@all noise@MOB;peaks@all noise@MOB-Net}"
+BELOW = '{{ below("peaks@all noise@MOB", "peaks@all noise@MOB-Net") }}'
 
 
 @pytest.fixture
@@ -43,12 +43,17 @@ def written(path: Path, text: str) -> Path:
 def test_the_title_comes_first_without_the_number_that_the_paper_gave_it(caption: Path) -> None:
     text = r"\textbf{One gait cycle.} It \emph{moves} by 5 \% [N m]. See \texttt{zero}. "
     text += r"After Figure~5~of~\cite{lim2023mobnet}."
-    assert caption_tex(caption, {}).replace(r"~N\,m", " N m").replace("[N~m]", "[N m]") == text
+    assert caption_tex(caption).replace(r"~N\,m", " N m").replace("[N~m]", "[N m]") == text
 
 
 def test_the_paper_prints_what_is_drawn_and_neither_what_follows_from_it_nor_details(caption: Path) -> None:
-    text = "MOB has {found:rte-walk}.\n\nThe error [N m].\n\nDetails."
-    assert caption_tex(written(caption, text), {"found@rte-walk": "1.04"}) == r"\textbf{A title.} The error [N m]."
+    text = 'MOB has {{ found("rte-walk") }}.\n\nThe error [N m].\n\nDetails.'
+    assert caption_tex(written(caption, text)) == r"\textbf{A title.} The error [N m]."
+
+
+def test_a_caption_that_does_not_say_what_is_drawn_is_refused(caption: Path) -> None:
+    with pytest.raises(DataError, match="every paragraph has a field; accepted: one without, which says what is drawn"):
+        caption_tex(written(caption, 'MOB has {{ found("rte-walk") }}.'))
 
 
 @pytest.mark.parametrize(
@@ -81,7 +86,7 @@ def test_a_caption_of_the_paper_has_at_most_four_lines_and_neither_a_path_nor_a_
     assert len(NARROW) > 1
     for path in captions:
         title, _, text = path.read_text().partition("\n")
-        shown = drawn(text)
+        shown = drawn(text, path)
         width = 68 if path.stem in NARROW else 140
         if path.stem != "push":  # the film is not in the paper
             assert AROUND + len(title) + len(shown) <= 4 * width, path
@@ -89,12 +94,12 @@ def test_a_caption_of_the_paper_has_at_most_four_lines_and_neither_a_path_nor_a_
 
 
 def test_a_name_says_what_is_shown(caption: Path) -> None:
-    assert rf"\csname capt@figures/figure_05\endcsname{{{caption_tex(caption, {})}}}" in captions_tex([caption], {})
+    assert rf"\csname capt@figures/figure_05\endcsname{{{caption_tex(caption)}}}" in captions_tex([caption])
 
 
 def test_a_line_does_not_begin_with_a_space_where_its_first_number_is_none(caption: Path) -> None:
     values = {**VALUES, "span@rte-walk": ""}
-    assert filled(written(caption, "By\n{foundspan:rte-walk} more."), values) == "A title\n\nBy\nmore.\n"
+    assert filled(written(caption, 'By\n{{ foundspan("rte-walk") }} more.'), values) == "A title\n\nBy\nmore.\n"
 
 
 @pytest.mark.parametrize(
@@ -104,24 +109,22 @@ def test_a_line_does_not_begin_with_a_space_where_its_first_number_is_none(capti
         ("**not** *this* ``x_1``", r"\textbf{not} \emph{this} \texttt{x\_1}"),
         ("2 * 3 is 6", "2 * 3 is 6"),
         ("-3 dB", "$-$3 dB"),
-        ("by {found:rte-walk} %", r"by \found{rte-walk} \%"),
-        ("so{holds:rte-walk;not reproduced}", r"so\holds{rte-walk}{not reproduced}"),
     ],
 )
-def test_marks_and_fields_of_a_line_become_tex(text: str, tex: str) -> None:
+def test_marks_of_a_line_become_tex(text: str, tex: str) -> None:
     assert inline_tex(text) == tex
 
 
 def test_a_field_is_a_number_of_the_results_also_where_a_line_breaks_in_it(caption: Path, tmp_path: Path) -> None:
-    text = "By {found:rte-walk} and {cell:peaks@all\nnoise@MOB}" + BELOW + "{holds:rte-walk;open,not reproduced}."
+    text = 'By {{ found("rte-walk") }} and {{ cell("peaks@all\nnoise@MOB") }}' + BELOW
+    text += '{{ holds("rte-walk", "open", "not\nreproduced") }}.'
     fill_captions([written(caption, text)], VALUES, tmp_path / "out")
     assert (tmp_path / "out/figures/figure_05.rst").read_text() == "A title\n\nBy 1.04 and -0.80.\n"
-    assert r"\cell{peaks@all noise@MOB}\below{peaks@all noise@MOB}" in caption_tex(caption, VALUES)
 
 
 def test_a_sentence_that_results_do_not_bear_out_has_a_dagger_that_is_explained(caption: Path) -> None:
-    turned = BELOW.replace("{below:", "{below:peaks@all noise@MOB-Net;").replace(";peaks@all noise@MOB-Net}", "}")
-    for guard in (turned, "{holds:rte-walk;reproduced}"):
+    turned = '{{ below("peaks@all noise@MOB-Net", "peaks@all noise@MOB") }}'
+    for guard in (turned, '{{ holds("rte-walk", "reproduced", "open") }}'):
         line, explained = filled(written(caption, f"It is so{guard}."), VALUES).split("\n\n")[1:]
         assert line == "It is so†."
         assert explained.startswith("† The results shown here do not bear out")
@@ -132,17 +135,25 @@ def test_a_sentence_that_results_do_not_bear_out_has_a_dagger_that_is_explained(
     [
         ("", "no text below the title"),
         ("The method `zero`.", "'`zero`.' is not accepted; accepted: ``code`` in double backticks"),
-        ("By {found:rte-wlak}.", "{found:rte-wlak}: no table has 'found@rte-wlak'; accepted: a name of numbers.tex"),
-        ("By {fuond:rte-walk}.", r"{fuond:rte-walk} is not accepted; accepted: ourcell, "),
-        ("By {found:rte-walk;a}.", r"{found:rte-walk;a} is not accepted; accepted: ourcell, "),
-        ("So{holds:rte-walk}.", "{holds:rte-walk} is not accepted; accepted: two names with a semicolon"),
-        ("So{holds:rte-wlak;open}.", "{holds:rte-wlak;open}: no table has 'verdict@rte-wlak'; accepted: "),
+        ('By {{ found("rte-wlak") }}.', "no table has 'found@rte-wlak'; accepted: a name of numbers.tex"),
+        ('By {{ fuond("rte-walk") }}.', "'fuond' is undefined; accepted: ourcell, "),
+        ("By {{ found }}.", "a field without its arguments in parentheses; accepted: ourcell, "),
+        ('By {{ found("a", "b") }}.', 'found("a", "b"): 2 arguments are not accepted; accepted: 1'),
+        ('So{{ holds("rte-walk") }}.', 'holds("rte-walk"): 1 arguments are not accepted; accepted: 2'),
+        ('So{{ holds("rte-wlak", "open") }}.', "no table has 'verdict@rte-wlak'; accepted: a name of numbers.tex"),
+        ('So{{ below("peaks@no", "peaks@no") }}.', "no table has 'cell@peaks@no'; accepted: a name of numbers.tex"),
     ],
 )
 def test_what_is_no_caption_is_refused_in_a_line(caption: Path, text: str, message: str) -> None:
     with pytest.raises(DataError) as error:
-        caption_tex(written(caption, text), VALUES)
+        filled(written(caption, text), VALUES)
     assert str(error.value).startswith(f"{caption}: {message}")
+    assert "\n" not in str(error.value)
+
+
+def test_a_field_that_is_not_closed_is_refused_with_its_line(caption: Path) -> None:
+    with pytest.raises(DataError, match=r"figure_05\.rst, line 4: .*; accepted: a template of Jinja$"):
+        filled(written(caption, 'By\n{{ found("rte-walk".'), VALUES)
 
 
 @pytest.mark.parametrize("path", sorted(CAPTIONS.glob("*/*.rst")), ids=lambda path: f"{path.parent.name}/{path.stem}")

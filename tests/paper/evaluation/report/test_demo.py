@@ -19,8 +19,8 @@ from experiments.evaluation.measure.story import StoredPush
 from experiments.evaluation.number.rows import read_detections
 from experiments.evaluation.report.demo import draw, lines_of, title_of
 from experiments.evaluation.report.manifest import file_hash
-from experiments.evaluation.report.snapshot import tell_demo
 from experiments.plan.demo import SOURCES, estimate_place
+from experiments.site.snapshot import tell_demo
 from mobnet.core.columns import EXTERNAL, STD, named
 from mobnet.core.errors import ConfigError, DataError
 from mobnet.core.estimator import Estimate

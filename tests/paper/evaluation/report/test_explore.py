@@ -13,7 +13,7 @@ from made_scenes import GAIN_HZ, LEAD, RATE_HZ, ROWS, START, pushed_scene
 
 from experiments.evaluation.figures.drawing.robot import lowest
 from experiments.evaluation.measure.estimates.pushes import read_pushes
-from experiments.evaluation.report.explore import PackedArray, explore, joint_names, packed, page_of, role_of
+from experiments.evaluation.report.explore import PackedArray, as_stored, explore, joint_names, packed, page_of, role_of
 from experiments.evaluation.report.explore_numbers import ALREADY, ASLEEP, NEVER, push_numbers
 from experiments.evaluation.report.explore_scenes import read_scene
 from experiments.plan.parts import PageScene
@@ -70,17 +70,54 @@ def test_a_threshold_at_the_quiet_one_has_no_false_alarm_and_one_below_has(robot
     assert numbers_of(shown, settings, threshold_nm=quiet * 0.999)["MOB"].false_alarms > 0
 
 
+def unpacked(data: str, shapes: list[tuple[int, int]], steps: list[float]) -> list[np.ndarray]:
+    """Return the arrays of a page, of which each has a shape and a step, in its own unit."""
+    rest = gzip.decompress(base64.b64decode(data))
+    arrays = []
+    for (rows, columns), step in zip(shapes, steps, strict=True):
+        size = rows * columns
+        planes, rest = np.frombuffer(rest[: 2 * size], np.uint8).reshape(2, -1).astype(np.uint16), rest[2 * size :]
+        sums = np.cumsum((planes[0] + 256 * planes[1]).reshape(columns, rows), axis=1, dtype=np.uint16)
+        arrays.append(sums.view(np.int16).T * step)
+    assert rest == b""
+    return arrays
+
+
 def test_packed_arrays_come_back(rng):
     """Differences may exceed 16 bits and wrap around; two arrays of any width stand one after the other."""
     arrays = [rng.uniform(-300, 300, (40, 3)), rng.normal(size=(7, 1))]
     steps = [0.01, 0.001]
-    data = gzip.decompress(base64.b64decode(packed(PackedArray("x", s, a) for s, a in zip(steps, arrays, strict=True))))
-    for array, step in zip(arrays, steps, strict=True):
-        size = array.size
-        planes, data = np.frombuffer(data[: 2 * size], np.uint8).reshape(2, -1).astype(np.uint16), data[2 * size :]
-        sums = np.cumsum((planes[0] + 256 * planes[1]).reshape(array.T.shape), axis=1, dtype=np.uint16)
-        np.testing.assert_allclose(sums.view(np.int16).T * step, array, atol=step / 2 + 1e-9)
-    assert data == b""
+    data = packed(PackedArray("x", step, array) for step, array in zip(steps, arrays, strict=True))
+    for back, array, step in zip(unpacked(data, [(40, 3), (7, 1)], steps), arrays, steps, strict=True):
+        np.testing.assert_allclose(back, array, atol=step / 2 + 1e-9)
+
+
+def test_torques_in_a_page_are_those_of_which_it_gives_numbers(robot, settings):
+    made = pushed_scene(robot).push
+    stored = as_stored(made, settings.evaluation.explore.step_nm)
+    text = page(robot, settings)
+    told, data = (re.search(f'id="{name}">(.*?)</script>', text, re.DOTALL)[1] for name in ("told", "data"))
+    (scene,) = json.loads(told)["scenes"]
+    parts = scene["parts"]
+    shapes = [(part["count"], part["width"]) for part in parts]
+    arrays = dict(
+        zip([part["name"] for part in parts], unpacked(data, shapes, [part["step"] for part in parts]), strict=True)
+    )
+    np.testing.assert_allclose(arrays["truth"], stored.truth, atol=1e-9)
+    np.testing.assert_allclose(arrays["FTS-e2e"], stored.estimates["FTS-e2e"], atol=1e-9)
+    left = arrays["MOB"] - arrays["MOB-Net-pushed"]
+    np.testing.assert_allclose(left, stored.estimates["MOB-Net-pushed"], atol=1e-9)
+
+
+def test_the_published_page_gives_the_error_that_the_demo_gives() -> None:
+    """One push, one window, one number."""
+    published = (REPO / "docs/results/explore.html").read_text()
+    scene = published[published.index('<tbody data-scene="story">') :].split("</tbody>")[0]
+    demo = dict(re.findall(r"^(MOB\S*) .*RMSE ([\d.]+) N m over", (REPO / "docs/demo.md").read_text(), re.MULTILINE))
+    assert set(demo) == {"MOB", "MOB-fric-dahl", "MOB-Net-pushed"}
+    for method, error in demo.items():
+        (row,) = re.findall(rf'<tr data-method="{method}">.*?</tr>', scene, re.DOTALL)
+        assert f">{error}</td>" in row
 
 
 def test_what_does_not_fit_is_refused():

@@ -27,7 +27,7 @@ def defined(table: Path, claims_csv: Path, summary_csv: Path, settings: Settings
     out, sizes = claims_csv.with_name("numbers.tex"), (settings.scale, settings.rates, settings.sizes, settings.fleet)
     further = [REPO / f"tests/golden/{name}.csv" for name in quoted()]
     caption = out.with_name("legs.rst")
-    caption.write_text("The left leg\n\nBy {found:rte-walk}.\n")
+    caption.write_text('The left leg\n\nBy {{ found("rte-walk") }}.\n\nIts error.\n')
     compared = settings.evaluation.main_tables
     folder = out.with_name("captions")
     numbers(*sizes, TRAIN, [table], further, claims_csv, summary_csv, [caption], compared, [], folder, out)
@@ -107,9 +107,9 @@ def test_a_number_of_any_table_is_named_by_table_row_and_column(texts: dict[str,
 def test_captions_stand_beside_the_numbers(texts: dict[str, str], claims_csv: Path) -> None:
     assert texts
     folder = claims_csv.parent
-    title = rf"capt@{folder.name}/legs\endcsname{{\textbf{{The left leg.}} By \found{{rte-walk}}."
+    title = rf"capt@{folder.name}/legs\endcsname{{\textbf{{The left leg.}} Its error."
     assert title in (folder / "captions.tex").read_text()
-    assert (folder / f"captions/{folder.name}/legs.rst").read_text() == "The left leg\n\nBy 1.00.\n"
+    assert (folder / f"captions/{folder.name}/legs.rst").read_text() == "The left leg\n\nBy 1.00.\n\nIts error.\n"
 
 
 def test_sizes_are_those_of_the_scale(settings: Settings) -> None:

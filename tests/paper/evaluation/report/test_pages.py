@@ -10,8 +10,8 @@ import pytest
 from browser import Browser, with_browser
 from paper_settings import STATISTICS
 
+from experiments.evaluation.report.headline import COLUMNS
 from experiments.evaluation.report.pages import pages, table_page, titled
-from experiments.evaluation.report.readme import COLUMNS
 from experiments.evaluation.tables.layout import markdown_table
 from experiments.plan.products import HEADLINE, TEMPLATES
 from mobnet.core.errors import DataError

@@ -1,1 +1,0 @@
-"""Pages of the documentation that are made: results, reference, and the contents that the index of documents gives."""

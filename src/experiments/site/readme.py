@@ -1,0 +1,280 @@
+"""README and the page of findings: templates with the numbers of the published results, so that none is typed.
+
+`python -m experiments.site readme` writes both; a test fails when one is out of date.
+"""
+
+import re
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from jinja2 import UndefinedError
+
+from experiments.evaluation.measure.learning.explained import LearnedCell, by_robot, read_why
+from experiments.evaluation.measure.learning.taught import SHARE_OF_HIT
+from experiments.evaluation.report.headline import AVERAGE, FILMED, best_formulas, headline
+from experiments.evaluation.report.html import filled
+from experiments.plan.prices import RATES, RatesNote
+from experiments.settings.table_columns import CLAIMED
+from experiments.settings.verdicts import JUDGED_WITH, NOT_REPRODUCED, OPEN, PAPER, REPRODUCED, SHUFFLED, SIGN_ONLY
+from experiments.site.blocks import with_block
+from mobnet.core.errors import DataError
+from mobnet.core.files import read_text, write_text
+from mobnet.core.notes import read_note
+from mobnet.core.rows import read_texts
+
+RESULTS = Path("docs/results")
+README, GUIDE = Path("README.md"), Path("docs/guide.md")
+TEMPLATE = Path("README.md.j2")
+FOUND, FOUND_TEMPLATE = Path("docs/found.md"), Path("docs/found.md.j2")
+# What each scale takes: scale, what it is, time on two cores, core-hours, memory, disk. The published run says what its
+# own took.
+SCALES = (
+    ("smoke", "seconds of walking; its numbers mean nothing", "12 to 17 min", "0.6", "0.5 GiB", "1.1 GiB"),
+    ("quick", "every item once, shorter walks", "50 min", "1.6", "4.2 GiB", "13 GiB"),
+    ("default", "the published sizes", "", "", "5.6 GiB", "50 GiB"),
+    ("paper", "3.6 million samples, 200 epochs", "12 days", "580", "21 GiB", "340 GiB"),
+)
+CORES = 2
+# Wall time [h] of the whole run in compute.md, and the share of the cores' time that it had [%].
+ELAPSED = re.compile(r"^\| elapsed [^|]*\|[^|]*\|[^|]*\| (?P<hours>[\d.]+) \| (?P<load>\d+) \|", re.MULTILINE)
+# Of a run that judged methods which know nothing as if they were MOB-Net; runs before 0.7.0 did not.
+CONTROL = (
+    " In a network's place no estimate reproduces {n[reproduced with zero]}, the observer "
+    "{n[reproduced with MOB]}, MOB-Net half a walk late {n[reproduced with MOB-Net-shuffled]}."
+)
+# Claims whose verdict a sentence names.
+SAID = {"rte-walk": SIGN_ONLY, "rte-swing": NOT_REPRODUCED, "model-right-arm": OPEN}
+# What the data of networks teach, a trial that is kept: the effect of pushes over all levels of the others.
+TAUGHT = Path("docs/trials/factorial.csv")
+PUSHES = {
+    "part": "effects", "name": "without / with pushes", "random_torque_nm": "", "pushes": "", "commands": "",
+    "measure": "hits",
+}  # fmt: skip
+# What is seen of a hit without some inputs, a trial that is kept: its training set and way of learning.
+EXPLAINED = Path("docs/trials/why.csv")
+AS_THE_RUN = ("why_walk", "soap")
+MOB_NET, NO_SENSOR = "MOB-Net", "MOB-Net-noimu"
+HIT = {"scenario": "knee_swing", "level": "robots", "limb": "LL", "joint": "avg", "metric": "push_share"}
+SHOWN = ("MOB-Net", FILMED)  # networks of which the README says how much of a hit they show
+RATED = ("MOB-Net-pushed-ratio", "MOB-fric-load")
+REACTION = "MOB-Net-pushed-ratio"  # detector after whose alarm the robot steps back
+# What the page of findings tells beside the README: claims whose verdict a sentence names, methods, and their rows.
+SAID_FOUND = {
+    "mob-net-cut": REPRODUCED, "model-walk": REPRODUCED, "model-waist": REPRODUCED,
+    "model-right-arm": OPEN, "model-left-arm": OPEN, "gray-walk-net": OPEN,
+    "fric-load-hand": NOT_REPRODUCED, "zero-load-10": NOT_REPRODUCED,
+}  # fmt: skip
+MEMORY = "MOB-fric-dahl"  # the formula that is the best one on robots with unknown gears
+UNDER_HITS = (MOB_NET, FILMED, MEMORY)
+HIT_ERROR = {
+    "scenario": "knee_swing", "level": "robots", "joint": "avg",
+    "metric": "rmse_push_1+rmse_push_2+rmse_push_3+rmse_push_4",
+}  # fmt: skip
+LIMBS = {
+    "leg": "walking (robots), leg", "arm": "hand pushed (robots), arm", "waist": "hand pushed (robots), waist",
+    "base force": "hand pushed (robots), base force", "base torque": "hand pushed (robots), base torque",
+}  # fmt: skip
+COMPARED = ("MOB", MEMORY, MOB_NET)
+# What is told of robots that networks know, and of others -> their level in one test.
+CHANGED = {"known": "robots", "friction": "robots_friction", "other robot": "robots_other"}
+CHANGED_WALK = {"scenario": "changed_walk", "limb": "LL", "method": MOB_NET, **AVERAGE}
+Row = Mapping[str, str]
+
+
+def tell_readme(results: Path = RESULTS) -> None:
+    """Write README, page of findings, and into the guide what each scale takes, from published results."""
+    write_text(README, readme(results))
+    write_text(FOUND, found(results))
+    write_text(GUIDE, with_block(read_text(GUIDE), "scales", scales(results), GUIDE))
+
+
+def readme(results: Path, template: Path = TEMPLATE) -> str:
+    """Return the README, from a folder of published results.
+
+    Raises:
+        DataError: a table or a row is missing, or is not as a sentence says.
+    """
+    return _told(results, template, values(results))
+
+
+def found(results: Path, template: Path = FOUND_TEMPLATE) -> str:
+    """Return the page of what was found, from a folder of published results.
+
+    Raises:
+        DataError: a table or a row is missing, or is not as a sentence says.
+    """
+    own = found_values(results)
+    return _told(results, template, values(results) | own)
+
+
+def _told(results: Path, template: Path, told: Mapping[str, object]) -> str:
+    """Return a filled template; a DataError where it tells of what is not there."""
+    try:
+        return filled(template, told)
+    except UndefinedError as missing:
+        raise DataError(f"{results}: {missing}, of which {template} tells") from missing
+
+
+def values(results: Path) -> dict[str, object]:
+    """Return what the template takes its numbers from, by name.
+
+    Raises:
+        DataError: a table or a row is missing, or is not as a sentence says.
+    """
+    claims = {row["claim"]: row for row in read_texts(results / "claims.csv")}
+    falls = falls_of(results)
+    trial = shown_in_trial()
+    check_sentences(results, claims, falls, trial)
+    summary = read_texts(results / "claims_summary.csv", CLAIMED)
+    counts = {row["outcome"]: int(row["statements"]) for row in summary if row["score"] == PAPER}
+    refuted = counts[NOT_REPRODUCED] + counts[SIGN_ONLY]
+    detectors = read_texts(results / "detectors.csv")
+    peaks = read_texts(results / "peaks.csv")
+    return {
+        "n": counts,
+        "refuted": refuted,
+        "undecided": counts["all"] - counts[REPRODUCED] - refuted,
+        "control": CONTROL.format(n=counts) if counts[JUDGED_WITH.format(SHUFFLED)] else "",
+        "idle_h": read_note(results / RATES.name, RatesNote).core_h / CORES,
+        "headline": headline(results),
+        "best_formulas": best_formulas(results),
+        "c": {claim: float(row["value"] or "nan") for claim, row in claims.items()},
+        "share": {name: _value(peaks, {**HIT, "method": name}) for name in SHOWN},
+        "trial": trial,
+        "found": {name: _value(detectors, {"row": name, "quantity": "found at rate"}) for name in RATED},
+        "alarms": {name: _value(detectors, {"row": name, "quantity": "alarms at rate"}) for name in RATED},
+        "fell": {case: fell for case, (fell, _) in falls.items()},
+        "walks": {case: walks for case, (_, walks) in falls.items()},
+    }
+
+
+def found_values(results: Path) -> dict[str, object]:
+    """Return what the page of findings takes beside the README's values, by name.
+
+    Raises:
+        DataError: a table or a row is missing, or is not as a sentence says.
+    """
+    claims = {row["claim"]: row for row in read_texts(results / "claims.csv")}
+    _check_verdicts(SAID_FOUND, claims, "the page of findings")
+    peaks = read_texts(results / "peaks.csv")
+    hits = read_texts(results / "table_11.csv")
+    changed = read_texts(results / "changed.csv")
+    detectors = read_texts(results / "detectors.csv")
+    limbs = read_texts(results / "limbs.csv")
+    part: dict[str, dict[str, float]] = {}
+    for limb, name in LIMBS.items():
+        part[limb] = {method: _value(limbs, {"row": name, "quantity": method}) for method in COMPARED}
+    told = {
+        "shown": {name: _value(peaks, {**HIT, "method": name}) for name in UNDER_HITS},
+        "late": {name: _value(peaks, {**HIT, "metric": "rise_delay", "method": name}) for name in UNDER_HITS},
+        "hit": {name: _value(hits, {**HIT_ERROR, "method": name}) for name in ("zero", *UNDER_HITS)},
+        "changed": {name: _value(changed, {"level": level, **CHANGED_WALK}) for name, level in CHANGED.items()},
+        "part": part,
+        "least": float(_row(detectors, {"row": RATED[0], "quantity": "found at rate"})["low"]),
+    }
+    _check_found(results, told, detectors)
+    return told
+
+
+def _check_found(results: Path, told: Mapping[str, Mapping[str, Any]], detectors: Sequence[Row]) -> None:
+    """Raise a DataError where a sentence of the page of findings says something that the results do not."""
+    hit, late, changed, part = told["hit"], told["late"], told["changed"], told["part"]
+    is_best = [cells[MOB_NET] == min(cells.values()) for cells in part.values()]
+    ratio, formula = (_value(detectors, {"row": name, "quantity": "found at rate"}) for name in RATED)
+    fewer, more = (_value(detectors, {"row": name, "quantity": "alarms at rate"}) for name in RATED)
+    said = {
+        "more pushes in training give the smallest error under a hit": hit[FILMED] == min(hit.values()),
+        "a formula shows a hit earlier than networks": late[MEMORY] < min(late[FILMED], late[MOB_NET]),
+        "a network errs more on changed robots": changed["known"] < min(changed["friction"], changed["other robot"]),
+        "the ratio finds more hits with fewer false alarms": ratio > formula and fewer < more,
+        "on the waist no method is better than no estimate": min(part["waist"].values()) >= 1.0,
+        "MOB-Net has the smallest error of every part": all(is_best),
+    }
+    _check_sentences(said, results, "the page of findings")
+
+
+def shown_in_trial() -> dict[str, float]:
+    """Return method -> share of a hit [-], over the robots of a trial, that networks show which learn as the run's."""
+    data, way = AS_THE_RUN
+    shares = by_robot(read_why(EXPLAINED), SHARE_OF_HIT)
+    shown: dict[str, float] = {}
+    for method in (MOB_NET, NO_SENSOR):
+        robots = shares[LearnedCell(data, method, way)]
+        shown[method] = sum(robots.values()) / len(robots)
+    return shown
+
+
+def check_sentences(
+    results: Path, claims: Mapping[str, Row], falls: Mapping[str, tuple[int, int]], trial: Mapping[str, float]
+) -> None:
+    """Raise a DataError where a sentence of the template says something that the results do not."""
+    _check_verdicts(SAID, claims, "the README")
+    said = {
+        "random torque helps in walking": float(claims["rte-walk"]["value"]) > 1.0,
+        "random torque does not help under a hit": float(claims["rte-swing"]["value"]) < 1.0,
+        "pushes help under a hit": _value(read_texts(TAUGHT), PUSHES) > 1.0,
+        "networks without the inertial sensor show more of a hit": trial[NO_SENSOR] > trial[MOB_NET],
+        "a bar at the knee makes no robot fall": not any(falls[f"knee {name}"][0] for name in (REACTION, "none")),
+    }
+    _check_sentences(said, results, "the README")
+
+
+def _check_verdicts(said: Mapping[str, str], claims: Mapping[str, Row], page: str) -> None:
+    """Raise a DataError where a claim is gone, or its verdict is not the one that a page says."""
+    for claim, verdict in said.items():
+        if claim not in claims:
+            raise DataError(f"claim {claim} is missing, of which {page} tells")
+        if claims[claim]["verdict"] != verdict:
+            raise DataError(f"claim {claim}: {page} says {verdict!r}, and it is {claims[claim]['verdict']!r}")
+
+
+def _check_sentences(said: Mapping[str, bool], results: Path, page: str) -> None:
+    """Raise a DataError where a sentence of a page does not hold."""
+    for sentence, holds in said.items():
+        if not holds:
+            raise DataError(f"{results}: {page} says that {sentence}, and it is otherwise")
+
+
+def falls_of(results: Path) -> dict[str, tuple[int, int]]:
+    """Return case and detector -> walks that end in a fall, and all walks: of reactions that are not held back."""
+    falls: dict[str, tuple[int, int]] = {}
+    for row in read_texts(results / "safety.csv"):
+        # Rows with a waiting time are of reactions that wait on purpose (Figure 16).
+        if row["measure"] == "falls" and not float(row["wait_s"]):
+            walks = int(row["walks"])
+            falls[f"{row['case']} {row['detector']}"] = (round(float(row["value"]) * walks), walks)
+    return falls
+
+
+def scales(results: Path) -> str:
+    """Return the table of what each scale takes; that of the published run has its core-hours, and how long it took.
+
+    Raises:
+        DataError: the account of the run, or the note of its rates, is missing or damaged.
+    """
+    rates = read_note(results / RATES.name, RatesNote)
+    account = results / "compute.md"
+    elapsed = ELAPSED.search(read_text(account))
+    if elapsed is None:
+        raise DataError(f"{account}: the time of the run is missing, of which the guide tells")
+    lines = [["scale", "what it is", "two cores", "core-hours", "memory", "disk"], ["---"] * 2 + ["---:"] * 4]
+    for scale, text, time, core_hours, memory, disk in SCALES:
+        if scale == rates.scale:
+            took = f"{float(elapsed['hours']):.1f} h in the published run, which had {elapsed['load']} % of two cores"
+            time, core_hours = f"{rates.core_h / CORES:.1f} h on idle cores; {took}", f"{rates.core_h:.1f}"
+        lines.append([f"`{scale}`", text, time, core_hours, memory, disk])
+    return "".join(f"| {' | '.join(line)} |\n" for line in lines)
+
+
+def _value(rows: Sequence[Row], place: Row) -> float:
+    """Return the number of the row of a place; a DataError where there is none."""
+    return float(_row(rows, place)["value"])
+
+
+def _row(rows: Sequence[Row], place: Row) -> Row:
+    """Return the row of a place; a DataError where there is none."""
+    for row in rows:
+        if place.items() <= row.items():
+            return row
+    raise DataError(f"{', '.join(place.values())}: this row is missing, of which the README tells")
