@@ -4,8 +4,6 @@ import re
 from importlib import import_module
 from pathlib import Path
 
-from docutils import nodes
-
 project = "MOB-Net, reproduced"
 html_title = project
 extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon"]
@@ -37,7 +35,6 @@ def setup(app):  # noqa: ANN001, ANN201, D103
     app.connect("builder-inited", loaded)
     app.connect("autodoc-skip-member", skipped)
     app.connect("autodoc-process-signature", shortened)
-    app.connect("doctree-read", anchored)
 
 
 def loaded(app):  # noqa: ANN001, ANN201
@@ -45,16 +42,6 @@ def loaded(app):  # noqa: ANN001, ANN201
     for page in sorted(Path(app.srcdir).glob("reference/*.md")):
         for name in re.findall(r"automodule:: (\S+)", page.read_text()):
             import_module(name)
-
-
-def anchored(app, doctree):  # noqa: ANN001, ANN201
-    """Let links lead to anchors in HTML, such as `<a id="note-0028"></a>`, which work on code hosts, too."""
-    metadata = app.env.metadata[app.env.docname]
-    places = dict(metadata.get("myst_slugs", {}))
-    for node in doctree.findall(nodes.raw):
-        for name in re.findall(r'<a id="([\w-]+)">', node.astext()):
-            places[name] = (node.line, name, name)
-    metadata["myst_slugs"] = places
 
 
 def skipped(app, what, name, member, skip, options):  # noqa: ANN001, ANN201

@@ -10,7 +10,6 @@ from urllib.parse import unquote, urlsplit
 LINK = re.compile(r"(?<!`)\[[^]]*\]\(([^)\s]+)\)")
 HEADING = re.compile(r"^#{1,6} +(.+?) *#*$", re.MULTILINE)
 CODE = re.compile(r"^(?:```.*?^```|(?: {4}|\t).*?)$", re.MULTILINE | re.DOTALL)
-ANCHOR = re.compile(r'^<a id="([\w-]+)"></a>$', re.MULTILINE)
 LINKED = {"a": "href", "link": "href", "img": "src", "script": "src", "source": "srcset", "iframe": "src"}
 
 
@@ -30,7 +29,7 @@ class Page(HTMLParser):
 
 
 class Document:
-    """The links of a Markdown document, and the names of its headings, as code hosts give them, and of its anchors."""
+    """The links of a Markdown document, and the names of its headings, as code hosts give them."""
 
     def __init__(self, text: str) -> None:
         prose = CODE.sub("", text)
@@ -40,7 +39,6 @@ class Document:
             name = re.sub(r"[^\w\- ]", "", re.sub(r"\]\([^)]*\)", "", title).lower()).replace(" ", "-")
             same = sum(re.fullmatch(rf"{re.escape(name)}(-\d+)?", place) is not None for place in self.places)
             self.places.add(f"{name}-{same}" if same else name)
-        self.places |= set(ANCHOR.findall(text))
 
 
 @cache

@@ -28,7 +28,7 @@ INDEX = ROOT / "docs" / "README.md"
 PAGES = sorted(path for part in ("*.md", "paper/*.md", "docs/*.md", "docs/notes/*.md") for path in ROOT.glob(part))
 NUMBERED = ROOT / "docs" / "notes" / "README.md"  # where the notes with numbers are
 NOTES = sorted(path for path in NUMBERED.parent.glob("*.md") if path != NUMBERED)
-ANCHOR = re.compile(r'^<a id="note-(\d{4})"></a>$', re.MULTILINE)
+OLD_NUMBER = re.compile(r"^\| (\d{4}) \| \[", re.MULTILINE)
 CITED = re.compile(r"\bnotes?[\s_#*-]+\d{4}\b(?:(?:,| and| to)[\s#*]+\d{4}\b)*", re.IGNORECASE)
 TEXTS = ("*.md", "*.lock", "paper/*.tex", "docs/**/*.md", "configs/**/*.yaml", "workflow/**/*.*", "src/**/*.[pc]*")
 CHANGELOG_WORDS = 600  # of a version
@@ -61,12 +61,11 @@ def test_every_link_leads_to_a_file_and_to_a_heading_of_it(page):
 
 
 def test_a_link_to_no_file_or_no_heading_is_found(tmp_path):
-    (tmp_path / "b.md").write_text('# One: two, three\n\n## Same\n\n## Same\n\n<a id="old-1"></a>\n')
+    (tmp_path / "b.md").write_text("# One: two, three\n\n## Same\n\n## Same\n")
     links = (
         "b.md",
         "b.md#one-two-three",
         "b.md#same-1",
-        "b.md#old-1",
         "https://x.org",
         "b.md#four",
         "c.md",
@@ -193,24 +192,17 @@ def test_notes_are_few_and_named_by_their_subjects():
     assert [path for path in NOTES if not re.match(r"# [A-Z]", path.read_text())] == []
 
 
-def test_the_table_of_old_numbers_leads_to_the_anchor_of_each_that_the_changelog_cites():
-    rows = re.findall(r"^\| (\d{4}) \| \[[^]]+\]\((\w+\.md)#note-(\d{4})\) \|$", NUMBERED.read_text(), re.MULTILINE)
-    assert [number for number, _, anchor in rows if number != anchor] == []
-    placed = {(path.name, number) for path in NOTES for number in ANCHOR.findall(path.read_text())}
-    assert {(name, number) for number, name, _ in rows} <= placed
+def test_the_table_of_old_numbers_has_each_that_the_changelog_cites():
     cited = " ".join(CITED.findall((ROOT / "CHANGELOG.md").read_text()))
-    assert sorted(number for number, _, _ in rows) == sorted(set(re.findall(r"\d{4}", cited)))
+    assert OLD_NUMBER.findall(NUMBERED.read_text()) == sorted(set(re.findall(r"\d{4}", cited)))
 
 
-def test_no_anchor_of_an_old_number_is_dead():
-    linked = {number for path in CITING for number in re.findall(r"#note-(\d{4})\b", path.read_text(encoding="utf-8"))}
-    placed = [number for path in NOTES for number in ANCHOR.findall(path.read_text())]
-    assert len(placed) == len(set(placed))
-    assert set(placed) - linked == set()
+def test_links_lead_to_headings_and_not_to_anchors_of_old_numbers():
+    assert [path for path in PAGES if re.search(r"<a id=|#note-\d", path.read_text())] == []
 
 
 def test_every_number_and_every_file_of_a_note_that_is_named_anywhere_leads_somewhere():
-    known = {number for path in NOTES for number in ANCHOR.findall(path.read_text())}
+    known = OLD_NUMBER.findall(NUMBERED.read_text())
     named, lost = 0, list[str]()
     for path in CITING:
         text = path.read_text(encoding="utf-8")

@@ -3,6 +3,7 @@
 import csv
 import gzip
 import re
+import zlib
 from pathlib import Path
 
 import pytest
@@ -166,3 +167,14 @@ def test_the_note_on_training_has_the_numbers_of_the_trial_of_training_data() ->
     causes = ("random torque, joystick and no pushes", "the day of the tests")
     both = [values[*TAUGHT[name], "walking"] for name in causes]
     assert f"would make {both[0]:.2f} x {both[1]:.2f} = {both[0] * both[1]:.2f}" in " ".join(note.split())
+
+
+def test_a_publication_makes_the_repository_little_larger() -> None:
+    """SVG and PDF of figures are drawn from the numbers here; the film of a walk belongs to the guide."""
+    packed = 0
+    for folder in (RESULTS, ROOT / "docs/demo"):
+        for path in folder.rglob("*"):
+            if path.is_file() and path.name != "walk.webp":
+                assert path.suffix not in (".svg", ".gif", ".mp4"), path
+                packed += len(zlib.compress(path.read_bytes()))
+    assert 2e6 < packed < 8.5e6

@@ -28,7 +28,7 @@ def test_every_row_of_the_document_reaches_the_paper_in_order(tmp_path: Path) ->
 
 def test_code_is_set_as_code_and_specials_are_escaped() -> None:
     assert tex_text("tau_d of `a_b`, 5 %") == r"tau\_d of \texttt{a\_b}, 5 \%"
-    assert tex_text("(note [falls](notes/walking.md#note-0013)) `a`") == r"(note falls) \texttt{a}"
+    assert tex_text("(note [falls](notes/walking.md#falls)) `a`") == r"(note falls) \texttt{a}"
 
 
 @pytest.mark.parametrize(
