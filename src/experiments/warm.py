@@ -10,7 +10,7 @@ import torch
 from torch import nn
 
 from mobnet.core.columns import COMMAND, FEET, recording_width
-from mobnet.core.compilation import hold
+from mobnet.core.machine_code import hold
 from mobnet.core.recording import Sensed
 from mobnet.detection.chain import low_passed, make_chain
 from mobnet.detection.detector import LegGate, run_over

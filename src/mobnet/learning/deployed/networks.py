@@ -180,7 +180,7 @@ class GruNetworks:
 
     def __init__(self, networks: Sequence[GruNetwork], columns: Sequence[NDArray[np.intp]]) -> None:
         """Join networks of which each has its inputs in columns (n_in,) of the signals."""
-        from mobnet.core.compilation import hold
+        from mobnet.core.machine_code import hold
         from mobnet.learning.deployed.tick import advance_row, row_of
 
         self._units = sum(network.hidden for network in networks)
