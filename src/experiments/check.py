@@ -37,7 +37,7 @@ from mobnet.detection.threshold_file import read_thresholds
 from mobnet.estimation.kinds.dahl import DahlNote, read_dahl
 from mobnet.estimation.kinds.friction import FrictionNote, read_friction
 from mobnet.learning.deployed.limbs import LimbNetworks, check_limb
-from mobnet.learning.deployed.networks import deployed
+from mobnet.learning.deployed.loading import deployed
 from mobnet.learning.deployed.weights import read_weights
 from mobnet.robot.given import given_table
 from mobnet.robotlog.formats import FORMATS
