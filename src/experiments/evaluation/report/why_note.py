@@ -24,7 +24,8 @@ from experiments.evaluation.measure.learning.taught import HITS, ROUGHNESS, SHAR
 from experiments.evaluation.number.number import Number, number_text, shown_name
 from experiments.evaluation.report.blocks import with_block
 from experiments.evaluation.tables.layout import markdown_table
-from experiments.settings.claim_ranges import Bounds, apart, range_text, ranges_of, shown_range, within
+from experiments.intervals.bounds import Bounds, apart, range_text, within
+from experiments.settings.claim_ranges import ranges_of, shown_range
 from experiments.settings.load import load_settings
 from experiments.settings.settings import Settings
 from mobnet.core.errors import DataError

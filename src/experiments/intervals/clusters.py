@@ -8,7 +8,7 @@ their variance is part of that over robots, which alone counts. Robots and walks
 a value may be missing.
 
 Means of positive values have their interval on a log scale, so that no impulse is below zero. Shares and rates have
-those of `experiments.settings.few_clusters`, whose clusters are the robots, or the walks of a single robot.
+those of `experiments.intervals.few_clusters`, whose clusters are the robots, or the walks of a single robot.
 """
 
 from collections.abc import Sequence
@@ -17,10 +17,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from experiments.evaluation.number.intervals import quantile_of
-from experiments.evaluation.number.number import Number
-from experiments.settings.few_clusters import rate_ends, share_ends
-from experiments.settings.runs import Statistics
+from experiments.intervals.crossed import quantile_of
+from experiments.intervals.few_clusters import rate_ends, share_ends
+from experiments.intervals.number import Number
+from experiments.intervals.rule import IntervalRule
 
 Array = NDArray[np.float64]
 
@@ -32,7 +32,7 @@ class ClusterKey(NamedTuple):
     seed: int
 
 
-def mean_in(values: Sequence[float], places: Sequence[ClusterKey], statistics: Statistics, unit: str) -> Number:
+def mean_in(values: Sequence[float], places: Sequence[ClusterKey], statistics: IntervalRule, unit: str) -> Number:
     """Return the mean of values [unit] at places, with its interval; none below zero if no value is."""
     if not values:
         return Number(None, unit=unit)
@@ -53,7 +53,7 @@ def mean_in(values: Sequence[float], places: Sequence[ClusterKey], statistics: S
     return Number(mean, max(low, 0.0) if (found >= 0.0).all() else low, mean + reach, unit=unit)
 
 
-def share_in(flags: Sequence[bool], places: Sequence[ClusterKey], statistics: Statistics) -> Number:
+def share_in(flags: Sequence[bool], places: Sequence[ClusterKey], statistics: IntervalRule) -> Number:
     """Return the share of flags that are set [-] at places, with its interval."""
     if not flags:
         return Number(None)
@@ -66,7 +66,7 @@ def share_in(flags: Sequence[bool], places: Sequence[ClusterKey], statistics: St
 
 
 def rate_in(
-    counts: Sequence[int], hours: Sequence[float], places: Sequence[ClusterKey], statistics: Statistics
+    counts: Sequence[int], hours: Sequence[float], places: Sequence[ClusterKey], statistics: IntervalRule
 ) -> Number:
     """Return how many events there are in an hour [1/h] of the time at places [h], with its interval."""
     whole = sum(hours)
@@ -104,6 +104,6 @@ def _effects(parts: Array, places: Sequence[ClusterKey]) -> list[tuple[int, floa
     return found
 
 
-def _squared(count: int, statistics: Statistics) -> float:
+def _squared(count: int, statistics: IntervalRule) -> float:
     """Return the square of Student's quantile for so many robots or walks [-]."""
     return quantile_of(count - 1, statistics.confidence) ** 2

@@ -20,8 +20,8 @@ import numpy as np
 import scipy  # pyright: ignore[reportMissingTypeStubs]  # its parts are imported where they are used first
 from numpy.typing import NDArray
 
-from experiments.evaluation.number.number import Number
-from experiments.settings.runs import Statistics
+from experiments.intervals.number import Number
+from experiments.intervals.rule import IntervalRule
 
 STEP = 1e-6  # of a derivative, as a share of what changes
 Array = NDArray[np.float64]
@@ -84,7 +84,7 @@ MEAN = Formula(lambda means: means.mean(axis=0, keepdims=True), positive=True)
 RATIO = Formula(lambda means: means[:1] / means[1:2], positive=True)
 
 
-def summarise(grids: Sequence[RunGrid], statistics: Statistics, formula: Formula = MEAN, unit: str = "-") -> Number:
+def summarise(grids: Sequence[RunGrid], statistics: IntervalRule, formula: Formula = MEAN, unit: str = "-") -> Number:
     """Return the number that a formula makes of the means of K grids, with its interval [unit].
 
     With one network and one walk there is no interval, with several of one of them it is over these alone. There is no
