@@ -4,7 +4,7 @@ from typing import NamedTuple, Protocol
 
 
 class IntervalRule(Protocol):
-    """What an interval is made by; a section of a configuration may have these fields, or a `Rule`.
+    """What an interval is made by; a section of a configuration may have these fields, or a `IntervalNumbers`.
 
     Attributes:
         confidence: how often an interval is to hold the truth [-], from .5 to below 1.
@@ -28,7 +28,7 @@ class IntervalRule(Protocol):
         ...
 
 
-class Rule(NamedTuple):
+class IntervalNumbers(NamedTuple):
     """Numbers for intervals; see `IntervalRule`."""
 
     confidence: float

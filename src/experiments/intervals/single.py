@@ -22,9 +22,9 @@ def trend(grids: Sequence[RunGrid], statistics: IntervalRule, unit: str = "-") -
     means = [grid.mean for grid in grids]
     networks = tuple(len(grid.values) for grid in grids)
     slope, _, low, high = map(float, scipy.stats.theilslopes(means, alpha=statistics.confidence))
-    found = Number(slope, unit=unit, networks=networks, walks=(1,))
+    slope_alone = Number(slope, unit=unit, networks=networks, walks=(1,))
     all_rise_or_fall = 2.0 / factorial(len(means))  # chance of it without a trend
-    return found if all_rise_or_fall > 1.0 - statistics.confidence else replace(found, low=low, high=high)
+    return slope_alone if all_rise_or_fall > 1.0 - statistics.confidence else replace(slope_alone, low=low, high=high)
 
 
 def share(grids: Sequence[RunGrid], statistics: IntervalRule, unit: str = "-") -> Number:
