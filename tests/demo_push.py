@@ -11,7 +11,7 @@ from mobnet.core.recording import read_sensed
 from mobnet.detection.numbers import watched_signals
 from mobnet.detection.signals import Watched
 from mobnet.detection.watch import LegSetup
-from mobnet.estimation.recipe import build_estimator
+from mobnet.estimation.kinds import build_estimator
 from mobnet.robot.description import describe
 
 DATA = Path(__file__).parents[1] / "docs" / "demo"

@@ -37,7 +37,7 @@ from mobnet.detection.threshold_file import read_thresholds
 from mobnet.estimation.kinds.dahl import DahlNote, read_dahl
 from mobnet.estimation.kinds.friction import FrictionNote, read_friction
 from mobnet.learning.deployed.limbs import LimbNetworks, check_limb
-from mobnet.learning.deployed.networks import deployed
+from mobnet.learning.deployed.loading import deployed
 from mobnet.learning.deployed.weights import read_weights
 from mobnet.robot.given import given_table
 from mobnet.robotlog.formats import FORMATS
@@ -122,10 +122,10 @@ def _array(path: Path, against: Against) -> str:
     refuse(noted, (f"columns: {name!r} is missing; accepted: all of a {kind}" for name in needed if name not in names))
     if kind != "motion":
         check_rate(stem, against.rate_hz)
-    told = time.monotonic()
+    reported_s = time.monotonic()
     for first, columns in read_pieces(stem, note, names, against.layout):
-        if time.monotonic() - told > REPORT_S:
-            told = time.monotonic()
+        if time.monotonic() - reported_s > REPORT_S:
+            reported_s = time.monotonic()
             log.info("%s: %d of %d rows", stem, first + columns.shape[1], note["rows"])
     rows = note["rows"]
     rate = note["rate_hz"]
@@ -136,30 +136,30 @@ def _array(path: Path, against: Against) -> str:
 
 def kind_of(noted: Path, names: Sequence[str], layout: JointLayout) -> tuple[str, list[str]]:
     """Return which kind of array has columns of these names, as its note says, and the columns that it needs."""
-    held = set(names)
+    given = set(names)
     groups = recording_columns(layout)
-    signals = {name.partition(".")[0] for name in held}
+    signals = {name.partition(".")[0] for name in given}
     if {"q", "v"} & signals:
         needed: list[str] = []
         for field in Sensed.__dataclass_fields__:
             needed += [name for name, *_ in groups[field]]
         for field in Truth.__dataclass_fields__:
-            told = [name for name, *_ in groups[field]]
+            columns = [name for name, *_ in groups[field]]
             # A recording may have some quantities of the truth, or none, but each of them whole.
-            needed += told if held.intersection(told) else []
+            needed += columns if given.intersection(columns) else []
         return "recording", needed
     if RESIDUAL in signals:
         return "residual", [name for name, *_ in residual_columns(layout, LABEL_LP in signals)]
     if EXTERNAL in signals:
-        joints = [joint for joint in layout.names if held & set(named(EXTERNAL, [joint]) + named(STD, [joint]))]
+        joints = [joint for joint in layout.names if given & set(named(EXTERNAL, [joint]) + named(STD, [joint]))]
         needed = named(EXTERNAL, joints)
         # Methods without networks give no standard deviation.
         needed += named(STD, joints) if STD in signals else []
         return "estimate", needed
     if signals <= WRENCH_SIGNALS:
-        return "wrench", wrench_columns({name.partition(".")[2] for name in held})
+        return "wrench", wrench_columns({name.partition(".")[2] for name in given})
     if signals == {"q_ref"}:
-        return "motion", [name for name in named("q_ref", layout.actuated) if name in held]
+        return "motion", [name for name in named("q_ref", layout.actuated) if name in given]
     raise UnknownKindError(noted, "columns", list(names))
 
 
@@ -190,17 +190,17 @@ def _training(folder: Path) -> str:
 def _rows(path: Path, against: Against) -> str:
     """Check a file of rows: epochs of a training, scores, walks into obstacles, or what detectors find."""
     del against  # files of rows name joints of any robot
-    held = set(read_text(path).partition("\n")[0].strip().split(","))
+    columns_given = set(read_text(path).partition("\n")[0].strip().split(","))
     kinds = {"epochs": EPOCHS, "scores": SCORES, "trials": TRIALS}
     kinds |= {name: columns_of(name) for name in DETECTION_FILES}
-    shares = {name: len(held.intersection(columns)) / len(columns) for name, columns in kinds.items()}
+    shares = {name: len(columns_given.intersection(columns)) / len(columns) for name, columns in kinds.items()}
     kind = max(shares, key=lambda name: shares[name])
     if path.name == METRICS or (kind == "epochs" and shares[kind]):
         return _training(path.parent) if (path.parent / RUN).exists() else f"{len(read_epochs(path)[0])} epochs"
-    if any(name.startswith(LOGGED) for name in held):
+    if any(name.startswith(LOGGED) for name in columns_given):
         raise LogError(path)
     if shares[kind] <= HALF:
-        raise UnknownKindError(path, "columns", sorted(held))
+        raise UnknownKindError(path, "columns", sorted(columns_given))
     if kind == "scores":
         return f"scores, {len(read_scores(path))} rows"
     if kind == "trials":
@@ -227,7 +227,7 @@ def _configuration(path: Path, against: Against) -> str:
     folder = next((folder for folder in path.absolute().parents[:2] if (folder / "config.yaml").is_file()), None)
     if folder is None:
         raise UnknownKindError(path, "keys", sorted(keys))
-    settings = load_settings(folder, further=lambda own: [*method_problems(own), *measure_problems(own)])
+    settings = load_settings(folder, further=lambda read: [*method_problems(read), *measure_problems(read)])
     return f"configuration of scale {settings.scale}, with the other files of {folder}"
 
 
@@ -238,8 +238,8 @@ def files_of(path: Path) -> list[Path]:
     """Return the files that a word stands for: of a folder, all that may be of a known kind; of an array, its note."""
     if path.is_dir():
         inside = (file for file in sorted(path.rglob("*")) if file.suffix in READERS and not file.is_dir())
-        found = [file for file in inside if not (file.suffix == ARRAY and file.with_suffix(NOTE).exists())]
-        return found or [path]
+        files = [file for file in inside if not (file.suffix == ARRAY and file.with_suffix(NOTE).exists())]
+        return files or [path]
     ends = [file_of(path, ending) for ending in (NOTE, ARRAY) if file_of(path, ending).exists()]
     return [path] if path.exists() or not ends else ends[:1]
 
@@ -270,16 +270,16 @@ def main(words: list[str]) -> int:
         parser.error(not_accepted("--rate", options.rate, ["a number above 0"]))
     output = to_output()
     against = Against(options.robot, options.rate)
-    found: dict[Path, bool] = {}
+    files: dict[Path, bool] = {}
     try:
         for word in options.files:
-            found |= {file: file in options.files for file in files_of(word)}
+            files |= {file: file in options.files for file in files_of(word)}
     except OSError as error:
         parser.error(f"FILE: {error.filename}: {error.strerror}; accepted: files that you may read")
     with heartbeat():
-        wrong = sum(not accepted(file, against, asked) for file, asked in found.items())
-    if len(found) != 1:
-        log.info("%d files, %d of them not accepted", len(found), wrong)
+        wrong = sum(not accepted(file, against, asked) for file, asked in files.items())
+    if len(files) != 1:
+        log.info("%d files, %d of them not accepted", len(files), wrong)
     return 1 if wrong or output.is_cut else 0
 
 

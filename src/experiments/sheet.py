@@ -37,9 +37,9 @@ def run(options: Namespace) -> Iterator[str]:
 def told(name: str, row: Row) -> str:
     """Return a row as it is printed: its name, then a line for each column that has something."""
     lines = [name]
-    for column, found in row.items():
-        if found:
-            lines.append(f"    {column:<11} {', '.join(map(str, found))}")
+    for column, names in row.items():
+        if names:
+            lines.append(f"    {column:<11} {', '.join(map(str, names))}")
     return "\n".join(lines)
 
 

@@ -10,7 +10,7 @@ import torch
 from torch import nn
 
 from mobnet.core.columns import COMMAND, FEET, recording_width
-from mobnet.core.compilation import hold
+from mobnet.core.machine_code import hold
 from mobnet.core.recording import Sensed
 from mobnet.detection.chain import low_passed, make_chain
 from mobnet.detection.detector import LegGate, run_over
@@ -78,12 +78,12 @@ def _learn(precision: torch.dtype) -> None:
     states.sum().backward()
     weights = [weight.detach().numpy() for weight in cell.parameters()]
     gru_states(weights, state.numpy(), np.zeros((SAMPLES, 1, 1), dtype=np.float32))
-    one, two, gates = (np.zeros(n, dtype=np.float32) for n in (1, 2, 8))
+    unit, two, gates = (np.zeros(n, dtype=np.float32) for n in (1, 2, 8))
     head = np.zeros((2, 2), dtype=np.float32), two
-    net = GruWeights(*ordered(*weights), *head, one, one + 1, one, one, one, np.float32(0.0), one.copy(), gates)
-    advance(net, two.copy(), one, two.copy(), one.copy(), one.copy())
+    net = GruWeights(*ordered(*weights), *head, unit, unit + 1, unit, unit, unit, np.float32(0.0), unit.copy(), gates)
+    advance(net, two.copy(), unit, two.copy(), unit.copy(), unit.copy())
     row = hold(row_of([net], [np.zeros(1, dtype=np.intp)]))
-    advance_row(row, one, two.copy(), two.copy(), one.copy(), one.copy())
+    advance_row(row, unit, two.copy(), two.copy(), unit.copy(), unit.copy())
 
 
 def _detect(robot: WalkingRobot, sensed: Sensed, detection: Detection, rate_hz: float) -> None:

@@ -9,7 +9,8 @@ from mobnet.core.files import WEIGHTS
 from mobnet.core.notes import read_array_note
 from mobnet.core.store import NOTE, file_of
 from mobnet.estimation.estimate import ObservedRecording, only, rate_of, read_observed, run_segments, write_estimate
-from mobnet.estimation.recipe import Recipe, build_estimator
+from mobnet.estimation.kinds import build_estimator
+from mobnet.estimation.recipe import Recipe
 from mobnet.learning.deployed.weights import std_scales
 from mobnet.robot.description import describe
 from mobnet.settings.methods import ObserverSettings

@@ -12,8 +12,9 @@ from mobnet.core.errors import ConfigError, not_accepted
 from mobnet.core.files import write_json
 from mobnet.core.joints import JointLayout
 from mobnet.core.store import read_array, spans_and_rate
+from mobnet.estimation.kinds import kind_of
 from mobnet.estimation.kinds.friction import FittedFriction, read_friction
-from mobnet.estimation.recipe import kind_of, options_of
+from mobnet.estimation.recipe import options_of
 from mobnet.kernel.low_pass import low_pass
 from mobnet.learning.dataset import Known
 from mobnet.settings.methods import Method, ObserverSettings

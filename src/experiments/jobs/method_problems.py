@@ -7,7 +7,7 @@ from pydantic import ValidationError
 from experiments.settings.catalogue import Catalogue
 from experiments.settings.settings import Settings
 from mobnet.core.errors import not_accepted
-from mobnet.estimation.recipe import kind_names, kind_of
+from mobnet.estimation.kinds import kind_names, kind_of
 from mobnet.settings.base import Section
 from mobnet.settings.faults import problems
 from mobnet.settings.reading import Place

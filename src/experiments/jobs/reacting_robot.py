@@ -12,8 +12,9 @@ from mobnet.core.estimator import TorqueEstimator, once
 from mobnet.detection.numbers import watched_signals
 from mobnet.detection.signals import Watched
 from mobnet.detection.watch import LegSetup
+from mobnet.estimation.kinds import build_estimator
 from mobnet.estimation.observe import observer_of
-from mobnet.estimation.recipe import Recipe, ResidualObserver, build_estimator
+from mobnet.estimation.recipe import Recipe, ResidualObserver
 from mobnet.reaction.watchers import BaseForce
 from mobnet.robot.description import RobotDescription, describe
 from mobnet.settings.detection import Detection

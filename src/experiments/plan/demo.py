@@ -34,17 +34,17 @@ def demo_needs(files: Files) -> Mapping[str, Any]:
     """Return what the stored push is made from: files of the first recording of its test, networks and fits."""
     settings = files.settings
     story = files.settings.evaluation.story
-    own = files.robots.get(story.level, files)
+    walked = files.robots.get(story.level, files)
     layout = settings.layout
     copied = dict[str, Path]()
     limb = layout.limb_of[story.joint]
-    runs = {method: own.runs(story.scenario, story.level, [method])[0] for method in story.methods}
+    runs = {method: walked.runs(story.scenario, story.level, [method])[0] for method in story.methods}
     for method in story.methods:
-        source = own.catalogue.network_source_of(method)
-        if limb in own.catalogue.method(source).limbs:
-            folder = own.network(source, limb, own.network_seeds(source, limb)[0])
+        source = walked.catalogue.network_source_of(method)
+        if limb in walked.catalogue.method(source).limbs:
+            folder = walked.network(source, limb, walked.network_seeds(source, limb)[0])
             copied |= {f"{network_place(source, limb)}/{name}": folder / name for name in (WEIGHTS, RUN)}
-        copied |= {fit_place(own.catalogue.source_of(method)): path for path in own.fit(method)}
+        copied |= {fit_place(walked.catalogue.source_of(method)): path for path in walked.fit(method)}
     return {
         "settings": story,
         "limb": limb,
@@ -52,7 +52,7 @@ def demo_needs(files: Files) -> Mapping[str, Any]:
         "recording": runs[story.methods[0]].recording,
         "estimates": {method: run.estimate for method, run in runs.items()},
         "copied": copied,
-        "detections": {name: path for name, path in detection_files(own).items() if name in ROWS},
+        "detections": {name: path for name, path in detection_files(walked).items() if name in ROWS},
     }
 
 

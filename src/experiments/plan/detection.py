@@ -26,8 +26,8 @@ def level_of_detectors(files: Files) -> str:
     """Return the level at which the detectors of a robot, or of the plant of section 5.1, are tried; else nothing."""
     settings = files.settings
     levels = settings.detection.levels if files.is_whole else ()
-    own = next((level for level in levels if files.has(level)), "")
-    return settings.fleet.level_of(files.robot, own) if own and files.robot else own
+    first = next((level for level in levels if files.has(level)), "")
+    return settings.fleet.level_of(files.robot, first) if first and files.robot else first
 
 
 def numbers_of(files: Files) -> Detection:
@@ -68,4 +68,4 @@ def detection_files(files: Files) -> dict[str, Path]:
 
 def all_detections(files: Files) -> Detections:
     """Return the files of all detectors: those of the plant first, then those of each robot of the fleet."""
-    return {level: detection_files(own) for own in files.owners if (level := level_of_detectors(own))}
+    return {level: detection_files(owner) for owner in files.owners if (level := level_of_detectors(owner))}

@@ -74,33 +74,33 @@ def dry_run(targets: Sequence[str], config: Sequence[str] = (), *, from_nothing:
     words += ["--config", *config] if config else []
     words += ["--", *targets]
     done = subprocess.run(words, cwd=ROOT, capture_output=True, text=True, check=False)
-    told = done.stdout + done.stderr
+    printed = done.stdout + done.stderr
     if done.returncode:
-        raise ConfigError(next((line for line in reversed(told.splitlines()) if line.strip()), "snakemake failed"))
-    return [_job(found["rule"], found["told"]) for found in JOB.finditer(told)]
+        raise ConfigError(next((line for line in reversed(printed.splitlines()) if line.strip()), "snakemake failed"))
+    return [_job(match["rule"], match["told"]) for match in JOB.finditer(printed)]
 
 
 def _job(rule: str, text: str) -> PlannedJob:
     """Return a job from the lines that tell of it, `key: value`."""
-    told: dict[str, str] = {}
+    values: dict[str, str] = {}
     for line in text.splitlines():
         key, _, value = line.strip().partition(": ")
-        told[key] = value
+        values[key] = value
     return PlannedJob(
         rule=rule,
-        name=account_name(Path(told["log"])) if "log" in told else rule,
-        wildcards=_pairs(told.get("wildcards", "")),
-        outputs=tuple(told.get("output", "").split(", ")),
-        resources=_pairs(told.get("resources", "")),
-        inputs=tuple(told.get("input", "").split(", ")),
-        priority=int(told.get("priority", 0)),
+        name=account_name(Path(values["log"])) if "log" in values else rule,
+        wildcards=_pairs(values.get("wildcards", "")),
+        outputs=tuple(values.get("output", "").split(", ")),
+        resources=_pairs(values.get("resources", "")),
+        inputs=tuple(values.get("input", "").split(", ")),
+        priority=int(values.get("priority", 0)),
     )
 
 
 def _pairs(text: str) -> dict[str, str]:
     """Return the pairs of `one=1, other=2`."""
-    found: dict[str, str] = {}
+    pairs: dict[str, str] = {}
     for pair in filter(None, text.split(", ")):
         name, _, value = pair.partition("=")
-        found[name] = value
-    return found
+        pairs[name] = value
+    return pairs

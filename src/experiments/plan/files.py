@@ -61,12 +61,12 @@ class Files(Seeds):
         if row.level not in self.settings.fleet.levels:
             return tuple(self.array(kind, row.scenario, row.level, seed) for seed in self.training_seeds(name))
         # A set of the whole fleet is recorded by each robot on its own, below the robot's folder and by its own name.
-        own = next(own for own, other in self.settings.fleet.sets.items() if other == name)
-        found: list[Path] = []
+        robot_set = next(robot_set for robot_set, other in self.settings.fleet.sets.items() if other == name)
+        paths: list[Path] = []
         for files in self.robots.values():
-            if own in files.learned_sets:
-                found += files.training(kind, own)
-        return tuple(found)
+            if robot_set in files.learned_sets:
+                paths += files.training(kind, robot_set)
+        return tuple(paths)
 
     def tests(self, scenario: str, level: str, kind: str = "recordings") -> tuple[Path, ...]:
         """Return the recordings of a test, or their residuals."""
@@ -122,22 +122,22 @@ class Files(Seeds):
         seeds = self.network_seeds(method)
         earlier = seeds[: seeds.index(seed)]
         networks = self.settings.robot.networks
-        found: list[str] = []
+        joints: list[str] = []
         for limb in self.catalogue.method(source).limbs:
             served = [self.network(source, limb, other) for other in earlier]
             if self.network(source, limb, seed) in served:
-                found += networks[limb].joints
-        return tuple(found)
+                joints += networks[limb].joints
+        return tuple(joints)
 
     def network_folders(self, methods: Iterable[str], limb: str, level: str) -> tuple[Path, ...]:
         """Return the folders of methods' networks of a limb trained at a level, on a fleet those of each robot."""
-        found: list[Path] = []
+        folders: list[Path] = []
         for name in methods:
             for files in self.owners:
                 # A level of the fleet is every robot's, any other one belongs to a single owner.
                 if files.is_whole and files.has(level):
-                    found += [files.network(name, limb, seed) for seed in files.network_seeds(name, limb)]
-        return tuple(found)
+                    folders += [files.network(name, limb, seed) for seed in files.network_seeds(name, limb)]
+        return tuple(folders)
 
     @cached_property
     def learned(self) -> frozenset[tuple[str, str]]:
@@ -220,12 +220,12 @@ class Files(Seeds):
     def runs(self, scenario: str, level: str, methods: Iterable[str]) -> tuple[Run, ...]:
         """Return the runs of methods on a test: every network on every recording; on a fleet, those of each robot."""
         fleet = self.settings.fleet
-        found: list[Run] = []
+        runs: list[Run] = []
         if self.has(level):
             for method in methods:
                 for network in self.run_seeds(method, scenario, level):
-                    found += self._runs_of(scenario, level, method, network)
-            return tuple(found)
+                    runs += self._runs_of(scenario, level, method, network)
+            return tuple(runs)
         for seed, (robot, files) in enumerate(self.robots.items(), start=FIRST_SEED):
             if level in (*fleet.levels, robot):
                 walked = fleet.level_of(robot, level)
@@ -233,10 +233,10 @@ class Files(Seeds):
                 if not files.is_whole:
                     known = files.catalogue.tests.get(scenario, {}).get(walked, ())
                     named = tuple(method for method in named if method in known)
-                own = files.runs(scenario, walked, named)
+                of_robot = files.runs(scenario, walked, named)
                 # Every method has the robot's seed, also one without networks: methods are paired over robots.
-                found += [replace(run, level=level, network_seed=seed) for run in own]
-        return tuple(found)
+                runs += [replace(run, level=level, network_seed=seed) for run in of_robot]
+        return tuple(runs)
 
     def _runs_of(self, scenario: str, level: str, method: str, network_seed: int) -> Iterator[Run]:
         """Yield the runs of a method with the networks of a seed on every recording of a test."""
@@ -276,7 +276,7 @@ class Files(Seeds):
     def _shown(self) -> frozenset[tuple[str, str, str]]:
         """Scenario, level and method of the runs that products show."""
         sections = self.settings.evaluation, self.settings.claims
-        return frozenset((one.scenario, one.level, one.method) for one in asked_in(self.settings, sections, ()))
+        return frozenset((asked.scenario, asked.level, asked.method) for asked in asked_in(self.settings, sections, ()))
 
     def scores(self, shown: Iterable[tuple[str, str]]) -> tuple[Path, ...]:
         """Return the files of scores of some tests, each at a level; each file once."""
@@ -286,27 +286,27 @@ class Files(Seeds):
         """Return the sizes of Figure 20; the network of all data is that of Table 1's size."""
         figure = self.settings.evaluation.figure_20
         sweeps = self.settings.sweeps
-        found: list[SweptSize] = []
+        sizes: list[SweptSize] = []
         for panel, key in (("parameters", figure.parameters), ("samples", figure.samples)):
             for base in sweeps[key].of:
                 names = [swept_name(base, key, value) for value in sweeps[key].values]
                 if panel == "samples":
                     full = getattr(self.catalogue.network(base, figure.limb), figure.parameters)
                     names.append(swept_name(base, figure.parameters, full))
-                found += [
+                sizes += [
                     SweptSize(panel, base, self.network_folders([name], figure.limb, figure.level)) for name in names
                 ]
-        return tuple(found)
+        return tuple(sizes)
 
 
 def made_by_jobs(needs: object) -> list[str]:
     """Return what jobs make of the files behind some arguments: the folder of a set in place of the files in it."""
-    found: dict[str, None] = {}
+    names: dict[str, None] = {}
     for path in files_in(needs):
         kind = next((place for place, part in enumerate(path.parts) if part in SETS), None)
         made = path if kind is None else Path(*path.parts[: kind + len(("kind", "scenario", "level"))])
-        found[str(made)] = None
-    return list(found)
+        names[str(made)] = None
+    return list(names)
 
 
 def files_in(needs: object) -> Iterator[Path]:

@@ -63,5 +63,5 @@ def fitted(note: GpuNote) -> GpuRates:
     speeds = np.array(list(note.side_by_side.values()))
     measured_s = networks * note.batch * note.horizon / speeds
     columns = np.stack([1.0 / measured_s, networks / measured_s], axis=1)
-    found = np.linalg.lstsq(columns, np.ones(len(networks)), rcond=None)[0]
-    return GpuRates(note, float(found[0]), float(found[1]))
+    costs = np.linalg.lstsq(columns, np.ones(len(networks)), rcond=None)[0]
+    return GpuRates(note, float(costs[0]), float(costs[1]))

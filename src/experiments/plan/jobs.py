@@ -80,10 +80,10 @@ class Jobs:
     def motions(self, w: Any) -> list[Path]:
         """Return the motion of the upper body in each of these recordings; none where it stays as it is."""
         files = self.files(w)
-        found: list[Path] = []
+        paths: list[Path] = []
         for seed in files.seeds_of(w.scenario, w.level):
-            found += files.motion(w.scenario, seed)
-        return found
+            paths += files.motion(w.scenario, seed)
+        return paths
 
     def observe(self, w: Any) -> Arguments:
         """Return the observer's residuals of these recordings."""
@@ -125,9 +125,9 @@ class Jobs:
             arguments["margins"] = (swings.lift_off_s, swings.landing_s)
         if files.fit(w.method):
             arguments["observer"] = self.settings.observer
-        own = Stacked(w.robot, NetworkName(w.method, w.limb, int(w.seed)))
-        if self.settings.stacks.side_by_side is True and own in self.stacks.names:
-            arguments["lesson"] = (self.stacks.file(self.stacks.names[own]), own.name)
+        in_stack = Stacked(w.robot, NetworkName(w.method, w.limb, int(w.seed)))
+        if self.settings.stacks.side_by_side is True and in_stack in self.stacks.names:
+            arguments["lesson"] = (self.stacks.file(self.stacks.names[in_stack]), in_stack.name)
         return arguments
 
     def learned_from(self, w: Any) -> dict[str, Any]:
@@ -152,19 +152,19 @@ class Jobs:
         """Return the training of networks side by side: what that of each of them would get, and its files."""
         members: dict[str, Arguments] = {}
         for robot, (method, limb, seed) in self.stacks.members[w.stack]:
-            own = SimpleNamespace(robot=robot, method=method, limb=limb, seed=seed)
-            given = {**self.train(own), **self.learned_from(own)}
+            wildcards = SimpleNamespace(robot=robot, method=method, limb=limb, seed=seed)
+            given = {**self.train(wildcards), **self.learned_from(wildcards)}
             given.pop("lesson", None)
             members[Stacked(robot, NetworkName(method, limb, seed)).name] = given
         return {"members": members, "state": self.plant.results / "state" / w.stack}
 
     def read_by_stack(self, w: Any) -> list[Path]:
         """Return the files that the networks of a stack learn from."""
-        found: dict[Path, None] = {}
+        paths: dict[Path, None] = {}
         for given in self.train_stack(w)["members"].values():
             for name in ("recordings", "residuals", "start", "fitted"):
-                found |= dict.fromkeys(files_in(given.get(name)))
-        return list(found)
+                paths |= dict.fromkeys(files_in(given.get(name)))
+        return list(paths)
 
     def estimate(self, w: Any) -> Arguments:
         """Return the external torque of a test by all of its methods, whose recordings run side by side."""
@@ -241,11 +241,11 @@ class Jobs:
     def modules_of(self, w: Any, methods: Iterable[str]) -> list[str]:
         """Return the modules that methods import by name: their kinds and those of the methods they run on."""
         catalogue = self.files(w).catalogue
-        found: dict[str, None] = {}
+        modules: dict[str, None] = {}
         for method in methods:
             for name in (method, catalogue.source_of(method)):
-                found[f"{KINDS}.{catalogue.method(name).kind}"] = None
-        return list(found)
+                modules[f"{KINDS}.{catalogue.method(name).kind}"] = None
+        return list(modules)
 
     def trained_by(self, w: Any) -> list[str]:
         """Return the module by which a training knows a fit, if it builds upon one: others do not rerun with it."""
@@ -318,7 +318,7 @@ def scoring(settings: Settings, scenario: str, level: str) -> Scoring:
     """Return what is measured on the runs of a test at a level: the sections of the products that show it."""
     evaluation = settings.evaluation
     measured = measured_in(evaluation).items()
-    sections = {name: own for name, own in measured if (scenario, level) in tests_in(settings, own)}
+    sections = {name: section for name, section in measured if (scenario, level) in tests_in(settings, section)}
     pushes = [settings.pushes[name] for name in settings.scenarios[scenario].pushes]
     shared = {
         "window": evaluation.windows.get(scenario),

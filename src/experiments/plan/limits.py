@@ -55,14 +55,14 @@ class JobLimits:
 
     def asked(self, name: str, wildcards: Mapping[str, str]) -> tuple[int, int]:
         """Return the memory [MB] and the time [min] that a job asks for at first."""
-        own = self._price(name.format_map(wildcards), wildcards)
-        if kind_of(own.work, self.rates.kinds) is None:
+        price = self._price(name.format_map(wildcards), wildcards)
+        if kind_of(price.work, self.rates.kinds) is None:
             cpu_s, held_mb = UNPRICED_S, UNPRICED_MB
         else:
-            cpu_s, held_mb = own.cpu_s, own.peak_mib * MB_OF_MIB
-        minutes = (MARGIN * cpu_s + GPU_MARGIN * own.gpu_s) / MINUTE_S
+            cpu_s, held_mb = price.cpu_s, price.peak_mib * MB_OF_MIB
+        minutes = (MARGIN * cpu_s + GPU_MARGIN * price.gpu_s) / MINUTE_S
         memory_mb = MARGIN * (held_mb + SNAKEMAKE_MB)
-        least_mb = LEAST_GPU_MB if own.on_gpu else LEAST_MB
+        least_mb = LEAST_GPU_MB if price.on_gpu else LEAST_MB
         return max(least_mb, math.ceil(memory_mb)), max(LEAST_MIN, math.ceil(minutes))
 
     def _price(self, name: str, wildcards: Mapping[str, str]) -> Priced:

@@ -47,7 +47,7 @@ CLAIMS_PAGE = (
 
 def film_products(files: Files, *, with_mp4: bool) -> Iterator[Product]:
     """Yield the films of the first robot's walks, where robots have detectors; without ffmpeg they are WebP."""
-    if not any(level_of_detectors(own) for own in files.owners):
+    if not any(level_of_detectors(owner) for owner in files.owners):
         return
     settings = files.settings
     section = settings.evaluation.films
@@ -117,10 +117,10 @@ class Plan:
     @property
     def levels(self) -> list[str]:
         """Levels of uncertainty, those of each robot among them."""
-        found = dict.fromkeys(self.settings.levels)
-        for own in self.files.owners:
-            found |= dict.fromkeys(own.settings.levels)
-        return [*found, *self.settings.fleet.levels]
+        names = dict.fromkeys(self.settings.levels)
+        for owner in self.files.owners:
+            names |= dict.fromkeys(owner.settings.levels)
+        return [*names, *self.settings.fleet.levels]
 
     @cached_property
     def methods(self) -> list[str]:
@@ -162,19 +162,19 @@ class Plan:
     def sets(self) -> list[str]:
         """Files and folders of results that jobs make before products, but those that the configuration lets go."""
         scores = f"{self.folders.results}/scores/"
-        found = dict.fromkeys(sets_left(self.files))
+        names = dict.fromkeys(sets_left(self.files))
         for product in self.products:
-            found |= dict.fromkeys(name for name in product.inputs if name.startswith(scores))
-        return self.kept(found)
+            names |= dict.fromkeys(name for name in product.inputs if name.startswith(scores))
+        return self.kept(names)
 
     @property
     def listed(self) -> list[str]:
         """Files of products whose hashes the manifest has: all but its own, and those of a tool with times in them."""
-        found: list[str] = []
+        names: list[str] = []
         for product in self.products:
             if product.name not in ("manifest", "wandb_runs"):
-                found += product.outputs
-        return found
+                names += product.outputs
+        return names
 
     def kept(self, outputs: Iterable[str]) -> list[str]:
         """Return outputs of jobs without the sets that are let go once nothing needs them."""
@@ -185,10 +185,10 @@ class Plan:
     @property
     def shown(self) -> list[str]:
         """Files of all products."""
-        found: list[str] = []
+        names: list[str] = []
         for product in self._by_name.values():
-            found += product.outputs
-        return found
+            names += product.outputs
+        return names
 
     def title(self, figure: str) -> str:
         """Return the first line of a figure's caption, or its name."""
@@ -198,12 +198,12 @@ class Plan:
     def made_by(self, rule: str) -> list[str]:
         """Return the names of the products that a rule makes."""
         trials = {product.name for product in self.trials}
-        found: list[str] = []
+        names: list[str] = []
         for product in self._by_name.values():
-            own = "trial" if product.name in trials else product.rule
-            if own == rule:
-                found.append(product.name)
-        return found
+            rule_of_product = "trial" if product.name in trials else product.rule
+            if rule_of_product == rule:
+                names.append(product.name)
+        return names
 
 
 def make_plan(settings: Settings, *, with_pdf: bool, with_mp4: bool | None = None) -> Plan:

@@ -70,14 +70,14 @@ def kind_of(work: Work, kinds: Mapping[str, Kind]) -> Kind | None:
 def priced(plan: Plan, rates: RatesNote, gpu: GpuRates | None, planned: Iterable[PlannedJob]) -> list[Priced]:
     """Return the jobs of a plan with their prices, none for those without a rate; without a GPU none learns there."""
     jobs = [job for job in planned if job.name != job.rule or job.outputs[0]]
-    found: list[Priced] = []
+    prices: list[Priced] = []
     for job, work in zip(jobs, works_of(plan, jobs), strict=True):
         there = on_gpu(plan, job) if gpu else None
-        own = replace(work, amounts={SECONDS: work.amounts[SECONDS]}) if there else work
-        kind = kind_of(own, rates.kinds)
-        cpu_s, peak_mib = price(own, kind) if kind else (0.0, 0.0)
-        found.append(Priced(job, own, cpu_s, peak_mib, there, gpu.seconds(there) if gpu and there else 0.0))
-    return found
+        on_cpu = replace(work, amounts={SECONDS: work.amounts[SECONDS]}) if there else work
+        kind = kind_of(on_cpu, rates.kinds)
+        cpu_s, peak_mib = price(on_cpu, kind) if kind else (0.0, 0.0)
+        prices.append(Priced(job, on_cpu, cpu_s, peak_mib, there, gpu.seconds(there) if gpu and there else 0.0))
+    return prices
 
 
 def price(work: Work, kind: Kind) -> tuple[float, float]:

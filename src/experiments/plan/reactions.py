@@ -19,25 +19,25 @@ def cases_of_jobs(files: Files) -> dict[str, tuple[str, ...]]:
     """Return job -> its cases: those that compare several detectors with ours have one each, the others share one."""
     reaction = files.settings.reaction
     cases = files.settings.reaction.cases
-    own: dict[str, tuple[str, ...]] = {}
+    alone: dict[str, tuple[str, ...]] = {}
     for case in cases:
         detectors = {watch.detector for watch in watches_of(reaction, case)}
         if len(detectors - {reaction.ours.detector}) > 1:
-            own[case] = (case,)
-    others = tuple(case for case in cases if case not in own)
-    return {**own, **({OTHERS: others} if others else {})}
+            alone[case] = (case,)
+    others = tuple(case for case in cases if case not in alone)
+    return {**alone, **({OTHERS: others} if others else {})}
 
 
 def methods_of(files: Files, cases: Iterable[str]) -> tuple[str, ...]:
     """Return the methods that run in some cases: that in the loop, and those of detectors."""
     reaction = files.settings.reaction
     detectors = files.settings.detection.detectors
-    found = [reaction.estimator]
+    methods = [reaction.estimator]
     for case in cases:
         names = [watch.detector for watch in watches_of(reaction, case)]
         # Force sensors, and a robot that does not react, run no method.
-        found += [detectors[name].method for name in names if name in detectors]
-    return tuple(dict.fromkeys(found))
+        methods += [detectors[name].method for name in names if name in detectors]
+    return tuple(dict.fromkeys(methods))
 
 
 def sizes_of(files: Files, case: str) -> ReactionSizes:
@@ -78,24 +78,24 @@ def course_file(files: Files, case: str) -> Path:
 
 def courses_of(files: Files, cases: Iterable[str]) -> Mapping[str, Path]:
     """Return the courses of the first robot in some cases."""
-    own = next(own for own in files.owners if level_of_detectors(own))
-    return {case: course_file(own, case) for case in cases}
+    first = next(first for first in files.owners if level_of_detectors(first))
+    return {case: course_file(first, case) for case in cases}
 
 
 def courses_of_robots(files: Files, cases: Iterable[str]) -> Reactions:
     """Return the courses of every robot in some cases."""
-    found: dict[str, dict[str, Path]] = {}
-    for own in files.owners:
-        if level := level_of_detectors(own):
-            found[level] = {case: course_file(own, case) for case in cases}
-    return found
+    courses: dict[str, dict[str, Path]] = {}
+    for owner in files.owners:
+        if level := level_of_detectors(owner):
+            courses[level] = {case: course_file(owner, case) for case in cases}
+    return courses
 
 
 def all_reactions(files: Files) -> Reactions:
     """Return the files of the trials of every robot."""
     cases = files.settings.reaction.cases
-    found: dict[str, dict[str, Path]] = {}
-    for own in files.owners:
-        if level := level_of_detectors(own):
-            found[level] = {case: reaction_file(own, case) for case in cases}
-    return found
+    trials: dict[str, dict[str, Path]] = {}
+    for owner in files.owners:
+        if level := level_of_detectors(owner):
+            trials[level] = {case: reaction_file(owner, case) for case in cases}
+    return trials

@@ -62,7 +62,7 @@ def _estimated_width(files: Files, method: str, w: Any) -> int:
 
 def share_at_once(jobs: Sequence[TimedJob], cores: int) -> float:
     """Return the share of what all outputs of a run take that is there at once, where sets are let go."""
-    whole_mb = sum(size_mb(own.job) for own in jobs)
+    whole_mb = sum(size_mb(timed.job) for timed in jobs)
     most_mb = most_held(jobs, cores, size_mb, lambda job: job.rule in LET_GO)
     return min(1.0, MARGIN * most_mb / whole_mb) if whole_mb else 1.0
 

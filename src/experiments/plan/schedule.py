@@ -38,22 +38,22 @@ def most_held(
     for before in waits.values():
         for earlier in before:
             readers[earlier] += 1
-    held, most = 0.0, 0.0
+    now, most = 0.0, 0.0
     for _, place, begins in _course(jobs, cores, 0):
         if begins:
-            held += size(jobs[place].job)
-            most = max(most, held)
+            now += size(jobs[place].job)
+            most = max(most, now)
             continue
         for earlier in waits[place]:
             readers[earlier] -= 1
             if not readers[earlier] and is_let_go(jobs[earlier].job):
-                held -= size(jobs[earlier].job)
+                now -= size(jobs[earlier].job)
     return most
 
 
 def in_order(jobs: Sequence[TimedJob]) -> list[TimedJob]:
     """Return jobs by their names: a dry run tells them in any order."""
-    return sorted(jobs, key=lambda own: own.job.name)
+    return sorted(jobs, key=lambda timed: timed.job.name)
 
 
 def _course(jobs: Sequence[TimedJob], cores: int, gpus: int) -> Iterator[tuple[float, int, bool]]:
@@ -73,8 +73,8 @@ def _course(jobs: Sequence[TimedJob], cores: int, gpus: int) -> Iterator[tuple[f
     running: list[tuple[float, int]] = []
 
     def enqueue(place: int) -> None:
-        own = jobs[place]
-        heapq.heappush(ready[own.gpu], (-own.job.priority, -own.seconds, place))
+        timed = jobs[place]
+        heapq.heappush(ready[timed.gpu], (-timed.job.priority, -timed.seconds, place))
 
     for place, count in left.items():
         if not count:
@@ -103,6 +103,6 @@ def _course(jobs: Sequence[TimedJob], cores: int, gpus: int) -> Iterator[tuple[f
 def _waits(jobs: Sequence[TimedJob]) -> Mapping[int, set[int]]:
     """Return the places of the jobs for which each job waits."""
     makers: dict[str, int] = {}
-    for place, own in enumerate(jobs):
-        makers |= dict.fromkeys(filter(None, own.job.outputs), place)
-    return {place: {makers[name] for name in own.job.inputs if name in makers} for place, own in enumerate(jobs)}
+    for place, timed in enumerate(jobs):
+        makers |= dict.fromkeys(filter(None, timed.job.outputs), place)
+    return {place: {makers[name] for name in timed.job.inputs if name in makers} for place, timed in enumerate(jobs)}

@@ -45,16 +45,16 @@ class Seeds:
     def robots(self) -> Mapping[str, Self]:
         """Robot of the fleet -> its files; of a robot itself there are none."""
         settings = self.settings
-        found: dict[str, Self] = {}
+        robots: dict[str, Self] = {}
         for number, name in enumerate(settings.fleet.robots[: settings.sizes.fleet]):
-            own = as_robot(self.catalogue, name)
-            found[name] = type(self)(own, self.shared / name, name, is_whole(settings, name), number)
-        return found
+            catalogue = as_robot(self.catalogue, name)
+            robots[name] = type(self)(catalogue, self.shared / name, name, is_whole(settings, name), number)
+        return robots
 
     @property
     def whole_robots(self) -> Mapping[str, Self]:
         """Robot of the fleet that walks all tests -> its files."""
-        return {name: own for name, own in self.robots.items() if own.is_whole}
+        return {name: files for name, files in self.robots.items() if files.is_whole}
 
     @property
     def shared(self) -> Path:
@@ -122,14 +122,14 @@ class Seeds:
             developed += [(walk, row.level) for walk in (why.walk, why.hits)]
         if (scenario, level) in developed:
             return list(self.development_seeds)
-        found: list[int] = []
+        longest: list[int] = []
         for name, row in self.settings.training_sets.items():
             seeds = self.training_seeds(name)
-            if (row.scenario, row.level) == (scenario, level) and len(seeds) > len(found):
-                found = seeds
-        if not found:
+            if (row.scenario, row.level) == (scenario, level) and len(seeds) > len(longest):
+                longest = seeds
+        if not longest:
             raise ConfigError(f"{scenario} at level {level}: no test, training or trial of the configuration has it")
-        return found
+        return longest
 
     @property
     def development_seeds(self) -> range:

@@ -10,13 +10,13 @@ from experiments.plan.reactions import course_file, is_pushed, reaction_file, wa
 
 def sets_left(files: Files) -> list[str]:
     """Return files and folders, as the rules that make them name them, without scores, which products read."""
-    found: list[Path] = []
-    for own in files.owners:
-        found += recordings_of(own)
-        found += networks_of(own)
-        if level_of_detectors(own):
-            found += reactions_of(own)
-    return made_by_jobs(found)
+    paths: list[Path] = []
+    for owner in files.owners:
+        paths += recordings_of(owner)
+        paths += networks_of(owner)
+        if level_of_detectors(owner):
+            paths += reactions_of(owner)
+    return made_by_jobs(paths)
 
 
 def recordings_of(files: Files) -> Iterator[Path]:

@@ -115,15 +115,15 @@ class Sheets:
         jobs = self.plan.jobs
 
         def row(name: str) -> Row:
-            robot, own = name.split("/")
-            method, limb, seed = own.rsplit("-", 2)
+            robot, network = name.split("/")
+            method, limb, seed = network.rsplit("-", 2)
             w = SimpleNamespace(robot=robot, method=method, limb=limb, seed=seed.removeprefix("s"))
             read = jobs.learned_from(w)
             return {"seeds": seeds_in(read["recordings"]), **self._read([read, jobs.train(w).get("lesson")])}
 
         def names() -> Iterator[str]:
             for files in self.plan.files.owners:
-                yield from (Stacked(files.results.name, own).name for own in files.own_networks)
+                yield from (Stacked(files.results.name, network).name for network in files.own_networks)
 
         return Sheet(names, row)
 
@@ -223,11 +223,11 @@ def seeds_in(recordings: Iterable[Path]) -> list[list[int]]:
 
 def columns(made: Iterable[str], folders: Folders) -> Row:
     """Return the columns of files that jobs make, and of those of the project."""
-    found: dict[str, dict[Any, None]] = {column: {} for column in COLUMNS}
+    names_in: dict[str, dict[Any, None]] = {column: {} for column in COLUMNS}
     for file in made:
         column, name = place_of(Path(file), folders)
-        found[column][name] = None
-    return {column: list(names) for column, names in found.items()}
+        names_in[column][name] = None
+    return {column: list(names) for column, names in names_in.items()}
 
 
 def place_of(file: Path, folders: Folders) -> tuple[str, object]:

@@ -46,20 +46,20 @@ class Stacks:
                     )
         # A GPU has so much memory: more networks of one shape learn in several stacks, one after the other.
         most = self.plant.settings.stacks.most
-        found: dict[str, tuple[Stacked, ...]] = {}
+        stacks: dict[str, tuple[Stacked, ...]] = {}
         for networks in alike.values():
             for first in range(0, len(networks), most):
                 part = tuple(networks[first : first + most])
-                found[part[0].name.replace("/", "-")] = part
-        return found
+                stacks[part[0].name.replace("/", "-")] = part
+        return stacks
 
     @cached_property
     def names(self) -> Mapping[Stacked, str]:
         """The stack of each network that is in one."""
-        found: dict[Stacked, str] = {}
+        stack_of: dict[Stacked, str] = {}
         for name, members in self.members.items():
-            found |= dict.fromkeys(members, name)
-        return found
+            stack_of |= dict.fromkeys(members, name)
+        return stack_of
 
     def file(self, name: str) -> Path:
         """Return the file of what a stack has learned."""

@@ -39,7 +39,7 @@ def trial_products(files: Files) -> Iterator[Product]:
         tables[name] += trials
     for name, trials in tables.items():
         yield _product(files, files.shared / "trials" / name, trials)
-    counted = tuple(own.falls for own in files.whole_robots.values())
+    counted = tuple(robot.falls for robot in files.whole_robots.values())
     out = files.shared / "trials" / "random_torque"
     arguments = {"counted": counted, "statistics": settings.evaluation.statistics, "out": out}
     call = Call("experiments.evaluation.tables.further.falls:falls", arguments)
@@ -52,8 +52,8 @@ def _factorial(files: Files, out: Path) -> Product:
     """Return the table of what the walks of training sets teach, on some robots of the fleet, or else on all."""
     settings = files.settings
     trial = settings.trials.factorial
-    wanted = {name: own for name, own in files.robots.items() if name in trial.robots}
-    robots = {name: _taught(own) for name, own in (wanted or files.robots).items()}
+    wanted = {name: files_of_robot for name, files_of_robot in files.robots.items() if name in trial.robots}
+    robots = {name: _taught(files_of_robot) for name, files_of_robot in (wanted or files.robots).items()}
     cells = {name: factors_of(settings.training_sets, settings.scenarios, name) for name in sets_of(trial)}
     arguments = {
         **_known(settings),
@@ -70,15 +70,15 @@ def _factorial(files: Files, out: Path) -> Product:
     return _table(out, call, made_by_jobs(robots), kinds)
 
 
-def _taught(own: Files) -> TaughtRobot:
+def _taught(files: Files) -> TaughtRobot:
     """Return what is tried on a robot, and the walks on which it is judged."""
-    settings = own.settings
+    settings = files.settings
     trial = settings.trials.factorial
     beside = [MethodVariant(name, name, {}, settings.methods[name], "") for name in trial.references]
     tried: list[Tried] = []
     for variant in (*taught(settings.trials, settings.methods), *beside):
-        tried += _tried(own, variant)
-    return _judged_on(own, trial.limb, own.robot, (trial.walk, trial.hits), trial.as_in, tried)
+        tried += _tried(files, variant)
+    return _judged_on(files, trial.limb, files.robot, (trial.walk, trial.hits), trial.as_in, tried)
 
 
 def _why(files: Files, out: Path) -> Product:
@@ -86,13 +86,13 @@ def _why(files: Files, out: Path) -> Product:
     settings = files.settings
     trial = settings.trials.why
     asked: list[ExplainedRobot] = []
-    for name, own in files.robots.items():
+    for name, files_of_robot in files.robots.items():
         sets: dict[str, None] = {}
         # A small scale has few robots; rows of others would leave the table without these lines.
         for row in trial.rows:
             if name in row.robots or not set(row.robots) & set(files.robots):
                 sets |= dict.fromkeys(row.sets)
-        asked += [_explained(own, name, data) for data in sets]
+        asked += [_explained(files_of_robot, name, data) for data in sets]
     arguments = {
         **_known(settings),
         "settings": trial,
@@ -101,43 +101,43 @@ def _why(files: Files, out: Path) -> Product:
         "statistics": settings.evaluation.statistics,
         "out": out,
     }
-    kinds = _kinds(one.taught.walk for one in asked)
+    kinds = _kinds(explained_robot.taught.walk for explained_robot in asked)
     call = Call("experiments.evaluation.tables.further.why:why", arguments)
     return _table(out, call, made_by_jobs(tuple(asked)), kinds)
 
 
-def _explained(own: Files, robot: str, data: str) -> ExplainedRobot:
+def _explained(files: Files, robot: str, data: str) -> ExplainedRobot:
     """Return what is tried on a robot as the walks of a training set have it."""
-    settings = own.settings
+    settings = files.settings
     trial = settings.trials.why
     beside = [MethodVariant(name, name, {}, settings.methods[name], "") for name in trial.references]
     tried: list[Tried] = []
     for variant in (*explained(settings.trials, settings.methods, robot, data), *beside):
-        tried += _tried(own, variant)
+        tried += _tried(files, variant)
     level = settings.training_sets[data].level
-    taught_robot = _judged_on(own, trial.limb, level, (trial.walk, trial.hits), trial.as_in, tried)
+    taught_robot = _judged_on(files, trial.limb, level, (trial.walk, trial.hits), trial.as_in, tried)
     if data != trial.path_set or robot not in trial.path_robots:
         return ExplainedRobot(robot, data, taught_robot, (), ())
-    twins = tuple(own.array("recordings", trial.twin, level, seed) for seed in own.development_seeds)
+    twins = tuple(files.array("recordings", trial.twin, level, seed) for seed in files.development_seeds)
     # What inputs bring in is asked of networks that learned in the first way alone: the others only differ in size.
     ways = next(iter(trial.ways))
-    paths = [one for one in tried if one.base in trial.paths and one.changes.get(WAY) == ways]
+    paths = [each for each in tried if each.base in trial.paths and each.changes.get(WAY) == ways]
     return ExplainedRobot(robot, data, taught_robot, twins, tuple(paths))
 
 
 def _judged_on(
-    own: Files, limb: str, level: str, walks: tuple[str, str], as_in: str, tried: Sequence[Tried]
+    files: Files, limb: str, level: str, walks: tuple[str, str], as_in: str, tried: Sequence[Tried]
 ) -> TaughtRobot:
     """Return variants with the walks of a robot at a level on which they are judged: one, and one with hits."""
-    settings = own.settings
+    settings = files.settings
     joints = tuple(settings.layout.limbs(settings.robot.networks[limb].joints))
     tasks: list[TriedTask] = []
     for scenario in walks:
-        recordings = tuple(own.array("recordings", scenario, level, seed) for seed in own.development_seeds)
-        residuals = tuple(own.array("residuals", scenario, level, seed) for seed in own.development_seeds)
+        recordings = tuple(files.array("recordings", scenario, level, seed) for seed in files.development_seeds)
+        residuals = tuple(files.array("residuals", scenario, level, seed) for seed in files.development_seeds)
         tasks.append(TriedTask(settings.levels[level], joints, tuple(tried), recordings, residuals))
     walk, hits = tasks
-    asked = scoring(settings, walks[1], own.robot)
+    asked = scoring(settings, walks[1], files.robot)
     window = settings.evaluation.windows[as_in]
     return TaughtRobot(walk, hits, asked.model_copy(update={"window": window}))
 
@@ -148,7 +148,7 @@ def _product(files: Files, out: Path, trials: Sequence[MethodVariant]) -> Produc
     by_task = defaultdict[str, list[MethodVariant]](list)
     for trial in trials:
         by_task[trial.task].append(trial)
-    tasks = {name: _task(files, name, own) for name, own in by_task.items()}
+    tasks = {name: _task(files, name, of_task) for name, of_task in by_task.items()}
     arguments = {
         **_known(settings),
         "tasks": tasks,
@@ -171,11 +171,11 @@ def _known(settings: Settings) -> dict[str, object]:
 
 def _kinds(tasks: Iterable[TriedTask]) -> dict[str, None]:
     """Return the modules of the estimators that are tried, each once."""
-    found: dict[str, None] = {}
+    modules: dict[str, None] = {}
     for task in tasks:
         for tried in task.tried:
-            found |= dict.fromkeys(f"{KINDS}.{row.kind}" for row in tried.methods.values())
-    return found
+            modules |= dict.fromkeys(f"{KINDS}.{row.kind}" for row in tried.methods.values())
+    return modules
 
 
 def _table(out: Path, call: Call, inputs: Iterable[str], modules: Iterable[str] = ()) -> Product:
@@ -186,13 +186,13 @@ def _table(out: Path, call: Call, inputs: Iterable[str], modules: Iterable[str] 
 def _task(files: Files, name: str, trials: Iterable[MethodVariant]) -> TriedTask:
     """Return what is tried at a task, with all networks and walks of its plant."""
     task = files.settings.development[name]
-    own = next(owner for owner in files.owners if owner.has(task.level))
+    owner_of_level = next(owner for owner in files.owners if owner.has(task.level))
     tried: list[Tried] = []
     for trial in trials:
-        tried += _tried(own, trial)
-    walks = own.development("recordings", name), own.development("residuals", name)
-    joints = tuple(own.settings.layout.limbs(own.settings.robot.networks[task.limb].joints))
-    return TriedTask(own.settings.levels[task.level], joints, tuple(tried), *walks)
+        tried += _tried(owner_of_level, trial)
+    walks = owner_of_level.development("recordings", name), owner_of_level.development("residuals", name)
+    joints = tuple(owner_of_level.settings.layout.limbs(owner_of_level.settings.robot.networks[task.limb].joints))
+    return TriedTask(owner_of_level.settings.levels[task.level], joints, tuple(tried), *walks)
 
 
 def _tried(files: Files, trial: MethodVariant) -> Iterator[Tried]:

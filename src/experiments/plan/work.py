@@ -64,11 +64,11 @@ def read_s(plan: Plan, folder: Path) -> float:
 
 def total(amounts: Iterable[Mapping[str, float]]) -> Amounts:
     """Return the sum of amounts, name by name."""
-    found: Amounts = {}
-    for own in amounts:
-        for name, amount in own.items():
-            found[name] = found.get(name, 0.0) + amount
-    return found
+    sums: Amounts = {}
+    for amounts_of_job in amounts:
+        for name, amount in amounts_of_job.items():
+            sums[name] = sums.get(name, 0.0) + amount
+    return sums
 
 
 def moved(plan: Plan, w: Any) -> tuple[Amounts, float]:
@@ -101,25 +101,25 @@ def trained(plan: Plan, w: Any) -> tuple[Amounts, float]:
     training = files.catalogue.training(w.method, w.limb)
     network = training.network
     read = files.training_s(network.data)
-    held = read * rate_hz * (inputs_of(files, network) + len(files.settings.layout.limbs(network.joints)))
+    count = read * rate_hz * (inputs_of(files, network) + len(files.settings.layout.limbs(network.joints)))
     if "lesson" in plan.jobs.train(w):
-        return {SECONDS: read}, held
+        return {SECONDS: read}, count
     hidden = training.network.hidden or 0
     ways = {"windows": training.learning.sequences == "windows", "spectral": network.spectral}
     cell = " ".join([network.cell, *(way for way, is_so in ways.items() if is_so)])
     steps = files.learned_steps(w.method, w.limb)
     grown = {"step": steps, "step x unit": steps * hidden, "step x unit^2": steps * hidden**2}
-    return {SECONDS: read, **{f"{cell} {name}": amount for name, amount in grown.items()}}, held
+    return {SECONDS: read, **{f"{cell} {name}": amount for name, amount in grown.items()}}, count
 
 
 def stacked(plan: Plan, w: Any) -> tuple[Amounts, float]:
     """Return the work of a stack but for what the GPU does, and the numbers of the largest training data."""
-    seconds, held = 0.0, 0.0
+    seconds, most = 0.0, 0.0
     for robot, (method, limb, seed) in plan.jobs.stacks.members[w.stack]:
-        own = SimpleNamespace(robot=robot, method=method, limb=limb, seed=seed)
-        amounts, numbers = trained(plan, own)
-        seconds, held = seconds + amounts[SECONDS], max(held, numbers)
-    return {SECONDS: seconds}, held
+        wildcards = SimpleNamespace(robot=robot, method=method, limb=limb, seed=seed)
+        amounts, numbers = trained(plan, wildcards)
+        seconds, most = seconds + amounts[SECONDS], max(most, numbers)
+    return {SECONDS: seconds}, most
 
 
 def estimated(plan: Plan, w: Any) -> tuple[Amounts, float]:
@@ -128,14 +128,14 @@ def estimated(plan: Plan, w: Any) -> tuple[Amounts, float]:
     catalogue = files.catalogue
     seconds = files.settings.test_s(w.scenario)
     whole = seconds * len(files.test_seeds)
-    found: list[Mapping[str, float]] = [{SECONDS: whole}]
+    amounts: list[Mapping[str, float]] = [{SECONDS: whole}]
     for method in catalogue.tests[w.scenario][w.level]:
         kind = catalogue.method(method).kind
         for seed in files.run_seeds(method, w.scenario, w.level):
             networks = files.networks(method, seed, w.scenario, w.level)
             steps = seconds * files.settings.rates.data_hz * len(networks)
-            found.append({"run": 1.0, f"{kind} s": whole, f"{kind} step": steps})
-    return total(found), max(seconds, min(whole, TOGETHER_S))
+            amounts.append({"run": 1.0, f"{kind} s": whole, f"{kind} step": steps})
+    return total(amounts), max(seconds, min(whole, TOGETHER_S))
 
 
 def fitted(plan: Plan, w: Any) -> tuple[Amounts, float]:
@@ -227,8 +227,8 @@ def on_gpu(plan: Plan, job: PlannedJob) -> OnGpu | None:
     training = plan.jobs.files_of(robot).catalogue.training(first.method, first.limb)
     network = training.network
     steps: list[float] = []
-    for own in members:
-        steps.append(plan.jobs.files_of(own.robot).learned_steps(own.network.method, own.network.limb))
+    for member in members:
+        steps.append(plan.jobs.files_of(member.robot).learned_steps(member.network.method, member.network.limb))
     count = 0 if alone or network.cell != "GRU" else len(members)
     batch = training.learning.batch_size
     return OnGpu(count, max(steps), sum(steps), network.hidden or 0, batch, network.horizon_steps)

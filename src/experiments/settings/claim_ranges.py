@@ -6,10 +6,9 @@ The rules are those that the header of configs/claims.yaml states. A claim's `ba
 
 from dataclasses import dataclass
 
+from experiments.intervals.bounds import ANY, Bounds, common
 from experiments.settings.claims import Claim
 
-Bounds = tuple[float | None, float | None]  # closed, lower end first; None is no bound
-ANY: Bounds = (None, None)
 TWICE = 2.0
 KNOWN = 1.25
 LEAST_ALIKE = 1.1
@@ -83,30 +82,3 @@ def _ratio_effect(x: float) -> tuple[float, float]:
     """Return from half the effect of a ratio x to one and a half of it, at most a factor of two from x [-]."""
     low, high = sorted((x**LEAST_EFFECT, x**MOST_EFFECT))
     return max(low, x / TWICE), min(high, x * TWICE)
-
-
-def common(first: Bounds, other: Bounds) -> Bounds:
-    """Return the range that two closed ranges have in common [their unit]; None is no bound."""
-    lows = [low for low in (first[0], other[0]) if low is not None]
-    highs = [high for high in (first[1], other[1]) if high is not None]
-    return max(lows, default=None), min(highs, default=None)
-
-
-def within(inner: tuple[float, float], outer: Bounds) -> bool:
-    """Return whether an interval lies in a closed range of its unit; None is no bound."""
-    low, high = outer
-    return (low is None or inner[0] >= low) and (high is None or inner[1] <= high)
-
-
-def apart(interval: tuple[float, float], bounds: Bounds) -> bool:
-    """Return whether an interval and a closed range of its unit have no number in common; None is no bound."""
-    low, high = bounds
-    return (low is not None and interval[1] < low) or (high is not None and interval[0] > high)
-
-
-def range_text(bounds: Bounds) -> str:
-    """Return a range as text, with three digits."""
-    low, high = bounds
-    if low is None:
-        return "any" if high is None else f"at most {high:.3g}"
-    return f"at least {low:.3g}" if high is None else f"{low:.3g} to {high:.3g}"

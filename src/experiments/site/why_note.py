@@ -23,7 +23,8 @@ from experiments.evaluation.measure.learning.paths import EVERY, INPUTS
 from experiments.evaluation.measure.learning.taught import HITS, ROUGHNESS, SHARE_OF_HIT, WALKING
 from experiments.evaluation.number.number import Number, number_text, shown_name
 from experiments.evaluation.tables.layout import markdown_table
-from experiments.settings.claim_ranges import Bounds, apart, range_text, ranges_of, shown_range, within
+from experiments.intervals.bounds import Bounds, apart, range_text, within
+from experiments.settings.claim_ranges import ranges_of, shown_range
 from experiments.settings.load import load_settings
 from experiments.settings.settings import Settings
 from experiments.site.blocks import with_block

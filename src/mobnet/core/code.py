@@ -23,10 +23,10 @@ from itertools import chain
 from pathlib import Path
 
 from mobnet.core.errors import ConfigError
+from mobnet.core.root import ROOT
 from mobnet.core.source import PACKAGES, SOURCE, CodePart, Source, lock_name
 from mobnet.core.source_cache import read
 
-ROOT = SOURCE.parent
 LOCK = ROOT / "environment.lock"
 SHORT = 16  # characters of a hash that are kept
 UNKNOWN = "unknown"

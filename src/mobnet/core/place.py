@@ -1,20 +1,18 @@
 """Where the package stands: in a checkout of the project, or installed as a library.
 
-A checkout keeps configuration and caches in its own folder. An installed package has the configuration of a lab beside
-its modules (pyproject.toml says which files), and machine code in the user's cache. Standard library only.
+A checkout keeps configuration in its own folder. An installed package has the configuration of a lab beside its modules
+(pyproject.toml says which files). Standard library only.
 """
 
 import importlib.metadata
 import importlib.util
-import os
 import tomllib
 from pathlib import Path
 
-from mobnet.core.code import ROOT
 from mobnet.core.errors import ConfigError
+from mobnet.core.root import IS_CHECKOUT, ROOT
 
 PACKAGE = Path(__file__).parents[1]
-IS_CHECKOUT = (ROOT / "reproduce").is_file()
 PROGRAM = "./reproduce" if IS_CHECKOUT else "mobnet"  # what a user types before a command's name
 CONFIGS = ROOT / "configs" if IS_CHECKOUT else PACKAGE / "configs"
 DEMO = ROOT / "docs" / "demo" if IS_CHECKOUT else PACKAGE / "demo_data"
@@ -24,13 +22,6 @@ EXTRAS = {  # extra of pyproject.toml -> its packages, by the names under which 
     "logs": ("h5py", "matplotlib", "mcap", "mcap_ros2", "pandas", "rosbags"),
     "export": ("onnx", "onnxruntime"),
 }
-
-
-def caches() -> Path:
-    """Return the folder of what can be made again, such as machine code."""
-    if IS_CHECKOUT:
-        return ROOT / ".cache"
-    return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "mobnet"
 
 
 def version() -> str:

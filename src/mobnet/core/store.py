@@ -281,14 +281,14 @@ def _disagreements(file: pq.ParquetFile, stem: Path, note: Mapping[str, Any], na
         known = [f"those that {stem.name}{NOTE} has", *described.keys() - set(stored_names)]
         yield from (not_accepted("column", name, known) for name in sorted(others))
         return
-    for found in schema:
-        column = described[found.name]
-        if found.type not in FLOATS:
-            yield not_accepted(f"column {found.name!r}: type", str(found.type), map(str, FLOATS))
+    for stored in schema:
+        column = described[stored.name]
+        if stored.type not in FLOATS:
+            yield not_accepted(f"column {stored.name!r}: type", str(stored.type), map(str, FLOATS))
         for key in ("unit", "frame"):
-            value = (found.metadata or {}).get(key.encode(), column[key].encode()).decode(errors="replace")
+            value = (stored.metadata or {}).get(key.encode(), column[key].encode()).decode(errors="replace")
             if value != column[key]:
-                yield not_accepted(f"column {found.name!r}: {key}", value, [f"{column[key]!r}, as its note says"])
+                yield not_accepted(f"column {stored.name!r}: {key}", value, [f"{column[key]!r}, as its note says"])
     for name in names:
         if name not in stored_names:
             first = ", ".join(stored_names[:3])

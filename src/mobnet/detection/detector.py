@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array
 from mobnet.core.columns import FEET
-from mobnet.core.compilation import HeldValue, hold
 from mobnet.core.estimator import Estimate
+from mobnet.core.machine_code import HeldValue, hold
 from mobnet.core.recording import Sensed, SensedRecording
 from mobnet.detection.chain import Chain, ChainState, advance_chain, chain_state, run_chain
 from mobnet.detection.gate import Gate, Spans, advance_held, gate_state, make_gate, run_gate

@@ -11,7 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array
-from mobnet.core.compilation import HeldValue, compiled
+from mobnet.core.compilation import compiled
+from mobnet.core.machine_code import HeldValue
 from mobnet.detection.leg import Leg, foot_load, sole_height
 from mobnet.kernel.detecting import GateNumbers
 

@@ -4,12 +4,9 @@ The workflow reads kinds before it starts, for their options. So this module and
 which needs Pinocchio, is imported when one is built.
 """
 
-import importlib
-import pkgutil
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from types import ModuleType
 from typing import Any, Protocol, TypeVar
 
 import numpy as np
@@ -17,10 +14,8 @@ from numpy.typing import NDArray
 from pydantic import ValidationError
 
 from mobnet.core.errors import ConfigError, not_accepted
-from mobnet.core.estimator import TorqueEstimator
 from mobnet.core.joints import JointLayout
 from mobnet.core.recording import Sensed
-from mobnet.estimation import kinds
 from mobnet.learning.deployed.limbs import LimbNetworks, load_limb_networks
 from mobnet.robot.description import describe
 from mobnet.settings.base import Section
@@ -137,28 +132,3 @@ def options_of(name: str, method: Method, section: type[Kind]) -> Kind:
         faults = problems(error, section, method.options)
         lines = [f"methods.{name}.options.{dotted(place)}: {text}" for place, text in faults]
         raise ConfigError("\n".join(lines)) from None
-
-
-# Such a module has a function `build(recipe) -> Estimator` and, where a kind has numbers of its own, a section
-# `Options`. What it asks of a method's row is said by `check(method, options, rate_hz)`, which yields places and texts.
-# A kind that is fitted without networks also has `fit(layout, observer, options, networks, training)`; it returns JSON.
-def build_estimator(recipe: Recipe) -> TorqueEstimator:
-    """Build the estimator of a method, one row of Table 5.
-
-    Raises:
-        ConfigError: the method's kind is unknown, or its numbers are not those of its kind.
-        DataError: a file is missing or damaged.
-    """
-    return kind_of(recipe.name, recipe.method).build(recipe)
-
-
-def kind_of(name: str, method: Method) -> ModuleType:
-    """Return the module that a method names as its kind, or raise ConfigError."""
-    if method.kind not in kind_names():
-        raise ConfigError(not_accepted(f"methods.{name}.kind", method.kind, kind_names()))
-    return importlib.import_module(f"{kinds.__name__}.{method.kind}")
-
-
-def kind_names() -> list[str]:
-    """Return the names of all kinds."""
-    return [module.name for module in pkgutil.iter_modules(kinds.__path__)]

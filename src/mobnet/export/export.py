@@ -34,7 +34,7 @@ from mobnet.export.session import OnnxNetwork
 from mobnet.export.trained import Trained, check_apart, contract_of, read_trained
 from mobnet.kernel.detecting import GateNumbers
 from mobnet.kernel.drive import TorqueKind
-from mobnet.learning.deployed.networks import WITHOUT_TORCH, deployed
+from mobnet.learning.deployed.loading import WITHOUT_TORCH, deployed
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.given import given_robot
 from mobnet.robot.nominal import NominalModel

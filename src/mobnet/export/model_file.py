@@ -25,7 +25,7 @@ from mobnet.detection.leg import Leg
 from mobnet.estimation.observer import RobotObserver
 from mobnet.kernel.detecting import Signal, Target
 from mobnet.kernel.drive import NUMBERS, DriveParameters
-from mobnet.learning.deployed.networks import WITHOUT_TORCH
+from mobnet.learning.deployed.loading import WITHOUT_TORCH
 from mobnet.learning.deployed.weights import GRU_TENSORS, WeightsNote, std_scale_of
 from mobnet.learning.features import ROTATION_NAMES
 from mobnet.learning.gates import ordered

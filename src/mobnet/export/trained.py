@@ -23,7 +23,8 @@ from mobnet.export.contract import (
 )
 from mobnet.export.graph import state_size
 from mobnet.learning.deployed.limbs import check_limb
-from mobnet.learning.deployed.networks import Array, deployed
+from mobnet.learning.deployed.loading import deployed
+from mobnet.learning.deployed.networks import Array
 from mobnet.learning.deployed.weights import WeightsNote, read_weights, std_scale_of
 from mobnet.learning.features import QUATERNION_NAMES, ROTATION_NAMES
 from mobnet.settings.limb_thresholds import LimbThresholds

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mobnet.core.arrays import Array
-from mobnet.core.compilation import compiled, hold
+from mobnet.core.machine_code import compiled, hold
 from mobnet.kernel.linkage import Linkage
 from mobnet.kernel.momentum import sweep
 

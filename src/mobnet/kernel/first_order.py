@@ -3,7 +3,7 @@
 import numpy as np
 
 from mobnet.core.arrays import Array
-from mobnet.core.compilation import compiled
+from mobnet.core.machine_code import compiled
 
 
 @compiled

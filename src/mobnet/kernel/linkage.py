@@ -10,7 +10,7 @@ import pinocchio as pin
 from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array
-from mobnet.core.compilation import compiled
+from mobnet.core.machine_code import compiled
 from mobnet.kernel.triples import put
 
 ROOT_JOINTS = 2  # of a floating base in Pinocchio: translation and ball

@@ -18,9 +18,8 @@ import numpy as np
 import pinocchio as pin
 from numpy.typing import NDArray
 
-from mobnet.core.arrays import Array, rows_of
+from mobnet.core.arrays import Array, rotation, rows_of
 from mobnet.core.errors import ConfigError, not_accepted
-from mobnet.kernel.frames import rotation
 from mobnet.kernel.linkage import linkage_of
 from mobnet.kernel.momentum import sweep
 

@@ -34,7 +34,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array
-from mobnet.core.compilation import compiled
+from mobnet.core.machine_code import compiled
 from mobnet.kernel.linkage import Linkage, turn, turn_base
 from mobnet.kernel.triples import Triple, add, at, cross, dot, into, out_of, product, put, times, vector
 

@@ -1,7 +1,7 @@
 """Vectors of three numbers in compiled code: tuples, which stay in registers, from and to lanes of (3, lanes)."""
 
 from mobnet.core.arrays import Array
-from mobnet.core.compilation import compiled
+from mobnet.core.machine_code import compiled
 
 Triple = tuple[float, float, float]
 

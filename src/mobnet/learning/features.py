@@ -8,10 +8,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from mobnet.core.arrays import rotation
 from mobnet.core.errors import ConfigError, not_accepted
 from mobnet.core.joints import N_VIRTUAL, NQ_BASE, JointLayout
 from mobnet.core.recording import Sensed
-from mobnet.kernel.frames import QUATERNION, rotation
+from mobnet.robot.frames import QUATERNION
 from mobnet.settings.networks import Inertial, Limb
 
 OMEGA = slice(3, N_VIRTUAL)  # of the generalized velocity, base axes

@@ -18,7 +18,7 @@ from mobnet.core.errors import DataError
 from mobnet.core.files import read_json, write_json
 from mobnet.core.machine import one_thread
 from mobnet.core.notes import Note, Positive, checked
-from mobnet.core.place import caches
+from mobnet.core.root import caches
 from mobnet.settings.networks import Learning
 
 AUTO = "auto"

@@ -58,8 +58,8 @@ def _fused_pairs(builder: Any, a: Any, b: Any, total: Any) -> Any:
         return builder.call(call, [total, builder.bitcast(a, PAIRS), builder.bitcast(b, PAIRS)])
     for operate, number in ((builder.shl, LOWER), (builder.and_, UPPER)):
         same = ir.Constant(WORDS, [number] * WIDE)
-        one, other = (builder.bitcast(operate(word, same), FLOATS) for word in (a, b))
-        total = _fused(builder, one, other, total)
+        first, second = (builder.bitcast(operate(word, same), FLOATS) for word in (a, b))
+        total = _fused(builder, first, second, total)
     return total
 
 

@@ -14,7 +14,7 @@ from mobnet.core.epochs import Epoch
 from mobnet.core.errors import TrainingError
 from mobnet.core.files import CHECKPOINT, METRICS
 from mobnet.core.machine import claimed
-from mobnet.core.place import caches
+from mobnet.core.root import caches
 from mobnet.learning import checkpoint
 from mobnet.learning.calibration import StdFactors, calibrate, predict
 from mobnet.learning.checkpoint import Progress, write_metrics

@@ -20,8 +20,8 @@ from mobnet.robot.description import RobotDescription, describe
 from mobnet.robot.import_checks import differences
 from mobnet.robot.import_links import Imported, values_of
 from mobnet.robot.importing import import_robot
+from mobnet.robot.limit_words import check_limits
 from mobnet.robot.table_file import flow
-from mobnet.robot.word_checks import check_limits
 from mobnet.settings.lab import load_section
 from mobnet.settings.robot import RobotTable
 

@@ -7,13 +7,13 @@ from argparse import Namespace
 from collections.abc import Collection
 from pathlib import Path
 
-from mobnet.core.errors import ConfigError, beyond, not_accepted, refuse_lines
+from mobnet.core.errors import ConfigError, not_accepted
 from mobnet.core.joints import JointLayout
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.given import given_robot
+from mobnet.robot.limit_words import check_limits
 from mobnet.settings.lab import load_lab, load_section
 from mobnet.settings.limb_thresholds import LimbThresholds
-from mobnet.settings.parts import ARMATURE, SPEED_RAD_S, TORQUE_NM
 from mobnet.settings.robotlog import LogMap
 
 
@@ -41,13 +41,6 @@ def check_named(options: Namespace) -> None:
         load_section(path, LimbThresholds)
     for name in given.get("wrench", ()):
         point_named(robot, name)
-
-
-def check_limits(options: Namespace) -> None:
-    """Raise a DataError where what `robot` is to take for joints lies outside the bounds of a table."""
-    bounds = {"torque_limit": TORQUE_NM, "speed_limit": SPEED_RAD_S, "armature": ARMATURE}
-    for name, accepted in bounds.items():
-        refuse_lines(beyond(f"--{name.replace('_', '-')}", vars(options)[name], accepted))
 
 
 def limb_named(layout: JointLayout, given: str | None) -> str:

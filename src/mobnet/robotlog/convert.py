@@ -9,13 +9,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mobnet.core.arrays import Array
+from mobnet.core.arrays import Array, rotation
 from mobnet.core.columns import EXTERNAL, FEET, recording_columns
 from mobnet.core.errors import DataError, not_accepted
 from mobnet.core.joints import JointLayout
 from mobnet.core.motion import turned
 from mobnet.core.recording import ABSENT, Recording, Sensed, Truth
-from mobnet.kernel.frames import rotation
 from mobnet.robot.nominal import NominalModel
 from mobnet.robot.wrench import point_torque
 from mobnet.robotlog.clocks import Rising, Segments, Timed, at, common_ticks, covered, rate_of, rising, stamp_hints

@@ -31,7 +31,7 @@ from mobnet.estimation.own import (
     without_friction,
 )
 from mobnet.learning.dataset import LimbData
-from mobnet.learning.deployed.networks import load_network
+from mobnet.learning.deployed.loading import load_network
 from mobnet.learning.job import TrainingJob
 from mobnet.learning.precision import in_precision, of_processor
 from mobnet.learning.train import train_on

@@ -13,7 +13,8 @@ from mobnet.control.upper_body import UpperBody, follow
 from mobnet.control.walker import Walker
 from mobnet.control.walking import walk
 from mobnet.core.arrays import Array
-from mobnet.core.compilation import HeldValue, compiled
+from mobnet.core.compilation import compiled
+from mobnet.core.machine_code import HeldValue
 from mobnet.robot.description import LEG_JOINTS
 from mobnet.simulation.drives import Drives, drive
 from mobnet.simulation.faults import Faults, perceive

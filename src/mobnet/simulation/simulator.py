@@ -14,7 +14,7 @@ from mobnet.control.upper_body import UpperBody, follow
 from mobnet.control.walker import make_walker
 from mobnet.core.arrays import Array
 from mobnet.core.columns import recording_width
-from mobnet.core.compilation import HeldValue, hold
+from mobnet.core.machine_code import HeldValue, hold
 from mobnet.robot.description import describe, for_walking
 from mobnet.settings.data import CommandSource, FixedCommand
 from mobnet.settings.walking import WalkSettings

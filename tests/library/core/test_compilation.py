@@ -13,7 +13,8 @@ from numba.core.errors import NumbaError
 
 from mobnet.control.geometry import multiply
 from mobnet.core.code import SOURCE, code_hash
-from mobnet.core.compilation import cache_folder, compiled, matrix3, on_stack, vector3
+from mobnet.core.compilation import compiled, matrix3, on_stack, vector3
+from mobnet.core.machine_code import cache_root
 
 CALLED = """from mobnet.core.compilation import compiled
 
@@ -53,8 +54,7 @@ def test_cache_lies_in_a_folder_named_after_the_hash_and_numba_s_settings_stay()
     before = numba.config.CACHE_DIR
     function = compiled(lambda x: x)
     assert before == numba.config.CACHE_DIR
-    assert Path(function.stats.cache_path).parent == cache_folder(__file__)
-    assert cache_folder(__file__).name == code_hash(__file__)
+    assert Path(function.stats.cache_path).parent == cache_root() / code_hash(__file__)
 
 
 @pytest.mark.slow
@@ -71,6 +71,9 @@ def test_cached_code_follows_the_functions_that_it_calls(tmp_path: Path) -> None
         "core/source_cache",
         "core/files",
         "core/compilation",
+        "core/compile_log",
+        "core/machine_code",
+        "core/root",
         "control/__init__",
     ):
         (package / name).parent.mkdir(parents=True, exist_ok=True)

@@ -4,7 +4,8 @@ import gc
 
 import numpy as np
 
-from mobnet.core.compilation import compiled, hold
+from mobnet.core.compilation import compiled
+from mobnet.core.machine_code import hold
 
 RECORD = np.dtype([("count", "i8"), ("sums", "f8", 2)])
 

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from made_weights import weights
 
 from mobnet.export.graph import graph_of, state_size
-from mobnet.learning.deployed.networks import deployed
+from mobnet.learning.deployed.loading import deployed
 from mobnet.settings.networks import NetworkCell
 
 STEPS, BOUND = 120, 1e-5  # the bound is a share of the target's standard deviation

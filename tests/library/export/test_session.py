@@ -14,7 +14,7 @@ from mobnet.detection.numbers import watched_signals
 from mobnet.detection.signals import Watched
 from mobnet.estimation.kinds.residual import ResidualEstimator
 from mobnet.export.session import OnnxNetwork, load_exported
-from mobnet.learning.deployed.networks import load_network
+from mobnet.learning.deployed.loading import load_network
 from mobnet.learning.features import signal_names, signals
 
 BOUND = 1e-5  # of the target's standard deviation

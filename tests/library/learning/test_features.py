@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
+from mobnet.core.arrays import rotation
 from mobnet.core.errors import ConfigError
 from mobnet.core.joints import N_VIRTUAL, NQ_BASE
 from mobnet.core.recording import Sensed, read_sensed, write_recording
 from mobnet.core.store import read_array
-from mobnet.kernel.frames import rotation
 from mobnet.learning.features import limb_inputs, signal_names, signals
 from mobnet.settings.networks import Limb
 

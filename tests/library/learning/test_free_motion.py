@@ -7,7 +7,7 @@ from library_settings import ROOT, training_of
 from mobnet.estimation.observer import RobotObserver
 from mobnet.kernel.low_pass import filter_in_place
 from mobnet.learning.dataset import LimbData
-from mobnet.learning.deployed.networks import load_network
+from mobnet.learning.deployed.loading import load_network
 from mobnet.learning.features import limb_inputs
 from mobnet.learning.job import TrainingJob
 from mobnet.learning.train import train_on

@@ -8,7 +8,7 @@ from mobnet.detection.chain import make_chain
 from mobnet.detection.detector import LegDetector, LegGate
 from mobnet.detection.numbers import gate_numbers
 from mobnet.detection.signals import Watched
-from mobnet.estimation.recipe import build_estimator
+from mobnet.estimation.kinds import build_estimator
 from mobnet.kernel.detecting import WatchedSignals
 from mobnet.reaction.handler import Handler
 from mobnet.reaction.loop import walk_with

@@ -9,7 +9,8 @@ from made_weights import weights
 from mobnet.core.columns import recording_columns
 from mobnet.estimation.kinds.residual import ResidualEstimator
 from mobnet.learning.deployed.limbs import LimbNetworks
-from mobnet.learning.deployed.networks import Prediction, deployed
+from mobnet.learning.deployed.loading import deployed
+from mobnet.learning.deployed.networks import Prediction
 from mobnet.learning.features import limb_inputs, signal_names, signals
 from mobnet.reaction.handler import Handler
 from mobnet.reaction.loop import columns_of, force_on, give_way, plan_steps, stop, walk_with

@@ -4,8 +4,9 @@ import numpy as np
 import pinocchio as pin
 import pytest
 
-from mobnet.kernel.frames import rotation, to_pinocchio
+from mobnet.core.arrays import rotation
 from mobnet.robot import dynamics
+from mobnet.robot.frames import to_pinocchio
 from mobnet.robot.nominal import NominalModel
 
 STEP = 1e-6  # for differences in time [s]

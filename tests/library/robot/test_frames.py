@@ -4,7 +4,8 @@ import mujoco
 import numpy as np
 import pinocchio as pin
 
-from mobnet.kernel.frames import rotation, to_pinocchio
+from mobnet.core.arrays import rotation
+from mobnet.robot.frames import to_pinocchio
 
 
 def test_the_quaternion_s_real_part_goes_last_over_a_batch(random_state):

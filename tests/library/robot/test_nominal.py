@@ -5,8 +5,8 @@ import numpy as np
 import pinocchio as pin
 import pytest
 
-from mobnet.kernel.frames import to_pinocchio
 from mobnet.robot.dynamics import bias, gravity, mass_matrix
+from mobnet.robot.frames import to_pinocchio
 from mobnet.robot.nominal import NominalModel
 
 

@@ -4,8 +4,8 @@ import mujoco
 import numpy as np
 import pytest
 
+from mobnet.core.arrays import rotation
 from mobnet.core.errors import ConfigError
-from mobnet.kernel.frames import rotation
 from mobnet.robot.description import SIDES
 from mobnet.robot.nominal import NominalModel
 from mobnet.robot.plant import robot_spec, sole_name

@@ -16,7 +16,7 @@ from mobnet.estimation.observer import RobotObserver
 from mobnet.export.model_file import RuntimeDetector, write_model_file
 from mobnet.kernel.detecting import WatchedSignals
 from mobnet.learning.deployed.limbs import LimbNetworks
-from mobnet.learning.deployed.networks import deployed
+from mobnet.learning.deployed.loading import deployed
 from mobnet.learning.deployed.weights import GRU_TENSORS
 from mobnet.reaction.watchers import LimbWatcher
 from mobnet.robot.nominal import NominalModel

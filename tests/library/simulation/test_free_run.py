@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from mobnet.core.arrays import rotation
 from mobnet.estimation.observer import RobotObserver
-from mobnet.kernel.frames import rotation
 from mobnet.kernel.low_pass import filter_in_place
 from mobnet.robot.nominal import NominalModel
 from mobnet.simulation.free_plant import damping_of, held_model, hidden_links, joint_friction

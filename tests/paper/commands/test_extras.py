@@ -13,7 +13,7 @@ from mobnet import commands
 from mobnet.core import place
 from mobnet.core.errors import ConfigError
 from mobnet.core.source import DISTRIBUTIONS, SOURCE, lock_name
-from mobnet.learning.deployed import networks
+from mobnet.learning.deployed import loading
 
 MOBNET = SOURCE / "mobnet"
 ASKED = {  # file -> files that it imports after it has asked for their extra itself, as a test below shows
@@ -22,7 +22,7 @@ ASKED = {  # file -> files that it imports after it has asked for their extra it
         MOBNET / "export" / "export.py",
         MOBNET / "robotlog" / "shown.py",
     },
-    MOBNET / "learning" / "deployed" / "networks.py": {MOBNET / "learning" / "deployed" / "module_network.py"},
+    MOBNET / "learning" / "deployed" / "loading.py": {MOBNET / "learning" / "deployed" / "module_network.py"},
 }
 DEMO = commands.Command("", commands.demo_parser, lambda _: None, "mobnet.demo")
 MODULES = {**commands.COMMANDS, "demo": DEMO}
@@ -156,7 +156,7 @@ def test_a_missing_package_is_one_line_and_nothing_is_written(name, package, fol
 
 def test_what_needs_a_package_of_an_extra_later_says_so(monkeypatch):
     robot, leg = place.ROOT / "tests" / "data" / "arm.urdf", place.DEMO / "networks" / "MOB-Net-pushed-LL"
-    monkeypatch.setattr(networks, "WITHOUT_TORCH", {})
+    monkeypatch.setattr(loading, "WITHOUT_TORCH", {})
     for package in ("mujoco", "onnx", "torch"):
         monkeypatch.setitem(sys.modules, package, None)
     says = r"^{} is not installed; accepted: what `\./reproduce setup` installs$"
@@ -165,4 +165,4 @@ def test_what_needs_a_package_of_an_extra_later_says_so(monkeypatch):
     with pytest.raises(ConfigError, match=says.format("onnx")):
         mobnet.export_networks([leg], mobnet.Robot.read(robot.with_suffix(".yaml")), Path("made"))
     with pytest.raises(ConfigError, match=says.format("torch")):
-        networks.load_network(leg)
+        loading.load_network(leg)

@@ -13,7 +13,7 @@ from experiments.jobs.fitting import write_fit
 from experiments.plan.plan import with_precision
 from experiments.settings.catalogue import Catalogue
 from mobnet.core.files import WEIGHTS
-from mobnet.estimation.recipe import build_estimator
+from mobnet.estimation.kinds import build_estimator
 from mobnet.learning.deployed.weights import NOTE
 from mobnet.learning.features import limb_inputs
 from mobnet.learning.model import build_network

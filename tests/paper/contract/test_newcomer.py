@@ -13,7 +13,7 @@ from experiments.jobs.method_problems import method_problems
 from experiments.settings.catalogue import Catalogue
 from experiments.settings.load import load_settings
 from mobnet.estimation import kinds
-from mobnet.estimation.recipe import build_estimator
+from mobnet.estimation.kinds import build_estimator
 
 from .checks import CHECKS
 

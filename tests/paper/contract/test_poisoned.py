@@ -18,7 +18,7 @@ from experiments.settings.catalogue import Catalogue
 from mobnet.core.columns import EXTERNAL_LP, FEET, SWING, named, recording_columns
 from mobnet.core.recording import Truth, write_recording
 from mobnet.core.store import footer_hash, read_array
-from mobnet.estimation.recipe import kind_names
+from mobnet.estimation.kinds import kind_names
 
 LEVEL, SECONDS, WRONG = "all_uncertainty", 0.12, 77.0
 METHODS = list(Catalogue(settings_at()).all_methods)

@@ -18,7 +18,7 @@ from mobnet.kernel.first_order import decay, follow
 from mobnet.kernel.momentum import sweep
 from mobnet.learning.deployed import tick
 from mobnet.learning.deployed.limbs import LimbNetworks
-from mobnet.learning.deployed.networks import deployed
+from mobnet.learning.deployed.loading import deployed
 from mobnet.learning.features import signal_names
 from mobnet.robot.description import describe
 from mobnet.settings.networks import NetworkCell

@@ -10,7 +10,7 @@ import pytest
 
 from experiments.evaluation.measure.claims.verdicts import NO_CAUSE
 from experiments.evaluation.tables.further.claims_table import record_of
-from experiments.settings.claim_ranges import apart, within
+from experiments.intervals.bounds import apart, within
 from experiments.settings.load import load_settings
 from experiments.settings.verdicts import DESCRIPTION, NOT_MEASURED, NOT_PRINTED, NOT_REPRODUCED, OPEN, OURS, SIGN_ONLY
 from experiments.site.judge_again import judged_again

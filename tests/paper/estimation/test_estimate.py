@@ -17,7 +17,7 @@ from mobnet.core.estimator import Estimate
 from mobnet.core.files import WEIGHTS
 from mobnet.core.store import read_array, write_array
 from mobnet.estimation.estimate import ObservedRecording, rate_of, read_observed, run_segments, table_of
-from mobnet.estimation.recipe import build_estimator
+from mobnet.estimation.kinds import build_estimator
 from mobnet.learning.deployed.weights import NOTE, STD_SCALE, Z_SCORES, std_scales
 
 

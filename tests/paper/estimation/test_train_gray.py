@@ -11,8 +11,8 @@ from experiments.jobs.fitting import filtered_friction, write_fit
 from experiments.jobs.trainings import train
 from experiments.plan.plan import make_plan
 from experiments.settings.catalogue import Catalogue
+from mobnet.estimation.kinds import build_estimator
 from mobnet.estimation.kinds.friction import read_friction
-from mobnet.estimation.recipe import build_estimator
 from mobnet.learning.dataset import load_limb_data
 
 METHOD, LIMB = "MOB-Net-gray", "LL"

@@ -14,7 +14,7 @@ from patience import wait_for
 from experiments.check import Against, check
 from mobnet.core.errors import TrainingError
 from mobnet.core.files import CHECKPOINT, METRICS, RUN, WEIGHTS
-from mobnet.learning.deployed.networks import load_network
+from mobnet.learning.deployed.loading import load_network
 from mobnet.learning.job import precision_name, precision_of
 
 SCRIPT = "import pickle, sys; from experiments.jobs.trainings import train as a; a(**pickle.load(sys.stdin.buffer))"

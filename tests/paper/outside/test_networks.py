@@ -11,9 +11,10 @@ from tests.paper.outside.conftest import AGAINST, refusal_of, refusals
 
 from experiments.check import check
 from mobnet.core.errors import DataError
+from mobnet.core.files import WEIGHTS
 from mobnet.learning.cells import build_cell
 from mobnet.learning.deployed.limbs import load_limb_networks
-from mobnet.learning.deployed.networks import WEIGHTS, load_network
+from mobnet.learning.deployed.loading import load_network
 from mobnet.learning.deployed.weights import NOTE, shapes
 from mobnet.learning.features import limb_inputs
 from mobnet.learning.model import build_network

@@ -5,12 +5,12 @@ from pathlib import Path
 import pytest
 from csv_files import read_table
 
-from experiments.evaluation.number.clusters import ClusterKey, rate_in, share_in
+from experiments.intervals.clusters import ClusterKey, rate_in, share_in
+from experiments.intervals.independent import wilson
 from experiments.plan.files import Files
 from experiments.plan.reactions import sizes_of
 from experiments.settings.catalogue import Catalogue
 from experiments.settings.checks.outcomes import best_share, is_met_by_a_rate, is_met_by_a_share
-from experiments.settings.independent import wilson
 from experiments.settings.load import load_settings
 from experiments.settings.settings import Settings
 

@@ -49,11 +49,11 @@ def test_every_page_of_the_search_has_its_heading_and_each_word_once():
 
 
 def test_modules_that_are_run_and_packages_that_are_not_public_have_no_page():
-    names = ("core/rows.py", "core/__init__.py", "settings/base.py", "simulation/__main__.py", "kernel/frames.py")
+    names = ("core/rows.py", "core/__init__.py", "settings/base.py", "simulation/__main__.py", "kernel/low_pass.py")
     found = modules_of([Path("src/mobnet") / name for name in names])
     assert {name: modules for name, modules in found.items() if modules} == {
         "core": ["mobnet.core.rows"],
-        "kernel": ["mobnet.kernel.frames"],
+        "kernel": ["mobnet.kernel.low_pass"],
     }
 
 

@@ -10,7 +10,7 @@ import pytest
 from once import once
 from planned_jobs import COMPILED, ROOT, outputs, planned, snakemake
 
-from mobnet.core.compilation import cache_root
+from mobnet.core.machine_code import cache_root
 
 from .smoke import LOST, MADE, reproduce, told
 

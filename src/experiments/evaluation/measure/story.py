@@ -31,7 +31,8 @@ from mobnet.detection.detector import ALARM_RATIO, LegDetector
 from mobnet.detection.numbers import watched_signals
 from mobnet.detection.signals import Watched
 from mobnet.detection.watch import LegSetup
-from mobnet.estimation.recipe import Recipe, build_estimator
+from mobnet.estimation.kinds import build_estimator
+from mobnet.estimation.recipe import Recipe
 from mobnet.kernel.low_pass import low_pass
 from mobnet.robot.description import RobotDescription, describe
 from mobnet.settings.detection import DetectorSettings

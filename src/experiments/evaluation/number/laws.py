@@ -8,8 +8,8 @@ from typing import Any
 
 import pandas as pd
 
-from experiments.evaluation.number.clusters import ClusterKey, mean_in, share_in
 from experiments.evaluation.number.number import Number, is_missing
+from experiments.intervals.clusters import ClusterKey, mean_in, share_in
 from experiments.settings.runs import Statistics
 from experiments.settings.table_columns import SPREAD
 

@@ -8,9 +8,9 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 import pandas as pd
 
-from experiments.evaluation.number.intervals import MEAN, Formula, RunGrid, summarise
 from experiments.evaluation.number.laws import measured
 from experiments.evaluation.number.number import Number, published_value
+from experiments.intervals.crossed import MEAN, Formula, RunGrid, summarise
 from experiments.settings.fleet import FIRST_SEED
 from experiments.settings.published import PublishedTable
 from experiments.settings.runs import LimbRuns, Mean, Runs, Statistics

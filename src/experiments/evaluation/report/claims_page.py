@@ -15,7 +15,7 @@ from pathlib import Path
 from experiments.evaluation.measure.claims.verdicts import worst
 from experiments.evaluation.number.number import Number, number_text
 from experiments.evaluation.report.html import rendered
-from experiments.settings.claim_ranges import ANY, Bounds, range_text
+from experiments.intervals.bounds import ANY, Bounds, range_text
 from experiments.settings.table_columns import CLAIMS
 from experiments.settings.verdicts import OURS, SCORED, VERDICTS
 from mobnet.core.rows import read_texts

@@ -9,7 +9,7 @@ from experiments.evaluation.number.rows import read_numbers
 from experiments.evaluation.report.captions import MACROS, captions_tex, fill_captions, named
 from experiments.evaluation.report.main_tables import bound_of, cell_text, cells_of, main_tables
 from experiments.evaluation.tables.layout import tex_escape
-from experiments.settings.claim_ranges import range_text
+from experiments.intervals.bounds import range_text
 from experiments.settings.scales import Scale
 from experiments.settings.table_columns import CLAIMED, ERRORS
 from experiments.settings.tables import MainTables

@@ -6,13 +6,14 @@ happens in them. The best outcome is that of robots that are alike (docs/notes/m
 
 from collections.abc import Iterator
 
+from experiments.intervals.bounds import Bounds, within
+from experiments.intervals.few_clusters import rate_ends, share_ends
+from experiments.intervals.independent import garwood, wilson
 from experiments.settings import counts
 from experiments.settings.catalogue import Catalogue
-from experiments.settings.claim_ranges import Bounds, ranges_of, within
+from experiments.settings.claim_ranges import ranges_of
 from experiments.settings.claims import Cell, Claim
 from experiments.settings.evaluation import PRODUCTS
-from experiments.settings.few_clusters import rate_ends, share_ends
-from experiments.settings.independent import garwood, wilson
 from experiments.settings.runs import Statistics
 from experiments.settings.settings import Settings
 from mobnet.core.errors import misfit

@@ -14,7 +14,8 @@ from pydantic import Field
 from mobnet.core.arrays import Array
 from mobnet.core.errors import ConfigError, misfit
 from mobnet.estimation.filter import FilteredEstimator
-from mobnet.estimation.recipe import Recipe, build_estimator
+from mobnet.estimation.kinds import build_estimator
+from mobnet.estimation.recipe import Recipe
 from mobnet.settings.base import Positive, Section, Span, Whole
 from mobnet.settings.methods import Method
 from mobnet.settings.reading import Place

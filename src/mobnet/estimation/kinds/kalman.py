@@ -12,7 +12,8 @@ import scipy  # its parts are imported where they are used first: the workflow i
 from mobnet.core.arrays import Array
 from mobnet.core.errors import ConfigError, misfit
 from mobnet.estimation.filter import FilteredEstimator
-from mobnet.estimation.recipe import Recipe, build_estimator
+from mobnet.estimation.kinds import build_estimator
+from mobnet.estimation.recipe import Recipe
 from mobnet.kernel.low_pass import exact_pole
 from mobnet.settings.base import Positive, Section
 from mobnet.settings.methods import Method

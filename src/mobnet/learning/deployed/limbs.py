@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 from mobnet.core.errors import DataError, not_accepted
 from mobnet.core.joints import JointLayout
 from mobnet.core.recording import Sensed
-from mobnet.learning.deployed.networks import Array, GruNetwork, GruNetworks, Prediction, Runnable, load_network
+from mobnet.learning.deployed.loading import load_network
+from mobnet.learning.deployed.networks import Array, GruNetwork, GruNetworks, Prediction, Runnable
 from mobnet.learning.features import signal_names, signals
 
 State = tuple[Any, ...]  # of each network but GRUs, then of all GRUs together

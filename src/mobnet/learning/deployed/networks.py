@@ -5,18 +5,15 @@ documents them. The other cells of section 6.1 run by the module that was traine
 """
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mobnet.core.files import WEIGHTS
 from mobnet.core.machine import one_thread
-from mobnet.core.place import check_extra
-from mobnet.learning.deployed.weights import GRU_TENSORS, Z_SCORES, WeightsNote, read_weights, std_scale_of
+from mobnet.learning.deployed.weights import GRU_TENSORS, Z_SCORES, std_scale_of
 
 Array = NDArray[np.float32]
 
@@ -180,7 +177,7 @@ class GruNetworks:
 
     def __init__(self, networks: Sequence[GruNetwork], columns: Sequence[NDArray[np.intp]]) -> None:
         """Join networks of which each has its inputs in columns (n_in,) of the signals."""
-        from mobnet.core.compilation import hold
+        from mobnet.core.machine_code import hold
         from mobnet.learning.deployed.tick import advance_row, row_of
 
         self._units = sum(network.hidden for network in networks)
@@ -198,28 +195,3 @@ class GruNetworks:
         (mean, std) = np.empty((2, self._joints), dtype=np.float32)
         self._advance(self._held, x, state, after, mean, std)
         return after, Prediction(mean, std)
-
-
-WITHOUT_TORCH: Mapping[str, Callable[..., Deployed]] = {"GRU": GruNetwork, "constant": ConstantNetwork}
-
-
-def load_network(folder: Path) -> Deployed:
-    """Read a trained network from its folder.
-
-    Raises:
-        DataError: the weights are missing, damaged or not accepted, one line for each fault.
-        ConfigError: the network needs torch, which is not installed.
-    """
-    return deployed(*read_weights(folder / WEIGHTS))
-
-
-def deployed(tensors: Mapping[str, Array], note: WeightsNote) -> Deployed:
-    """Return the network that a file's tensors and note describe."""
-    common = note.limb, tuple(note.joints), tuple(note.inputs), note.std_min
-    cell = note.cell
-    if cell.cell in WITHOUT_TORCH:
-        return WITHOUT_TORCH[cell.cell](tensors, *common)
-    check_extra("learn")
-    from mobnet.learning.deployed.module_network import ModuleNetwork  # torch starts slowly, and MOB-Net does without
-
-    return ModuleNetwork(tensors, *common, cell=cell)

@@ -11,7 +11,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mobnet.core.compilation import HeldValue, compiled
+from mobnet.core.compilation import compiled
+from mobnet.core.machine_code import HeldValue
 from mobnet.learning.gates import MATHS, open_gates
 
 Array = NDArray[np.float32]

@@ -123,10 +123,10 @@ class WindowCells:
         """See `StackedCell`."""
         cell_weights = {name: weight for name, weight in weights.items() if name.startswith("cell.")}
 
-        def one(weights: dict[str, Tensor], x: Tensor, state: Tensor) -> tuple[Tensor, Tensor]:
+        def of_network(weights: dict[str, Tensor], x: Tensor, state: Tensor) -> tuple[Tensor, Tensor]:
             return torch.func.functional_call(self._runner, weights, (x, state))
 
-        return torch.vmap(one, randomness="different")(cell_weights, x, state)
+        return torch.vmap(of_network, randomness="different")(cell_weights, x, state)
 
 
 class _Runner(nn.Module):

@@ -206,12 +206,12 @@ class StackedTrainer:
         with torch.no_grad():
             for name, weight in self._network.weights.items():
                 weight.copy_(tensors[f"last.{name}"])
-            for name, own in self._optimiser.state.items():
-                for key, tensor in own.items():
+            for name, moments in self._optimiser.state.items():
+                for key, tensor in moments.items():
                     tensor.copy_(tensors[f"optimizer.{name}.{key}"])
         progress = progress_of(tensors, note["rows"], [schedule.chosen_by for schedule in self._schedules])
-        for k, own in enumerate(progress):
-            self._frozen[k] = own.diverged
+        for k, row in enumerate(progress):
+            self._frozen[k] = row.diverged
         log.info("%s: resuming after epoch %d", path, note["epochs"])
         return Taught(progress, tensors["updates"].clone(), note["epochs"], note["told"], note["seconds"])
 

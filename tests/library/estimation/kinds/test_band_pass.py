@@ -6,8 +6,8 @@ import pytest
 from mobnet.core.errors import ConfigError
 from mobnet.core.estimator import Estimate
 from mobnet.estimation.filter import FilteredEstimator
+from mobnet.estimation.kinds import build_estimator
 from mobnet.estimation.kinds.band_pass import sections_of
-from mobnet.estimation.recipe import build_estimator
 from mobnet.settings.methods import Method
 
 RATE_HZ, BAND_HZ, ORDER = 1000.0, (2.0, 15.0), 2

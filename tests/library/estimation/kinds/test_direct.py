@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from mobnet.core.errors import ConfigError
+from mobnet.estimation.kinds import build_estimator
 from mobnet.estimation.kinds.direct import DirectEstimator
-from mobnet.estimation.recipe import build_estimator
 from mobnet.learning.deployed.limbs import LimbNetworks
 from mobnet.learning.deployed.networks import GruNetwork
 from mobnet.learning.deployed.weights import GRU_TENSORS, Z_SCORES

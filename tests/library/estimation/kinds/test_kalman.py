@@ -5,9 +5,9 @@ import pytest
 import scipy.signal
 
 from mobnet.core.errors import ConfigError
+from mobnet.estimation.kinds import build_estimator
 from mobnet.estimation.kinds.kalman import Options, build, check, gains, sections_of
 from mobnet.estimation.observe import observer_of
-from mobnet.estimation.recipe import build_estimator
 from mobnet.kernel.low_pass import exact_pole, filter_in_place
 from mobnet.robot.description import describe
 from mobnet.settings.methods import Method

@@ -1,7 +1,7 @@
 """The zero predictor."""
 
+from mobnet.estimation.kinds import build_estimator
 from mobnet.estimation.kinds.zero import check
-from mobnet.estimation.recipe import build_estimator
 from mobnet.settings.base import Section
 from mobnet.settings.methods import Method
 

@@ -8,10 +8,12 @@ import torch
 from made_notes import network_note
 from safetensors.torch import save_file
 
+from mobnet.core.files import WEIGHTS
 from mobnet.learning.deployed import lanes
 from mobnet.learning.deployed.lanes import CHUNK
+from mobnet.learning.deployed.loading import load_network
 from mobnet.learning.deployed.module_network import ModuleNetwork
-from mobnet.learning.deployed.networks import WEIGHTS, ConstantNetwork, GruNetwork, load_network
+from mobnet.learning.deployed.networks import ConstantNetwork, GruNetwork
 from mobnet.learning.deployed.weights import NOTE, STD_SCALE
 from mobnet.learning.model import build_network
 from mobnet.learning.streams import split

@@ -5,7 +5,7 @@ import pytest
 from made_weights import weights
 
 from mobnet.learning.deployed.limbs import LimbNetworks
-from mobnet.learning.deployed.networks import deployed
+from mobnet.learning.deployed.loading import deployed
 from mobnet.learning.features import signal_names, signals
 from mobnet.settings.networks import NetworkCell
 

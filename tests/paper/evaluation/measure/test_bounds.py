@@ -7,7 +7,8 @@ import yaml
 from csv_files import GOLDEN
 
 from experiments.evaluation.measure.claims.verdicts import rows_of
-from experiments.settings.claim_ranges import Bounds, apart, common, range_text, ranges_of, shown_range, within
+from experiments.intervals.bounds import Bounds, apart, common, range_text, within
+from experiments.settings.claim_ranges import ranges_of, shown_range
 from experiments.settings.claims import Claim
 from experiments.settings.settings import Settings
 from experiments.settings.verdicts import NOT_PRINTED

@@ -21,12 +21,12 @@ from experiments.evaluation.measure.claims.verdicts import (
     verdicts_of,
     worst,
 )
-from experiments.evaluation.number.intervals import RunGrid
 from experiments.evaluation.number.number import Number
-from experiments.evaluation.number.quantities import QUANTITIES, difference_of
+from experiments.intervals.crossed import RunGrid
+from experiments.intervals.independent import wilson
+from experiments.intervals.quantities import QUANTITIES, difference_of
 from experiments.settings.claim_ranges import Ranges
 from experiments.settings.claims import Claim
-from experiments.settings.independent import wilson
 from experiments.settings.settings import Settings
 from experiments.settings.verdicts import NOT_PRINTED, OURS, SCORED, VERDICTS
 

@@ -16,11 +16,11 @@ from experiments.evaluation.measure.claims.verdicts import (
     rows_of,
     score_of,
 )
-from experiments.evaluation.number.intervals import quantile_of
 from experiments.evaluation.number.number import Number
+from experiments.intervals.crossed import quantile_of
+from experiments.intervals.independent import wilson
 from experiments.settings.claims import Claim, MadeNumber
 from experiments.settings.counts import HOURS, TRIALS
-from experiments.settings.independent import wilson
 from experiments.settings.settings import Settings
 from experiments.settings.verdicts import NOT_MEASURED, NOT_REPRODUCED, OPEN, OURS, SIGN_AT_LEAST, SIGN_ONLY
 

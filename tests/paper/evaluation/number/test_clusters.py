@@ -7,12 +7,12 @@ import pytest
 from paper_settings import STATISTICS
 from scipy.stats import beta
 
-from experiments.evaluation.number.clusters import ClusterKey, mean_in, rate_in, share_in
-from experiments.evaluation.number.intervals import quantile_of
 from experiments.evaluation.number.number import Number
-from experiments.evaluation.number.single import rate_of
-from experiments.settings.few_clusters import WIDEST, rate_ends, share_ends
-from experiments.settings.independent import wilson
+from experiments.intervals.clusters import ClusterKey, mean_in, rate_in, share_in
+from experiments.intervals.crossed import quantile_of
+from experiments.intervals.few_clusters import WIDEST, rate_ends, share_ends
+from experiments.intervals.independent import wilson
+from experiments.intervals.single import rate_of
 
 ROBOTS, WALKS, DRAWS = 3, 6, 400
 LEAST = 0.91  # of 400 intervals, of which 95 % hold: three standard deviations below are .917
@@ -173,7 +173,7 @@ def test_no_value_is_no_number() -> None:
 
 
 def test_of_a_full_grid_the_mean_s_interval_is_that_of_intervals() -> None:
-    from experiments.evaluation.number.intervals import RunGrid, summarise
+    from experiments.intervals.crossed import RunGrid, summarise
 
     values = np.exp(np.random.default_rng(3).normal(size=(ROBOTS, WALKS)))
     for shared in (False, True):

@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 from paper_settings import STATISTICS
 from scipy.stats import t as student
 
-from experiments.evaluation.number.intervals import MEAN, RATIO, Formula, RunGrid, slopes_of, summarise
 from experiments.evaluation.number.number import Number
-from experiments.evaluation.number.quantities import BELOW, CUT, GAP_RATIO
-from experiments.evaluation.number.single import share, trend
+from experiments.intervals.crossed import MEAN, RATIO, Formula, RunGrid, slopes_of, summarise
+from experiments.intervals.quantities import BELOW, CUT, GAP_RATIO
+from experiments.intervals.single import share, trend
 
 DRAWS, LEAST = 200, 0.90
 ROBOTS = "robots"  # what the rows of grids are whose methods share them

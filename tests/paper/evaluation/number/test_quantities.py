@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from paper_settings import STATISTICS
 
-from experiments.evaluation.number.intervals import RunGrid
-from experiments.evaluation.number.quantities import QUANTITIES, Cell
+from experiments.intervals.crossed import RunGrid
+from experiments.intervals.quantities import QUANTITIES, Cell
 from experiments.settings.claims import TAKES
 
 EXAMPLES = {

@@ -8,8 +8,8 @@ import pandas as pd
 import pytest
 
 from experiments.evaluation.number.frames import SCORES, frame_of, rows_of
-from experiments.evaluation.number.intervals import RunGrid
 from experiments.evaluation.number.scored import CELL, numbers_of, run_grid
+from experiments.intervals.crossed import RunGrid
 from experiments.records.scores import Score
 from experiments.settings.fleet import FIRST_SEED
 from experiments.settings.settings import Settings

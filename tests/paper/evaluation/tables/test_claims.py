@@ -14,12 +14,12 @@ from paper_settings import STATISTICS
 from experiments.evaluation.measure.claims.cells import listed
 from experiments.evaluation.measure.claims.verdicts import rows_of
 from experiments.evaluation.measure.reaction.results import printed_of
-from experiments.evaluation.number.intervals import RunGrid
 from experiments.evaluation.number.number import published_row
-from experiments.evaluation.number.quantities import QUANTITIES
 from experiments.evaluation.number.rows import write_csv
 from experiments.evaluation.tables.further.hourly import ALL, FLAG
 from experiments.evaluation.tables.further.latency import MET
+from experiments.intervals.crossed import RunGrid
+from experiments.intervals.quantities import QUANTITIES
 from experiments.settings.claims import Cause, Cell, Claim, MadeNumber
 from experiments.settings.published import Published, PublishedTable
 from experiments.settings.settings import Settings

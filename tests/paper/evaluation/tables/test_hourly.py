@@ -7,8 +7,8 @@ import pytest
 from csv_files import check_golden, read_table
 from paper_settings import STATISTICS
 
-from experiments.evaluation.number.single import rate_of
 from experiments.evaluation.tables.further.hourly import ALL, FALL, FLAG
+from experiments.intervals.single import rate_of
 from experiments.settings.evaluation import Evaluation
 from experiments.settings.runs import LegRuns
 from experiments.settings.tables import Hourly

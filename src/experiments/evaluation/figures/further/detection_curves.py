@@ -21,10 +21,10 @@ from experiments.evaluation.measure.detection.results import (
     hours_per_swing,
     owners,
 )
-from experiments.evaluation.number.clusters import share_in
 from experiments.evaluation.number.frames import read_detection, read_hits, rows_of
 from experiments.evaluation.number.laws import share
 from experiments.evaluation.number.number import Number
+from experiments.intervals.clusters import share_in
 from experiments.plan.detection import Detections
 from experiments.records.collisions import UNPUSHED
 from experiments.settings.detection_tables import DetectionCurves

@@ -25,7 +25,8 @@ from experiments.evaluation.measure.claims.places import (
 )
 from experiments.evaluation.measure.claims.verdicts import Judged
 from experiments.evaluation.number.number import Number
-from experiments.settings.claim_ranges import range_text, shown_range
+from experiments.intervals.bounds import range_text
+from experiments.settings.claim_ranges import shown_range
 from experiments.settings.table_columns import FOREST
 from experiments.settings.verdicts import (
     DESCRIPTION,

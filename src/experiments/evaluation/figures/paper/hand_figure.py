@@ -14,10 +14,10 @@ from experiments.evaluation.figures.drawing.compared import (
     with_drawn,
 )
 from experiments.evaluation.number.frames import ordered, read_scores
-from experiments.evaluation.number.intervals import Formula
 from experiments.evaluation.number.laws import measured
 from experiments.evaluation.number.number import Number
 from experiments.evaluation.number.scored import CELL, joint_errors, number_of, runs_of
+from experiments.intervals.crossed import Formula
 from experiments.plan.runs import Run
 from experiments.settings.figures import HandFigure
 from experiments.settings.published import PublishedTable

@@ -13,9 +13,9 @@ import pandas as pd
 
 from experiments.evaluation.measure.learning.trainings import MEASURES, read_trainings
 from experiments.evaluation.number.frames import read_scores, rows_of
-from experiments.evaluation.number.intervals import RunGrid
 from experiments.evaluation.number.number import Number
 from experiments.evaluation.number.scored import CELL, cell_text, members, places_of, robots_of, run_grid
+from experiments.intervals.crossed import RunGrid
 from experiments.settings.claims import Cell
 from experiments.settings.table_columns import RUN
 from mobnet.core.errors import ConfigError, DataError, not_accepted

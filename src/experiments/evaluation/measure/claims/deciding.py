@@ -9,12 +9,12 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from math import ceil, exp, inf, log, sqrt
 
-from experiments.evaluation.number.intervals import quantile_of
 from experiments.evaluation.number.number import Number
+from experiments.intervals.bounds import Bounds, apart, within
+from experiments.intervals.crossed import quantile_of
+from experiments.intervals.independent import garwood, wilson
 from experiments.settings import counts
-from experiments.settings.claim_ranges import Bounds, apart, within
 from experiments.settings.claims import MadeNumber
-from experiments.settings.independent import garwood, wilson
 from experiments.settings.runs import Statistics
 
 ROBOTS, NETWORKS, WALKS = "robots", "networks", "walks"

@@ -9,7 +9,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from experiments.evaluation.measure.claims.verdicts import WORST_FIRST, Judged
-from experiments.settings.claim_ranges import Bounds, shown_range
+from experiments.intervals.bounds import Bounds
+from experiments.settings.claim_ranges import shown_range
 from experiments.settings.verdicts import VERDICTS
 
 OVER_PAPER, BEYOND_BOUND = "ours over the original's", "beyond the bound"  # what an axis has

@@ -13,8 +13,9 @@ from typing import get_args
 from experiments.evaluation.measure.claims.cells import Evidence, listed
 from experiments.evaluation.measure.claims.deciding import Effort, effort_of, text_of
 from experiments.evaluation.number.number import Number
-from experiments.evaluation.number.quantities import QUANTITIES, difference_of
-from experiments.settings.claim_ranges import Bounds, Ranges, apart, ranges_of, shown_range, within
+from experiments.intervals.bounds import Bounds, verdict_on
+from experiments.intervals.quantities import QUANTITIES, difference_of
+from experiments.settings.claim_ranges import Ranges, ranges_of, shown_range
 from experiments.settings.claims import Claim, MadeNumber, TrainingMetric, by_other_reading
 from experiments.settings.runs import Statistics
 from experiments.settings.verdicts import (
@@ -204,24 +205,19 @@ def verdicts_of(found: ClaimNumbers, ranges: Ranges) -> tuple[str, str, str]:
     """Return the verdict on the size, that on the sign, each empty where there is none, and both as one."""
     if found.ours.value is None:
         return "", "", NOT_MEASURED
-    size = _held(found.ours, ranges.size, (INSIDE, OUTSIDE)) if ranges.size else ""
-    sign = _held(found.signed, ranges.sign, (SAME, OPPOSITE)) if ranges.sign else ""
+    size = _word(found.ours, ranges.size, (INSIDE, OUTSIDE)) if ranges.size else ""
+    sign = _word(found.signed, ranges.sign, (SAME, OPPOSITE)) if ranges.sign else ""
     return size, sign, verdict_of(size, sign)
 
 
-def _held(number: Number, bounds: Bounds, words: tuple[str, str]) -> str:
+def _word(number: Number, bounds: Bounds, words: tuple[str, str]) -> str:
     """Return the first word for a number within a range [its unit], the second one for one apart from it, or `OPEN`."""
-    if number.low is None or number.high is None:
-        return OPEN
-    interval = number.low, number.high
-    if within(interval, bounds):
-        return words[0]
-    return words[1] if apart(interval, bounds) else OPEN
+    return {"inside": words[0], "outside": words[1], "open": OPEN}[verdict_on(number, bounds)]
 
 
 def is_within(number: Number, bounds: Bounds) -> bool:
     """Return whether the interval of a number lies in a range [its unit]."""
-    return number.low is not None and number.high is not None and within((number.low, number.high), bounds)
+    return verdict_on(number, bounds) == "inside"
 
 
 def verdict_of(size: str, sign: str) -> str:

@@ -19,8 +19,8 @@ from numpy.typing import NDArray
 from experiments.evaluation.compare.windows import pushed_of
 from experiments.evaluation.measure.data.conditional import TorqueRange, even_cells, torque_range
 from experiments.evaluation.measure.data.samples import Blocks, Reference, equal_sets, read_blocks, refer, scale_of
-from experiments.evaluation.number.intervals import RATIO, RunGrid, quantile_of, summarise
 from experiments.evaluation.number.number import Number
+from experiments.intervals.crossed import RATIO, RunGrid, quantile_of, summarise
 from experiments.settings.measures import Coverage, CoverageTest
 from experiments.settings.runs import Statistics
 from mobnet.core.columns import DESIRED, FEET, VELOCITY, foot_of

@@ -18,8 +18,8 @@ from mobnet.core.columns import FEET, recording_columns
 from mobnet.core.errors import DataError
 from mobnet.core.joints import JointLayout
 from mobnet.core.store import read_array
-from mobnet.kernel.frames import to_pinocchio
 from mobnet.robot.description import SIDES
+from mobnet.robot.frames import to_pinocchio
 from mobnet.robot.nominal import NominalModel
 from mobnet.settings.data import Commands
 

@@ -12,8 +12,8 @@ from experiments.evaluation.measure.data.steps import Array
 from mobnet.core.columns import recording_columns
 from mobnet.core.joints import N_VIRTUAL, NQ_BASE
 from mobnet.core.store import read_array
-from mobnet.kernel.frames import POSITION, QUATERNION, to_pinocchio
 from mobnet.robot.description import SIDES, RobotDescription
+from mobnet.robot.frames import POSITION, QUATERNION, to_pinocchio
 from mobnet.robot.nominal import NominalModel
 
 LIMBS = ("W", "LA", "RA")

@@ -6,9 +6,9 @@ from itertools import product
 import numpy as np
 import pandas as pd
 
-from experiments.evaluation.number.clusters import ClusterKey, mean_in
 from experiments.evaluation.number.frames import ordered, read_detection, read_hits
 from experiments.evaluation.number.number import Number, interval_text, is_missing, number_text
+from experiments.intervals.clusters import ClusterKey, mean_in
 from experiments.plan.detection import Detections
 from experiments.settings.detection_tables import AlarmTable, SmallestForce
 from experiments.settings.runs import Statistics

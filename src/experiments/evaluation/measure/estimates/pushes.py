@@ -11,10 +11,10 @@ from experiments.evaluation.compare.windows import push_windows
 from experiments.evaluation.measure.estimates.peaks import DELAY, OBSERVER, SHARE
 from experiments.evaluation.measure.estimates.run_errors import ERROR
 from experiments.evaluation.number.frames import rows_of
-from experiments.evaluation.number.intervals import MEAN, Formula
 from experiments.evaluation.number.laws import measured
 from experiments.evaluation.number.number import Number, published_value
 from experiments.evaluation.number.scored import AVERAGE, number_of, runs_of
+from experiments.intervals.crossed import MEAN, Formula
 from experiments.plan.runs import Run
 from experiments.settings.figures import Figure06, Figure10
 from experiments.settings.published import PublishedTable

@@ -7,8 +7,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from experiments.evaluation.number.intervals import MEAN, RATIO, RunGrid, summarise
 from experiments.evaluation.number.number import Number
+from experiments.intervals.crossed import MEAN, RATIO, RunGrid, summarise
 from experiments.settings.runs import Statistics
 from mobnet.core.rows import read_rows
 

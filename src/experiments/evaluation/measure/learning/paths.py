@@ -18,7 +18,8 @@ from mobnet.core.errors import DataError
 from mobnet.core.joints import N_VIRTUAL, NQ_BASE
 from mobnet.core.recording import Sensed, SensedRecording, read_sensed
 from mobnet.estimation.estimate import ObservedRecording, rate_of, run_segments
-from mobnet.estimation.recipe import Recipe, build_estimator
+from mobnet.estimation.kinds import build_estimator
+from mobnet.estimation.recipe import Recipe
 from mobnet.robot.description import describe
 
 EVERY = "all inputs"

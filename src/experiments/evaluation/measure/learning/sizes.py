@@ -9,9 +9,9 @@ from typing import Any
 import pandas as pd
 
 from experiments.evaluation.measure.learning.trainings import read_trainings
-from experiments.evaluation.number.intervals import RATIO, RunGrid, summarise
 from experiments.evaluation.number.number import Number
-from experiments.evaluation.number.single import extremes
+from experiments.intervals.crossed import RATIO, RunGrid, summarise
+from experiments.intervals.single import extremes
 from experiments.plan.runs import SweptSize
 from experiments.settings.runs import Statistics
 from experiments.settings.table_columns import SIZES

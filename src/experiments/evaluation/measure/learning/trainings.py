@@ -15,10 +15,10 @@ import pandas as pd
 from pydantic import Field
 
 from experiments.evaluation.number.frames import NETWORKS, TRAININGS, Schema
-from experiments.evaluation.number.intervals import RunGrid, summarise
 from experiments.evaluation.number.laws import Law
 from experiments.evaluation.number.number import Number
 from experiments.evaluation.number.rows import read_scores
+from experiments.intervals.crossed import RunGrid, summarise
 from experiments.settings.figures import Figure17
 from experiments.settings.runs import Statistics
 from mobnet.core.epochs import Epoch, read_epochs

@@ -12,7 +12,8 @@ from mobnet.core.arrays import Array
 from mobnet.core.columns import EXTERNAL_LP, named
 from mobnet.core.store import read_array
 from mobnet.estimation.estimate import ObservedRecording, rate_of, read_observed, run_segments
-from mobnet.estimation.recipe import Recipe, build_estimator
+from mobnet.estimation.kinds import build_estimator
+from mobnet.estimation.recipe import Recipe
 from mobnet.robot.description import describe
 from mobnet.settings.methods import ObserverSettings
 from mobnet.settings.robot import RobotTable

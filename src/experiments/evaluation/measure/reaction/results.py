@@ -6,10 +6,10 @@ import pandas as pd
 
 from experiments.evaluation.measure.detection.results import MS
 from experiments.evaluation.measure.estimates.changed import HOUR_S
-from experiments.evaluation.number.clusters import rate_in
 from experiments.evaluation.number.frames import rows_of
 from experiments.evaluation.number.laws import Law, clusters, mean, share
 from experiments.evaluation.number.number import Number
+from experiments.intervals.clusters import rate_in
 from experiments.records.reactions import NONE
 from experiments.settings.published import PublishedContacts
 from experiments.settings.reaction_tables import Safety

@@ -4,10 +4,10 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from experiments.evaluation.measure.learning.calibration import STAGES, CoverageGrid
-from experiments.evaluation.number.intervals import RunGrid, summarise
 from experiments.evaluation.number.number import Number, interval_text
 from experiments.evaluation.number.rows import Field
 from experiments.evaluation.tables.layout import Table, in_blocks, write_table
+from experiments.intervals.crossed import RunGrid, summarise
 from experiments.settings.measures import CalibrationTable
 from experiments.settings.runs import Statistics
 from experiments.settings.table_columns import CALIBRATION

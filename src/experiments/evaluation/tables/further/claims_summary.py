@@ -9,7 +9,7 @@ from pathlib import Path
 
 from experiments.evaluation.measure.claims.verdicts import worst
 from experiments.evaluation.tables.layout import RULE, Line, Table, write_table
-from experiments.settings.claim_ranges import within
+from experiments.intervals.bounds import within
 from experiments.settings.table_columns import CLAIMED
 from experiments.settings.verdicts import (
     BEYOND,

@@ -7,7 +7,8 @@ from experiments.evaluation.measure.claims.verdicts import Judged
 from experiments.evaluation.number.number import number_text
 from experiments.evaluation.number.rows import Field
 from experiments.evaluation.tables.layout import GAP, Line, Table, long_table, tex_escape, write_table
-from experiments.settings.claim_ranges import ANY, range_text, shown_range
+from experiments.intervals.bounds import ANY, range_text
+from experiments.settings.claim_ranges import shown_range
 from experiments.settings.table_columns import CLAIMS
 from experiments.settings.verdicts import STAND_INS
 

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from experiments.evaluation.measure.claims.verdicts import verdict_of, worst
 from experiments.evaluation.tables.layout import RULE, Line, Table, write_table
-from experiments.settings.claim_ranges import Bounds, apart, within
+from experiments.intervals.bounds import Bounds, apart, within
 from experiments.settings.table_columns import TOLERANCE
 from experiments.settings.verdicts import DESCRIPTION, INSIDE, NOT_MEASURED, OPEN, OURS, OUTSIDE, REPRODUCED, VERDICTS
 from mobnet.core.rows import read_texts

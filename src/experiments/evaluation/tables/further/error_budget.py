@@ -9,11 +9,11 @@ import pandas as pd
 
 from experiments.evaluation.compare.rmse import PERCENT
 from experiments.evaluation.number.frames import ordered, read_scores, records_of
-from experiments.evaluation.number.intervals import Array, Formula
 from experiments.evaluation.number.laws import measured
 from experiments.evaluation.number.number import Number, interval_text, number_text
 from experiments.evaluation.number.scored import columns_of, number_of, runs_of
 from experiments.evaluation.tables.layout import RULE, Line, Table, write_table
+from experiments.intervals.crossed import Array, Formula
 from experiments.settings.runs import Statistics
 from experiments.settings.table_columns import ERRORS, RUN
 from experiments.settings.tables import ErrorBudget

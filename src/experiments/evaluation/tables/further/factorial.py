@@ -19,11 +19,11 @@ import pandas as pd
 from experiments.evaluation.measure.learning.taught import HITS, SHARE_OF_HIT, WALKING, judged
 from experiments.evaluation.measure.learning.trials import Known, read_walks
 from experiments.evaluation.number.frames import ordered, records_of, rows_of
-from experiments.evaluation.number.intervals import Formula, RunGrid, summarise
 from experiments.evaluation.number.laws import ENDS, fields_of
 from experiments.evaluation.number.number import is_missing
 from experiments.evaluation.tables.layout import Table, write_table
 from experiments.evaluation.tables.look import ShownColumn, TableLook, lines_of
+from experiments.intervals.crossed import Formula, RunGrid, summarise
 from experiments.plan.runs import TaughtRobot, Tried
 from experiments.settings.measures import Peaks
 from experiments.settings.runs import Statistics

@@ -6,8 +6,8 @@ from pathlib import Path
 from statistics import median_low
 
 from experiments.evaluation.number.rows import Field
-from experiments.evaluation.number.single import rate_of
 from experiments.evaluation.tables.layout import Table, write_table
+from experiments.intervals.single import rate_of
 from experiments.records.falls import Falls
 from experiments.settings.runs import Statistics
 from experiments.settings.table_columns import FALLEN

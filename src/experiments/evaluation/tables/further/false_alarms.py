@@ -8,8 +8,8 @@ from experiments.evaluation.measure.detection.results import ALL, hours_per_swin
 from experiments.evaluation.number.frames import rows_of
 from experiments.evaluation.number.laws import fields_of
 from experiments.evaluation.number.number import Number
-from experiments.evaluation.number.single import rate_of
 from experiments.evaluation.tables.look import Row, ShownColumn, TableLook, write_look
+from experiments.intervals.single import rate_of
 from experiments.plan.detection import Detections
 from experiments.records.collisions import UNPUSHED
 from experiments.settings.detection_tables import AlarmTable

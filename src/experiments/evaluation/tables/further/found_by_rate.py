@@ -17,11 +17,11 @@ from experiments.evaluation.measure.detection.results import (
     read_of_leg,
     sign_test,
 )
-from experiments.evaluation.number.clusters import ClusterKey, share_in
 from experiments.evaluation.number.frames import rows_of
 from experiments.evaluation.number.laws import fields_of, mean, measured, share
 from experiments.evaluation.number.number import Number
 from experiments.evaluation.tables.look import Row, ShownColumn, TableLook, percent_text, write_look
+from experiments.intervals.clusters import ClusterKey, share_in
 from experiments.plan.detection import Detections
 from experiments.records.collisions import UNPUSHED
 from experiments.settings.detection_tables import FoundByRate

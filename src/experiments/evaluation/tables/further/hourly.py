@@ -9,8 +9,8 @@ from experiments.evaluation.measure.estimates.changed import FLAGS, HOUR_S, WATC
 from experiments.evaluation.number.frames import read_scores, rows_of
 from experiments.evaluation.number.laws import fields_of
 from experiments.evaluation.number.scored import AVERAGE
-from experiments.evaluation.number.single import rate_of
 from experiments.evaluation.tables.look import ShownColumn, TableLook, column, write_look
+from experiments.intervals.single import rate_of
 from experiments.settings.measures import Changed
 from experiments.settings.runs import LegRuns, Statistics
 from experiments.settings.table_columns import HOURLY

@@ -10,9 +10,9 @@ from pathlib import Path
 
 import numpy as np
 
-from experiments.evaluation.number.intervals import RunGrid
-from experiments.evaluation.number.single import share
 from experiments.evaluation.tables.layout import Table, write_table
+from experiments.intervals.crossed import RunGrid
+from experiments.intervals.single import share
 from experiments.settings.runs import Statistics
 from experiments.settings.table_columns import LATENCY
 from experiments.settings.tables import Latency

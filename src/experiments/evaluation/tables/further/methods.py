@@ -7,12 +7,12 @@ import pandas as pd
 
 from experiments.evaluation.compare.rmse import RAW
 from experiments.evaluation.number.frames import read_scores, records_of
-from experiments.evaluation.number.intervals import MEAN
 from experiments.evaluation.number.laws import measured
 from experiments.evaluation.number.number import Number, interval_text, number_text
-from experiments.evaluation.number.quantities import CUT
 from experiments.evaluation.number.scored import AVERAGE, number_of, runs_of
 from experiments.evaluation.tables.layout import Line, Table, in_blocks, long_table, write_table
+from experiments.intervals.crossed import MEAN
+from experiments.intervals.quantities import CUT
 from experiments.settings.runs import Statistics
 from experiments.settings.table_columns import METHODS
 from experiments.settings.tables import MethodsRow

@@ -8,10 +8,10 @@ import pandas as pd
 from experiments.evaluation.compare.masks import MOVING, PUSHED, STUCK
 from experiments.evaluation.compare.scene import STANCE, SWINGING, TOUCH_DOWN
 from experiments.evaluation.measure.estimates.sigma import COVER, EXCURSION, STD
-from experiments.evaluation.number.intervals import RATIO
 from experiments.evaluation.number.laws import measured
 from experiments.evaluation.number.scored import AVERAGE, asked_of, number_of, numbers_of, runs_of
 from experiments.evaluation.tables.look import ShownColumn, average, by_limb, percent, write_look
+from experiments.intervals.crossed import RATIO
 from experiments.settings.measures import Sigma
 from experiments.settings.runs import LimbRuns, Statistics
 from experiments.settings.table_columns import METHODS

@@ -10,10 +10,10 @@ from experiments.evaluation.measure.learning.explained import ALL, PATH
 from experiments.evaluation.measure.learning.paths import GROUPS, taken_by_inputs
 from experiments.evaluation.measure.learning.taught import HITS, ROUGHNESS, SHARE_OF_HIT, WALKING, judged
 from experiments.evaluation.measure.learning.trials import Known, read_walks
-from experiments.evaluation.number.intervals import RunGrid, summarise
 from experiments.evaluation.number.number import Number
 from experiments.evaluation.number.rows import Field
 from experiments.evaluation.tables.layout import Line, Table, in_blocks, write_table
+from experiments.intervals.crossed import RunGrid, summarise
 from experiments.plan.runs import ExplainedRobot
 from experiments.settings.measures import Peaks
 from experiments.settings.runs import Statistics

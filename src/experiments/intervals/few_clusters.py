@@ -18,7 +18,7 @@ import numpy as np
 import scipy  # pyright: ignore[reportMissingTypeStubs]  # its parts are imported where they are used first
 from numpy.typing import NDArray
 
-from experiments.settings.runs import Statistics
+from experiments.intervals.rule import IntervalRule
 
 SHARES, RATES = 1000, 4000  # cells
 STEPS = 12  # of how alike the events of a cluster are
@@ -27,7 +27,7 @@ Array = NDArray[np.float64]
 Ends = tuple[float, float]
 
 
-def share_ends(hits: Sequence[int], sizes: Sequence[int], statistics: Statistics) -> Ends:
+def share_ends(hits: Sequence[int], sizes: Sequence[int], statistics: IntervalRule) -> Ends:
     """Return the interval of a share [-] of which each cluster has so many found of so many events."""
     clusters = tuple(sorted(zip(hits, sizes, strict=True)))
     return _share_ends(clusters, statistics.most_correlation, statistics.confidence)
@@ -45,7 +45,7 @@ def _share_ends(clusters: tuple[tuple[int, int], ...], most_correlation: float, 
     return _shortest(likelihood, 1.0 / SHARES, confidence)
 
 
-def rate_ends(counts: Sequence[int], hours: Sequence[float], statistics: Statistics) -> Ends:
+def rate_ends(counts: Sequence[int], hours: Sequence[float], statistics: IntervalRule) -> Ends:
     """Return the interval of a rate [1/h] at which each cluster has so many events in so many hours."""
     variation = statistics.most_variation * _middles(STEPS)
     shape = 1.0 / variation**2

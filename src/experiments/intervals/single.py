@@ -7,13 +7,13 @@ from math import factorial
 import numpy as np
 import scipy  # pyright: ignore[reportMissingTypeStubs]  # its parts are imported where they are used first
 
-from experiments.evaluation.number.intervals import Array, RunGrid
-from experiments.evaluation.number.number import Number
-from experiments.settings.independent import garwood
-from experiments.settings.runs import Statistics
+from experiments.intervals.crossed import Array, RunGrid
+from experiments.intervals.independent import garwood, wilson
+from experiments.intervals.number import Number
+from experiments.intervals.rule import IntervalRule
 
 
-def trend(grids: Sequence[RunGrid], statistics: Statistics, unit: str = "-") -> Number:
+def trend(grids: Sequence[RunGrid], statistics: IntervalRule, unit: str = "-") -> Number:
     """Return the median slope of the means of K grids over their order [unit], with Sen's interval (1968).
 
     It needs a single run of each, and no line: a loss that falls ever more slowly would scatter around one. The
@@ -22,21 +22,21 @@ def trend(grids: Sequence[RunGrid], statistics: Statistics, unit: str = "-") -> 
     means = [grid.mean for grid in grids]
     networks = tuple(len(grid.values) for grid in grids)
     slope, _, low, high = map(float, scipy.stats.theilslopes(means, alpha=statistics.confidence))
-    found = Number(slope, unit=unit, networks=networks, walks=(1,))
+    slope_alone = Number(slope, unit=unit, networks=networks, walks=(1,))
     all_rise_or_fall = 2.0 / factorial(len(means))  # chance of it without a trend
-    return found if all_rise_or_fall > 1.0 - statistics.confidence else replace(found, low=low, high=high)
+    return slope_alone if all_rise_or_fall > 1.0 - statistics.confidence else replace(slope_alone, low=low, high=high)
 
 
-def share(grids: Sequence[RunGrid], statistics: Statistics, unit: str = "-") -> Number:
+def share(grids: Sequence[RunGrid], statistics: IntervalRule, unit: str = "-") -> Number:
     """Return the share of the runs of a grid that are 1 and not 0 [-], with Wilson's interval (1927)."""
     (grid,) = grids
     networks, walks = grid.values.shape
-    found = scipy.stats.binomtest(round(float(grid.values.sum())), networks * walks)
-    ends = found.proportion_ci(statistics.confidence, method="wilson")
-    return Number(grid.mean, float(ends.low), float(ends.high), unit=unit, networks=(networks,), walks=(walks,))
+    runs = networks * walks
+    low, high = wilson(round(float(grid.values.sum())) / runs, runs, statistics.confidence)
+    return Number(grid.mean, low, high, unit=unit, networks=(networks,), walks=(walks,))
 
 
-def rate_of(count: int, hours: float, statistics: Statistics) -> Number:
+def rate_of(count: int, hours: float, statistics: IntervalRule) -> Number:
     """Return how many events there are in an hour [1/h], with the interval of a Poisson count (Garwood 1936).
 
     Events are taken as independent of each other. In no time there is no rate.

@@ -20,8 +20,8 @@ import numpy as np
 import scipy  # pyright: ignore[reportMissingTypeStubs]  # its parts are imported where they are used first
 from numpy.typing import NDArray
 
-from experiments.evaluation.number.number import Number
-from experiments.settings.runs import Statistics
+from experiments.intervals.number import Number
+from experiments.intervals.rule import IntervalRule
 
 STEP = 1e-6  # of a derivative, as a share of what changes
 Array = NDArray[np.float64]
@@ -84,7 +84,7 @@ MEAN = Formula(lambda means: means.mean(axis=0, keepdims=True), positive=True)
 RATIO = Formula(lambda means: means[:1] / means[1:2], positive=True)
 
 
-def summarise(grids: Sequence[RunGrid], statistics: Statistics, formula: Formula = MEAN, unit: str = "-") -> Number:
+def summarise(grids: Sequence[RunGrid], statistics: IntervalRule, formula: Formula = MEAN, unit: str = "-") -> Number:
     """Return the number that a formula makes of the means of K grids, with its interval [unit].
 
     With one network and one walk there is no interval, with several of one of them it is over these alone. There is no
@@ -100,9 +100,9 @@ def summarise(grids: Sequence[RunGrid], statistics: Statistics, formula: Formula
     networks = effects_of(grids, slopes, 0)
     shared_walks = effects_of([grid for grid in grids if not grid.has_own_walks], slopes[:, crossed], 1)
     walks = [*shared_walks, *own_walks_of(grids, slopes)]
-    found = Number(None, unit=unit, networks=counts_of(networks), walks=counts_of(walks))
+    counts = Number(None, unit=unit, networks=counts_of(networks), walks=counts_of(walks))
     if not np.isfinite(parts).all() or not np.isfinite(slopes).all():
-        return found
+        return counts
     shown = formula.shown(parts)
     least = int(shown.argmin())
     drawn = [each for each in (*networks, *shared_walks) if each.count > 1]
@@ -113,7 +113,8 @@ def summarise(grids: Sequence[RunGrid], statistics: Statistics, formula: Formula
     steepness = abs(float(slopes_of(formula.shown, parts)[least, least]))
     stds = [std_of(each, least) for each in (networks, walks)]
     std_networks, std_walks = (None if std is None else steepness * std for std in stds)
-    return replace(found, value=float(shown[least]), low=low, high=high, std_networks=std_networks, std_walks=std_walks)
+    value = float(shown[least])
+    return replace(counts, value=value, low=low, high=high, std_networks=std_networks, std_walks=std_walks)
 
 
 def over_common_robots(grids: Sequence[RunGrid]) -> list[RunGrid]:
@@ -147,7 +148,7 @@ def effects_of(grids: Sequence[RunGrid], slopes: Array, axis: int) -> list[Effec
         rows = f"robots {grid.robots}" if grid.robots else grid.rows
         key = ("" if axis else rows, len(means))
         groups[key] = groups.get(key, 0.0) + slope[:, None] * (means - grid.mean)
-    return [Effects(count, (own**2).sum(axis=1) / max(1, count - 1)) for (_, count), own in groups.items()]
+    return [Effects(count, (apart**2).sum(axis=1) / max(1, count - 1)) for (_, count), apart in groups.items()]
 
 
 def own_walks_of(grids: Sequence[RunGrid], slopes: Array) -> list[Effects]:
@@ -155,14 +156,14 @@ def own_walks_of(grids: Sequence[RunGrid], slopes: Array) -> list[Effects]:
     groups: dict[tuple[str, int], Array] = {}
     for grid, slope in zip(grids, slopes.T, strict=True):
         if grid.has_own_walks:
-            own = grid.values - grid.values.mean(axis=1, keepdims=True)
-            key = (str(grid.robots), own.shape[1])
-            groups[key] = groups.get(key, 0.0) + slope[:, None, None] * own
-    found: list[Effects] = []
-    for (_, count), own in groups.items():
-        within = (own**2).sum(axis=2) / max(1, count - 1)
-        found.append(Effects(count, within.mean(axis=1) / own.shape[1]))
-    return found
+            deviations = grid.values - grid.values.mean(axis=1, keepdims=True)
+            key = (str(grid.robots), deviations.shape[1])
+            groups[key] = groups.get(key, 0.0) + slope[:, None, None] * deviations
+    effects: list[Effects] = []
+    for (_, count), deviations in groups.items():
+        within = (deviations**2).sum(axis=2) / max(1, count - 1)
+        effects.append(Effects(count, within.mean(axis=1) / deviations.shape[1]))
+    return effects
 
 
 def counts_of(effects: Sequence[Effects]) -> tuple[int, ...]:

@@ -7,13 +7,13 @@ from itertools import chain
 
 import numpy as np
 
-from experiments.evaluation.number.intervals import MEAN, RATIO, Array, Formula, RunGrid, summarise
-from experiments.evaluation.number.number import Number
-from experiments.evaluation.number.single import share, trend
-from experiments.settings.runs import Statistics
+from experiments.intervals.crossed import MEAN, RATIO, Array, Formula, RunGrid, summarise
+from experiments.intervals.number import Number
+from experiments.intervals.rule import IntervalRule
+from experiments.intervals.single import share, trend
 
 Cell = Sequence[RunGrid]  # runs of some joints or metrics, of which the mean is meant
-Quantity = Callable[[Sequence[Cell], Statistics, str], Number]  # cells, statistics, unit -> number
+Quantity = Callable[[Sequence[Cell], IntervalRule, str], Number]  # cells, statistics, unit -> number
 CUT = Formula(RATIO.parts, lambda ratio: 1.0 - ratio, positive=True)
 BELOW = Formula(lambda means: means[1:] - means[:1])
 ABOVE = Formula(lambda means: means[:1] - means[1:])
@@ -33,18 +33,18 @@ FORMULAS: Mapping[str, Formula] = {
 
 
 def summarised(
-    formula: Formula, cells: Sequence[Cell], statistics: Statistics, unit: str, power: float = 1.0
+    formula: Formula, cells: Sequence[Cell], statistics: IntervalRule, unit: str, power: float = 1.0
 ) -> Number:
     """Return the number that a formula makes of the means of K cells, or of their powers, with its interval [unit]."""
     ends = np.cumsum([len(cell) for cell in cells])[:-1]
 
     def parts(means: Array) -> Array:
-        return formula.parts(np.stack([(own**power).mean(axis=0) for own in np.split(means, ends)]))
+        return formula.parts(np.stack([(of_cell**power).mean(axis=0) for of_cell in np.split(means, ends)]))
 
     return summarise(list(chain.from_iterable(cells)), statistics, replace(formula, parts=parts), unit)
 
 
-def alone(measure: Callable[[Sequence[RunGrid], Statistics, str], Number]) -> Quantity:
+def alone(measure: Callable[[Sequence[RunGrid], IntervalRule, str], Number]) -> Quantity:
     """Return a quantity of cells that each have the runs of one number."""
     return lambda cells, statistics, unit: measure([grid for (grid,) in cells], statistics, unit)
 
@@ -67,14 +67,14 @@ def difference_of(first: Number, second: Number, unit: str) -> Number:
     return Number(value, float(value - below), float(value + above), unit=unit)
 
 
-def gap_difference(cells: Sequence[Cell], statistics: Statistics, unit: str) -> Number:
+def gap_difference(cells: Sequence[Cell], statistics: IntervalRule, unit: str) -> Number:
     """Return |first - second| - |third - fourth| [unit], with the intervals of both gaps taken together."""
     first, second = (summarised(GAP, pair, statistics, unit) for pair in (cells[:2], cells[2:]))
     gaps = difference_of(first, second, unit)
     return replace(gaps, networks=first.networks, walks=first.walks)
 
 
-def gap_ratio(cells: Sequence[Cell], statistics: Statistics, unit: str) -> Number:
+def gap_ratio(cells: Sequence[Cell], statistics: IntervalRule, unit: str) -> Number:
     """Return |first - second| / |third - fourth| [-], without an interval where that of the denominator holds zero."""
     ratio = summarised(GAP_RATIO, cells, statistics, unit)
     gap = summarised(ABOVE, cells[2:], statistics, unit)

@@ -25,17 +25,3 @@ def to_pinocchio(q: NDArray[Any]) -> NDArray[np.float64]:
     quat = result[..., QUATERNION][..., list(WXYZ_TO_XYZW)]
     result[..., QUATERNION] = quat / np.linalg.norm(quat, axis=-1, keepdims=True)
     return result
-
-
-def rotation(quat: NDArray[Any]) -> NDArray[np.float64]:
-    """Return the rotation matrices (..., 3, 3) [-] of unit quaternions w x y z (..., 4), body to world."""
-    quat = np.asarray(quat, dtype=np.float64)
-    # One sample as Python's numbers, which are as exact: NumPy's calls take ten times as long, in every tick.
-    w, x, y, z = quat.tolist() if quat.ndim == 1 else np.moveaxis(quat, -1, 0)
-    rows = [
-        [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-        [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-        [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
-    ]
-    matrix = np.array(rows)
-    return matrix if quat.ndim == 1 else np.moveaxis(matrix, (0, 1), (-2, -1))

@@ -8,7 +8,7 @@ their variance is part of that over robots, which alone counts. Robots and walks
 a value may be missing.
 
 Means of positive values have their interval on a log scale, so that no impulse is below zero. Shares and rates have
-those of `experiments.settings.few_clusters`, whose clusters are the robots, or the walks of a single robot.
+those of `experiments.intervals.few_clusters`, whose clusters are the robots, or the walks of a single robot.
 """
 
 from collections.abc import Sequence
@@ -17,10 +17,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from experiments.evaluation.number.intervals import quantile_of
-from experiments.evaluation.number.number import Number
-from experiments.settings.few_clusters import rate_ends, share_ends
-from experiments.settings.runs import Statistics
+from experiments.intervals.crossed import quantile_of
+from experiments.intervals.few_clusters import rate_ends, share_ends
+from experiments.intervals.number import Number
+from experiments.intervals.rule import IntervalRule
 
 Array = NDArray[np.float64]
 
@@ -32,28 +32,29 @@ class ClusterKey(NamedTuple):
     seed: int
 
 
-def mean_in(values: Sequence[float], places: Sequence[ClusterKey], statistics: Statistics, unit: str) -> Number:
+def mean_in(values: Sequence[float], places: Sequence[ClusterKey], statistics: IntervalRule, unit: str) -> Number:
     """Return the mean of values [unit] at places, with its interval; none below zero if no value is."""
     if not values:
         return Number(None, unit=unit)
-    found = np.array(values, dtype=np.float64)
-    mean = float(found.mean())
-    effects = _effects((found - mean) / len(found), places)
+    numbers = np.array(values, dtype=np.float64)
+    mean = float(numbers.mean())
+    effects = _effects((numbers - mean) / len(numbers), places)
     if not effects:
         return Number(mean, unit=unit)
     (first, variance), *others = effects
     # Robots that happen to differ less than independent values would are no evidence for a shorter interval.
-    variance = max(variance, float(found.var(ddof=1)) / len(found))
-    reach = sum(_squared(count, statistics) * own for count, own in [(first, variance), *others]) ** 0.5
+    variance = max(variance, float(numbers.var(ddof=1)) / len(numbers))
+    squares = [_squared(count, statistics) * part for count, part in [(first, variance), *others]]
+    reach = sum(squares) ** 0.5
     # Impulses and times are positive: on a log scale no end of theirs is below zero.
-    if (found > 0.0).all():
+    if (numbers > 0.0).all():
         factor = float(np.exp(reach / mean))
         return Number(mean, mean / factor, mean * factor, unit=unit)
     low = mean - reach
-    return Number(mean, max(low, 0.0) if (found >= 0.0).all() else low, mean + reach, unit=unit)
+    return Number(mean, max(low, 0.0) if (numbers >= 0.0).all() else low, mean + reach, unit=unit)
 
 
-def share_in(flags: Sequence[bool], places: Sequence[ClusterKey], statistics: Statistics) -> Number:
+def share_in(flags: Sequence[bool], places: Sequence[ClusterKey], statistics: IntervalRule) -> Number:
     """Return the share of flags that are set [-] at places, with its interval."""
     if not flags:
         return Number(None)
@@ -61,12 +62,12 @@ def share_in(flags: Sequence[bool], places: Sequence[ClusterKey], statistics: St
     index = clusters_of(places)
     if not index.any():
         return Number(value)
-    found = np.bincount(index, weights=flags).astype(int).tolist()
-    return Number(value, *share_ends(found, np.bincount(index).tolist(), statistics))
+    hits = np.bincount(index, weights=flags).astype(int).tolist()
+    return Number(value, *share_ends(hits, np.bincount(index).tolist(), statistics))
 
 
 def rate_in(
-    counts: Sequence[int], hours: Sequence[float], places: Sequence[ClusterKey], statistics: Statistics
+    counts: Sequence[int], hours: Sequence[float], places: Sequence[ClusterKey], statistics: IntervalRule
 ) -> Number:
     """Return how many events there are in an hour [1/h] of the time at places [h], with its interval."""
     whole = sum(hours)
@@ -74,7 +75,7 @@ def rate_in(
         return Number(None, unit="1/h")
     value = sum(counts) / whole
     # A place without time says nothing.
-    walked = [k for k, own in enumerate(hours) if own > 0.0]
+    walked = [k for k, time_there in enumerate(hours) if time_there > 0.0]
     index = clusters_of([places[k] for k in walked])
     if not index.any():
         return Number(value, unit="1/h")
@@ -94,16 +95,16 @@ def _effects(parts: Array, places: Sequence[ClusterKey]) -> list[tuple[int, floa
     robots = [place.robot for place in places]
     seeds = [place.seed for place in places]
     has_own_walks = len(set(robots)) > 1 and len(set(places)) == len(set(seeds))
-    found: list[tuple[int, float]] = []
+    effects: list[tuple[int, float]] = []
     for names in (robots,) if has_own_walks else (robots, seeds):
         labels, index = np.unique(names, return_inverse=True)
         count = len(labels)
         if count > 1:
             sums = np.bincount(index, weights=parts)
-            found.append((count, count / (count - 1) * float((sums**2).sum())))
-    return found
+            effects.append((count, count / (count - 1) * float((sums**2).sum())))
+    return effects
 
 
-def _squared(count: int, statistics: Statistics) -> float:
+def _squared(count: int, statistics: IntervalRule) -> float:
     """Return the square of Student's quantile for so many robots or walks [-]."""
     return quantile_of(count - 1, statistics.confidence) ** 2
