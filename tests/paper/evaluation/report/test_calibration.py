@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from csv_files import check_golden, read_table
+from csv_files import check_golden, check_golden_table, read_table
 from made_notes import training_note
 
 from experiments.evaluation.figures.further.reliability import nominal_points
@@ -47,7 +47,7 @@ def test_every_level_stands_in_the_table_before_and_after(made: Path, settings: 
     assert bar.after == pytest.approx(0.68, abs=0.05)
     assert bar.before < 0.6
     assert next(row.unit for row in walk if row.measure == CRPS) == "N m"
-    check_golden(made / "calibration.csv")
+    check_golden_table(made / "calibration.csv")
 
 
 def test_the_bar_is_judged_without_collision_only(made: Path) -> None:

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import pytest
-from csv_files import read_table
+from csv_files import check_golden_table, read_table
 
 from experiments.evaluation.tables.further.trials import is_best, trials
 from experiments.plan.runs import Tried, TriedTask
@@ -42,8 +42,8 @@ def made(
     level = settings.levels["all_uncertainty"]
     task = TriedTask(level, JOINTS, tuple(tried), *map(tuple, zip(*pairs, strict=True)))
     known = settings.robot, settings.plant.gravity_m_s2, settings.observer
-    trials(*known, {"leg": task}, 1000.0, tmp_path / "out")
-    return tmp_path / "out", pairs
+    trials(*known, {"leg": task}, 1000.0, tmp_path / "trials")
+    return tmp_path / "trials", pairs
 
 
 def test_errors_are_means_over_the_walks(made: tuple[Path, list[tuple[Path, Path]]]) -> None:
@@ -59,6 +59,10 @@ def test_errors_are_means_over_the_walks(made: tuple[Path, list[tuple[Path, Path
         assert rows["MOB", None, joint].rmse_nm == pytest.approx(np.mean(mob), rel=1e-4)
         assert rows["MOB", None, joint].std_nm == pytest.approx(np.std(mob, ddof=1), rel=1e-3)
         assert rows["MOB", None, joint].walks == 2
+
+
+def test_the_table_is_the_golden_one(made: tuple[Path, Any]) -> None:
+    check_golden_table(made[0].with_suffix(".csv"))
 
 
 def test_one_variant_of_each_method_that_is_varied_is_the_best(made: tuple[Path, Any]) -> None:

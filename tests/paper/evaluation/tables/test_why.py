@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from csv_files import check_golden_table
 from paper_settings import STATISTICS
 
 from experiments.evaluation.measure.learning.explained import ALL, PATH, spread_of
@@ -28,6 +29,7 @@ def test_a_number_is_a_mean_over_robots_and_each_robot_one_over_its_networks(
     found: Any = {SEEN: dict.fromkeys(UNITS, walks)}
     taken: Any = {"MOB-Net": {name: {"robot_1": [0.2, 0.4], "robot_2": [0.5]} for name in GROUPS}}
     write_table(tmp_path / "why", table_of(settings.trials.why, found, taken, STATISTICS))
+    check_golden_table(tmp_path / "why.csv")
     rows = read_texts(tmp_path / "why.csv")
     for measure in UNITS:
         own = {(row["robot"], row["network"]): row for row in rows if row["measure"] == measure}
