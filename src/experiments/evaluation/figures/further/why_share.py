@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from experiments.evaluation.figures.style import LOOKS, NAME, apart, beside, entitle, legend, save_figure
-from experiments.evaluation.measure.learning.explained import FEW, LearnedCell, by_robot, over_robots, read_why
+from experiments.evaluation.measure.learning.explained import FEW, Learned, by_robot, over_shown_robots, read_why
 from experiments.evaluation.measure.learning.taught import SHARE_OF_HIT, WALKING
 from experiments.evaluation.number.number import Number
 from experiments.settings.figures import ExplainedPanel, WhyShare
@@ -43,7 +43,7 @@ class Dot:
     panel: str
     network: str
     text: str
-    cell: LearnedCell
+    cell: Learned
     robots: int
     error: Number
     share: Number
@@ -75,8 +75,8 @@ def dots_of(
     statistics: Statistics,
     title: str,
     panel: ExplainedPanel,
-    errors: Mapping[LearnedCell, Mapping[str, float]],
-    shares: Mapping[LearnedCell, Mapping[str, float]],
+    errors: Mapping[Learned, Mapping[str, float]],
+    shares: Mapping[Learned, Mapping[str, float]],
 ) -> list[Dot]:
     """Return the dots of a panel, from errors in walking [N m] and shares of a hit [-] of each robot.
 
@@ -87,23 +87,24 @@ def dots_of(
     robots = sorted(common)
     found: list[Dot] = []
     for name, cell in shown:
-        own = settings.sets[cell.data]
-        over = LearnedCell(own.over, settings.over.method, settings.over.ways[0])
-        error = over_robots([errors[each] for each in (cell, over)], robots, statistics)
-        share = over_robots([shares[cell]], robots, statistics)
-        text = ", ".join(each for each in (own.says, settings.ways.get(cell.way, "")) if each)
+        data, _, way = cell
+        learned_from = settings.sets[data]
+        over = (learned_from.over, settings.over.method, settings.over.ways[0])
+        error = over_shown_robots([errors[each] for each in (cell, over)], robots, statistics)
+        share = over_shown_robots([shares[cell]], robots, statistics)
+        text = ", ".join(each for each in (learned_from.says, settings.ways.get(way, "")) if each)
         found.append(Dot(title, name, text, cell, len(robots), error, share))
     return found
 
 
-def cells_of(settings: WhyShare, panel: ExplainedPanel) -> Iterator[tuple[str, LearnedCell]]:
+def cells_of(settings: WhyShare, panel: ExplainedPanel) -> Iterator[tuple[str, Learned]]:
     """Yield what a panel shows, each with the name of its network."""
     for name in panel.networks:
         network = settings.networks[name]
         for data in panel.sets:
             for way in panel.ways:
                 if way in network.ways:
-                    yield name, LearnedCell(data, network.method, way)
+                    yield name, (data, network.method, way)
 
 
 def marks_of(networks: Iterable[str]) -> dict[str, dict[str, Any]]:

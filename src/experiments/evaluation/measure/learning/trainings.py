@@ -14,7 +14,7 @@ import numpy as np
 import pandas as pd
 from pydantic import Field
 
-from experiments.evaluation.number.frames import NETWORKS, TRAININGS, Schema
+from experiments.evaluation.number.frames import NETWORKS, TRAININGS, typed
 from experiments.evaluation.number.intervals import RunGrid, summarise
 from experiments.evaluation.number.laws import Law
 from experiments.evaluation.number.number import Number
@@ -291,12 +291,6 @@ def read_trainings(folders: Iterable[Path]) -> tuple[pd.DataFrame, pd.DataFrame]
         networks.append(own)
         epochs += [{**own, **vars(epoch)} for epoch in training.epochs]
     return typed(networks, NETWORKS), typed(epochs, TRAININGS)
-
-
-def typed(rows: Sequence[Mapping[str, Any]], schema: Schema) -> pd.DataFrame:
-    """Return rows as a frame with the columns of a schema; what a row lacks is missing."""
-    columns = {name: [row.get(name) for row in rows] for name in schema}
-    return pd.DataFrame({name: pd.Series(columns[name], dtype=kind) for name, (kind, _, _) in schema.items()})
 
 
 def over_networks(column: str, unit: str, statistics: Statistics) -> Law:
