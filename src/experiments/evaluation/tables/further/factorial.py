@@ -17,7 +17,7 @@ import numpy as np
 import pandas as pd
 
 from experiments.evaluation.measure.learning.taught import HITS, SHARE_OF_HIT, WALKING, judged
-from experiments.evaluation.measure.learning.trials import Known, read_walks
+from experiments.evaluation.measure.learning.trials import read_walks
 from experiments.evaluation.number.frames import ordered, records_of, rows_of
 from experiments.evaluation.number.intervals import Formula, RunGrid, summarise
 from experiments.evaluation.number.laws import ENDS, fields_of
@@ -69,12 +69,12 @@ def factorial(
     Recordings at a rate [Hz] and `out` are paths without a suffix; gravity is in [m/s^2], `torque_nm` is the largest
     random torque [N m].
     """
-    known = Known(robot, gravity_m_s2, observer)
     found: dict[str, dict[str, list[Array]]] = {}
-    for name, own in robots.items():
-        walk, hits = (read_walks(known, task, rate_hz) for task in (own.walk, own.hits))
-        for tried in own.walk.tried:
-            every = judged(settings.hits, settings.joint, known, own, tried, (walk, hits), peaks)
+    for name, taught in robots.items():
+        walk = read_walks(robot, gravity_m_s2, observer, taught.walk, rate_hz)
+        hits = read_walks(robot, gravity_m_s2, observer, taught.hits, rate_hz)
+        for tried in taught.walk.tried:
+            every = judged(settings.hits, settings.joint, taught, tried, (walk, hits), peaks)
             numbers = {key: every[key] for key in UNITS}
             log.info("%s, %s: %s", name, tried.name, {key: round(float(row.mean()), 3) for key, row in numbers.items()})
             for key, row in numbers.items():

@@ -13,7 +13,7 @@ import pandas as pd
 from experiments.evaluation.measure.learning.explained import ALL, NETWORKS, PATH, over_robots
 from experiments.evaluation.measure.learning.paths import GROUPS, taken_by_inputs
 from experiments.evaluation.measure.learning.taught import HITS, ROUGHNESS, SHARE_OF_HIT, WALKING, judged
-from experiments.evaluation.measure.learning.trials import Known, read_walks
+from experiments.evaluation.measure.learning.trials import read_walks
 from experiments.evaluation.number.frames import ordered, rows_of
 from experiments.evaluation.number.laws import fields_of, number_from
 from experiments.evaluation.number.number import number_text
@@ -46,13 +46,13 @@ def why(
 
     Recordings at a rate [Hz] and `out` are paths without a suffix; gravity is in [m/s^2]. Intervals are over robots.
     """
-    known = Known(robot, gravity_m_s2, observer)
     taught: list[dict[str, object]] = []
     taken: list[dict[str, object]] = []
     for each in robots:
-        walk, hits = (read_walks(known, task, rate_hz) for task in (each.taught.walk, each.taught.hits))
+        walk = read_walks(robot, gravity_m_s2, observer, each.taught.walk, rate_hz)
+        hits = read_walks(robot, gravity_m_s2, observer, each.taught.hits, rate_hz)
         for tried in each.taught.walk.tried:
-            numbers = judged(settings.hits, settings.joint, known, each.taught, tried, (walk, hits), peaks)
+            numbers = judged(settings.hits, settings.joint, each.taught, tried, (walk, hits), peaks)
             log.info("%s, %s, %s: share %.3f", each.robot, each.data, tried.name, numbers[SHARE_OF_HIT].mean())
             place = {"data": each.data, "method": tried.base, "way": str(tried.changes.get(WAY, ""))}
             for measure in UNITS:
@@ -60,7 +60,7 @@ def why(
                 taught.append({**place, "measure": measure, "robot": each.robot, "value": value})
         pairs = list(zip(each.taught.hits.recordings, each.twins, strict=False))
         for tried in each.paths:
-            brought = taken_by_inputs(tried, known, hits, pairs, peaks.after_s, settings.joint)
+            brought = taken_by_inputs(tried, hits, pairs, peaks.after_s, settings.joint)
             for inputs, value in brought.items():
                 taken.append({"method": tried.base, "inputs": inputs, "robot": each.robot, "value": value})
     write_why(out, pd.DataFrame(taught), pd.DataFrame(taken, columns=TAKEN), settings, statistics)
