@@ -187,6 +187,21 @@ FALLS: Schema = {
     "walked_s": (REAL, "s", "how long it walked with it"),
     "falls": (WHOLE, "", "how often it fell"),
 }
+TRUSTED: Schema = {
+    "scenario": (TEXT, "", "the test, or `validation`: held-out data of trainings"),
+    "level": (TEXT, "", "the plant"),
+    "pushed": (TEXT, "", "the joint that is pushed, if samples around pushes alone count; else empty"),
+    "method": (TEXT, "", "what estimates"),
+    "limb": (TEXT, "", "the limb"),
+    "joint": (TEXT, "", "`avg`: all numbers are means over the joints of the limb that have the unit"),
+    "unit": (TEXT, "", "of its torques"),
+    "network_seed": (WHOLE, "", "the network; of held-out data its place in the order of trainings"),
+    "test_seed": (WHOLE, "", "the walk; 0 of held-out data"),
+    "stage": (TEXT, "", "of the standard deviations: `before` they are scaled, or `after`"),
+    "metric": (TEXT, "", "`coverage` of a nominal share, `nll` [nats], the negative log-likelihood, or `crps` [unit]"),
+    "share": (REAL, "-", "the nominal share; missing of the other two"),
+    "value": (REAL, "", "the number of the run"),
+}
 WHY: Schema = {
     "data": (TEXT, "", "the training set"),
     "method": (TEXT, "", "what learned"),

@@ -17,6 +17,7 @@ from experiments.evaluation.number.frames import (
     THRESHOLDS,
     TRAININGS,
     TRIALS,
+    TRUSTED,
     WHY,
     Schema,
 )
@@ -67,6 +68,7 @@ FRAMES: dict[str, tuple[str, Schema]] = {
     ),
     "trainings": ("`read_trainings`: the epochs of these networks.", TRAININGS),
     "falls": ("`read_frame(..., FALLS)`: falls by random torque, from `results/<scale>/<robot>/falls.csv`.", FALLS),
+    "trusted": ("`in_tests` and `held_out`: how far standard deviations can be trusted.", TRUSTED),
     "why": ("`read_why`: the kept table of the trial of why a hit is hidden, `docs/trials/why.csv`.", WHY),
 }
 
