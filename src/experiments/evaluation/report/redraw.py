@@ -369,8 +369,7 @@ def draw_claims(stored: Stored, name: str) -> Figure:
     statements = statements_of(judged_again(settings, stored.results))
     axis = next(axis for axis, stem in forest.STEMS.items() if stem == name)
     confidence = settings.evaluation.statistics.confidence
-    own = [each for each in statements if each.worst.axis == axis]
-    return forest.draw_forest(own, axis, f"{confidence:.0%} interval")
+    return forest.draw_forest(rows_of(statements, axis=axis), axis, f"{confidence:.0%} interval")
 
 
 @styled
