@@ -70,8 +70,8 @@ HIT = ["scenario", "seed", "leg", "number"]  # what names a collision of a robot
 NAMED = {"link": "named_link", "direction": "named_direction"}  # columns of DETECTED -> their names among hits
 HITS: Schema = {
     "robot": (TEXT, "", "the robot, or the level of the plant"),
-    **{NAMED.get(name, name): told for name, told in DETECTED.items()},
-    **{name: told for name, told in COLLISIONS.items() if name not in HIT},
+    **{NAMED.get(name, name): described for name, described in DETECTED.items()},
+    **{name: described for name, described in COLLISIONS.items() if name not in HIT},
     "found": (FLAG, "", "whether the detector has an alarm"),
 }
 SWINGS: Schema = {
@@ -305,14 +305,14 @@ def read_trials(files: Mapping[str, Mapping[str, Path]], cases: Sequence[str]) -
     """
     parts: list[pd.DataFrame] = []
     for case in cases:
-        parts += [frame_of(trial_rows(own[case]), TRIALS) for own in files.values()]
+        parts += [frame_of(trial_rows(of_robot[case]), TRIALS) for of_robot in files.values()]
     trials = pd.concat(parts, ignore_index=True)
     return trials.assign(robot=trials["level"])
 
 
-def rows_of(rows: pd.DataFrame, **held: object) -> pd.DataFrame:
+def rows_of(rows: pd.DataFrame, **values: object) -> pd.DataFrame:
     """Return the rows whose columns hold what is given."""
-    for name, value in held.items():
+    for name, value in values.items():
         rows = rows[rows[name] == value]
     return rows
 

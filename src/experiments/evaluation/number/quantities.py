@@ -39,7 +39,7 @@ def summarised(
     ends = np.cumsum([len(cell) for cell in cells])[:-1]
 
     def parts(means: Array) -> Array:
-        return formula.parts(np.stack([(own**power).mean(axis=0) for own in np.split(means, ends)]))
+        return formula.parts(np.stack([(of_cell**power).mean(axis=0) for of_cell in np.split(means, ends)]))
 
     return summarise(list(chain.from_iterable(cells)), statistics, replace(formula, parts=parts), unit)
 

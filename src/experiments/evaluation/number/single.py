@@ -22,17 +22,17 @@ def trend(grids: Sequence[RunGrid], statistics: Statistics, unit: str = "-") -> 
     means = [grid.mean for grid in grids]
     networks = tuple(len(grid.values) for grid in grids)
     slope, _, low, high = map(float, scipy.stats.theilslopes(means, alpha=statistics.confidence))
-    found = Number(slope, unit=unit, networks=networks, walks=(1,))
+    number = Number(slope, unit=unit, networks=networks, walks=(1,))
     all_rise_or_fall = 2.0 / factorial(len(means))  # chance of it without a trend
-    return found if all_rise_or_fall > 1.0 - statistics.confidence else replace(found, low=low, high=high)
+    return number if all_rise_or_fall > 1.0 - statistics.confidence else replace(number, low=low, high=high)
 
 
 def share(grids: Sequence[RunGrid], statistics: Statistics, unit: str = "-") -> Number:
     """Return the share of the runs of a grid that are 1 and not 0 [-], with Wilson's interval (1927)."""
     (grid,) = grids
     networks, walks = grid.values.shape
-    found = scipy.stats.binomtest(round(float(grid.values.sum())), networks * walks)
-    ends = found.proportion_ci(statistics.confidence, method="wilson")
+    test = scipy.stats.binomtest(round(float(grid.values.sum())), networks * walks)
+    ends = test.proportion_ci(statistics.confidence, method="wilson")
     return Number(grid.mean, float(ends.low), float(ends.high), unit=unit, networks=(networks,), walks=(walks,))
 
 

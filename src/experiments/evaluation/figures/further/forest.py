@@ -17,6 +17,8 @@ import matplotlib as mpl
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch, Rectangle
 
 from experiments.evaluation.figures.style import save_figure
 from experiments.evaluation.measure.claims.places import (
@@ -144,7 +146,7 @@ def _scale(axis: Axes, name: str, rows: float) -> None:
     axis.spines["left"].set_visible(False)
     axis.set_yticks([])
     axis.tick_params(length=2.0, pad=1.5, labelsize=POINTS, width=0.4)
-    axis.xaxis.label.set_size(POINTS)
+    axis.xaxis.label.set_fontsize(POINTS)
 
 
 def _text(axis: Axes, inch: float, row: float, text: str, **look: Any) -> None:
@@ -171,7 +173,7 @@ def _stripe(axis: Axes, top: float) -> None:
     """Draw the ground of a row at its top [inch] from side to side, which leads the eye."""
     left, right = ((inch - LEFT_INCH) / WIDTH_INCH for inch in (0.0, COLUMN_INCH["other"]))
     place = (left, top), right - left, ROW_INCH
-    axis.add_patch(mpl.patches.Rectangle(*place, transform=axis.get_yaxis_transform(), **STRIPE))
+    axis.add_patch(Rectangle(*place, transform=axis.get_yaxis_transform(), **STRIPE))
 
 
 def _row(axis: Axes, row: float, statement: Row) -> None:
@@ -228,6 +230,6 @@ def _keys(statements: pd.DataFrame, band: str) -> list[Any]:
             continue
         width = 1.2 if marker else 0.0
         text = f"{sign} {verdict} ({counts[verdict]})"
-        line = mpl.lines.Line2D([], [], color=colour, marker=marker, markersize=4, linewidth=width, label=text)
+        line = Line2D([], [], color=colour, marker=marker, markersize=4, linewidth=width, label=text)
         handles.append(line)
-    return [*handles, mpl.patches.Patch(color="0.88", label=band)]
+    return [*handles, Patch(color="0.88", label=band)]

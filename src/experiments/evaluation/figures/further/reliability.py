@@ -59,7 +59,8 @@ def curves_of(measures: pd.DataFrame, settings: CalibrationTable, points: Sequen
     coverage = coverage[coverage["share"].isin(points)]
     observed = coverage.groupby([*CASE, "share", "stage"], sort=False)["value"].mean().unstack("stage").reset_index()
     curves: list[pd.DataFrame] = []
-    for (scenario, level, pushed, method, limb, unit), curve in observed.groupby(CASE, sort=False):
+    for keys, curve in observed.groupby(CASE, sort=False):
+        scenario, level, pushed, method, limb, unit = map(str, keys)
         case = settings.names.get(scenario, case_of(scenario, level, pushed)) if pushed else IN_DISTRIBUTION
         name = limb + (f" [{unit}]" if limb == "V" else "")
         curve = curve.sort_values("share").rename(columns={"share": "nominal"})

@@ -85,7 +85,7 @@ def dots_of(
     shown = [(name, cell) for name, cell in cells_of(settings, panel) if cell in errors]
     common = set[str].intersection(*(set(errors[cell]) for _, cell in shown)) if shown else set[str]()
     robots = sorted(common)
-    found: list[Dot] = []
+    dots: list[Dot] = []
     for name, cell in shown:
         data, _, way = cell
         learned_from = settings.sets[data]
@@ -93,8 +93,8 @@ def dots_of(
         error = over_shown_robots([errors[each] for each in (cell, over)], robots, statistics)
         share = over_shown_robots([shares[cell]], robots, statistics)
         text = ", ".join(each for each in (learned_from.says, settings.ways.get(way, "")) if each)
-        found.append(Dot(title, name, text, cell, len(robots), error, share))
-    return found
+        dots.append(Dot(title, name, text, cell, len(robots), error, share))
+    return dots
 
 
 def cells_of(settings: WhyShare, panel: ExplainedPanel) -> Iterator[tuple[str, Learned]]:
@@ -112,15 +112,15 @@ def marks_of(networks: Iterable[str]) -> dict[str, dict[str, Any]]:
 
     Of each further network of a method less of the mark is filled.
     """
-    found: dict[str, dict[str, Any]] = {}
+    marks: dict[str, dict[str, Any]] = {}
     seen = Counter[str]()
     for name in networks:
         method = max((known for known in LOOKS if name.startswith(known)), key=len)
         look = LOOKS[method]
         fill = FILLS[seen[method] % len(FILLS)]
-        found[name] = {"marker": look.marker, "color": look.colour, "fillstyle": fill, **MARK}
+        marks[name] = {"marker": look.marker, "color": look.colour, "fillstyle": fill, **MARK}
         seen[method] += 1
-    return found
+    return marks
 
 
 @styled
@@ -131,15 +131,15 @@ def draw_why(networks: Iterable[str], dots: Sequence[Dot]) -> Figure:
         panels.setdefault(dot.panel, []).append(dot)
     figure, axes = beside(len(panels), HEIGHT_INCH, sharey=True)
     marks = marks_of(networks)
-    for k, (axis, (title, own)) in enumerate(zip(axes, panels.items(), strict=True)):
-        for dot in own:
+    for k, (axis, (title, dots_shown)) in enumerate(zip(axes, panels.items(), strict=True)):
+        for dot in dots_shown:
             _draw(axis, dot, marks[dot.network])
         axis.set_xlabel("error in walking, over MOB-Net's [-]")
-        entitle(axis, k, f"{title}, {own[0].robots} robots")
+        entitle(axis, k, f"{title}, {dots_shown[0].robots} robots")
     axes[0].set_ylabel("share of a hit that is shown [-]")
     # The scale of shares is known once all panels have their dots.
-    for axis, own in zip(axes, panels.values(), strict=True):
-        _name(axis, own, marks)
+    for axis, dots_shown in zip(axes, panels.values(), strict=True):
+        _name(axis, dots_shown, marks)
     legend(figure, axes)
     return figure
 
