@@ -42,6 +42,11 @@ def check_golden(*produced: Path) -> None:
         assert _without_noise(now) == _without_noise(before)
 
 
+def check_golden_table(table: Path) -> None:
+    """Compare the three files of a table with the golden ones: all numbers, and what a reader sees."""
+    check_golden(*(table.with_suffix(ending) for ending in (".csv", ".md", ".tex")))
+
+
 def _without_noise(text: str) -> str:
     """Return a text with 0 for numbers below 1e-5: differences of equal ones, which each processor rounds its way."""
     return re.sub(r"(?<=,)-?\d(\.\d+)?e-(0[6-9]|[1-9]\d)(?=,|\n)", "0", text)

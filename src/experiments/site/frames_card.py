@@ -8,6 +8,7 @@ from pathlib import Path
 from experiments.evaluation.number.frames import (
     CONTACTS,
     CURVES,
+    FALLS,
     HITS,
     NETWORKS,
     PROMISES,
@@ -16,6 +17,8 @@ from experiments.evaluation.number.frames import (
     THRESHOLDS,
     TRAININGS,
     TRIALS,
+    TRUSTED,
+    WHY,
     Schema,
 )
 from experiments.evaluation.tables.layout import markdown_table
@@ -64,6 +67,9 @@ FRAMES: dict[str, tuple[str, Schema]] = {
         NETWORKS,
     ),
     "trainings": ("`read_trainings`: the epochs of these networks.", TRAININGS),
+    "falls": ("`read_frame(..., FALLS)`: falls by random torque, from `results/<scale>/<robot>/falls.csv`.", FALLS),
+    "trusted": ("`in_tests` and `held_out`: how far standard deviations can be trusted.", TRUSTED),
+    "why": ("`read_why`: the kept table of the trial of why a hit is hidden, `docs/trials/why.csv`.", WHY),
 }
 
 
@@ -76,7 +82,7 @@ def card() -> str:
     """Return the page as Markdown."""
     parts = [HEAD]
     for name, (text, schema) in FRAMES.items():
-        rows = [[f"`{column}`", *told] for column, told in schema.items()]
+        rows = [[f"`{column}`", *described] for column, described in schema.items()]
         header = ["column", "type", "unit", "what it is"]
         parts.append(f"\n## {name}\n{text}\n\n" + markdown_table(header, rows, left=len(header)))
     return "".join(parts)

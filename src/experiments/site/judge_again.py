@@ -11,21 +11,22 @@ import tempfile
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import pandas as pd
 
 from experiments.evaluation.figures.further.forest import STEMS, forest
 from experiments.evaluation.measure.claims.cells import Evidence
-from experiments.evaluation.measure.claims.scale import KnownMethods, control_of, scaled
+from experiments.evaluation.measure.claims.scale import KnownMethods, control_of, weaknesses_of
 from experiments.evaluation.measure.claims.verdicts import (
     ClaimNumbers,
-    Judged,
     Row,
-    found_of,
+    claims_frame,
     judged,
     rows_of,
     score_of,
 )
+from experiments.evaluation.measure.claims.verdicts import numbers_of as measured_numbers
 from experiments.evaluation.number.number import Number
 from experiments.evaluation.tables.further.claims_summary import claims_summary
 from experiments.evaluation.tables.further.claims_table import claim_table
@@ -51,7 +52,7 @@ AGAIN = "judged after the run by rules of verdicts that CHANGELOG.md names"  # w
 Text = Mapping[str, str]
 
 
-def judged_again(settings: Settings, published: Path) -> list[Judged]:
+def judged_again(settings: Settings, published: Path) -> pd.DataFrame:
     """Return every claim with its published number and the verdicts by the present rules.
 
     Args:
@@ -70,26 +71,27 @@ def judged_again(settings: Settings, published: Path) -> list[Judged]:
                 names.add(cell.table)
     tables = {name: read_texts(published / f"{name}.csv") for name in sorted(names)}
     evidence = Evidence(settings.layout, {}, {}, pd.DataFrame(), tables)
-    found = [_found(row, before.get(row.name, {}), evidence, settings) for row in rows]
-    scores = [score_of(row.claim, settings.methods) for row in rows]
     statistics = settings.evaluation.statistics
     known = KnownMethods(settings.methods, settings.detection.detectors, settings.published.original_methods)
-    again: list[Judged] = []
-    for row, numbers, score in zip(rows, found, scores, strict=True):
+    again: list[dict[str, Any]] = []
+    for row in rows:
         # What stands in for a network in the scores was judged in the run; a run before 0.7.0 did not do so.
-        held = before.get(row.name, {})
-        control = {name: held[column] for name, column in STAND_INS.items() if held.get(column)}
+        former = before.get(row.name, {})
+        numbers = _numbers(row, former, evidence, settings)
+        score = score_of(row.claim, settings.methods)
+        control = {name: former[column] for name, column in STAND_INS.items() if former.get(column)}
         if is_of_tables(row.claim):
             control = control_of(row.claim, evidence, statistics, known)
-        again.append(scaled(judged(row, numbers, score, statistics), control, known))
-    return again
+        weaknesses = weaknesses_of(row.claim, score, numbers.ours, control, known)
+        again.append(judged(row, numbers, score, statistics, control, weaknesses))
+    return claims_frame(again)
 
 
-def _found(row: Row, before: Text, evidence: Evidence, settings: Settings) -> ClaimNumbers:
+def _numbers(row: Row, before: Text, evidence: Evidence, settings: Settings) -> ClaimNumbers:
     """Return the numbers of a claim, made of published tables where all its cells are fields of them."""
     claim = row.claim
     if is_of_tables(claim):
-        return found_of(claim, evidence, settings.evaluation.statistics)
+        return measured_numbers(claim, evidence, settings.evaluation.statistics)
     # A number that is made otherwise than when it was published is not measured until the next run.
     same = before if before.get("quantity") == claim.quantity else {}
     ours = _number(same, ("value", "low", "high"), claim)
@@ -108,10 +110,10 @@ def is_of_tables(claim: Claim) -> bool:
 
 def _cells_of(claim: Claim) -> list[Cell]:
     """Return the cells of all numbers that a claim needs."""
-    found: list[Cell] = []
+    cells: list[Cell] = []
     for number in numbers_of(claim):
-        found += number.cells
-    return found
+        cells += number.cells
+    return cells
 
 
 def _number(row: Text, names: Sequence[str], claim: Claim) -> Number:

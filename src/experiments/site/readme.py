@@ -10,7 +10,7 @@ from typing import Any
 
 from jinja2 import UndefinedError
 
-from experiments.evaluation.measure.learning.explained import LearnedCell, by_robot, read_why
+from experiments.evaluation.measure.learning.explained import by_robot, read_why
 from experiments.evaluation.measure.learning.taught import SHARE_OF_HIT
 from experiments.evaluation.report.headline import AVERAGE, FILMED, best_formulas, headline
 from experiments.evaluation.report.html import filled
@@ -200,7 +200,7 @@ def shown_in_trial() -> dict[str, float]:
     shares = by_robot(read_why(EXPLAINED), SHARE_OF_HIT)
     shown: dict[str, float] = {}
     for method in (MOB_NET, NO_SENSOR):
-        robots = shares[LearnedCell(data, method, way)]
+        robots = shares[data, method, way]
         shown[method] = sum(robots.values()) / len(robots)
     return shown
 

@@ -260,14 +260,10 @@ def draw_bode(stored: Stored, name: str) -> Figure:
 def draw_calibration(stored: Stored, name: str) -> Figure:
     """Draw the reliability diagram."""
     settings = stored.section(name)
-    curves: list[reliability.CoverageCurve] = []
-    for (case, method, title), own in stored.rows(name).groupby(["case", "method", "limb"], sort=False):
-        limb = str(title).partition(" ")[0]  # that of the base comes with the unit
-        columns = (own[column].to_numpy() for column in ("nominal", "before", "after"))
-        curve = reliability.CoverageCurve(str(case), str(method), limb, str(title), *columns)
-        if limb in settings.drawn:
-            curves.append(curve)
-    return reliability.draw_reliability(curves, settings.tolerance)
+    rows = stored.rows(name).rename(columns={"limb": "name"})
+    rows["curve"] = rows.groupby(["case", "method", "name"], sort=False).ngroup()
+    limb = rows["name"].str.partition(" ")[0]  # that of the base comes with the unit
+    return reliability.draw_reliability(rows[limb.isin(settings.drawn)], settings.tolerance)
 
 
 def draw_commands(stored: Stored, name: str) -> Figure:
@@ -369,8 +365,7 @@ def draw_claims(stored: Stored, name: str) -> Figure:
     statements = statements_of(judged_again(settings, stored.results))
     axis = next(axis for axis, stem in forest.STEMS.items() if stem == name)
     confidence = settings.evaluation.statistics.confidence
-    own = [each for each in statements if each.worst.axis == axis]
-    return forest.draw_forest(own, axis, f"{confidence:.0%} interval")
+    return forest.draw_forest(rows_of(statements, axis=axis), axis, f"{confidence:.0%} interval")
 
 
 @styled

@@ -3,24 +3,29 @@
 `python -m experiments.site why` writes it; a test fails when it is out of date.
 """
 
+# pandas has no complete types, which the strict rules of this folder ask for.
+# pyright: standard
+
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import NamedTuple
+
+import pandas as pd
 
 from experiments.evaluation.measure.learning.explained import (
     ALL,
     FEW,
     PATH,
-    HitNumber,
-    LearnedCell,
+    Learned,
     by_network,
     by_robot,
-    over_robots,
+    over_shown_robots,
     read_why,
     spread_of,
 )
 from experiments.evaluation.measure.learning.paths import EVERY, INPUTS
 from experiments.evaluation.measure.learning.taught import HITS, ROUGHNESS, SHARE_OF_HIT, WALKING
+from experiments.evaluation.number.frames import rows_of
 from experiments.evaluation.number.number import Number, number_text, shown_name
 from experiments.evaluation.tables.layout import markdown_table
 from experiments.intervals.bounds import Bounds, apart, range_text, within
@@ -50,7 +55,7 @@ MISSED, OUTSIDE, UNDECIDED, HELD = "missed", "open, outside", "open", "held"  # 
 MOB_NET, NO_SENSOR, END_TO_END = "MOB-Net", "MOB-Net-noimu", "FTS-e2e"
 KINDS = (MOB_NET, NO_SENSOR, END_TO_END)
 SPREAD = {WALKING: ("walking", "N m"), HITS: ("hits, LL3", "N m"), SHARE_OF_HIT: ("share of a hit", "-")}
-Values = Mapping[str, Mapping[LearnedCell, Mapping[str, float]]]  # measure -> networks -> robot -> number
+Values = Mapping[str, Mapping[Learned, Mapping[str, float]]]  # measure -> networks -> robot -> number
 
 
 class Predicted(NamedTuple):
@@ -59,7 +64,7 @@ class Predicted(NamedTuple):
     says: str
     name: str
     measure: str
-    cells: Sequence[LearnedCell]
+    cells: Sequence[Learned]
     bounds: Bounds
 
 
@@ -92,7 +97,7 @@ def why_blocks(settings: Settings, kept: Path) -> dict[str, str]:
 def predictions_of(settings: Settings) -> list[Predicted]:
     """Return the predictions: those of claims, and two for the original's inputs."""
     way = _first(settings)
-    found: list[Predicted] = []
+    predictions: list[Predicted] = []
     for name, says in CLAIMS.items():
         claim = settings.claims[name]
         at = claim.cells[0]
@@ -100,32 +105,32 @@ def predictions_of(settings: Settings) -> list[Predicted]:
         if at.scenario == settings.trials.why.as_in:
             measure = SHARE_OF_HIT if at.metric == SHOWN else HITS
         cells = [_cell(cell.method or "", way) for cell in claim.cells]
-        found.append(Predicted(says, f"`{name}`", measure, cells, shown_range(ranges_of(claim))))
+        predictions.append(Predicted(says, f"`{name}`", measure, cells, shown_range(ranges_of(claim))))
     least = shown_range(ranges_of(settings.claims[LEAST_RATIO]))[0]
-    pair = [LearnedCell(WITH_TORQUE, method, way) for method in (END_TO_END, MOB_NET)]
+    pair = [(WITH_TORQUE, method, way) for method in (END_TO_END, MOB_NET)]
     says = "error under hits with the original's inputs, FTS-e2e over MOB-Net"
-    found.append(Predicted(says, "", HITS, pair, (None, least)))
-    pair = [LearnedCell(data, MOB_NET, way) for data in (WITH_TORQUE, WITHOUT_TORQUE)]
+    predictions.append(Predicted(says, "", HITS, pair, (None, least)))
+    pair = [(data, MOB_NET, way) for data in (WITH_TORQUE, WITHOUT_TORQUE)]
     says = "share of a hit with the original's inputs, with random torque over without it"
-    found.append(Predicted(says, "", SHARE_OF_HIT, pair, (None, 1.0)))
-    return found
+    predictions.append(Predicted(says, "", SHARE_OF_HIT, pair, (None, 1.0)))
+    return predictions
 
 
-def _cell(method: str, way: str) -> LearnedCell:
+def _cell(method: str, way: str) -> Learned:
     """Return the networks of the trial that stand for a method of the run."""
     data = WITHOUT_TORQUE if method.endswith(PLAIN) else WITH_TORQUE
-    return LearnedCell(data, method.removesuffix(PLAIN), way)
+    return data, method.removesuffix(PLAIN), way
 
 
 def predicted(settings: Settings, values: Values) -> str:
     """Return the table of predictions, those that missed first."""
-    told: list[tuple[str, list[str]]] = []
-    for one in predictions_of(settings):
-        number = _number(settings, [_of(values, one.measure, cell) for cell in one.cells])
-        verdict = verdict_of(number, one.bounds)
-        told.append((verdict, [one.says, one.name, range_text(one.bounds), _text(number), verdict]))
-    told.sort(key=lambda row: (MISSED, OUTSIDE, UNDECIDED, HELD).index(row[0]))
-    return markdown_table(["prediction", "claim", "range", "found", ""], [row for _, row in told], left=3)
+    judged: list[tuple[str, list[str]]] = []
+    for each in predictions_of(settings):
+        number = _number(settings, [_of(values, each.measure, cell) for cell in each.cells])
+        verdict = verdict_of(number, each.bounds)
+        judged.append((verdict, [each.says, each.name, range_text(each.bounds), _text(number), verdict]))
+    judged.sort(key=lambda row: (MISSED, OUTSIDE, UNDECIDED, HELD).index(row[0]))
+    return markdown_table(["prediction", "claim", "range", "found", ""], [row for _, row in judged], left=3)
 
 
 def verdict_of(number: Number, bounds: Bounds) -> str:
@@ -144,12 +149,13 @@ def found(settings: Settings, values: Values) -> str:
     """Return the table of networks that differ in what they see, over all robots."""
     rows: list[list[str]] = []
     for cell in values[WALKING]:
-        if cell.data in (WITH_TORQUE, WITHOUT_TORQUE) and len(values[WALKING][cell]) > FEW:
+        data, _, learning = cell
+        if data in (WITH_TORQUE, WITHOUT_TORQUE) and len(values[WALKING][cell]) > FEW:
             name = _name(settings, cell)
             measures = (WALKING, HITS, SHARE_OF_HIT, ROUGHNESS)
             numbers = [_number(settings, [values[measure][cell]]) for measure in measures]
-            torque = "yes" if cell.data == WITH_TORQUE else "no"
-            rows.append([name, torque if cell.way else "", *map(_text, numbers[:3]), numbers[3].text()])
+            torque = "yes" if data == WITH_TORQUE else "no"
+            rows.append([name, torque if learning else "", *map(_text, numbers[:3]), numbers[3].text()])
     # Methods that do not learn are the same beside both sets.
     rows = [row for k, row in enumerate(rows) if row not in rows[:k]]
     head = ["networks", "random torque", "walking [N m]", "hits, LL3 [N m]", "share of a hit", "roughness"]
@@ -160,18 +166,18 @@ def robots_and_ways(settings: Settings, values: Values) -> str:
     """Return the table of robots and ways of learning on a few robots: shares of a hit, and what the sensor saves."""
     shown = settings.evaluation.why_share
     way = _first(settings)
-    told = {LearnedCell(WITH_TORQUE, MOB_NET, way): "robots and learning of the run"}
-    for data, own in shown.sets.items():
-        if own.over == data != WITH_TORQUE:
-            told[LearnedCell(data, MOB_NET, way)] = own.says
+    changed: dict[Learned, str] = {(WITH_TORQUE, MOB_NET, way): "robots and learning of the run"}
+    for data, learned_from in shown.sets.items():
+        if learned_from.over == data != WITH_TORQUE:
+            changed[data, MOB_NET, way] = learned_from.says
     for name, says in shown.ways.items():
-        told[LearnedCell(WITH_TORQUE, MOB_NET, name)] = says
+        changed[WITH_TORQUE, MOB_NET, name] = says
     robots = settings.trials.why.path_robots
     rows: list[list[str]] = []
-    for cell, says in told.items():
-        own = [cell._replace(method=method) for method in KINDS]
-        shares = [values[SHARE_OF_HIT].get(each) for each in own]
-        walking = [values[WALKING].get(each) for each in own[1::-1]]
+    for (data, _, learning), says in changed.items():
+        cells = [(data, method, learning) for method in KINDS]
+        shares = [values[SHARE_OF_HIT].get(cell) for cell in cells]
+        walking = [values[WALKING].get(cell) for cell in cells[1::-1]]
         if any(shares):
             row = [_text(_number(settings, [each], robots)) if each else "" for each in shares]
             both = [each for each in walking if each]
@@ -181,20 +187,19 @@ def robots_and_ways(settings: Settings, values: Values) -> str:
     return markdown_table(head, rows, left=1)
 
 
-def inputs(rows: Sequence[HitNumber]) -> str:
+def inputs(rows: pd.DataFrame) -> str:
     """Return a sentence for each method of which it was asked by which inputs a hit comes in."""
     shares: dict[str, dict[str, str]] = {}
-    for row in rows:
-        if row.measure == PATH and row.robot == ALL:
-            shares.setdefault(row.method, {})[row.inputs] = number_text(row.value)
+    for row in rows_of(rows, measure=PATH, robot=ALL).to_dict("records"):
+        shares.setdefault(row["method"], {})[row["inputs"]] = number_text(row["value"])
     lines: list[str] = []
-    for method, own in shares.items():
-        parts = [f"{own[name]} by {name}" for name in INPUTS]
-        lines.append(f"* Of a hit, {own[EVERY]} goes into the prediction of {method}: {', '.join(parts)}.")
+    for method, texts in shares.items():
+        parts = [f"{texts[name]} by {name}" for name in INPUTS]
+        lines.append(f"* Of a hit, {texts[EVERY]} goes into the prediction of {method}: {', '.join(parts)}.")
     return "\n".join(lines)
 
 
-def seeds(rows: Sequence[HitNumber]) -> str:
+def seeds(rows: pd.DataFrame) -> str:
     """Return the table of how far networks of a robot lie apart, and robots."""
     lines: list[list[str]] = []
     for measure, (says, unit) in SPREAD.items():
@@ -209,15 +214,16 @@ def _first(settings: Settings) -> str:
     return next(iter(settings.trials.why.ways))
 
 
-def _name(settings: Settings, cell: LearnedCell) -> str:
+def _name(settings: Settings, cell: Learned) -> str:
     """Return what networks, or a method without any, are called."""
-    for name, own in settings.evaluation.why_share.networks.items():
-        if own.method == cell.method and cell.way in own.ways:
+    _, method, way = cell
+    for name, network in settings.evaluation.why_share.networks.items():
+        if network.method == method and way in network.ways:
             return name
-    return shown_name(cell.method)
+    return shown_name(method)
 
 
-def _of(values: Values, measure: str, cell: LearnedCell) -> Mapping[str, float]:
+def _of(values: Values, measure: str, cell: Learned) -> Mapping[str, float]:
     """Return robot -> number of networks; a DataError where the trial has none."""
     if cell not in values[measure]:
         raise DataError(f"{', '.join(cell)}: these networks are missing, of which a prediction tells")
@@ -228,7 +234,7 @@ def _number(settings: Settings, values: Sequence[Mapping[str, float]], robots: S
     """Return the mean of a measure, or the ratio of two, over the robots that both have, or over some of them."""
     common = set[str].intersection(*map(set, values))
     chosen = [robot for robot in sorted(common) if not robots or robot in robots]
-    return over_robots(values, chosen, settings.evaluation.statistics)
+    return over_shown_robots(values, chosen, settings.evaluation.statistics)
 
 
 def _text(number: Number) -> str:

@@ -9,7 +9,6 @@ from pathlib import Path
 import pytest
 
 from experiments.evaluation.measure.claims.verdicts import NO_CAUSE
-from experiments.evaluation.tables.further.claims_table import record_of
 from experiments.intervals.bounds import apart, within
 from experiments.settings.load import load_settings
 from experiments.settings.verdicts import DESCRIPTION, NOT_MEASURED, NOT_PRINTED, NOT_REPRODUCED, OPEN, OURS, SIGN_ONLY
@@ -37,14 +36,11 @@ def test_published_verdicts_are_those_of_the_claims_of_today() -> None:
     settings = load_settings(ROOT / "configs")
     published = {row["claim"]: row for row in read_texts(RESULTS / "claims.csv")}
     again = judged_again(settings, RESULTS)
-    assert list(published) == [each.row.name for each in again]
-    for each in again:
-        row = published[each.row.name]
-        assert (row["size"], row["sign"], row["verdict"]) == (each.size, each.sign, each.verdict), each.row.name
-        assert row["score"] == each.score
-        assert (row["cause"], row["remark"]) == (each.cause, each.remark)
-        assert bool(row["beyond_reach"]) == each.is_beyond_reach
-        assert row["quantity"] == record_of(each)[5]
+    assert list(published) == again["claim"].tolist()
+    for claim in again.to_dict("records"):
+        row = published[claim["claim"]]
+        for name in ("size", "sign", "verdict", "score", "cause", "remark", "beyond_reach", "quantity"):
+            assert row[name] == claim[name], (claim["claim"], name)
 
 
 @pytest.mark.parametrize("row", read_texts(RESULTS / "claims.csv"), ids=lambda row: row["claim"])

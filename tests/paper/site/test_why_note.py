@@ -1,11 +1,11 @@
 """The note on training has the numbers of the trial of why a hit is hidden, and names every prediction that missed."""
 
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from experiments.evaluation.measure.learning.explained import read_why
+from experiments.evaluation.number.frames import records_of
 from experiments.evaluation.number.number import Number
 from experiments.evaluation.number.rows import write_csv
 from experiments.settings.settings import Settings
@@ -25,8 +25,8 @@ def test_the_note_says_what_the_kept_table_has(settings: Settings) -> None:
 
 def test_another_number_in_the_table_is_another_note(settings: Settings, tmp_path: Path) -> None:
     rows = read_why(ROOT / settings.evaluation.why_share.data)
-    changed = [replace(row, value=1.1 * row.value) if row.measure == "share" else row for row in rows]
-    write_csv(tmp_path / "why.csv", WHY, [list(vars(row).values()) for row in changed])
+    rows.loc[rows["measure"] == "share", "value"] *= 1.1
+    write_csv(tmp_path / "why.csv", WHY, records_of(rows, WHY))
     now, then = (why_blocks(settings, path / "why.csv") for path in (ROOT / "docs/trials", tmp_path))
     assert {name for name in now if now[name] != then[name]} >= {"why_predicted", "why_found", "why_kinds"}
 

@@ -24,18 +24,18 @@ def parts_of(pair: Pair, scene: Scene) -> dict[str, NDArray[np.bool_]]:
     """
     places = scene.layout.columns(pair.joints)
     speed = scene.speed[:, places]
-    found = {name: held[:, places] for name, held in scene.phases.items()}
-    found |= {STUCK: speed < scene.asked.stuck_rad_s, MOVING: speed >= scene.asked.stuck_rad_s}
+    by_part = {name: mask[:, places] for name, mask in scene.phases.items()}
+    by_part |= {STUCK: speed < scene.asked.stuck_rad_s, MOVING: speed >= scene.asked.stuck_rad_s}
     inside = rows_in(pair.spans, len(speed))
-    return {name: held & inside[:, None] for name, held in found.items()}
+    return {name: mask & inside[:, None] for name, mask in by_part.items()}
 
 
 def push_parts(pair: Pair, scene: Scene) -> dict[str, NDArray[np.bool_]]:
     """Return where a push acts and where none does, (T, n) each; nothing where the scenario has no pushes."""
     if not scene.pushed.any():
         return {}
-    held = np.repeat(scene.pushed[:, None], len(pair.joints), axis=1)
-    return {PUSHED: held, CALM: ~held}
+    is_pushed = np.repeat(scene.pushed[:, None], len(pair.joints), axis=1)
+    return {PUSHED: is_pushed, CALM: ~is_pushed}
 
 
 def masked_mean(values: NDArray[np.float64], mask: NDArray[np.bool_]) -> Array:

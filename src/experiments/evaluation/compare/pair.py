@@ -61,10 +61,10 @@ def read_pair(run: Run, layout: JointLayout) -> Pair:
     """
     meta, residual_meta = (read_array_note(file_of(stem, NOTE)) for stem in (run.estimate, run.residual))
     refuse(f"{run.estimate}{NOTE}", note_differences(meta, residual_meta, f"{run.residual}{NOTE}"))
-    held = [column["name"] for column in meta["columns"]]
-    joints = tuple(joint for joint in layout.names if f"{EXTERNAL}.{joint}" in held)
+    names = [column["name"] for column in meta["columns"]]
+    joints = tuple(joint for joint in layout.names if f"{EXTERNAL}.{joint}" in names)
     if not joints:
-        raise DataError(f"{run.estimate}.json: no column {EXTERNAL}.<joint>; it holds {', '.join(held)}")
+        raise DataError(f"{run.estimate}.json: no column {EXTERNAL}.<joint>; it holds {', '.join(names)}")
     # Networks of surrogate robots learn what foot sensors say of the truth (docs/notes/surrogate.md): errors against
     # this label are measured beside those against the truth.
     signal = label_of(run.residual)
@@ -80,9 +80,9 @@ def read_pair(run: Run, layout: JointLayout) -> Pair:
 
 def read_std(run: Run, joints: Sequence[str]) -> NDArray[np.float32] | None:
     """Return the standard deviations that a method predicts (T, n) [N m], V1..V3 [N]; None if it predicts none."""
-    held = {column["name"] for column in read_array_note(file_of(run.estimate, NOTE))["columns"]}
+    columns = {column["name"] for column in read_array_note(file_of(run.estimate, NOTE))["columns"]}
     names = named(STD, joints)
-    return read_array(run.estimate, names)[0] if held.issuperset(names) else None
+    return read_array(run.estimate, names)[0] if columns.issuperset(names) else None
 
 
 class Measured(NamedTuple):

@@ -56,13 +56,15 @@ class Scene:
         note = read_array_note(file_of(self.stem, NOTE))
         rows = round(self.asked.touch_down_s * note["rate_hz"])
         spans = note["segments"]
-        found = {name: np.zeros((note["rows"], self.layout.nv), dtype=bool) for name in (SWINGING, TOUCH_DOWN, STANCE)}
+        by_phase = {
+            name: np.zeros((note["rows"], self.layout.nv), dtype=bool) for name in (SWINGING, TOUCH_DOWN, STANCE)
+        }
         for side, limb in self.layout.legs.items():
             foot = next(name for name in FEET if name.startswith(side))
             swing, contact = (self._read([f"{signal}.{foot}"])[:, 0] > FLAG for signal in (SWING, CONTACT))
-            for name, held in gait_phases(swing, contact, spans, rows).items():
-                found[name][:, self.layout.columns(self.layout.limb(limb))] = held[:, None]
-        return found
+            for name, mask in gait_phases(swing, contact, spans, rows).items():
+                by_phase[name][:, self.layout.columns(self.layout.limb(limb))] = mask[:, None]
+        return by_phase
 
     def planned(self, joint: str) -> NDArray[np.bool_]:
         """Return whether the walking plan has the foot of a joint's own leg in the air (T,)."""
@@ -72,11 +74,11 @@ class Scene:
         """Return pushes on joints behind the observer's low-pass, (T, n) [N m], V1..V3 [N]; the gain is K_0 [1/s]."""
         note = read_array_note(file_of(self.stem, NOTE))
         push = self.pushes[:, self.layout.columns(joints)]
-        found = np.zeros(push.shape)
+        behind = np.zeros(push.shape)
         # Each segment on its own: rows of two of them do not follow each other in time.
         for start, end in note["segments"]:
-            found[start:end] = low_pass(push[start:end], gain_hz, note["rate_hz"])
-        return found
+            behind[start:end] = low_pass(push[start:end], gain_hz, note["rate_hz"])
+        return behind
 
     def _read(self, names: list[str]) -> NDArray[np.float32]:
         return read_array(self.stem, names)[0]

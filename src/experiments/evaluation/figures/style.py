@@ -139,17 +139,19 @@ def legend(figure: Figure, axes: Sequence[Axes], columns: int | None = None, las
     A row has so many columns at most, or all entries, and fewer where it would be wider than the figure; `look` has
     other lengths of Matplotlib's legend [font size].
     """
-    found: dict[str, Any] = {}
+    handles: dict[str, Any] = {}
     for axis in axes:
         for handle, label in zip(*axis.get_legend_handles_labels(), strict=True):
-            found.setdefault(shown_name(label), handle)
-    if last in found:
-        found[last] = found.pop(last)
+            handles.setdefault(shown_name(label), handle)
+    if last in handles:
+        handles[last] = handles.pop(last)
     look = {"handlelength": 1.8, "columnspacing": 0.9, "handletextpad": 0.4, "borderpad": 0.0, **look}
-    most = max(1, min(columns or len(found), len(found)))
-    fewer = (ceil(len(found) / rows) for rows in range(ceil(len(found) / most) + 1, len(found) + 1))
+    most = max(1, min(columns or len(handles), len(handles)))
+    fewer = (ceil(len(handles) / rows) for rows in range(ceil(len(handles) / most) + 1, len(handles) + 1))
     for n in (most, *fewer):  # the width is known once it is laid out
-        key = figure.legend(found.values(), found.keys(), loc="outside upper center", ncols=n, frameon=False, **look)
+        key = figure.legend(
+            handles.values(), handles.keys(), loc="outside upper center", ncols=n, frameon=False, **look
+        )
         if n == 1 or key.get_window_extent().width <= figure.bbox.width:
             return
         key.remove()
@@ -207,6 +209,6 @@ def with_stable_names(svg: str) -> str:
     differ.
     """
     order = {name: k for k, name in enumerate(dict.fromkeys(CLIP.findall(svg)))}
-    numbered = CLIP.sub(lambda found: str(order[found[0]]), svg)
+    numbered = CLIP.sub(lambda match: str(order[match[0]]), svg)
     digest = hashlib.sha256(numbered.encode()).hexdigest()[:8]
-    return CLIP.sub(lambda found: f"clip-{digest}-{order[found[0]]}", svg)
+    return CLIP.sub(lambda match: f"clip-{digest}-{order[match[0]]}", svg)

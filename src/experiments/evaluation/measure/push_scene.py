@@ -156,7 +156,7 @@ def read_push(
         end=rows.end - shown.start,
         truth=pair.truth[shown][:, pair.places(joints)],
         push=read_array(recording, named(PUSH_TORQUE, joints))[0][shown],
-        estimates={method: own.estimate[shown][:, own.places(joints)] for method, own in pairs.items()},
+        estimates={method: read.estimate[shown][:, read.places(joints)] for method, read in pairs.items()},
         stds={method: std[shown] for method, std in stds.items() if std is not None},
         flags={"swing": swing, "pushed": pushed},
         q=read_array(recording, position)[0][shown].astype(np.float64),

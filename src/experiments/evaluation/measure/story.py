@@ -90,7 +90,7 @@ class StoredPush:
         rate_hz = self.recording.rate_hz
         gain_hz = self.settings.observer.gain_hz
         start = round(story.before_s * rate_hz)
-        stds = {method: one.std for method, one in estimates.items() if one.std is not None}
+        stds = {method: estimate.std for method, estimate in estimates.items() if estimate.std is not None}
         pushed = self._read([f"{PUSH}.row"])[:, 0] > FLAG
         alarm_s = self._alarm_s(estimates, pushed)
         return PushScene(
@@ -103,7 +103,7 @@ class StoredPush:
             end=start + round((collision.end_s - collision.start_s) * rate_hz),
             truth=low_pass(self._read(named(EXTERNAL, self.joints)), gain_hz, rate_hz),
             push=self._read(named(PUSH_TORQUE, self.joints)),
-            estimates={method: one.tau_ext for method, one in estimates.items()},
+            estimates={method: estimate.tau_ext for method, estimate in estimates.items()},
             stds=stds,
             flags={"swing": sensed.swing[:, self._setup.gate.foot] > FLAG, "pushed": pushed},
             q=sensed.q.astype(np.float64),
@@ -134,16 +134,16 @@ class StoredPush:
         """Return what a method makes of the leg's joints, step by step from its first state, (T, n) [N m]."""
         estimator = self.estimator(method)
         sensed = self.recording.sensed
-        held = [estimator.joints.index(joint) for joint in self.joints]
+        columns = [estimator.joints.index(joint) for joint in self.joints]
         state = estimator.init()
         # Step by step as on a robot, which has no later samples.
         steps = list[Estimate]()
         for k in range(len(sensed)):
             state, estimate = estimator.step(state, sensed[k])
             steps.append(estimate)
-        tau = np.array([one.tau_ext for one in steps])
-        std = [one.std for one in steps if one.std is not None]
-        return Estimate(tau[:, held], np.array(std)[:, held] if std else None)
+        tau = np.array([step.tau_ext for step in steps])
+        std = [step.std for step in steps if step.std is not None]
+        return Estimate(tau[:, columns], np.array(std)[:, columns] if std else None)
 
     def _alarm_s(self, estimates: Mapping[str, Estimate], pushed: NDArray[np.bool_]) -> float | None:
         """Return how long after the beginning of the push the detector of the story says so [s], None if it does not.
@@ -169,7 +169,7 @@ class StoredPush:
         path = self.folder / "thresholds.csv"
         names = Watched(watched_signals(row)).names(self.joints)
         stored: list[Threshold] = read_detections(path, "thresholds")
-        values = {(one.phase, one.signal): one.value for one in stored}
+        values = {(each.phase, each.signal): each.value for each in stored}
         wanted = list(product(range(1, row.phases + 1), names))
         missing = [place for place in wanted if place not in values]
         accepted = f"one of each signal of {row.method}"

@@ -7,17 +7,21 @@ columns for readers. A missing number is NaN, as in pandas, where the rows of a 
 # pandas has no complete types, which the strict rules of this folder ask for.
 # pyright: standard
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 import pandas as pd
 
 from experiments.evaluation.number.rows import Field, read_detections
 from experiments.evaluation.number.rows import read_scores as score_rows
 from experiments.evaluation.number.rows import read_trials as trial_rows
-from mobnet.core.errors import DataError, not_accepted
+from mobnet.core.errors import DataError, not_accepted, refuse_lines
+from mobnet.core.rows import parse_field, read_texts
 
 TEXT, WHOLE, REAL = "str", "int64", "float64"
+FLAG = "bool"
+HINTS = {TEXT: str, WHOLE: int, REAL: float}  # type of a column -> that of a field of a file
 Schema = Mapping[str, tuple[str, str, str]]  # column -> its type, unit and meaning
 
 SCORES: Schema = {
@@ -66,9 +70,9 @@ HIT = ["scenario", "seed", "leg", "number"]  # what names a collision of a robot
 NAMED = {"link": "named_link", "direction": "named_direction"}  # columns of DETECTED -> their names among hits
 HITS: Schema = {
     "robot": (TEXT, "", "the robot, or the level of the plant"),
-    **{NAMED.get(name, name): told for name, told in DETECTED.items()},
-    **{name: told for name, told in COLLISIONS.items() if name not in HIT},
-    "found": ("bool", "", "whether the detector has an alarm"),
+    **{NAMED.get(name, name): described for name, described in DETECTED.items()},
+    **{name: described for name, described in COLLISIONS.items() if name not in HIT},
+    "found": (FLAG, "", "whether the detector has an alarm"),
 }
 SWINGS: Schema = {
     "detector": (TEXT, "", "the detector"),
@@ -153,7 +157,7 @@ NETWORKS: Schema = {
     "seed": (WHOLE, "", "its seed; on a robot that of the robot"),
     "parameters": (WHOLE, "", "how many numbers are learned"),
     "samples": (WHOLE, "", "samples learned from, without those held out"),
-    "diverged": ("bool", "", "whether the training was stopped as its loss grew"),
+    "diverged": (FLAG, "", "whether the training was stopped as its loss grew"),
     "stride": (REAL, "", "samples from one step to the next in the epoch that is kept"),
     "validation_loss": (
         REAL,
@@ -168,7 +172,7 @@ NETWORKS: Schema = {
 TRAININGS: Schema = {
     "method": (TEXT, "", "what learned"),
     "seed": (WHOLE, "", "its seed; on a robot that of the robot"),
-    "diverged": ("bool", "", "whether the training was stopped as its loss grew"),
+    "diverged": (FLAG, "", "whether the training was stopped as its loss grew"),
     "epoch": (WHOLE, "", "the epoch, counted from 1"),
     "train_loss": (REAL, "-", "loss (22) in training"),
     "validation_loss": (REAL, "-", "on the data held out"),
@@ -176,6 +180,40 @@ TRAININGS: Schema = {
     "rate": (REAL, "-", "learning rate"),
     "gradient_norm": (REAL, "-", "mean norm of the gradient before the clip"),
     "stride": (WHOLE, "", "samples from one step to the next"),
+}
+FALLS: Schema = {
+    "robot": (TEXT, "", "the robot"),
+    "amplitude_nm": (REAL, "N m", "largest random torque on legs and waist"),
+    "walked_s": (REAL, "s", "how long it walked with it"),
+    "falls": (WHOLE, "", "how often it fell"),
+}
+TRUSTED: Schema = {
+    "scenario": (TEXT, "", "the test, or `validation`: held-out data of trainings"),
+    "level": (TEXT, "", "the plant"),
+    "pushed": (TEXT, "", "the joint that is pushed, if samples around pushes alone count; else empty"),
+    "method": (TEXT, "", "what estimates"),
+    "limb": (TEXT, "", "the limb"),
+    "joint": (TEXT, "", "`avg`: all numbers are means over the joints of the limb that have the unit"),
+    "unit": (TEXT, "", "of its torques"),
+    "network_seed": (WHOLE, "", "the network; of held-out data its place in the order of trainings"),
+    "test_seed": (WHOLE, "", "the walk; 0 of held-out data"),
+    "stage": (TEXT, "", "of the standard deviations: `before` they are scaled, or `after`"),
+    "metric": (TEXT, "", "`coverage` of a nominal share, `nll` [nats], the negative log-likelihood, or `crps` [unit]"),
+    "share": (REAL, "-", "the nominal share; missing of the other two"),
+    "value": (REAL, "", "the number of the run"),
+}
+WHY: Schema = {
+    "data": (TEXT, "", "the training set"),
+    "method": (TEXT, "", "what learned"),
+    "way": (TEXT, "", "the way of learning; empty of a method that does not learn"),
+    "measure": (TEXT, "", "what is measured, such as the share of a hit that is shown"),
+    "inputs": (TEXT, "", "inputs that bring in a hit; empty of all other measures"),
+    "robot": (TEXT, "", "the robot, or `all` of them"),
+    "network": (REAL, "", "the network of a robot, counted from 0; missing of all robots"),
+    "value": (REAL, "column `unit`", "the number"),
+    "low": (REAL, "column `unit`", "the ends of its interval over robots; missing of a single network"),
+    "high": (REAL, "column `unit`", ""),
+    "unit": (TEXT, "", "its unit"),
 }
 DETECTION: Mapping[str, Schema] = {  # file of a robot's detectors -> its columns
     "collisions": COLLISIONS,
@@ -193,6 +231,34 @@ def frame_of(rows: Sequence[object], schema: Schema) -> pd.DataFrame:
     for name, (kind, _, _) in schema.items():
         columns[name] = pd.Series([getattr(row, name) for row in rows], dtype=kind)
     return pd.DataFrame(columns)
+
+
+def typed(rows: Sequence[Mapping[str, Any]], schema: Schema) -> pd.DataFrame:
+    """Return rows as a frame with the columns of a schema; what a row lacks is missing."""
+    columns: dict[str, pd.Series] = {}
+    for name, (kind, _, _) in schema.items():
+        columns[name] = pd.Series([row.get(name) for row in rows], dtype=kind)
+    return pd.DataFrame(columns)
+
+
+def read_frame(path: Path, schema: Schema, may_lack: Collection[str] = ()) -> pd.DataFrame:
+    """Read a CSV file as a frame with the columns of a schema; a number of those that `may_lack` one may be missing.
+
+    Raises:
+        DataError: the file is missing or damaged, a column is missing or a field is not a number where one is due; one
+            line for each.
+    """
+    rows = read_texts(path, list(schema))
+    faults: list[str] = []
+    columns: dict[str, list[Any]] = {}
+    for name, (kind, _, _) in schema.items():
+        hint = HINTS[kind] | None if name in may_lack else HINTS[kind]
+        # The names of the columns are line 1 of the file.
+        columns[name] = [
+            parse_field(row[name], hint, f"{path}:{line}: {name}", faults) for line, row in enumerate(rows, start=2)
+        ]
+    refuse_lines(faults)
+    return pd.DataFrame({name: pd.Series(values, dtype=schema[name][0]) for name, values in columns.items()})
 
 
 def read_scores(*paths: Path) -> pd.DataFrame:
@@ -239,14 +305,14 @@ def read_trials(files: Mapping[str, Mapping[str, Path]], cases: Sequence[str]) -
     """
     parts: list[pd.DataFrame] = []
     for case in cases:
-        parts += [frame_of(trial_rows(own[case]), TRIALS) for own in files.values()]
+        parts += [frame_of(trial_rows(of_robot[case]), TRIALS) for of_robot in files.values()]
     trials = pd.concat(parts, ignore_index=True)
     return trials.assign(robot=trials["level"])
 
 
-def rows_of(rows: pd.DataFrame, **held: object) -> pd.DataFrame:
+def rows_of(rows: pd.DataFrame, **values: object) -> pd.DataFrame:
     """Return the rows whose columns hold what is given."""
-    for name, value in held.items():
+    for name, value in values.items():
         rows = rows[rows[name] == value]
     return rows
 

@@ -30,19 +30,19 @@ def measured(
         of: a flag. Laws get the rows where it is set; a group in which it is set nowhere has its row all the same,
             since nothing found is a result, too.
     """
-    found: list[dict[str, object]] = []
+    records: list[dict[str, object]] = []
     for keys, group in rows.groupby(list(by), observed=True):
         place = dict(zip(by, keys, strict=True))
         for value in rows[each].cat.categories if each else [None]:
-            own = group[group[each] == value] if each else group
-            own = own[own[of]] if of else own
+            same = group[group[each] == value] if each else group
+            same = same[same[of]] if of else same
             place |= {each: value} if each else {}
             for quantity, law in laws.items():
-                found.append({**place, "quantity": quantity, **fields_of(law(own)), "count": len(own)})
+                records.append({**place, "quantity": quantity, **fields_of(law(same)), "count": len(same)})
     places = [*by, each] if each else [*by]
     columns = [*places, "quantity", *ENDS, *SPREAD, "unit", "published", "count"]
     # The places of groups keep their types, and so the order of their values.
-    return pd.DataFrame(found, columns=columns).astype({name: rows[name].dtype for name in places})
+    return pd.DataFrame(records, columns=columns).astype({name: rows[name].dtype for name in places})
 
 
 def fields_of(number: Number) -> dict[str, object]:
@@ -72,14 +72,14 @@ def _counts(text: str | float | None) -> tuple[int, ...]:
 
 def counted(column: str, value: object) -> Law:
     """Return the law of how many rows have a value in a column."""
-    return lambda own: Number(int((own[column] == value).sum()))
+    return lambda same: Number(int((same[column] == value).sum()))
 
 
 def share(flag: str, statistics: Statistics) -> Law:
     """Return the law of the share of a flag [-] among the rows of which it is known, with its interval."""
 
-    def law(own: pd.DataFrame) -> Number:
-        known = own.dropna(subset=flag)
+    def law(same: pd.DataFrame) -> Number:
+        known = same.dropna(subset=flag)
         return share_in(known[flag].astype(bool).tolist(), clusters(known), statistics)
 
     return law
@@ -88,8 +88,8 @@ def share(flag: str, statistics: Statistics) -> Law:
 def mean(column: str, unit: str, statistics: Statistics) -> Law:
     """Return the law of the mean of a column [unit] over the rows that have a value, with its interval."""
 
-    def law(own: pd.DataFrame) -> Number:
-        known = own.dropna(subset=column)
+    def law(same: pd.DataFrame) -> Number:
+        known = same.dropna(subset=column)
         return mean_in(known[column].tolist(), clusters(known), statistics, unit)
 
     return law

@@ -27,12 +27,12 @@ def read_scores(*paths: Path) -> list[Score]:
     Raises:
         DataError: a file is missing or damaged, or a row is not accepted; one line for each fault.
     """
-    found: list[Score] = []
+    scores: list[Score] = []
     for path in paths:
         rows = read_rows(path, Score)
         refuse_rows(path, _score_faults(rows))
-        found += rows
-    return found
+        scores += rows
+    return scores
 
 
 def read_detections(path: Path, name: str) -> list[Any]:
@@ -125,10 +125,10 @@ def read_numbers(path: Path) -> list[tuple[dict[str, str], Number]]:
     """
     names = ("value", "low", "high", "published")
     faults = list[str]()
-    found: list[tuple[dict[str, str], Number]] = []
+    numbers_of_rows: list[tuple[dict[str, str], Number]] = []
     # The names of the columns are line 1 of the file.
     for line, row in enumerate(read_texts(path, [*names, "unit"]), start=2):
         numbers = {name: parse_field(row[name], float | None, f"{path}:{line}: {name}", faults) for name in names}
-        found.append((row, Number(**numbers, unit=row["unit"])))
+        numbers_of_rows.append((row, Number(**numbers, unit=row["unit"])))
     refuse_lines(faults)
-    return found
+    return numbers_of_rows

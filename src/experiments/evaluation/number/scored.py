@@ -62,7 +62,7 @@ def numbers_of(
         DataError: what is asked for has no run, without `may_lack`.
     """
     runs = runs_of(scores, asked, may_lack=may_lack)
-    numbers = measured(runs, ["cell"], {"mean": lambda own: number_of(own, statistics)})
+    numbers = measured(runs, ["cell"], {"mean": lambda same: number_of(same, statistics)})
     return pd.concat([asked.reset_index(drop=True), numbers.drop(columns="quantity")], axis=1)
 
 
@@ -128,8 +128,8 @@ def number_of(runs: pd.DataFrame, statistics: Statistics, formula: Formula = MEA
     """
     if runs["value"].isna().any():
         return Number(None)
-    cells = [runs] if runs["cell"].nunique() == 1 else [own for _, own in runs.groupby("cell")]
-    grids = [run_grid(own) for own in cells]
+    cells = [runs] if runs["cell"].nunique() == 1 else [same for _, same in runs.groupby("cell")]
+    grids = [run_grid(same) for same in cells]
     return summarise(grids, statistics, formula, runs["unit"].iloc[0])
 
 
@@ -148,17 +148,17 @@ def columns_of(layout: JointLayout, items: Sequence[str | Mean]) -> pd.DataFrame
     Raises:
         ConfigError: a joint is unknown, or a mean is over several units.
     """
-    found: list[tuple[str, str, str, str, str]] = []
+    rows: list[tuple[str, str, str, str, str]] = []
     for item in items:
         if isinstance(item, str):
             for joint in members(layout, item):
-                found += column_of(layout, joint, [joint], ())
+                rows += column_of(layout, joint, [joint], ())
         else:
             joints: list[str] = []
             for name in item.joints:
                 joints += members(layout, name)
-            found += column_of(layout, item.name, joints, item.metrics)
-    columns = pd.DataFrame(found, columns=["column", "torque_unit", "limb", "joint", "metric"])
+            rows += column_of(layout, item.name, joints, item.metrics)
+    columns = pd.DataFrame(rows, columns=["column", "torque_unit", "limb", "joint", "metric"])
     return columns.assign(column=pd.Categorical(columns["column"], columns["column"].unique()))
 
 

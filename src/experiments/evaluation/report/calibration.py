@@ -1,7 +1,12 @@
 """Table and figure of the standard deviations' calibration: made together, because they are measured together."""
 
+# pandas has no complete types, which the strict rules of this folder ask for.
+# pyright: standard
+
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+
+import pandas as pd
 
 from experiments.evaluation.figures.further.reliability import nominal_points, reliability
 from experiments.evaluation.measure.learning.calibration import held_out, in_tests
@@ -30,7 +35,8 @@ def calibration(
     """
     levels = learning.calibration_levels
     points = nominal_points(settings.points)
-    grids = in_tests(layout, coverage, settings.tests, runs, [*levels, *points])
-    held = held_out(layout, folders, levels)
-    trust_table(settings, learning, statistics, [*held, *grids], table_dir)
-    reliability(settings, grids, len(levels), points, figure_dir)
+    shares = list(dict.fromkeys([*levels, *points]))  # a point that is a level is measured once
+    tested = in_tests(layout, coverage, settings.tests, runs, shares)
+    measures = pd.concat([held_out(layout, folders, levels), tested], ignore_index=True)
+    trust_table(settings, learning, statistics, measures, table_dir)
+    reliability(settings, tested, points, figure_dir)

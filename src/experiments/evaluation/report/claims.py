@@ -3,11 +3,13 @@
 import logging
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 from experiments.evaluation.figures.further.forest import forest
 from experiments.evaluation.measure.claims.cells import read_results
-from experiments.evaluation.measure.claims.scale import KnownMethods, control_of, scaled, stand_ins_of
-from experiments.evaluation.measure.claims.verdicts import Judged, judge, rows_of
+from experiments.evaluation.measure.claims.scale import KnownMethods, control_of, stand_ins_of, weaknesses_of
+from experiments.evaluation.measure.claims.verdicts import claims_frame, judged, rows_of, score_of
+from experiments.evaluation.measure.claims.verdicts import numbers_of as measured_numbers
 from experiments.evaluation.tables.further.claims_table import claim_table
 from experiments.settings.claims import Cell, Claim, numbers_of
 from experiments.settings.runs import Statistics
@@ -47,11 +49,14 @@ def claims(
             for made in numbers_of(claim):
                 cells += made.cells
     results = read_results(layout, scores, folders, cells, tables)
-    judged: list[Judged] = []
+    records: list[dict[str, Any]] = []
     for row in rows:
+        numbers = measured_numbers(row.claim, results, statistics)
+        score = score_of(row.claim, methods)
         control = control_of(row.claim, results, statistics, known)
-        judged.append(scaled(judge(row, results, statistics, methods), control, known))
-    claim_table(judged, statistics.confidence, table_dir)
-    forest(judged, statistics.confidence, figure_dir)
-    for each in judged:
-        log.info("%s: %s, %s %s", each.row.name, each.verdict, *each.ours.texts())
+        weaknesses = weaknesses_of(row.claim, score, numbers.ours, control, known)
+        records.append(judged(row, numbers, score, statistics, control, weaknesses))
+        log.info("%s: %s, %s %s", row.name, records[-1]["verdict"], *numbers.ours.texts())
+    table = claims_frame(records)
+    claim_table(table, statistics.confidence, table_dir)
+    forest(table, statistics.confidence, figure_dir)

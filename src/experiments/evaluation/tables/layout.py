@@ -82,12 +82,12 @@ def in_blocks(blocks: Iterable[tuple[Sequence[str], Sequence[Sequence[str]]]], *
     """
     lines: list[Line] = []
     before: Sequence[str] = ()
-    for labels, own in blocks:
+    for labels, block in blocks:
         if lines:
             lines.append(GAP if nested and labels[:1] == before[:1] else RULE)
         same = [nested and labels[: k + 1] == before[: k + 1] for k in range(len(labels))]
         first = ["" if repeated else label for label, repeated in zip(labels, same, strict=True)]
-        lines += [[*([""] * len(labels) if k else first), *cells] for k, cells in enumerate(own)]
+        lines += [[*([""] * len(labels) if k else first), *cells] for k, cells in enumerate(block)]
         before = labels
     return lines
 
@@ -131,9 +131,9 @@ def tex_in_groups(first: str, groups: Mapping[str, Iterable[str]], lines: Sequen
     titles = [""]
     rules = ""
     heads = [first]
-    for title, own in groups.items():
+    for title, names in groups.items():
         begin = len(heads) + 1
-        heads += own
+        heads += names
         count = len(heads) + 1 - begin
         columns += r"@{\hspace{1.5em}}" + "r" * count
         titles.append(rf"\multicolumn{{{count}}}{{c}}{{{tex_escape(title)}}}")

@@ -52,7 +52,9 @@ class TableLook:
         blocks: columns of the frame; lines that have them in common stand together, and a rule stands between such
             blocks. One that is a label, as the first ones are, stands in the first line of its block alone.
         nested: whether labels of a block are left out while they stay the same, as `in_blocks` does.
+        apart: columns of the frame that nobody sees; rows that differ in them are lines of their own.
         left: columns that are set flush left, if these are not the labels.
+        align: TeX column specification where it is another one.
         note: text below the table.
     """
 
@@ -60,7 +62,9 @@ class TableLook:
     shown: Sequence[ShownColumn]
     blocks: Sequence[str] = ()
     nested: bool = False
+    apart: Sequence[str] = ()
     left: int | None = None
+    align: str = ""
     note: str = ""
 
     @property
@@ -81,7 +85,8 @@ def write_look(
     """
     left = len(look.labels) if look.left is None else look.left
     records = records_of(rows if filed is None else filed, columns)
-    write_table(stem, Table(columns, records, look.header, lines_of(rows, look), left=left, note=look.note))
+    lines = lines_of(rows, look)
+    write_table(stem, Table(columns, records, look.header, lines, left, look.align, look.note))
 
 
 def lines_of(rows: pd.DataFrame, look: TableLook) -> list[Line]:
@@ -91,10 +96,11 @@ def lines_of(rows: pd.DataFrame, look: TableLook) -> list[Line]:
     shown = pd.concat([rows_of(rows, **column.of) for column in look.shown])
     rows = rows[rows.index.isin(shown.index)]
     blocks: list[tuple[list[str], list[list[str]]]] = []
+    line_by = [*look.labels, *look.apart]
     # A table without blocks is one of them.
     for _, block in rows.groupby(list(look.blocks) or (lambda _: 0), sort=False, observed=True):
         titles = [label_text(name, block[name].iloc[0]) for name in look.blocks if name in look.labels]
-        lines = [cells_of(own, look) for _, own in block.groupby(list(look.labels), sort=False, observed=True)]
+        lines = [cells_of(line, look) for _, line in block.groupby(line_by, sort=False, observed=True)]
         blocks.append((titles, lines))
     return in_blocks(blocks, nested=look.nested)
 
@@ -103,9 +109,9 @@ def cells_of(line: pd.DataFrame, look: TableLook) -> list[str]:
     """Return the cells of a line, without those of its block."""
     cells = [label_text(name, line[name].iloc[0]) for name in look.labels if name not in look.blocks]
     for column in look.shown:
-        own = rows_of(line, **column.of)
-        if len(own):
-            cells += column.texts(own.iloc[0].to_dict())
+        rows = rows_of(line, **column.of)
+        if len(rows):
+            cells += column.texts(rows.iloc[0].to_dict())
         else:
             cells += [column.none, ""] if column.ends else [column.none]
     return cells

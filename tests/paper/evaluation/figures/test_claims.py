@@ -2,25 +2,26 @@
 
 import csv
 from collections import Counter
+from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
+import pandas as pd
 import pytest
 
 from experiments.evaluation.figures.further.forest import ENDS, LOOKS, draw_forest, forest, text_of
 from experiments.evaluation.measure.claims.places import (
     BEYOND_BOUND,
     OVER_PAPER,
-    ClaimPosition,
-    StatementPosition,
-    beyond_bound,
     margin,
     over_paper,
+    position_of,
     statements_of,
 )
-from experiments.evaluation.measure.claims.verdicts import ClaimNumbers, Judged, rows_of, score_of, worst
+from experiments.evaluation.measure.claims.verdicts import ClaimNumbers, claims_frame, rows_of, score_of, worst
 from experiments.evaluation.measure.claims.verdicts import judged as judged_on
+from experiments.evaluation.number.frames import rows_of as frame_rows
 from experiments.evaluation.number.number import Number
 from experiments.settings.settings import Settings
 from experiments.settings.table_columns import FOREST
@@ -29,7 +30,7 @@ from experiments.settings.verdicts import NO_NUMBER, OURS, VERDICTS
 LONGEST_LABEL = 64  # characters of what a claim says
 
 
-def judged(settings: Settings, name: str, ours: Number) -> Judged:
+def judged(settings: Settings, name: str, ours: Number) -> dict[str, Any]:
     """Return a claim of the configuration, judged on a number."""
     row = next(row for row in rows_of(settings.claims) if row.name == name)
     return judged_on(
@@ -38,16 +39,18 @@ def judged(settings: Settings, name: str, ours: Number) -> Judged:
 
 
 def test_a_number_is_over_that_of_the_paper(settings: Settings) -> None:
-    place = over_paper(judged(settings, "noise-floor", Number(2.44, 1.22, 4.88)))
-    assert (place.axis, place.values) == (OVER_PAPER, pytest.approx((2.0, 1.0, 4.0)))
-    assert place.band == pytest.approx((0.8, 1.25))
+    place = position_of(judged(settings, "noise-floor", Number(2.44, 1.22, 4.88, published=1.22)))
+    assert place.pop("axis") == OVER_PAPER
+    assert tuple(place.values()) == pytest.approx((2.0, 1.0, 4.0, 0.8, 1.25))
 
 
 def test_of_a_cut_what_remains_is_over_what_remains_in_the_paper(settings: Settings) -> None:
     """A closed form: 0.068 of the error remain in the paper, 0.136 and its ends here."""
-    place = over_paper(judged(settings, "mob-net-cut", Number(1 - 0.136, 1 - 0.272, 1 - 0.068)))
-    assert place.values == pytest.approx((2.0, 1.0, 4.0))
-    assert 0.0 < (place.band[0] or 0.0) < 1.0 < (place.band[1] or 0.0)
+    published = settings.claims["mob-net-cut"].published
+    ours = Number(1 - 0.136, 1 - 0.272, 1 - 0.068, published=published)
+    *values, first, last = over_paper(judged(settings, "mob-net-cut", ours)).values()
+    assert values == pytest.approx([2.0, 1.0, 4.0])
+    assert 0.0 < (first or 0.0) < 1.0 < (last or 0.0)
 
 
 @pytest.mark.parametrize(
@@ -63,9 +66,9 @@ def test_of_a_cut_what_remains_is_over_what_remains_in_the_paper(settings: Setti
 def test_without_a_number_of_the_paper_the_claimed_side_is_on_the_right(
     name: str, ours: Number, values: tuple[float | None, ...], settings: Settings
 ) -> None:
-    place = beyond_bound(judged(settings, name, ours))
-    assert (place.axis, place.band) == (BEYOND_BOUND, (0.0, None))
-    assert place.values == pytest.approx(values)
+    place = position_of(judged(settings, name, ours))
+    assert place.pop("axis") == BEYOND_BOUND
+    assert tuple(place.values()) == pytest.approx((*values, 0.0, None))
 
 
 @pytest.mark.parametrize(
@@ -85,24 +88,25 @@ def test_a_number_lies_as_far_inside_a_range_as_the_nearer_end_says(
     assert margin(number, bounds) == pytest.approx(inside)
 
 
-def all_judged(settings: Settings) -> list[Judged]:
+def all_judged(settings: Settings) -> pd.DataFrame:
     """Return all claims of the configuration, judged on made-up numbers."""
     made = (Number(1.0, 0.9, 1.1), Number(30.0, 29.0, 31.0), Number(-0.5, -0.6, -0.4), Number(None))
-    return [judged(settings, row.name, made[k % len(made)]) for k, row in enumerate(rows_of(settings.claims))]
+    rows: list[dict[str, Any]] = []
+    for k, row in enumerate(rows_of(settings.claims)):
+        rows.append(judged(settings, row.name, replace(made[k % len(made)], published=row.claim.published)))
+    return claims_frame(rows)
 
 
 def test_a_statement_has_the_verdict_of_its_worst_claim_and_counts_against_us_first(settings: Settings) -> None:
     every = all_judged(settings)
     statements = statements_of(every)
-    own: dict[str, list[str]] = {}
-    for each in every:
-        own.setdefault(each.row.statement, []).append(each.verdict)
-    assert {each.worst.judged.row.statement: each.worst.judged.verdict for each in statements} == {
-        name: worst(verdicts) for name, verdicts in own.items()
-    }
-    assert {each.worst.judged.row.statement: each.claims for each in statements} == {k: len(v) for k, v in own.items()}
-    for score in {each.worst.judged.score for each in statements}:
-        order = [VERDICTS.index(each.worst.judged.verdict) for each in statements if each.worst.judged.score == score]
+    by_statement = every.groupby("statement")["verdict"].agg(list)
+    verdicts = statements.set_index("statement")["verdict"]
+    assert verdicts.to_dict() == {name: worst(verdicts) for name, verdicts in by_statement.items()}
+    counts = statements.set_index("statement")["claims"]
+    assert counts.to_dict() == by_statement.map(len).to_dict()
+    for _, of_score in statements.groupby("score"):
+        order = [VERDICTS.index(verdict) for verdict in of_score["verdict"]]
         assert order == sorted(order)
         assert len(set(order)) > 1
 
@@ -117,14 +121,13 @@ def test_every_statement_is_in_one_of_the_two_figures(settings: Settings, tmp_pa
         assert {path.suffix for path in tmp_path.glob(f"{stem}.*")} == {".csv", ".pdf", ".svg", ".png"}
         found[stem] = Counter(row["statement"] for row in rows)
         assert {row["score"] in (NO_NUMBER, OURS) for row in rows} == {stem == "claims_own"}
-    assert found["claims"] + found["claims_own"] == Counter({each.row.statement: 1 for each in every})
+    assert found["claims"] + found["claims_own"] == Counter(set(every["statement"]))
 
 
-def of(settings: Settings, values: tuple[float | None, ...], name: str = "noise-floor") -> StatementPosition:
-    """Return a statement whose place has some values."""
-    number = Number(*(None if value is None else 1.22 * value for value in values))
-    one = judged(settings, name, number)
-    return StatementPosition(ClaimPosition(one, OVER_PAPER, values, (0.5, 2.0)), 7)  # type: ignore[arg-type]
+def of(settings: Settings, values: tuple[float | None, ...], name: str = "noise-floor") -> pd.DataFrame:
+    """Return a statement with a number that lies at some places of the axis."""
+    number = Number(*(None if value is None else 1.22 * value for value in values), published=1.22)
+    return statements_of(claims_frame([judged(settings, name, number)]))
 
 
 @pytest.mark.parametrize(
@@ -137,7 +140,7 @@ def of(settings: Settings, values: tuple[float | None, ...], name: str = "noise-
 def test_what_lies_beyond_the_axis_is_an_arrow_at_its_end(
     values: tuple[float | None, ...], arrows: str, settings: Settings
 ) -> None:
-    (axis,) = draw_forest([of(settings, values)], OVER_PAPER, "95% interval").axes
+    (axis,) = draw_forest(of(settings, values), OVER_PAPER, "95% interval").axes
     drawn = [line for line in axis.lines if line.get_marker() in ("<", ">")]
     assert "".join(str(line.get_marker()) for line in drawn) == arrows
     ends = {"<": ENDS[OVER_PAPER][0], ">": ENDS[OVER_PAPER][1]}
@@ -148,7 +151,7 @@ def test_what_lies_beyond_the_axis_is_an_arrow_at_its_end(
 
 def test_texts_stand_beside_one_another_within_the_page_and_are_large_enough(settings: Settings) -> None:
     for name in (OVER_PAPER, BEYOND_BOUND):
-        shown = [each for each in statements_of(all_judged(settings)) if each.worst.axis == name]
+        shown = frame_rows(statements_of(all_judged(settings)), axis=name)
         figure = draw_forest(shown, name, "95% interval")
         figure.draw_without_rendering()
         (axis,) = figure.axes
@@ -163,11 +166,11 @@ def test_texts_stand_beside_one_another_within_the_page_and_are_large_enough(set
             assert all(one.x1 < other.x0 for one, other in pairwise(boxes))
         (key,) = figure.legends
         assert 0.0 <= key.get_window_extent().x0 < key.get_window_extent().x1 <= figure.bbox.width
-        there = {each.worst.judged.verdict for each in shown}
+        there = set(shown["verdict"])
         named = [text.get_text().split(" (")[0].split(" ", 1)[1] for text in key.get_texts()[:-1]]
         assert named == [verdict for verdict in LOOKS if verdict in there]
         left = axis.get_window_extent().x0
-        says = [text for text in axis.texts if text.get_text() in {text_of(each) for each in shown}]
+        says = [text for text in axis.texts if text.get_text() in set(map(text_of, shown.to_dict("records")))]
         assert len(says) == len(shown)
         assert [text.get_text() for text in says if text.get_window_extent().x1 > left] == []
 

@@ -1,8 +1,8 @@
 """The share of a hit over the error in walking: networks of the trial's table at their numbers, with apart texts."""
 
-from dataclasses import astuple
 from itertools import pairwise
 from pathlib import Path
+from typing import Any
 
 import pytest
 from csv_files import read_table
@@ -11,7 +11,7 @@ from matplotlib.text import Annotation
 from paper_settings import STATISTICS
 
 from experiments.evaluation.figures.further.why_share import Dot, dots_of, draw_why, marks_of, why_share
-from experiments.evaluation.measure.learning.explained import HitNumber, by_robot, over_robots, read_why
+from experiments.evaluation.measure.learning.explained import by_robot, over_shown_robots, read_why
 from experiments.evaluation.measure.learning.taught import SHARE_OF_HIT, WALKING
 from experiments.evaluation.number.rows import write_csv
 from experiments.settings.settings import Settings
@@ -21,13 +21,13 @@ FLEET = ("robot_1", "robot_2", "robot_3")
 CHANGED = ("why_late", "why_dry", "why_soft", "why_law")
 
 
-def rows_of(data: str, method: str, way: str, walking: float, share: float, robots: int = 2) -> list[HitNumber]:
+def rows_of(data: str, method: str, way: str, walking: float, share: float, robots: int = 2) -> list[tuple[Any, ...]]:
     """Return the rows of networks on robots of which each next one has a tenth more of both."""
-    found: list[HitNumber] = []
+    rows: list[tuple[Any, ...]] = []
     for k, robot in enumerate(FLEET[:robots]):
         for measure, value, unit in ((WALKING, walking, "N m"), (SHARE_OF_HIT, share, "-")):
-            found.append(HitNumber(data, method, way, measure, "", robot, 1, value * 1.1**k, None, None, unit))
-    return found
+            rows.append((data, method, way, measure, "", robot, 1, value * 1.1**k, None, None, unit))
+    return rows
 
 
 @pytest.fixture
@@ -41,7 +41,7 @@ def kept(tmp_path: Path) -> Path:
         rows += rows_of(data, "MOB-Net", "soap", 3.0, 0.4)
         rows += rows_of(data, "MOB-Net-noimu", "soap", 3.6, 0.7)
     rows += rows_of("why_walk", "MOB-Net", "longer", 3.0, 0.3)
-    write_csv(tmp_path / "why.csv", WHY, [astuple(row) for row in rows])
+    write_csv(tmp_path / "why.csv", WHY, rows)
     return tmp_path / "why.csv"
 
 
@@ -66,8 +66,8 @@ def test_errors_are_those_over_the_original_s_inputs_on_the_same_robots(
 def test_an_interval_is_over_the_robots_unless_these_are_two(kept: Path) -> None:
     shares = by_robot(read_why(kept), SHARE_OF_HIT)
     many = next(own for cell, own in shares.items() if len(own) == len(FLEET))
-    three = over_robots([many], FLEET, STATISTICS)
-    two = over_robots([many], FLEET[:2], STATISTICS)
+    three = over_shown_robots([many], FLEET, STATISTICS)
+    two = over_shown_robots([many], FLEET[:2], STATISTICS)
     assert three.low is not None
     assert three.low < min(many.values())  # Student's law with two degrees of freedom reaches beyond the robots
     assert (two.low, two.high) == (many["robot_1"], many["robot_2"])

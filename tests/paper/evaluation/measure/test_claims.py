@@ -13,8 +13,8 @@ from experiments.evaluation.measure.claims.verdicts import (
     WORST_FIRST,
     ClaimNumbers,
     Row,
-    found_of,
     judged,
+    numbers_of,
     rows_of,
     score_of,
     verdict_of,
@@ -170,8 +170,8 @@ def test_a_cause_brings_the_number_into_the_bounds_when_it_is_taken_away(
             for name, ends in (("LL1", ours), ("LL2", without))]  # fmt: skip
     results = Evidence(settings.layout, {}, {}, pd.DataFrame(), {"coverage": rows})
     claim = Claim.model_validate(CAUSED)
-    found = found_of(claim, results, CONFIDENCE)
-    assert judged(Row("a", "a", claim), found, OURS, CONFIDENCE).cause == text
+    numbers = numbers_of(claim, results, CONFIDENCE)
+    assert judged(Row("a", "a", claim), numbers, OURS, CONFIDENCE)["cause"] == text
 
 
 def test_a_difference_of_shares_holds_what_it_says() -> None:

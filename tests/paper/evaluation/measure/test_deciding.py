@@ -10,7 +10,6 @@ from experiments.evaluation.measure.claims.verdicts import (
     NO_CAUSE,
     TO_MEASURE,
     ClaimNumbers,
-    Judged,
     Row,
     judged,
     rows_of,
@@ -131,9 +130,9 @@ def test_every_verdict_but_a_good_one_has_a_remark(ends: tuple[float | None, ...
          "bar": [1.0, 2.0], "sign": [0.5, None]}
     )  # fmt: skip
     number = Number(*ends, networks=(3, 3), walks=(6,))
-    one = judged(Row("a", "a", claim), ClaimNumbers(number, number), OURS, CONFIDENCE)
-    assert (one.verdict, bool(one.remark)) == (verdict, bool(begins))
-    assert one.remark.startswith(begins)
+    made = judged(Row("a", "a", claim), ClaimNumbers(number, number), OURS, CONFIDENCE)
+    assert (made["verdict"], bool(made["remark"])) == (verdict, bool(begins))
+    assert made["remark"].startswith(begins)
 
 
 def test_no_claim_of_the_configuration_is_open_or_outside_without_a_remark(settings: Settings) -> None:
@@ -148,12 +147,12 @@ def test_no_claim_of_the_configuration_is_open_or_outside_without_a_remark(setti
             check_remark(judged(row, ClaimNumbers(number, number), score, CONFIDENCE))
 
 
-def check_remark(one: Judged) -> None:
+def check_remark(claim: dict[str, Any]) -> None:
     """Check that what is open or outside says what would decide it, its cause or that there is none."""
-    if one.verdict in (NOT_REPRODUCED, SIGN_ONLY):
-        assert one.remark == NO_CAUSE or one.remark.startswith("Cause: ")
-    elif one.verdict == NOT_MEASURED:
-        assert one.remark == TO_MEASURE
+    if claim["verdict"] in (NOT_REPRODUCED, SIGN_ONLY):
+        assert claim["remark"] == NO_CAUSE or claim["remark"].startswith("Cause: ")
+    elif claim["verdict"] == NOT_MEASURED:
+        assert claim["remark"] == TO_MEASURE
     else:
-        assert one.remark.startswith("Open: ") == (OPEN in (one.size, one.sign)), one.row.name
-        assert OPEN not in (one.size, one.sign) or "decide" in one.remark
+        assert claim["remark"].startswith("Open: ") == (OPEN in (claim["size"], claim["sign"])), claim["claim"]
+        assert OPEN not in (claim["size"], claim["sign"]) or "decide" in claim["remark"]

@@ -9,7 +9,7 @@ import pytest
 
 from experiments.evaluation.measure.learning import paths
 from experiments.evaluation.measure.learning.paths import EVERY, GROUPS, INPUTS, mix, taken_by_inputs
-from experiments.evaluation.measure.learning.trials import Known, ObservedWalks
+from experiments.evaluation.measure.learning.trials import ObservedWalks
 from experiments.plan.runs import Tried
 from experiments.settings.settings import Settings
 from mobnet.core.errors import DataError
@@ -34,7 +34,7 @@ def struck(sensed: Sensed, by: np.ndarray) -> Sensed:
 
 @pytest.fixture
 def walks(
-    layout: JointLayout, made_up: Any, monkeypatch: pytest.MonkeyPatch
+    settings: Settings, layout: JointLayout, made_up: Any, monkeypatch: pytest.MonkeyPatch
 ) -> tuple[ObservedWalks, list[tuple[Path, Path]]]:
     """A walk with a hit, and its twin without."""
     twin: Recording = made_up(seconds=1.5)
@@ -45,7 +45,8 @@ def walks(
     residual = np.zeros((ROWS, len(layout.names)), dtype=np.float32)
     read = ObservedRecording(replace(twin, sensed=struck(twin.sensed, hit)), residual)
     level: Any = type("AsItIs", (), {"nominal_mass_ratio": 1.0})
-    return ObservedWalks(level, [JOINT], [read], [hit[:, None]]), [(Path("hit"), Path("twin"))]
+    known = settings.robot, settings.plant.gravity_m_s2, settings.observer
+    return ObservedWalks(*known, level, [JOINT], [read], [hit[:, None]]), [(Path("hit"), Path("twin"))]
 
 
 @pytest.fixture
@@ -71,13 +72,7 @@ def network(monkeypatch: pytest.MonkeyPatch, layout: JointLayout) -> None:
         return found
 
     monkeypatch.setattr(paths, "run_segments", run)
-    monkeypatch.setattr(paths, "build_estimator", lambda _: type("Network", (), {"joints": (JOINT,)}))
-
-
-@pytest.fixture
-def known(settings: Settings) -> Known:
-    """What every estimator knows."""
-    return Known(settings.robot, settings.plant.gravity_m_s2, settings.observer)
+    monkeypatch.setattr(paths, "estimator_of", lambda *_: type("Network", (), {"joints": (JOINT,)}))
 
 
 @pytest.fixture
@@ -88,9 +83,9 @@ def tried(settings: Settings) -> Tried:
 
 @pytest.mark.usefixtures("network")
 def test_each_input_brings_in_its_share_of_a_hit(
-    walks: tuple[ObservedWalks, list[tuple[Path, Path]]], known: Known, tried: Tried
+    walks: tuple[ObservedWalks, list[tuple[Path, Path]]], tried: Tried
 ) -> None:
-    found = taken_by_inputs(tried, known, *walks, 0.05, JOINT)
+    found = taken_by_inputs(tried, *walks, 0.05, JOINT)
     assert set(found) == set(GROUPS)
     for name in INPUTS:
         assert found[name] == pytest.approx(BROUGHT[name], abs=1e-3)
@@ -100,13 +95,12 @@ def test_each_input_brings_in_its_share_of_a_hit(
 @pytest.mark.usefixtures("network")
 def test_walks_that_differ_before_the_hit_are_refused(
     walks: tuple[ObservedWalks, list[tuple[Path, Path]]],
-    known: Known,
     tried: Tried,
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setattr(paths, "push_windows", lambda *_: ((FIRST + 10, LAST),))  # the hit begins before this
     with pytest.raises(DataError, match="twin: differs from hit before the first hit"):
-        taken_by_inputs(tried, known, *walks, 0.05, JOINT)
+        taken_by_inputs(tried, *walks, 0.05, JOINT)
 
 
 def test_only_the_named_inputs_are_exchanged(made_up: Any) -> None:

@@ -9,8 +9,8 @@ import pytest
 from paper_settings import STATISTICS
 
 from experiments.evaluation.measure.claims.cells import Evidence
-from experiments.evaluation.measure.claims.scale import KnownMethods, control_of, in_place, scaled, stand_ins_of
-from experiments.evaluation.measure.claims.verdicts import ClaimNumbers, Judged, Row, judged, rows_of, score_of
+from experiments.evaluation.measure.claims.scale import KnownMethods, control_of, in_place, stand_ins_of, weaknesses_of
+from experiments.evaluation.measure.claims.verdicts import ClaimNumbers, Row, judged, rows_of, score_of
 from experiments.evaluation.number.number import Number
 from experiments.settings.load import load_settings
 from experiments.settings.settings import Settings
@@ -34,10 +34,11 @@ def known(configured: Settings) -> KnownMethods:
     return KnownMethods(configured.methods, configured.detection.detectors, configured.published.original_methods)
 
 
-def on(known: KnownMethods, row: Row, ours: Number, control: dict[str, str]) -> Judged:
+def on(known: KnownMethods, row: Row, ours: Number, control: dict[str, str]) -> dict[str, Any]:
     """Return a claim judged on a number, with its control."""
     score = score_of(row.claim, known.methods)
-    return scaled(judged(row, ClaimNumbers(ours, ours), score, STATISTICS), control, known)
+    weaknesses = weaknesses_of(row.claim, score, ours, control, known)
+    return judged(row, ClaimNumbers(ours, ours), score, STATISTICS, control, weaknesses)
 
 
 def row_of(settings: Settings, name: str) -> Row:
@@ -79,12 +80,12 @@ def test_what_a_method_that_knows_nothing_passes_is_a_description(
     """MOB has about the error that the claim wants of MOB-Net: the test is too easy."""
     row = row_of(configured, "mob-net-error")
     ours = Number(1.3, 1.2, 1.4, networks=(3,))
-    assert on(known, row, ours, {"zero": "not reproduced"}).verdict == "reproduced"
+    assert on(known, row, ours, {"zero": "not reproduced"})["verdict"] == "reproduced"
     weak = on(known, row, ours, {"MOB": "reproduced"})
-    assert weak.verdict == "description"
-    assert weak.remark == "Not counted as reproduced: with MOB in the place of MOB-Net it would be, too."
+    assert weak["verdict"] == "description"
+    assert weak["remark"] == "Not counted as reproduced: with MOB in the place of MOB-Net it would be, too."
     # A failure stays one.
-    assert on(known, row, Number(9.0, 8.0, 10.0, networks=(3,)), {"MOB": "reproduced"}).verdict == "not reproduced"
+    assert on(known, row, Number(9.0, 8.0, 10.0, networks=(3,)), {"MOB": "reproduced"})["verdict"] == "not reproduced"
 
 
 @pytest.mark.parametrize(("low", "high"), [(150.0, 250.0), (500.0, 900.0), (150.0, 900.0)])
@@ -118,14 +119,14 @@ def test_fewer_than_three_trainings_are_not_counted(
 ) -> None:
     row = row_of(configured, "load-upper")
     found = on(known, row, Number(1.0, 0.95, 1.05, networks=networks), {})
-    assert found.verdict == verdict
+    assert found["verdict"] == verdict
     observer = row_of(configured, "mob-exact")
-    assert on(known, observer, Number(0.01, 0.009, 0.011, networks=(1,)), {}).verdict == "reproduced"
+    assert on(known, observer, Number(0.01, 0.009, 0.011, networks=(1,)), {})["verdict"] == "reproduced"
 
 
 def test_a_trend_rests_on_the_trainings_of_all_sizes(configured: Settings, known: KnownMethods) -> None:
     row = row_of(configured, "data-mob-net")
-    assert on(known, row, Number(-1.0, -2.0, -0.5, networks=(1, 1, 1, 1, 1)), {}).verdict == "reproduced"
+    assert on(known, row, Number(-1.0, -2.0, -0.5, networks=(1, 1, 1, 1, 1)), {})["verdict"] == "reproduced"
 
 
 def test_methods_of_the_paper_are_named_and_claims_on_others_are_known(

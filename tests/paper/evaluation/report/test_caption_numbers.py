@@ -7,8 +7,9 @@ from statistics import mean
 import pytest
 from csv_files import read_table
 
-from experiments.evaluation.measure.learning.explained import ALL, PATH, LearnedCell, by_robot, read_why
+from experiments.evaluation.measure.learning.explained import ALL, PATH, by_robot, read_why
 from experiments.evaluation.measure.learning.taught import SHARE_OF_HIT, WALKING
+from experiments.evaluation.number.frames import rows_of
 from experiments.settings.settings import Settings
 
 ROOT = Path(__file__).parents[4]
@@ -72,16 +73,14 @@ def test_the_error_falls_with_the_length_of_training_as_the_learning_curve_says(
 def test_every_robot_shows_what_the_paper_says_of_why_a_hit_is_hidden() -> None:
     """Of the figures `why_share` and `hit_path`, whose numbers are those of a trial and no fields."""
     rows = read_why(TRIALS / "why.csv")
-    seen, blind = (LearnedCell("why_walk", method, "soap") for method in ("MOB-Net", "MOB-Net-noimu"))
+    seen, blind = (("why_walk", method, "soap") for method in ("MOB-Net", "MOB-Net-noimu"))
     for measure in (SHARE_OF_HIT, WALKING):
         values = by_robot(rows, measure)
         assert set(values[seen]) == set(values[blind])
         for robot, value in values[seen].items():
             assert values[blind][robot] > value
-    taken = {
-        (row.robot, row.inputs): row.value
-        for row in rows if row.measure == PATH and row.method == "MOB-Net"
-    }  # fmt: skip
+    brought = rows_of(rows, measure=PATH, method="MOB-Net")
+    taken = dict(zip(zip(brought["robot"], brought["inputs"], strict=True), brought["value"], strict=True))
     robots = {robot for robot, _ in taken}
     assert len(robots - {ALL}) > 1
     for robot in robots:

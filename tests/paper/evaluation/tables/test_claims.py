@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 import yaml
-from csv_files import GOLDEN, check_golden, read_table
+from csv_files import GOLDEN, check_golden_table, read_table
 from made_detections import write_detections
 from paper_settings import STATISTICS
 
@@ -184,4 +184,4 @@ def test_claims_are_the_golden_ones(
     tables = {"coverage": tmp_path / "coverage.csv"}
     write_csv(tables["coverage"], ["joint", "ratio", "low", "high"], [("LL1", 0.9, 0.8, 1.1), ("LL2", 0.5, 0.4, 0.6)])
     scores = [GOLDEN / "scores.csv"]
-    check_golden(make_table("claims", claims=claims, scores=scores, folders=folders, tables=tables))
+    check_golden_table(make_table("claims", claims=claims, scores=scores, folders=folders, tables=tables))

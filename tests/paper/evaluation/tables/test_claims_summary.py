@@ -4,7 +4,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from csv_files import read_table
+from csv_files import GOLDEN, check_golden_table, read_table
 
 from experiments.evaluation.number.rows import write_csv
 from experiments.evaluation.tables.further.claims_summary import USED
@@ -41,6 +41,10 @@ def test_a_statement_counts_once_with_the_worst_of_its_verdicts(made: Made) -> N
     assert counts["networks", "open"] == (0, 1, 1)
     assert counts["paper", "reproduced"] == (1, 2, 2)
     assert counts["paper", "all"] == (4, 4, 6)
+
+
+def test_the_table_is_the_golden_one(make_table: Callable[..., Path]) -> None:
+    check_golden_table(make_table("claims_summary", claims_csv=GOLDEN / "claims.csv"))
 
 
 def test_our_own_statements_are_none_of_the_papers(made: Made) -> None:

@@ -4,6 +4,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from csv_files import GOLDEN, check_golden_table
 
 from experiments.evaluation.number.rows import csv_text
 from experiments.evaluation.tables.further.claims_tolerance import range_within, verdict_within
@@ -15,6 +16,10 @@ NAMES = ("statement", "score", "quantity", "published", "from", "to", "low", "hi
 
 def row(*fields: str) -> dict[str, str]:
     return dict(zip(NAMES, fields, strict=True))
+
+
+def test_the_table_is_the_golden_one(make_table: Callable[..., Path]) -> None:
+    check_golden_table(make_table("claims_tolerance", claims_csv=GOLDEN / "claims.csv"))
 
 
 def test_a_range_is_that_of_the_number_or_of_what_a_cut_leaves() -> None:

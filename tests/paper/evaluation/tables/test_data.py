@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from csv_files import check_golden, read_table
+from csv_files import check_golden, check_golden_table, read_table
 
 from experiments.evaluation.measure.data.steps import WalkedSteps
 from experiments.evaluation.tables.further.data import commanded, extent
@@ -23,7 +23,7 @@ Facts = dict[tuple[str, str, str], Any]
 @pytest.fixture
 def facts(make_table: Callable[..., Path], data_sets: Sets) -> Facts:
     table = make_table("data", sets={name: data_sets[name] for name in ("walk", "motion")})
-    check_golden(table)
+    check_golden_table(table)
     return {(row.set, row.quantity, row.part or ""): row for row in read_table(table)}
 
 

@@ -13,7 +13,7 @@ import scipy.stats
 from paper_settings import STATISTICS
 
 from experiments.evaluation.measure.learning.taught import HITS, ROUGHNESS, SHARE_OF_HIT, WALKING, judged
-from experiments.evaluation.measure.learning.trials import Known, read_walks
+from experiments.evaluation.measure.learning.trials import read_walks
 from experiments.evaluation.number.frames import rows_of
 from experiments.evaluation.tables.further.factorial import ALL, EFFECTS, effects_of, table_of
 from experiments.evaluation.tables.layout import write_table
@@ -151,8 +151,8 @@ def robot_with_hits(
 
 def test_hits_are_judged_at_their_joint_around_them_alone(robot_with_hits: TaughtRobot, settings: Settings) -> None:
     trial = settings.trials.factorial
-    known = Known(settings.robot, settings.plant.gravity_m_s2, settings.observer)
-    walks = read_walks(known, robot_with_hits.hits, 1000.0)
+    known = settings.robot, settings.plant.gravity_m_s2, settings.observer
+    walks = read_walks(*known, robot_with_hits.hits, 1000.0)
     place = walks.joints.index(trial.joint)
     window = robot_with_hits.asked.window
     assert window is not None
@@ -162,7 +162,7 @@ def test_hits_are_judged_at_their_joint_around_them_alone(robot_with_hits: Taugh
     missed = {"zero": 1.0, "MOB": 1.0 - SHOWN}
     peaks = settings.evaluation.peaks
     for tried in robot_with_hits.hits.tried:
-        numbers = judged(trial.hits, trial.joint, known, robot_with_hits, tried, (walks, walks), peaks)
+        numbers = judged(trial.hits, trial.joint, robot_with_hits, tried, (walks, walks), peaks)
         share = missed[tried.name]
         assert numbers[WALKING] == pytest.approx(share * np.array(whole) / len(walks.joints), rel=1e-4)
         assert numbers[HITS] == pytest.approx(share * np.array(hit), rel=1e-3)

@@ -5,6 +5,7 @@ from dataclasses import astuple
 from pathlib import Path
 
 import pytest
+from csv_files import check_golden_table
 from paper_settings import STATISTICS
 
 from experiments.evaluation.measure.data.random_torque import count_falls
@@ -41,6 +42,17 @@ def test_the_torque_is_raised_until_a_robot_falls_and_the_median_robot_chooses(
     )
     lines = (tmp_path / "out.md").read_text().splitlines()
     assert lines[-1].split(" | ")[1 : len(chosen) + 1] == list(map(str, chosen))
+
+
+def test_the_table_is_the_golden_one(tmp_path: Path) -> None:
+    """Three robots, of which one falls at once and one walked longer."""
+    walked_s = {"robot_1": 900.0, "robot_2": 1200.0, "robot_3": 900.0}
+    counts = {"robot_1": (0, 0, 3), "robot_2": (0, 1, 0), "robot_3": (1, 0, 0)}
+    for robot, fallen in counts.items():
+        rows = [(robot, 12.5 * k, walked_s[robot], count) for k, count in enumerate(fallen, start=1)]
+        write_csv(tmp_path / f"{robot}.csv", FALLS, rows)
+    falls([tmp_path / f"{robot}.csv" for robot in counts], STATISTICS, tmp_path / "falls")
+    check_golden_table(tmp_path / "falls.csv")
 
 
 def test_nothing_is_promised_about_an_hour_in_which_nothing_fell(tmp_path: Path) -> None:

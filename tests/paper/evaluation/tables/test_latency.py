@@ -4,7 +4,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from csv_files import read_table
+from csv_files import check_golden_table, read_table
 
 from experiments.evaluation.tables.further import latency
 from experiments.settings.evaluation import Evaluation
@@ -28,6 +28,8 @@ def test_the_share_of_stretches_within_a_tick_has_an_interval(
     assert row.low <= met <= row.high
     assert row.high - row.low < 0.3
     assert "ms" not in (tmp_path / "latency.csv").read_text()
+    if met:
+        check_golden_table(tmp_path / "latency.csv")
 
 
 def test_a_sample_has_an_upright_base(layout: JointLayout) -> None:

@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from csv_files import check_golden, read_table
+from csv_files import check_golden_table, read_table
 
 from experiments.evaluation.tables.paper.table_01 import tex_symbols
 from experiments.settings.catalogue import Catalogue
@@ -30,7 +30,7 @@ def test_every_limb_of_the_paper_has_its_network_size_and_horizon(
     rows_of: Callable[..., list[Any]], tmp_path: Path
 ) -> None:
     rows = rows_of()
-    check_golden(tmp_path / "table_01.csv")
+    check_golden_table(tmp_path / "table_01.csv")
     assert [row.limb for row in rows] == ["RL", "LL", "RA", "LA", "W", "V"]
     for row in rows:
         assert row.architecture == row.architecture_published

@@ -2,14 +2,15 @@
 
 from collections.abc import Callable
 from pathlib import Path
-from types import SimpleNamespace
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
+import pandas as pd
 import pytest
-from csv_files import read_table
+from csv_files import check_golden_table, read_table
 
-from experiments.evaluation.tables.further.trials import is_best, trials
+from experiments.evaluation.tables.further.trials import LOOK, is_best, trials, variants_of
+from experiments.evaluation.tables.look import lines_of
 from experiments.plan.runs import Tried, TriedTask
 from experiments.settings.catalogue import Catalogue
 from experiments.settings.settings import Settings
@@ -18,6 +19,7 @@ from mobnet.core.recording import Recording
 from mobnet.core.store import read_array
 
 JOINTS = ("LL1", "LL4")
+FACTS = ("steps", "seconds", "validation_loss")  # of a training
 
 
 @pytest.fixture
@@ -42,8 +44,8 @@ def made(
     level = settings.levels["all_uncertainty"]
     task = TriedTask(level, JOINTS, tuple(tried), *map(tuple, zip(*pairs, strict=True)))
     known = settings.robot, settings.plant.gravity_m_s2, settings.observer
-    trials(*known, {"leg": task}, 1000.0, tmp_path / "out")
-    return tmp_path / "out", pairs
+    trials(*known, {"leg": task}, 1000.0, tmp_path / "trials")
+    return tmp_path / "trials", pairs
 
 
 def test_errors_are_means_over_the_walks(made: tuple[Path, list[tuple[Path, Path]]]) -> None:
@@ -61,6 +63,10 @@ def test_errors_are_means_over_the_walks(made: tuple[Path, list[tuple[Path, Path
         assert rows["MOB", None, joint].walks == 2
 
 
+def test_the_table_is_the_golden_one(made: tuple[Path, Any]) -> None:
+    check_golden_table(made[0].with_suffix(".csv"))
+
+
 def test_one_variant_of_each_method_that_is_varied_is_the_best(made: tuple[Path, Any]) -> None:
     rows = [row for row in read_table(made[0].with_suffix(".csv")) if row.joint == "avg"]
     assert {row.method: sum(other.best for other in rows if other.method == row.method) for row in rows} == {
@@ -75,18 +81,36 @@ def test_one_variant_of_each_method_that_is_varied_is_the_best(made: tuple[Path,
 
 def test_of_lengths_each_has_its_best() -> None:
     """The recipe of each length is chosen by itself, by the mean over its networks."""
+    tried = [("short", "a", 1.0), ("short", "a", 4.0), ("short", "b", 2.0), ("long", "a", 1.0), ("long", "b", 1.5)]
+    rows = pd.DataFrame(tried, columns=["length", "tried", "rmse_nm"]).assign(task="leg", method="M", joint="avg")
+    assert is_best(rows).tolist() == [False, False, True, True, False]
+    assert not is_best(rows.assign(tried="")).any()
 
-    class Made(NamedTuple):
-        tried: Any
-        average: float
 
-    outcomes: list[Any] = [
-        Made(SimpleNamespace(base="M", name=length + recipe, changes={"experiment": length, "recipe": recipe}), error)
-        for length, recipe, error in (
-            ("short", "a", 1.0), ("short", "a", 4.0), ("short", "b", 2.0), ("long", "a", 1.0), ("long", "b", 1.5)
-        )
+def test_a_variant_has_the_means_of_its_networks(make_rows: Callable[..., list[dict[str, Any]]]) -> None:
+    """One of them diverged; the method beside them has no network."""
+    rows = make_rows("M", "rate 0.1", [(0, 2.0, ""), (1, 4.0, "diverged")]) + make_rows("MOB", "", [(0, 5.0, "")])
+    table = pd.DataFrame(rows).astype({"steps": "Int64"}).assign(best=0)
+    changed, plain = variants_of(table).to_dict("records")
+    assert (changed["networks"], changed["value"], changed["mark"]) == (2, 3.0, "diverged")
+    assert changed["std_nm"] == pytest.approx(2.0**0.5)
+    assert lines_of(variants_of(table), LOOK)[0] == [
+        "leg", "M", "rate 0.1", "1.5", "20", "2", "-4.00", "3.00", "1.41", "diverged",
     ]  # fmt: skip
-    assert [is_best(one, outcomes) for one in outcomes] == [False, False, True, True, False]
+    assert pd.isna(plain["steps"])
+    assert variants_of(table.assign(best=1))["mark"].tolist() == ["best", "best"]
+
+
+@pytest.fixture
+def make_rows() -> Callable[..., list[dict[str, Any]]]:
+    """Return a function that makes the rows of means of networks: seed, error [N m] and state of each."""
+
+    def rows(method: str, tried: str, networks: list[tuple[int, float, str]]) -> list[dict[str, Any]]:
+        facts = {"steps": 1_500_000, "seconds": 20.0, "validation_loss": -4.0} if tried else dict.fromkeys(FACTS)
+        place = {"task": "leg", "method": method, "tried": tried, **facts}
+        return [{**place, "network_seed": seed, "rmse_nm": error, "state": state} for seed, error, state in networks]
+
+    return rows
 
 
 def test_the_grid_of_the_configuration_is_what_a_trial_says(settings: Settings) -> None:

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from csv_files import check_golden, read_table
+from csv_files import check_golden_table, read_table
 
 from experiments.evaluation.tables.further.uncertainty import target_std, verdict
 from experiments.evaluation.tables.layout import OUTSIDE, note_tex
@@ -31,7 +31,7 @@ def test_rows_stand_beside_the_robots_numbers_above_the_note(
     networks = {limb: settings.networks[limb] for limb in ("LL", "W", "V")}
     bounds = settings.evaluation.uncertainty.model_copy(update={"ratio": {"LL": (0.4, 2.5)}})
     table = make_table("uncertainty", settings=bounds, networks=networks, sets=sets, robots={})
-    check_golden(table)
+    check_golden_table(table)
     rows = {row.joint: row for row in read_table(table)}
     assert list(rows) == [*(f"LL{i}" for i in range(1, 7)), "W1", "W2", "W3", *(f"V{i}" for i in range(1, 7))]
     assert rows["LL1"].value == pytest.approx(20.0, rel=0.05)  # as the made-up residuals are

@@ -4,13 +4,14 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pandas as pd
 import pytest
+from csv_files import check_golden_table
 from paper_settings import STATISTICS
 
-from experiments.evaluation.measure.learning.explained import ALL, PATH, spread_of
+from experiments.evaluation.measure.learning.explained import ALL, NETWORKS, PATH, spread_of
 from experiments.evaluation.measure.learning.paths import EVERY, GROUPS
-from experiments.evaluation.tables.further.why import UNITS, table_of
-from experiments.evaluation.tables.layout import write_table
+from experiments.evaluation.tables.further.why import TAKEN, UNITS, write_why
 from experiments.plan.plan import make_plan
 from experiments.settings.load import load_settings
 from experiments.settings.settings import Settings
@@ -19,15 +20,23 @@ from mobnet.core.errors import ConfigError
 from mobnet.core.rows import read_texts
 
 SEEN = ("why_walk", "MOB-Net", "soap")
+BROUGHT = (("robot_1", 0.2), ("robot_1", 0.4), ("robot_2", 0.5))  # share of a hit of each network
 
 
 def test_a_number_is_a_mean_over_robots_and_each_robot_one_over_its_networks(
     settings: Settings, tmp_path: Path
 ) -> None:
-    walks = {"robot_1": [np.array([1.0, 3.0]), np.array([2.0, 4.0])], "robot_2": [np.array([4.0, 4.0])]}
-    found: Any = {SEEN: dict.fromkeys(UNITS, walks)}
-    taken: Any = {"MOB-Net": {name: {"robot_1": [0.2, 0.4], "robot_2": [0.5]} for name in GROUPS}}
-    write_table(tmp_path / "why", table_of(settings.trials.why, found, taken, STATISTICS))
+    networks = {"robot_1": [2.0, 3.0], "robot_2": [4.0]}
+    taught: list[tuple[Any, ...]] = []
+    for measure in UNITS:
+        for robot, values in networks.items():
+            taught += [(*SEEN, measure, robot, value) for value in values]
+    taken: list[tuple[Any, ...]] = []
+    for inputs in GROUPS:
+        taken += [("MOB-Net", inputs, robot, value) for robot, value in BROUGHT]
+    frame = pd.DataFrame(taught, columns=[*NETWORKS, "measure", "robot", "value"])
+    write_why(tmp_path / "why", frame, pd.DataFrame(taken, columns=TAKEN), settings.trials.why, STATISTICS)
+    check_golden_table(tmp_path / "why.csv")
     rows = read_texts(tmp_path / "why.csv")
     for measure in UNITS:
         own = {(row["robot"], row["network"]): row for row in rows if row["measure"] == measure}

@@ -52,15 +52,15 @@ def draw_torque(axis: Axes, pair: Compared, methods: Sequence[str]) -> None:
 
 def draw_error(axis: Axes, pair: Compared, methods: Sequence[str]) -> None:
     """Draw the errors of some methods, and around zero one and two standard deviations of one that predicts them."""
-    own = near(pair.error, methods)
-    draw_panel(axis, replace(pair.error, curves=[replace(curve, std=None) for curve in own]))
+    curves = near(pair.error, methods)
+    draw_panel(axis, replace(pair.error, curves=[replace(curve, std=None) for curve in curves]))
     for line in axis.lines:
         line.set_linewidth(ERROR_WIDTH * line.get_linewidth())
-    for curve in own:
+    for curve in curves:
         if curve.std is not None:
             draw_sigma(axis, curve.label, pair.error.time, curve.std)
     axis.axhline(0.0, **ZERO_LINE)
-    reach = REACH * float(np.abs(own[-1].values).max()) or 1.0
+    reach = REACH * float(np.abs(curves[-1].values).max()) or 1.0
     axis.set(ylim=(-reach, reach), xlim=(pair.error.time[0], pair.error.time[-1]))
 
 
@@ -87,8 +87,8 @@ def draw_columns(
     `source`.
     """
     figure, grid = _columns(pairs, bars, units, methods, x_label)
-    for axis, own, unit in zip(grid[-1], bars, units, strict=True):
-        draw_named_bars(axis, own, unit, source=source)
+    for axis, bars_of_joint, unit in zip(grid[-1], bars, units, strict=True):
+        draw_named_bars(axis, bars_of_joint, unit, source=source)
     _finish(figure, grid)
     return figure
 
@@ -107,8 +107,8 @@ def draw_relative_columns(
     The shares are those of the error that an estimate of no torque has, which is marked.
     """
     figure, grid = _columns(pairs, bars, units, methods, x_label)
-    for axis, own, limb in zip(grid[-1], bars, limbs, strict=True):
-        draw_named_bars(axis, own, "-")
+    for axis, bars_of_joint, limb in zip(grid[-1], bars, limbs, strict=True):
+        draw_named_bars(axis, bars_of_joint, "-")
         axis.axvline(1.0, **LINE)
         for text in axis.texts:
             text.set_bbox(CLEAR)
@@ -129,7 +129,7 @@ def _columns(
     x_label: str,
 ) -> tuple[Figure, NDArray[Any]]:
     """Return a figure and its panels (3, n), with torques and errors of joints (n,) and an empty row for bars."""
-    rows = max(len(own) for own in bars)
+    rows = max(len(bars_of_joint) for bars_of_joint in bars)
     heights = (SHARE * TORQUE_INCH, SHARE * ERROR_INCH, BAR_INCH * (rows + 0.5))
     figure = Figure(figsize=(PAGE_INCH, sum(heights) + REST_INCH), layout="constrained")
     grid = figure.subplots(3, len(pairs), squeeze=False, height_ratios=heights)
@@ -141,9 +141,9 @@ def _columns(
         draw_error(error, pair, methods)
         error.set_xlabel(x_label)
     # Joints of one unit share its label; where units differ each title has its own.
-    one = f" [{units[0]}]" if len(set(units)) == 1 else ""
-    grid[0, 0].set_ylabel(f"torque{one}" if one else "torque or force")
-    grid[1, 0].set_ylabel(f"error{one}")
+    unit_text = f" [{units[0]}]" if len(set(units)) == 1 else ""
+    grid[0, 0].set_ylabel(f"torque{unit_text}" if unit_text else "torque or force")
+    grid[1, 0].set_ylabel(f"error{unit_text}")
     return figure, grid
 
 
@@ -222,7 +222,9 @@ def save_compared(figure: Figure, stem: Path, panels: Sequence[Panel], errors: p
 def bars_by_joint(errors: pd.DataFrame, drawn: Mapping[str, Mapping[str, float]]) -> dict[str, list[NamedBar]]:
     """Return joint -> a bar for each method; `drawn` is joint -> method -> RMSE of the curve that is drawn [N m]."""
     groups = errors.groupby("joint", sort=False)
-    return {str(joint): bars_of(numbers_by(own, "method"), drawn.get(str(joint), {})) for joint, own in groups}
+    return {
+        str(joint): bars_of(numbers_by(of_joint, "method"), drawn.get(str(joint), {})) for joint, of_joint in groups
+    }
 
 
 def bars_of(numbers: Mapping[str, Number], rmse: Mapping[str, float]) -> list[NamedBar]:

@@ -62,10 +62,10 @@ def table_of(panels: Sequence[Panel]) -> tuple[list[str], list[tuple[Field, ...]
     A curve that another panel has and this one has not leaves its field empty.
     """
     columns = [columns_of(panel) for panel in panels]
-    names = list(dict.fromkeys(name for own in columns for name in own))
+    names = list(dict.fromkeys(name for of_panel in columns for name in of_panel))
     rows: list[tuple[Field, ...]] = []
-    for panel, own in zip(panels, columns, strict=True):
-        values = [own[name].tolist() if name in own else [None] * len(panel.time) for name in names]
+    for panel, of_panel in zip(panels, columns, strict=True):
+        values = [of_panel[name].tolist() if name in of_panel else [None] * len(panel.time) for name in names]
         rows += [(panel.title, *row) for row in zip(*values, strict=True)]
     return ["panel", *names], rows
 

@@ -148,12 +148,12 @@ def draw_parts(
     draw_ground(axis, centre, settings.floor_m, view)
     draw_shadow(axis, solids, view)
     draw_limbs(axis, robot, placed, view)
-    found = axes_of(robot, placed, robot.layout.limb(settings.leg))
-    draw_axes(axis, found, view)
+    axes = axes_of(robot, placed, robot.layout.limb(settings.leg))
+    draw_axes(axis, axes, view)
     point = place_of(robot, placed, str(push.point))
     draw_force(axis, point, np.array([-settings.force_n, 0.0, 0.0]), view, SIZE_M)
     rotation, position = poses_of(robot, placed)
-    parts = [(joint, "axis", place) for joint, (place, _) in found.items()]
+    parts = [(joint, "axis", place) for joint, (place, _) in axes.items()]
     parts += [("push", "force", point)]
     for note in settings.notes:
         place = position[note.body] + rotation[note.body] @ np.asarray(note.pos)

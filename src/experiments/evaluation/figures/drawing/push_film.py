@@ -125,7 +125,7 @@ def draw_film(
     torques = push.torques(joint)
     felt = {method: push.felt(torque, joint, peaks) for method, torque in torques.items()}
     errors_nm = {method: push.error_nm(torque, joint) for method, torque in torques.items()}
-    rows = [(method, joint, own.share, own.delay_ms, errors_nm[method]) for method, own in felt.items()]
+    rows = [(method, joint, response.share, response.delay_ms, errors_nm[method]) for method, response in felt.items()]
     write_csv(out.with_suffix(".csv"), COLUMNS, rows)
     course = course_of(settings, push, joint)
     stage = _Stage(settings, dressed(describe(robot), looks), layout, hit, push, course, lines_of(felt, errors_nm))
@@ -177,8 +177,8 @@ def eased(start: Ends, end: Ends, k: int) -> Ends:
 def lines_of(felt: Mapping[str, PushResponse], errors_nm: Mapping[str, float]) -> list[tuple[str, ...]]:
     """Return the lines of the table at the end: heads of columns, then what each method shows, the last one first."""
     rows = [
-        (method, f"{100.0 * own.share:.0f} %", _late(own.delay_ms), f"{errors_nm[method]:.0f} N m")
-        for method, own in felt.items()
+        (method, f"{100.0 * response.share:.0f} %", _late(response.delay_ms), f"{errors_nm[method]:.0f} N m")
+        for method, response in felt.items()
     ]
     return [HEADS, *rows[::-1]]
 
@@ -231,17 +231,17 @@ class _Stage:
         k = min(int(np.searchsorted(times_s, time_s)), len(times_s) - 1)
         side = next(side for side, leg in self.layout.legs.items() if leg == self.hit.leg)
         alarm = push.alarm
-        found = ""
+        part = ""
         said = ""
         if alarm and time_s >= alarm.delay_s:
-            found = f"{side}_{alarm.link}_{alarm.direction}"
+            part = f"{side}_{alarm.link}_{alarm.direction}"
             said = f"detected: {side} {alarm.link}, {MS * alarm.delay_s:.0f} ms after contact"
         return Moment(
             standing(self.robot, push.q[k]),
             self.centre,
             f"{side}_{self.hit.link}_{self.hit.direction}",
             push.force[k],
-            found,
+            part,
             said,
             time_s,
             ends_s,

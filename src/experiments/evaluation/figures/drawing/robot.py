@@ -96,8 +96,8 @@ def solid_of(part: ObstaclePart, place: Sequence[float]) -> Solid:
     """Return a part of an obstacle at its place (3,) [m]."""
     like = {"name": "part", "body": "world", "type": part.type, "tone": "", "pos": (0.0, 0.0, 0.0), "segment": None}
     if part.type == "box":
-        own = {"size": part.size, "pos": part.pos}
+        shape = {"size": part.size, "pos": part.pos}
     else:
         reach = part.size[1] * np.array(AXES[part.axis])
-        own = {"size": part.size[:1], "segment": (*(np.array(part.pos) - reach), *(np.array(part.pos) + reach))}
-    return Solid(ShapeRow.model_construct(**{**like, **own}), np.eye(3), np.asarray(place), PAD, OPACITY)
+        shape = {"size": part.size[:1], "segment": (*(np.array(part.pos) - reach), *(np.array(part.pos) + reach))}
+    return Solid(ShapeRow.model_construct(**{**like, **shape}), np.eye(3), np.asarray(place), PAD, OPACITY)

@@ -34,12 +34,12 @@ GROUND = {"facecolor": "white", "alpha": 0.75, "edgecolor": "none", "pad": 0.4} 
 def limbs_of(robot: RobotDescription) -> dict[str, str]:
     """Return body -> limb whose joint moves it, or the body that it hangs on; of a free base the virtual one."""
     of_joint = robot.layout.limb_of
-    found: dict[str, str] = {}
+    limbs: dict[str, str] = {}
     for body in robot.bodies:
         joint = robot.joint_of(body.name)
         base = of_joint[robot.layout.virtual[0]] if robot.floating else ""
-        found[body.name] = of_joint[joint.id] if joint else found.get(body.parent, base)
-    return found
+        limbs[body.name] = of_joint[joint.id] if joint else limbs.get(body.parent, base)
+    return limbs
 
 
 def draw_limbs(axis: Axes, robot: RobotDescription, q: Array, view: Array) -> None:
@@ -62,9 +62,9 @@ def axes_of(robot: RobotDescription, q: Array, joints: Iterable[str]) -> dict[st
     }
 
 
-def draw_axes(axis: Axes, found: Mapping[str, tuple[Array, Array]], view: Array) -> None:
+def draw_axes(axis: Axes, places: Mapping[str, tuple[Array, Array]], view: Array) -> None:
     """Draw the axes of joints as arrows with their names, in black on white, into axes in metres."""
-    for joint, (point, direction) in found.items():
+    for joint, (point, direction) in places.items():
         start, end = (view[:2] @ (point + sign * AXIS_M * direction) for sign in (-1.0, 1.0))
         arrow = FancyArrowPatch(
             tuple(start),

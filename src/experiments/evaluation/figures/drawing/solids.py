@@ -61,12 +61,12 @@ class Solid:
         """The two ends of its segment (2, 3) [m], which are one point for a solid at a point."""
         row = self.shape
         if row.segment is not None:
-            own = np.reshape(row.segment, (2, 3))
+            ends = np.reshape(row.segment, (2, 3))
         elif row.type in ("capsule", "cylinder"):
-            own = np.asarray(row.pos) + np.outer([-1.0, 1.0], [0.0, 0.0, row.size[1]])
+            ends = np.asarray(row.pos) + np.outer([-1.0, 1.0], [0.0, 0.0, row.size[1]])
         else:
-            own = np.tile(row.pos, (2, 1))
-        return own @ self.rotation.T + self.position
+            ends = np.tile(row.pos, (2, 1))
+        return ends @ self.rotation.T + self.position
 
     @cached_property
     def axes(self) -> Array:
@@ -88,13 +88,13 @@ class Solid:
 
 def draw_solids(axis: Axes, solids: Iterable[Solid], view: Array, zorder: float = 2.0) -> None:
     """Draw solids into axes in metres, the farther ones first; the view (3, 3) is that of `projection`."""
-    found = sorted(solids, key=lambda solid: float((solid.ends @ view[2]).mean()))
+    by_depth = sorted(solids, key=lambda solid: float((solid.ends @ view[2]).mean()))
     polygons: list[Polygon] = []
     faces: list[tuple[float, ...]] = []
-    for solid in found:
-        own = list(polygons_of(solid, view))
-        polygons += own
-        faces += [(*polygon.colour, solid.opacity) for polygon in own]
+    for solid in by_depth:
+        seen = list(polygons_of(solid, view))
+        polygons += seen
+        faces += [(*polygon.colour, solid.opacity) for polygon in seen]
     corners, _, lines, widths = zip(*polygons, strict=True)
     drawn = PolyCollection(corners, facecolors=faces, edgecolors=lines, linewidths=widths, zorder=zorder)
     axis.add_collection(drawn, autolim=False)
@@ -174,7 +174,7 @@ def _faces(solid: Solid, view: Array, colour: Array) -> Iterator[Polygon]:
     for k, sign in FACES:
         normal = sign * axes[:, k] / np.linalg.norm(axes[:, k])
         if normal[2] > 0.0:
-            one, other = (axes[:2, (k + step) % 3] for step in (1, 2))
+            first, other = (axes[:2, (k + step) % 3] for step in (1, 2))
             middle = centre[:2] + sign * axes[:2, k]
-            corners = np.array([middle + a * one + b * other for a, b in ((1, 1), (-1, 1), (-1, -1), (1, -1))])
+            corners = np.array([middle + a * first + b * other for a, b in ((1, 1), (-1, 1), (-1, -1), (1, -1))])
             yield Polygon(corners, lit(colour, _flat(normal)), EDGE * colour, EDGE_POINTS)

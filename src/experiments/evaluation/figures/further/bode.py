@@ -64,8 +64,13 @@ def bode(
     answers = numbers_of(read_scores(*scores), cells, statistics).dropna(subset="value")
     response = partial(observer_response, gain_hz=observer.gain_hz, rate_hz=rates.data_hz)
     for name, shown, row_inch in (("bode", settings.shown, SHOWN_INCH), ("bode_all", joints, ALL_INCH)):
-        own = answers[answers["joint"].isin(shown)]
-        save_figure(draw_bode(own, shown, response, row_inch), figure_dir / name, RESPONSE, records_of(own, RESPONSE))
+        shown_answers = answers[answers["joint"].isin(shown)]
+        save_figure(
+            draw_bode(shown_answers, shown, response, row_inch),
+            figure_dir / name,
+            RESPONSE,
+            records_of(shown_answers, RESPONSE),
+        )
 
 
 @styled
@@ -83,8 +88,8 @@ def draw_bode(answers: pd.DataFrame, joints: Sequence[str], response: Response, 
     drawn = list(product(joints, QUANTITIES))
     for k, (axis, (joint, quantity)) in enumerate(zip(axes, drawn, strict=False)):
         axis.axhline(PERFECT[quantity], label=REFERENCE, **REFERENCE_LOOK)
-        for method, own in rows_of(answers, joint=joint, quantity=quantity).groupby("method", sort=False):
-            _draw(axis, own, str(method), styles[str(method)], response)
+        for method, of_method in rows_of(answers, joint=joint, quantity=quantity).groupby("method", sort=False):
+            _draw(axis, of_method, str(method), styles[str(method)], response)
         axis.set_xscale("log")
         axis.set_xticks(TICKS_HZ, [f"{tick:g}" for tick in TICKS_HZ])
         axis.minorticks_off()
@@ -98,12 +103,12 @@ def draw_bode(answers: pd.DataFrame, joints: Sequence[str], response: Response, 
     return figure
 
 
-def _draw(axis: Axes, own: pd.DataFrame, method: str, look: Look, response: Response) -> None:
+def _draw(axis: Axes, answers: pd.DataFrame, method: str, look: Look, response: Response) -> None:
     """Draw the relative gain [-] or phase [deg] of a method with its intervals, which the legend does not show."""
-    x = own["frequency_hz"].to_numpy()
-    values = own[["value", "low", "high"]].T.fillna(own["value"]).to_numpy()
+    x = answers["frequency_hz"].to_numpy()
+    values = answers[["value", "low", "high"]].T.fillna(answers["value"]).to_numpy()
     perfect = response(x)
-    is_gain = own["quantity"].iloc[0] == "gain"
+    is_gain = answers["quantity"].iloc[0] == "gain"
     mean, low, high = values / np.abs(perfect) if is_gain else values - np.angle(perfect, deg=True)
     axis.plot(x, mean, label=method, marker=look.marker, markersize=3.0, **look.line)
     axis.vlines(x, low, high, color=look.colour, linewidth=0.8, zorder=look.order)

@@ -52,21 +52,22 @@ def commands(
 
     The figure has the first set, the CSV file has all.
     """
-    found = {name: read_steps(stems, layout).commanded for name, stems in sets.items()}
+    commanded = {name: read_steps(stems, layout).commanded for name, stems in sets.items()}
     rows = []
     panels = []
     for column, label in enumerate(LABELS):
         edges = bin_edges(commands, column, settings.bins)
         ends = list(zip(edges[:-1].tolist(), edges[1:].tolist(), strict=True))
         counts = {
-            name: np.bincount(bin_of(values[:, column], edges), minlength=len(ends)) for name, values in found.items()
+            name: np.bincount(bin_of(values[:, column], edges), minlength=len(ends))
+            for name, values in commanded.items()
         }
         # Percent of the steps, as sets have different numbers of them.
         first = next(iter(counts.values()))
         panels.append(Bars(label, edges, 100.0 * first / first.sum(), named_values(commands, column)))
-        for name, own in counts.items():
-            for bounds, count in zip(ends, own.tolist(), strict=True):
-                share = count / len(found[name])
+        for name, of_set in counts.items():
+            for bounds, count in zip(ends, of_set.tolist(), strict=True):
+                share = count / len(commanded[name])
                 rows.append((name, COMMAND[column][0], *bounds, count, share, UNITS[column]))
     save_figure(draw_bars(panels), figure_dir / "commands", COMMANDS, rows)
 

@@ -97,17 +97,17 @@ def detection_curves(
             continue
         quiet = rows_of(held_out, detector=name)
         hours = len(quiet) * hours_per_swing(rows_of(promises, detector=name))
-        own = rows_of(points, detector=name)
-        courses += _over_rates(name, own, quiet, hours, statistics)
-        courses += _at_promise(name, own, quiet, hours, detection.thresholds.rates_per_h[COLLISION], statistics)
+        of_detector = rows_of(points, detector=name)
+        courses += _over_rates(name, of_detector, quiet, hours, statistics)
+        courses += _at_promise(name, of_detector, quiet, hours, detection.thresholds.rates_per_h[COLLISION], statistics)
         courses.append(_over_force(name, rows_of(sweep, detector=name), settings.force_bins, statistics))
         courses.append(_without_hit(name, rows_of(between, detector=name), statistics))
         area = area_of(hit["ratio"].to_numpy(), quiet["ratio"].to_numpy(), statistics)
         rows.append((AREA, settings.level, name, None, *area.with_ends, len(hit), "-"))
-    for one in courses:
-        unit = "ms" if one.panel.startswith(DELAY) else "-"
-        for x, number, count in zip(one.x, one.numbers, one.counts, strict=True):
-            rows.append((one.panel, settings.level, one.detector, x, *number.with_ends, count, unit))
+    for course in courses:
+        unit = "ms" if course.panel.startswith(DELAY) else "-"
+        for x, number, count in zip(course.x, course.numbers, course.counts, strict=True):
+            rows.append((course.panel, settings.level, course.detector, x, *number.with_ends, count, unit))
     save_figure(draw_courses(courses), figure_dir / "detection_curves", COLUMNS, rows)
 
 
@@ -127,8 +127,8 @@ def _over_rates(
     delays = list[Number]()
     counts = list[int]()
     for factor in factors:
-        found, delay, count = _at_factor(points, factor, statistics)
-        shares.append(found)
+        share, delay, count = _at_factor(points, factor, statistics)
+        shares.append(share)
         delays.append(delay)
         counts.append(count)
     return [DetectorLine(FOUND, name, rates, shares, counts), DetectorLine(DELAY, name, rates, delays, counts)]
@@ -147,10 +147,10 @@ def _at_promise(
     The points are those of all robots; the nearest multiple of the thresholds to 1 counts.
     """
     nearest = min(points["factor"].unique().tolist(), key=lambda factor: abs(np.log(factor)))
-    found, delay, count = _at_factor(points, nearest, statistics)
+    share, delay, count = _at_factor(points, nearest, statistics)
     rate = [_rate(quiet, nearest, hours)]
     lines: list[DetectorLine] = []
-    for panel, number in ((FOUND, found), (DELAY, delay)):
+    for panel, number in ((FOUND, share), (DELAY, delay)):
         lines.append(DetectorLine(SET[panel].format(promised_per_h), name, rate, [number], [count]))
     return lines
 
@@ -162,10 +162,10 @@ def _rate(quiet: pd.DataFrame, factor: float, hours: float) -> float:
 
 def _at_factor(points: pd.DataFrame, factor: float, statistics: Statistics) -> tuple[Number, Number, int]:
     """Return found share [-] and mean delay [ms] at a multiple of the thresholds, and of how many collisions."""
-    own = rows_of(points, factor=factor)
-    found = int(own["found"].sum())
-    late = MS * float(own["delay_sum_s"].sum()) / found if found else None
-    flags, places = found_at(own)
+    at_factor = rows_of(points, factor=factor)
+    found_count = int(at_factor["found"].sum())
+    late = MS * float(at_factor["delay_sum_s"].sum()) / found_count if found_count else None
+    flags, places = found_at(at_factor)
     return share_in(flags, places, statistics), Number(late, unit="ms"), len(flags)
 
 
@@ -193,9 +193,9 @@ def area_of(hits: np.ndarray, quiet: np.ndarray, statistics: Statistics) -> Numb
     n = len(hits)
     m = len(quiet)
     area = float((rankdata(np.concatenate([hits, quiet]))[:n].sum() - n * (n + 1) / 2) / (n * m))
-    one = area / (2 - area)
+    two_collisions = area / (2 - area)
     two = 2 * area**2 / (1 + area)
-    variance = (area * (1 - area) + (n - 1) * (one - area**2) + (m - 1) * (two - area**2)) / (n * m)
+    variance = (area * (1 - area) + (n - 1) * (two_collisions - area**2) + (m - 1) * (two - area**2)) / (n * m)
     reach = float(norm.ppf((1.0 + statistics.confidence) / 2.0)) * max(variance, 0.0) ** 0.5
     return Number(area, max(area - reach, 0.0), min(area + reach, 1.0))
 
@@ -206,18 +206,18 @@ def draw_courses(courses: Sequence[DetectorLine]) -> Figure:
 
     Of the found share over false alarms the first and the last detector have their intervals.
     """
-    styles = looks_of(one.detector for one in courses)
+    styles = looks_of(course.detector for course in courses)
     named = list(styles)
     banded = {*named[:1], *named[-1:]}  # of more bands nothing is seen
     figure, axes = beside(len(LABELS), HEIGHT_INCH, width_ratios=WIDTHS)
     for k, (panel, axis) in enumerate(zip(LABELS, axes, strict=True)):
-        for one in courses:
-            if one.panel == panel:
-                _draw(axis, one, styles[one.detector], is_banded=one.detector in banded)
-            elif one.panel.startswith(f"{panel} at "):
-                _ring(axis, one, styles[one.detector])
-            elif (one.panel, panel) == (NO_HIT, FORCE):
-                _mark(axis, NO_HIT_N, one, styles[one.detector])
+        for course in courses:
+            if course.panel == panel:
+                _draw(axis, course, styles[course.detector], is_banded=course.detector in banded)
+            elif course.panel.startswith(f"{panel} at "):
+                _ring(axis, course, styles[course.detector])
+            elif (course.panel, panel) == (NO_HIT, FORCE):
+                _mark(axis, NO_HIT_N, course, styles[course.detector])
         axis.set(xlabel=LABELS[panel][0], ylabel=LABELS[panel][1], xscale="log")
         axis.minorticks_off()
         first = "none" if panel == FORCE else "0"
@@ -226,7 +226,7 @@ def draw_courses(courses: Sequence[DetectorLine]) -> Figure:
         axis.axvline(NO_HIT_BREAK_N if panel == FORCE else BREAK, **BROKEN)
         axis.set_ylim(0.0, None if panel == DELAY else 1.05)
         entitle(axis, k, panel)
-    rates = {one.panel.rpartition(" ")[2] for one in courses if one.panel.startswith(f"{DELAY} at ")}
+    rates = {course.panel.rpartition(" ")[2] for course in courses if course.panel.startswith(f"{DELAY} at ")}
     keys = [Line2D([], [], linestyle="", label=f"thresholds for {rate}", **RING, color="0.3") for rate in rates]
     axes[1].legend(handles=keys, loc="lower left", frameon=False, handletextpad=0.2, borderpad=0.0)
     legend(figure, axes[:1], columns=4)
@@ -235,7 +235,7 @@ def draw_courses(courses: Sequence[DetectorLine]) -> Figure:
 
 def looks_of(detectors: Iterable[str]) -> dict[str, Look]:
     """Return the looks of detectors: the first one of a method has the method's, others differ in marker and shade."""
-    found = dict[str, Look]()
+    looks = dict[str, Look]()
     seen = Counter[str]()
     for name in dict.fromkeys(detectors):
         method = max((known for known in LOOKS if name.startswith(known)), key=len)
@@ -243,38 +243,38 @@ def looks_of(detectors: Iterable[str]) -> dict[str, Look]:
         if seen[method]:
             marker, lightness = FURTHER[seen[method] - 1]
             look = replace(look, marker=marker, colour=shaded(look.colour, lightness))
-        found[name] = look
+        looks[name] = look
         seen[method] += 1
-    return found
+    return looks
 
 
 def shaded(colour: str, lightness: float) -> str:
     """Return a colour mixed with white, or with black where the lightness is below zero."""
-    own = np.array(to_rgb(colour))
-    mixed = own + abs(lightness) * (float(lightness > 0.0) - own)
+    rgb = np.array(to_rgb(colour))
+    mixed = rgb + abs(lightness) * (float(lightness > 0.0) - rgb)
     return to_hex(tuple(mixed.tolist()))
 
 
-def _draw(axis: Axes, one: DetectorLine, look: Look, *, is_banded: bool) -> None:
+def _draw(axis: Axes, course: DetectorLine, look: Look, *, is_banded: bool) -> None:
     """Draw a line with its intervals, where it has any: bars at the forces, bands over the rates where it has one."""
-    mean, low, high = np.array([number.range for number in one.numbers], dtype=np.float64).reshape(-1, 3).T
-    x = np.asarray(one.x) if one.panel == FORCE else np.maximum(one.x, RATE_FLOOR)
-    axis.plot(x, mean, marker=look.marker, markersize=MARKER_POINTS, label=one.detector, **look.line)
-    if one.panel == FORCE:
+    mean, low, high = np.array([number.range for number in course.numbers], dtype=np.float64).reshape(-1, 3).T
+    x = np.asarray(course.x) if course.panel == FORCE else np.maximum(course.x, RATE_FLOOR)
+    axis.plot(x, mean, marker=look.marker, markersize=MARKER_POINTS, label=course.detector, **look.line)
+    if course.panel == FORCE:
         axis.vlines(x, low, high, color=look.colour, linewidth=0.6, alpha=0.7, zorder=look.order)
     elif is_banded:
         axis.fill_between(x, low, high, color=look.colour, alpha=BAND_ALPHA, linewidth=0.0)
 
 
-def _ring(axis: Axes, one: DetectorLine, look: Look) -> None:
+def _ring(axis: Axes, course: DetectorLine, look: Look) -> None:
     """Draw a ring around where the thresholds for a promised rate are, at the rate that was counted."""
-    (number,) = one.numbers
+    (number,) = course.numbers
     if number.value is not None:
-        axis.plot(max(one.x[0], RATE_FLOOR), number.value, color=look.colour, zorder=4, **RING)
+        axis.plot(max(course.x[0], RATE_FLOOR), number.value, color=look.colour, zorder=4, **RING)
 
 
-def _mark(axis: Axes, x: float, one: DetectorLine, look: Look) -> None:
+def _mark(axis: Axes, x: float, course: DetectorLine, look: Look) -> None:
     """Draw a single number with its interval at a place."""
-    mean, low, high = np.array(one.numbers[0].range, dtype=np.float64)
+    mean, low, high = np.array(course.numbers[0].range, dtype=np.float64)
     axis.plot(x, mean, marker=look.marker, markersize=MARKER_POINTS, color=look.colour, zorder=look.order)
     axis.vlines(x, low, high, color=look.colour, linewidth=0.6, alpha=0.7, zorder=look.order)

@@ -44,8 +44,8 @@ def drift(settings: Drift, statistics: Statistics, scores: Sequence[Path], figur
 def panel_of(title: str, rows: pd.DataFrame) -> LinePanel:
     """Return the panel of a phase: a line for each method that has a share there."""
     lines: list[Line] = []
-    for method, own in rows.groupby("method", sort=False):
-        numbers = numbers_by(own, "step")
+    for method, of_method in rows.groupby("method", sort=False):
+        numbers = numbers_by(of_method, "step")
         lines.append(Line(str(method), list(numbers), list(numbers.values())))
     return LinePanel(
         title,
@@ -64,6 +64,6 @@ def beyond(rows: pd.DataFrame) -> str:
     """Return the shares outside of the axis, a line for each method."""
     outside = rows[~rows["value"].between(*ENDS)]
     texts: list[str] = []
-    for method, own in outside.groupby("method", sort=False):
-        texts.append(f"beyond: {method} {', '.join(f'{value:.2f}' for value in own['value'])}")
+    for method, of_method in outside.groupby("method", sort=False):
+        texts.append(f"beyond: {method} {', '.join(f'{value:.2f}' for value in of_method['value'])}")
     return "\n".join(texts)

@@ -39,7 +39,7 @@ def fine_tuning(
             asked.append((title, line, time, test.scenario, settings.limb, level, method, settings.joint, ERROR))
     cells = pd.DataFrame(asked, columns=["panel", "line", "seconds", *CELL])
     rows = numbers_of(read_scores(*scores), cells, statistics, may_lack=False)
-    panels = [panel_of(str(title), own) for title, own in rows.groupby("panel", sort=False)]
+    panels = [panel_of(str(title), of_panel) for title, of_panel in rows.groupby("panel", sort=False)]
     figure = draw_lines(panels, min(COLUMNS, len(panels)), PANEL_INCH)
     save_figure(figure, figure_dir / "fine_tuning", TUNED, records_of(rows, TUNED))
 
@@ -48,8 +48,8 @@ def panel_of(title: str, rows: pd.DataFrame) -> LinePanel:
     """Return the panel of a test: of each line the error by seconds; those that need none of these are bands."""
     bands: dict[str, Number] = {}
     lines: list[Line] = []
-    for line, own in rows.groupby("line", sort=False):
-        errors = numbers_by(own, "seconds")
+    for line, of_line in rows.groupby("line", sort=False):
+        errors = numbers_by(of_line, "seconds")
         if line in (BEFORE, KNOWN):
             bands[str(line)] = next(iter(errors.values()))
         else:

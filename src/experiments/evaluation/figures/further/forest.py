@@ -4,29 +4,34 @@ One figure has the statements with a number of the paper, ours over the original
 without, how far ours lies on the claimed side of the bound.
 """
 
+# pandas has no complete types, which the strict rules of this folder ask for.
+# pyright: standard
+
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from itertools import groupby
 from math import ceil
 from pathlib import Path
 from typing import Any
 
 import matplotlib as mpl
+import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch, Rectangle
 
 from experiments.evaluation.figures.style import save_figure
 from experiments.evaluation.measure.claims.places import (
     BEYOND_BOUND,
     OVER_PAPER,
-    ClaimPosition,
-    StatementPosition,
+    POSITION,
     statements_of,
 )
-from experiments.evaluation.measure.claims.verdicts import Judged
-from experiments.evaluation.number.number import Number
+from experiments.evaluation.measure.claims.verdicts import bounds_of, unit_text
+from experiments.evaluation.number.frames import records_of, rows_of
+from experiments.evaluation.number.laws import number_from
+from experiments.evaluation.number.number import Number, is_missing
 from experiments.intervals.bounds import range_text
-from experiments.settings.claim_ranges import shown_range
 from experiments.settings.table_columns import FOREST
 from experiments.settings.verdicts import (
     DESCRIPTION,
@@ -43,6 +48,9 @@ from experiments.settings.verdicts import (
 )
 from mobnet.core.style import PAGE_INCH, STYLE
 
+Row = Mapping[Any, Any]  # of a statement, as `statements_of` returns it
+# Column of the CSV file -> that of a statement: where it stands on its axis.
+FILED = dict(zip(("value", "low", "high", "from", "to"), POSITION, strict=True))
 STEMS = {OVER_PAPER: "claims", BEYOND_BOUND: "claims_own"}  # of the two figures
 ENDS: Mapping[str, tuple[float, float]] = {OVER_PAPER: (1 / 8, 8.0), BEYOND_BOUND: (-1.15, 1.15)}  # of the axes
 EQUAL: Mapping[str, float] = {OVER_PAPER: 1.0, BEYOND_BOUND: 0.0}
@@ -75,18 +83,26 @@ COLUMN_INCH = {"ours": 5.14, "other": 6.97}  # where our number begins and the o
 STRIPE: Mapping[str, Any] = {"color": "0.96", "linewidth": 0.0, "clip_on": False, "zorder": 0}  # every other row
 
 
-def forest(judged: Sequence[Judged], confidence: float, figure_dir: Path) -> None:
-    """Write the figures of statements as PDF, PNG and CSV; `confidence` is that of the intervals, a share [-]."""
-    statements = statements_of(judged)
+def forest(claims: pd.DataFrame, confidence: float, figure_dir: Path) -> None:
+    """Write the figures of statements as PDF, PNG and CSV.
+
+    The claims are judged; `confidence` is that of the intervals, a share [-].
+    """
+    statements = statements_of(claims)
     for axis, stem in STEMS.items():
-        own = [each for each in statements if each.worst.axis == axis]
-        figure = draw_forest(own, axis, f"{confidence:.0%} interval")
-        save_figure(figure, figure_dir / stem, FOREST, [each.record for each in own])
+        shown = rows_of(statements, axis=axis)
+        filed = shown.assign(worst=shown["claim"], **{name: shown[column] for name, column in FILED.items()})
+        save_figure(
+            draw_forest(shown, axis, f"{confidence:.0%} interval"),
+            figure_dir / stem,
+            FOREST,
+            records_of(filed, FOREST),
+        )
 
 
-def draw_forest(statements: Sequence[StatementPosition], axis_name: str, interval: str) -> Figure:
+def draw_forest(statements: pd.DataFrame, axis_name: str, interval: str) -> Figure:
     """Draw statements below one another, section by section, on one axis; the legend calls the interval so."""
-    sections = [list(own) for _, own in groupby(statements, lambda each: each.worst.judged.score)]
+    sections = [section.to_dict("records") for _, section in statements.groupby("score", sort=False)]
     rows = ROW_INCH * len(statements) + HEAD_INCH * max(1, len(sections))
     keys = _keys(statements, f"claimed range, for the {interval}")
     tall = KEY_ROW_INCH * ceil(len(keys) / KEY_COLUMNS) + KEY_EDGE_INCH + rows + AXIS_INCH
@@ -96,13 +112,13 @@ def draw_forest(statements: Sequence[StatementPosition], axis_name: str, interva
         axis = figure.add_axes(place)
         _scale(axis, axis_name, rows)
         top = 0.0
-        for own in sections:
-            _head(axis, top, own, axis_name)
+        for section in sections:
+            _head(axis, top, section, axis_name)
             top += HEAD_INCH
-            for k, each in enumerate(own):
+            for k, statement in enumerate(section):
                 if k % 2:
                     _stripe(axis, top)
-                _row(axis, top + ROW_INCH / 2.0, each)
+                _row(axis, top + ROW_INCH / 2.0, statement)
                 top += ROW_INCH
         figure.legend(
             handles=keys,
@@ -130,7 +146,7 @@ def _scale(axis: Axes, name: str, rows: float) -> None:
     axis.spines["left"].set_visible(False)
     axis.set_yticks([])
     axis.tick_params(length=2.0, pad=1.5, labelsize=POINTS, width=0.4)
-    axis.xaxis.label.set_size(POINTS)
+    axis.xaxis.label.set_fontsize(POINTS)
 
 
 def _text(axis: Axes, inch: float, row: float, text: str, **look: Any) -> None:
@@ -139,10 +155,10 @@ def _text(axis: Axes, inch: float, row: float, text: str, **look: Any) -> None:
     axis.text(x, row, text, transform=axis.get_yaxis_transform(), va="center", fontsize=POINTS, **look)
 
 
-def _head(axis: Axes, top: float, own: Sequence[StatementPosition], name: str) -> None:
+def _head(axis: Axes, top: float, section: Sequence[Row], name: str) -> None:
     """Write the head of a section at its top [inch]."""
     middle = top + HEAD_INCH / 2.0
-    says = f"{HEADS[own[0].worst.judged.score]} ({len(own)})"
+    says = f"{HEADS[section[0]['score']]} ({len(section)})"
     _text(axis, TEXT_INCH, middle, says, weight="bold")
     _text(axis, COLUMN_INCH["ours"], middle, "ours, with interval", weight="bold")
     _text(
@@ -157,43 +173,40 @@ def _stripe(axis: Axes, top: float) -> None:
     """Draw the ground of a row at its top [inch] from side to side, which leads the eye."""
     left, right = ((inch - LEFT_INCH) / WIDTH_INCH for inch in (0.0, COLUMN_INCH["other"]))
     place = (left, top), right - left, ROW_INCH
-    axis.add_patch(mpl.patches.Rectangle(*place, transform=axis.get_yaxis_transform(), **STRIPE))
+    axis.add_patch(Rectangle(*place, transform=axis.get_yaxis_transform(), **STRIPE))
 
 
-def _row(axis: Axes, row: float, statement: StatementPosition) -> None:
+def _row(axis: Axes, row: float, statement: Row) -> None:
     """Draw a statement in its row [inch]: sign, text, interval and numbers."""
-    place = statement.worst
-    judged = place.judged
-    claim = place.judged.row.claim
-    colour, _, sign = LOOKS[judged.verdict]
+    colour, _, sign = LOOKS[statement["verdict"]]
     _text(axis, 0.01, row, sign, color=colour, weight="bold")
     _text(axis, TEXT_INCH, row, text_of(statement))
-    unit = "" if judged.ours.unit == "-" else f" {judged.ours.unit}"
-    value, interval = judged.ours.texts()
-    ours = "not measured" if judged.ours.value is None else f"{value} {interval}{unit}"
+    number = number_from(statement)
+    value, interval = number.texts()
+    ours = "not measured" if number.value is None else f"{value} {interval}{unit_text(number.unit)}"
     _text(axis, COLUMN_INCH["ours"], row, ours, color=colour)
-    printed = Number(claim.published, unit=judged.ours.unit).texts()[0]
-    other = range_text(shown_range(judged.ranges)) if place.axis == BEYOND_BOUND else printed
+    printed = Number(number.published, unit=number.unit).texts()[0]
+    other = range_text(bounds_of(statement)) if statement["axis"] == BEYOND_BOUND else printed
     _text(axis, COLUMN_INCH["other"], row, other, ha="right")
-    _place(axis, row, place)
+    _position(axis, row, statement)
 
 
-def text_of(statement: StatementPosition) -> str:
+def text_of(statement: Row) -> str:
     """Return what the worst claim of a statement says, with its joint, and of how many claims it is one."""
-    row = statement.worst.judged.row
-    joint = f", {row.joint}" if row.joint else ""
-    return row.claim.says.removesuffix(".") + joint + (f" (1 of {statement.claims})" if statement.claims > 1 else "")
+    count = f" (1 of {statement['claims']})" if statement["claims"] > 1 else ""
+    return statement["says"].removesuffix(".") + count
 
 
-def _place(axis: Axes, row: float, place: ClaimPosition) -> None:
+def _position(axis: Axes, row: float, statement: Row) -> None:
     """Draw the range where a claim is reproduced, our number and its interval, arrows where they leave the axis."""
-    first, last = ENDS[place.axis]
-    low, high = (edge if end is None else end for end, edge in zip(place.band, (first, last), strict=True))
-    low = max(low, first)
-    high = min(high, last)
-    axis.barh(row, high - low, left=low, height=0.8 * ROW_INCH, color="0.88", linewidth=0)
-    value, low, high = place.values
-    colour, marker, _ = LOOKS[place.judged.verdict]
+    first, last = ENDS[statement["axis"]]
+    value, low, high, band_from, band_to = (
+        None if is_missing(statement[name]) else statement[name] for name in POSITION
+    )
+    left = max(first if band_from is None else band_from, first)
+    right = min(last if band_to is None else band_to, last)
+    axis.barh(row, right - left, left=left, height=0.8 * ROW_INCH, color="0.88", linewidth=0)
+    colour, marker, _ = LOOKS[statement["verdict"]]
     if value is None:
         return
     if low is not None and high is not None:
@@ -208,15 +221,15 @@ def _place(axis: Axes, row: float, place: ClaimPosition) -> None:
         axis.plot([value], [row], marker, markersize=3.8, **look)
 
 
-def _keys(statements: Sequence[StatementPosition], band: str) -> list[Any]:
+def _keys(statements: pd.DataFrame, band: str) -> list[Any]:
     """Return what colours, signs and markers mean, with how many statements have each verdict."""
-    counts = Counter(each.worst.judged.verdict for each in statements)
+    counts = Counter(statements["verdict"])
     handles: list[Any] = []
     for verdict, (colour, marker, sign) in LOOKS.items():
         if not counts[verdict]:
             continue
         width = 1.2 if marker else 0.0
         text = f"{sign} {verdict} ({counts[verdict]})"
-        line = mpl.lines.Line2D([], [], color=colour, marker=marker, markersize=4, linewidth=width, label=text)
+        line = Line2D([], [], color=colour, marker=marker, markersize=4, linewidth=width, label=text)
         handles.append(line)
-    return [*handles, mpl.patches.Patch(color="0.88", label=band)]
+    return [*handles, Patch(color="0.88", label=band)]

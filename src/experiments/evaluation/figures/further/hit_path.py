@@ -1,15 +1,19 @@
 """By which inputs a hit enters a network's prediction, and so leaves the estimate."""
 
-from collections.abc import Mapping, Sequence
-from dataclasses import astuple
+# pandas has no complete types, which the strict rules of this folder ask for.
+# pyright: standard
+
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from experiments.evaluation.figures.style import LOOKS, NAME, legend, save_figure
-from experiments.evaluation.measure.learning.explained import ALL, PATH, HitNumber, read_why
+from experiments.evaluation.measure.learning.explained import ALL, PATH, read_why
+from experiments.evaluation.number.frames import records_of, rows_of
 from experiments.settings.figures import HitPath
 from experiments.settings.table_columns import WHY
 from mobnet.core.style import COLUMN_INCH, styled
@@ -27,33 +31,32 @@ def hit_path(settings: HitPath, kept: Path, figure_dir: Path) -> None:
 
     `kept` is the table that `./reproduce why` made.
     """
-    rows = [row for row in read_why(kept) if row.measure == PATH and row.method in settings.methods]
-    save_figure(draw_paths(settings, rows), figure_dir / "hit_path", WHY, [astuple(row) for row in rows])
+    brought = rows_of(read_why(kept), measure=PATH)
+    brought = brought[brought["method"].isin(settings.methods)]
+    save_figure(draw_paths(settings, brought), figure_dir / "hit_path", WHY, records_of(brought, WHY))
 
 
 @styled
-def draw_paths(settings: HitPath, rows: Sequence[HitNumber]) -> Figure:
+def draw_paths(settings: HitPath, brought: pd.DataFrame) -> Figure:
     """Draw bars of each method, side by side for each kind of inputs, with the numbers of the robots."""
     figure = Figure(figsize=(COLUMN_INCH, HEIGHT_INCH), layout="constrained")
     axis: Axes = figure.subplots()
-    means = [row for row in rows if row.robot == ALL]
-    robots = [row for row in rows if row.robot != ALL]
-    groups = list(dict.fromkeys(row.inputs for row in rows))
+    groups = list(brought["inputs"].unique())
     width = BARS / len(settings.methods)
-    places: dict[tuple[str, str], float] = {}
+    offsets: dict[str, float] = {}  # of the bars of a method, from the middle of a group
     for k, method in enumerate(settings.methods):
-        for group in groups:
-            places[method, group] = groups.index(group) + (k - (len(settings.methods) - 1) / 2.0) * width
+        offsets[method] = (k - (len(settings.methods) - 1) / 2.0) * width
+    brought = brought.assign(x=brought["inputs"].map(groups.index) + brought["method"].map(offsets))
+    for k, method in enumerate(settings.methods):
         look = LOOKS[max((known for known in LOOKS if method.startswith(known)), key=len)]
-        own = [row for row in means if row.method == method]
-        x = [places[method, row.inputs] for row in own]
+        bars = rows_of(brought, robot=ALL, method=method)
         face: dict[str, Any] = {"facecolor": look.colour if k == 0 else "white", "edgecolor": look.colour}
-        axis.bar(x, [row.value for row in own], width, label=settings.methods[method], linewidth=0.9, **face)
-    values = [0.0, *(row.value for row in rows)]
+        axis.bar(bars["x"], bars["value"], width, label=settings.methods[method], linewidth=0.9, **face)
+    robots = brought[brought["robot"] != ALL]
+    values = [0.0, *brought["value"]]
     room = ROOM * (max(values) - min(values))
     axis.set_ylim(min(values) - room, max(values) + room)
-    x = [places[row.method, row.inputs] for row in robots]
-    axis.plot(x, [row.value for row in robots], label=ROBOT_LABEL, **ROBOT)
+    axis.plot(robots["x"], robots["value"], label=ROBOT_LABEL, **ROBOT)
     axis.axhline(0.0, color="black", linewidth=0.6)
     axis.set_xticks(range(len(groups)), [group.replace(" ", "\n") for group in groups], fontsize=NAME["fontsize"])
     axis.tick_params(axis="x", length=0.0)

@@ -42,11 +42,11 @@ def learning_curve(settings: LearningCurve, kept: Path, figure_dir: Path) -> Non
 
 def curves_of(settings: LearningCurve, rows: Sequence[TrialError]) -> dict[str, Curve]:
     """Return recipe, as the legend calls it -> its trainings by length, the shortest first."""
-    found: dict[str, Curve] = {}
+    curves: dict[str, Curve] = {}
     for row in sorted((row for row in rows if row.recipe), key=lambda row: row.steps or 0):
         label = f"{row.method}, {settings.recipes.get(row.recipe, row.recipe)}"
-        found.setdefault(label, {}).setdefault(row.steps or 0.0, []).append(row)
-    return found
+        curves.setdefault(label, {}).setdefault(row.steps or 0.0, []).append(row)
+    return curves
 
 
 @styled
@@ -55,8 +55,8 @@ def draw_learning(settings: LearningCurve, tasks: Mapping[str, Sequence[TrialErr
     figure, axes = beside(len(tasks), HEIGHT_INCH)
     curves = {task: curves_of(settings, rows) for task, rows in tasks.items()}
     labels: list[str] = []
-    for own in curves.values():
-        labels += own
+    for of_task in curves.values():
+        labels += of_task
     styles = looks(labels)
     for k, (axis, (task, rows)) in enumerate(zip(axes, tasks.items(), strict=True)):
         for label, curve in curves[task].items():
@@ -114,9 +114,9 @@ def _scale(axis: Axes, trained: Sequence[TrialError], lines: Sequence[TrialError
     axis.minorticks_off()
     times = [row.seconds for row in trained if row.seconds]
     errors = [row.rmse_nm for row in (*trained, *lines)]
-    for own, values, places in ((axis.xaxis, times, SECONDS), (axis.yaxis, errors, ERRORS)):
+    for side, values, places in ((axis.xaxis, times, SECONDS), (axis.yaxis, errors, ERRORS)):
         low = min(values, default=1.0) / ROOM
         high = max(values, default=1.0) * ROOM
         named = [place for place in places if low <= place <= high]
-        own.set_ticks(named, [f"{place:g}" for place in named])
-        own.axes.set(**{f"{own.axis_name}lim": (low, high)})
+        side.set_ticks(named, [f"{place:g}" for place in named])
+        side.axes.set(**{f"{side.axis_name}lim": (low, high)})

@@ -72,8 +72,8 @@ def sigma_figure(settings: Sigma, scores: pd.DataFrame, statistics: Statistics, 
         metrics += [pattern.format(part) for part in parts_of(settings)]
     averages = numbers_of(scores, asked_of(known.items(), metrics), statistics)
     courses: list[SigmaLine] = []
-    for (title, method, limb), own in averages.groupby(["title", "method", "limb"], sort=False):
-        numbers = {row["metric"]: number_from(row) for row in own.to_dict("records")}
+    for (title, method, limb), same in averages.groupby(["title", "method", "limb"], sort=False):
+        numbers = {row["metric"]: number_from(row) for row in same.to_dict("records")}
         courses += courses_of(settings, numbers, str(title), str(method), str(limb))
     rows = [row for course in courses for row in course.rows()]
     save_figure(draw_sigma(courses, share), figure_dir / "sigma", SIGMA, rows)
@@ -85,14 +85,14 @@ def courses_of(
     """Yield the lines of a limb of a method in a test, those whose numbers, by their metric, are all there."""
     parts = parts_of(settings)
     sizes = [numbers[SIZE.format(part)] for part in parts]
-    found = {
+    lines = {
         COVERAGE: (parts, [numbers[COVERED.format(part)] for part in parts]),
         ERROR: ([number.value or 0.0 for number in sizes], [numbers[ERROR_OF.format(part)] for part in parts]),
         CORRELATION: (settings.lags_ms, [numbers[MEMORY.format(lag)] for lag in settings.lags_ms]),
     }
-    for panel, (x, own) in found.items():
-        if all(number.value is not None for number in (*sizes, *own)):
-            yield SigmaLine(panel, title, method, limb, x, own)
+    for panel, (x, numbers_shown) in lines.items():
+        if all(number.value is not None for number in (*sizes, *numbers_shown)):
+            yield SigmaLine(panel, title, method, limb, x, numbers_shown)
 
 
 def parts_of(settings: Sigma) -> list[int]:

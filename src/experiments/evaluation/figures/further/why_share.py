@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from experiments.evaluation.figures.style import LOOKS, NAME, apart, beside, entitle, legend, save_figure
-from experiments.evaluation.measure.learning.explained import FEW, LearnedCell, by_robot, over_robots, read_why
+from experiments.evaluation.measure.learning.explained import FEW, Learned, by_robot, over_shown_robots, read_why
 from experiments.evaluation.measure.learning.taught import SHARE_OF_HIT, WALKING
 from experiments.evaluation.number.number import Number
 from experiments.settings.figures import ExplainedPanel, WhyShare
@@ -43,7 +43,7 @@ class Dot:
     panel: str
     network: str
     text: str
-    cell: LearnedCell
+    cell: Learned
     robots: int
     error: Number
     share: Number
@@ -75,8 +75,8 @@ def dots_of(
     statistics: Statistics,
     title: str,
     panel: ExplainedPanel,
-    errors: Mapping[LearnedCell, Mapping[str, float]],
-    shares: Mapping[LearnedCell, Mapping[str, float]],
+    errors: Mapping[Learned, Mapping[str, float]],
+    shares: Mapping[Learned, Mapping[str, float]],
 ) -> list[Dot]:
     """Return the dots of a panel, from errors in walking [N m] and shares of a hit [-] of each robot.
 
@@ -85,25 +85,26 @@ def dots_of(
     shown = [(name, cell) for name, cell in cells_of(settings, panel) if cell in errors]
     common = set[str].intersection(*(set(errors[cell]) for _, cell in shown)) if shown else set[str]()
     robots = sorted(common)
-    found: list[Dot] = []
+    dots: list[Dot] = []
     for name, cell in shown:
-        own = settings.sets[cell.data]
-        over = LearnedCell(own.over, settings.over.method, settings.over.ways[0])
-        error = over_robots([errors[each] for each in (cell, over)], robots, statistics)
-        share = over_robots([shares[cell]], robots, statistics)
-        text = ", ".join(each for each in (own.says, settings.ways.get(cell.way, "")) if each)
-        found.append(Dot(title, name, text, cell, len(robots), error, share))
-    return found
+        data, _, way = cell
+        learned_from = settings.sets[data]
+        over = (learned_from.over, settings.over.method, settings.over.ways[0])
+        error = over_shown_robots([errors[each] for each in (cell, over)], robots, statistics)
+        share = over_shown_robots([shares[cell]], robots, statistics)
+        text = ", ".join(each for each in (learned_from.says, settings.ways.get(way, "")) if each)
+        dots.append(Dot(title, name, text, cell, len(robots), error, share))
+    return dots
 
 
-def cells_of(settings: WhyShare, panel: ExplainedPanel) -> Iterator[tuple[str, LearnedCell]]:
+def cells_of(settings: WhyShare, panel: ExplainedPanel) -> Iterator[tuple[str, Learned]]:
     """Yield what a panel shows, each with the name of its network."""
     for name in panel.networks:
         network = settings.networks[name]
         for data in panel.sets:
             for way in panel.ways:
                 if way in network.ways:
-                    yield name, LearnedCell(data, network.method, way)
+                    yield name, (data, network.method, way)
 
 
 def marks_of(networks: Iterable[str]) -> dict[str, dict[str, Any]]:
@@ -111,15 +112,15 @@ def marks_of(networks: Iterable[str]) -> dict[str, dict[str, Any]]:
 
     Of each further network of a method less of the mark is filled.
     """
-    found: dict[str, dict[str, Any]] = {}
+    marks: dict[str, dict[str, Any]] = {}
     seen = Counter[str]()
     for name in networks:
         method = max((known for known in LOOKS if name.startswith(known)), key=len)
         look = LOOKS[method]
         fill = FILLS[seen[method] % len(FILLS)]
-        found[name] = {"marker": look.marker, "color": look.colour, "fillstyle": fill, **MARK}
+        marks[name] = {"marker": look.marker, "color": look.colour, "fillstyle": fill, **MARK}
         seen[method] += 1
-    return found
+    return marks
 
 
 @styled
@@ -130,15 +131,15 @@ def draw_why(networks: Iterable[str], dots: Sequence[Dot]) -> Figure:
         panels.setdefault(dot.panel, []).append(dot)
     figure, axes = beside(len(panels), HEIGHT_INCH, sharey=True)
     marks = marks_of(networks)
-    for k, (axis, (title, own)) in enumerate(zip(axes, panels.items(), strict=True)):
-        for dot in own:
+    for k, (axis, (title, dots_shown)) in enumerate(zip(axes, panels.items(), strict=True)):
+        for dot in dots_shown:
             _draw(axis, dot, marks[dot.network])
         axis.set_xlabel("error in walking, over MOB-Net's [-]")
-        entitle(axis, k, f"{title}, {own[0].robots} robots")
+        entitle(axis, k, f"{title}, {dots_shown[0].robots} robots")
     axes[0].set_ylabel("share of a hit that is shown [-]")
     # The scale of shares is known once all panels have their dots.
-    for axis, own in zip(axes, panels.values(), strict=True):
-        _name(axis, own, marks)
+    for axis, dots_shown in zip(axes, panels.values(), strict=True):
+        _name(axis, dots_shown, marks)
     legend(figure, axes)
     return figure
 

@@ -40,8 +40,8 @@ def figure_05(
     pairs: list[Compared] = []
     bars: list[NamedBar] = []
     rows: list[pd.DataFrame] = []
-    for level, own in groupby(runs, lambda run: run.level):
-        pair = compared(read_panel(layout, without_zero(own), joint, start_s))
+    for level, of_level in groupby(runs, lambda run: run.level):
+        pair = compared(read_panel(layout, without_zero(of_level), joint, start_s))
         test = Runs(scenario=settings.scenario, level=level, methods=settings.panels[level])
         errors = joint_errors(read, layout, test, [joint], ERROR, statistics, published, level)
         short = f", {level.replace('_', ' ')}" if len(test.methods) == 1 else ""

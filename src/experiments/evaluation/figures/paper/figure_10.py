@@ -45,12 +45,12 @@ def figure_10(
     read = read_scores(*scores)
     rows: list[pd.DataFrame] = []
     for picture, (title, test) in zip(PICTURES, settings.tests.items(), strict=False):
-        own = push_numbers(read, layout, settings, test, published, statistics)
+        numbers = push_numbers(read, layout, settings, test, published, statistics)
         drawn = [run for run in runs[title] if run.method in settings.drawn]
         panels = [ours_banded(panel) for panel in read_pushes(layout, settings, drawn, f"{title} {{}}", band=True)]
-        figure = draw_hits(group_of(panels, title, own), settings.joint, PAPER_LABEL[True])
+        figure = draw_hits(group_of(panels, title, numbers), settings.joint, PAPER_LABEL[True])
         save_figure(figure, figure_dir / picture, *table_of(panels))
-        rows.append(own)
+        rows.append(numbers)
     write_csv(figure_dir / "figure_10_bars.csv", PUSH_ERRORS, records_of(pd.concat(rows), PUSH_ERRORS))
 
 

@@ -50,10 +50,10 @@ def figure_13(
     """Write Figure 13 as PDF, SVG, PNG and CSV: the first collision of each cell, when its force is largest."""
     description = dressed(describe(robot), looks)
     rows = []
-    found = read_detections(detections[settings.level]["collisions"], "collisions")
+    collisions = read_detections(detections[settings.level]["collisions"], "collisions")
     figure, axes = beside(len(settings.cells), HEIGHT_INCH)
     for k, (axis, cell) in enumerate(zip(axes, settings.cells, strict=True)):
-        hit = first_of(found, detection.collisions, settings.leg, cell)
+        hit = first_of(collisions, detection.collisions, settings.leg, cell)
         rows.append((cell, hit.seed, hit.number, *_draw(axis, description, hit, recordings)))
         entitle(axis, k, f"{cell}, {hit.force_n:.0f} N")
     save_figure(figure, figure_dir / "figure_13", COLUMNS, rows)
@@ -61,11 +61,11 @@ def figure_13(
 
 def first_of(collisions: Sequence[Collision], scenario: str, leg: str, cell: str) -> Collision:
     """Return the first collision of a cell, `<link> <direction>`; a DataError says that there is none."""
-    own = [row for row in collisions if (row.scenario, row.leg) == (scenario, leg)]
-    for row in own:
+    of_leg = [row for row in collisions if (row.scenario, row.leg) == (scenario, leg)]
+    for row in of_leg:
         if f"{row.link} {row.direction}" == cell:
             return row
-    cells = {f"{row.link} {row.direction}" for row in own}
+    cells = {f"{row.link} {row.direction}" for row in of_leg}
     raise DataError(not_accepted(f"collision of {leg} in {scenario}", cell, sorted(cells)))
 
 

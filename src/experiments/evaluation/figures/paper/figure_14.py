@@ -33,24 +33,24 @@ def figure_14(
 ) -> None:
     """Write Figure 14 as PDF, SVG, PNG and CSV: histograms of the collisions, those of a level's robots together."""
     printed = {"impulse": published.impulse_ns, "contact time": published.contact_ms}
-    found = {}
+    by_level = {}
     for level in settings.levels:
         collisions = read_detection(detections, owners(detections, level, settings.levels), "collisions")
-        own = rows_of(collisions, scenario=detection.collisions, leg=settings.leg)
-        found[level.replace("_", " ")] = quantities(own)
+        of_leg = rows_of(collisions, scenario=detection.collisions, leg=settings.leg)
+        by_level[level.replace("_", " ")] = quantities(of_leg)
     edges: dict[str, np.ndarray] = {}
     for name in LABELS:  # one set of bins for all levels, whose histograms lie over one another
-        pooled = np.concatenate([own[name] for own in found.values()])
+        pooled = np.concatenate([of_level[name] for of_level in by_level.values()])
         edges[name] = np.histogram_bin_edges(pooled, settings.bins)
     rows: list[Sequence[Field]] = []
-    for level, own in found.items():
+    for level, of_level in by_level.items():
         for name, unit in LABELS.items():
-            counts = np.histogram(own[name], edges[name])[0]
-            values = own[name]
+            counts = np.histogram(of_level[name], edges[name])[0]
+            values = of_level[name]
             ends = float(values.mean()), float(values.min()), float(values.max())
             for low, high, count in zip(edges[name], edges[name][1:], counts, strict=False):
                 rows.append((level, name, float(low), float(high), int(count), *ends, unit, printed.get(name)))
-    save_figure(draw_histograms(found, edges, printed), figure_dir / "figure_14", COLUMNS, rows)
+    save_figure(draw_histograms(by_level, edges, printed), figure_dir / "figure_14", COLUMNS, rows)
 
 
 def quantities(collisions: pd.DataFrame) -> dict[str, np.ndarray]:
@@ -64,15 +64,15 @@ def quantities(collisions: pd.DataFrame) -> dict[str, np.ndarray]:
 
 @styled
 def draw_histograms(
-    found: Mapping[str, Mapping[str, np.ndarray]], edges: Mapping[str, np.ndarray], printed: Mapping[str, float]
+    by_level: Mapping[str, Mapping[str, np.ndarray]], edges: Mapping[str, np.ndarray], printed: Mapping[str, float]
 ) -> Figure:
     """Draw a panel for each quantity; a dashed line is the paper's mean."""
-    styles = dict(zip(found, (GREY, *looks(found).values()), strict=False))  # colours are those of methods
+    styles = dict(zip(by_level, (GREY, *looks(by_level).values()), strict=False))  # colours are those of methods
     figure, axes = beside(len(LABELS), HEIGHT_INCH)
     for k, (axis, (name, unit)) in enumerate(zip(axes, LABELS.items(), strict=True)):
-        for level, own in found.items():
+        for level, of_level in by_level.items():
             look = {"facecolor": to_rgba(styles[level].colour, 0.35), "edgecolor": styles[level].colour}
-            axis.hist(own[name], edges[name].tolist(), histtype="stepfilled", label=level, **look)
+            axis.hist(of_level[name], edges[name].tolist(), histtype="stepfilled", label=level, **look)
         if name in printed:
             axis.axvline(printed[name], label="mean of the original", color="black", linestyle="--", linewidth=0.8)
         axis.set(xlabel=f"{name} [{unit}]", ylabel="collisions")

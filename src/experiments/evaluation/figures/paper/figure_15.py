@@ -50,18 +50,18 @@ def figure_15(
     collisions: list[Collision] = read_detections(files["collisions"], "collisions")
     of_phase: list[Threshold] = read_detections(files["thresholds"], "thresholds")
     asked = settings.leg, f"{STD}.{settings.joint}", settings.kind, 1
-    found = {row.detector: row.value for row in of_phase if (row.leg, row.signal, row.kind, row.phase) == asked}
-    thresholds = {method: found[name] for method, name in settings.detectors.items()}
+    by_detector = {row.detector: row.value for row in of_phase if (row.leg, row.signal, row.kind, row.phase) == asked}
+    thresholds = {method: by_detector[name] for method, name in settings.detectors.items()}
     courses = [
         _course(settings, detection, layout, collisions, cell, recordings, estimates, thresholds)
         for cell in settings.cells
     ]
     rows: list[tuple[Field, ...]] = []
-    for one in courses:
-        for method, std in one.stds.items():
-            threshold = [one.thresholds[method]] * len(std)
-            for numbers in zip(one.time, std, threshold, one.force, one.swing, strict=True):
-                rows.append((one.title, method, *map(float, numbers)))
+    for course in courses:
+        for method, std in course.stds.items():
+            threshold = [course.thresholds[method]] * len(std)
+            for numbers in zip(course.time, std, threshold, course.force, course.swing, strict=True):
+                rows.append((course.title, method, *map(float, numbers)))
     save_figure(draw_courses(courses, settings.joint), figure_dir / "figure_15", COLUMNS, rows)
 
 
@@ -115,7 +115,7 @@ def draw_courses(courses: Sequence[CollisionCourse], joint: str) -> Figure:
         behind = axis.twinx()
         behind.fill_between(course.time, course.force, color="0.75", linewidth=0.0, zorder=0, label="force")
         # The force takes the lower half of each panel, by one scale in all of them.
-        behind.set_ylim(0.0, 2.0 * max(float(one.force.max()) for one in courses))
+        behind.set_ylim(0.0, 2.0 * max(float(each.force.max()) for each in courses))
         behind.spines["right"].set_visible(True)
         behind.set_ylabel("force [N]" if axis is axes[-1] else "")
         behind.tick_params(labelright=axis is axes[-1])

@@ -64,18 +64,18 @@ def figure_16(
     for case in settings.cases:
         ours = trials_of(trials, case, reaction.ours)
         titles = case, SWING.format(case)
-        numbers[case] = [outcome_of(own, settings, statistics) for own in (ours, in_swing(ours))]
+        numbers[case] = [outcome_of(chosen, settings, statistics) for chosen in (ours, in_swing(ours))]
         forces[case] = force_of(courses[case], settings)
         rows += [
             (case, "force", float(t), float(f), None, None, "N", None) for t, f in zip(*forces[case][:2], strict=True)
         ]
-        for title, own in zip(titles, numbers[case], strict=True):
+        for title, outcome in zip(titles, numbers[case], strict=True):
             for name in LABELS:
-                number = own[name]
+                number = outcome[name]
                 rows.append((title, name, None, *number.with_ends, number.unit, printed_of(published, case, name)))
     late = {case: late_falls(trials, case, reaction, settings, statistics) for case in settings.cases}
-    for case, own in late.items():
-        rows += [(case, "falls", wait_s, *number.with_ends, number.unit, None) for wait_s, number in own.items()]
+    for case, by_wait in late.items():
+        rows += [(case, "falls", wait_s, *number.with_ends, number.unit, None) for wait_s, number in by_wait.items()]
     save_figure(draw(forces, numbers, late, published), figure_dir / "figure_16", COLUMNS, rows)
 
 
@@ -83,12 +83,12 @@ def late_falls(
     trials: pd.DataFrame, case: str, reaction: Reaction, settings: Figure16, statistics: Statistics
 ) -> dict[float, Number]:
     """Return how long our reaction waits [s] -> the share of walks of a case with a fall."""
-    found = dict[float, Number]()
+    falls = dict[float, Number]()
     for watch in sorted(watches_of(reaction, case), key=lambda watch: watch.wait_s):
-        own = trials_of(trials, case, watch)
-        if len(own) and (watch.detector, watch.rule) == (reaction.ours.detector, reaction.ours.rule):
-            found[watch.wait_s] = outcome_of(own, settings, statistics)[FALLS]
-    return found
+        of_watch = trials_of(trials, case, watch)
+        if len(of_watch) and (watch.detector, watch.rule) == (reaction.ours.detector, reaction.ours.rule):
+            falls[watch.wait_s] = outcome_of(of_watch, settings, statistics)[FALLS]
+    return falls
 
 
 def force_of(stem: Path, settings: Figure16) -> tuple[Array, Array, Mapping[str, float | None]]:
@@ -128,7 +128,7 @@ def draw(
     for k, (axis, (name, label)) in enumerate(
         zip(axes[len(forces) : -1], LABELS.items(), strict=True), start=len(forces)
     ):
-        means = {case: [outcome[name] for outcome in own] for case, own in numbers.items()}
+        means = {case: [outcome[name] for outcome in outcomes] for case, outcomes in numbers.items()}
         draw_means(axis, means, published, name)
         axis.set(ylabel=label)
         entitle(axis, k, label.partition(" [")[0])
@@ -140,9 +140,9 @@ def draw(
 
 def draw_late(axis: Axes, late: Mapping[str, Mapping[float, Number]]) -> None:
     """Draw the share of falls of each case over the time that a reaction waits [ms], with intervals."""
-    for k, (case, own) in enumerate(late.items()):
-        value, low, high = np.array([number.range for number in own.values()], dtype=np.float64).T
-        waits = MS * np.array(list(own)) + k * APART_MS
+    for k, (case, by_wait) in enumerate(late.items()):
+        value, low, high = np.array([number.range for number in by_wait.values()], dtype=np.float64).T
+        waits = MS * np.array(list(by_wait)) + k * APART_MS
         look = {
             "marker": MARKERS[k % len(MARKERS)],
             "color": COLOURS[k % len(COLOURS)],
@@ -161,7 +161,7 @@ def draw_means(axis: Axes, numbers: Mapping[str, Sequence[Number]], published: P
     """
     places = np.arange(len(numbers))
     values, lows, highs = np.array(
-        [[own[k].range for own in numbers.values()] for k in range(len(BARS))], dtype=np.float64
+        [[outcomes[k].range for outcomes in numbers.values()] for k in range(len(BARS))], dtype=np.float64
     ).transpose(2, 0, 1)
     for k, (label, shade) in enumerate(BARS.items()):
         axis.bar(
@@ -176,7 +176,7 @@ def draw_means(axis: Axes, numbers: Mapping[str, Sequence[Number]], published: P
             error_kw={"linewidth": 0.8, "capsize": 2.0},
         )
     printed = [printed_of(published, case, name) for case in numbers]
-    axis.plot(places, [np.nan if one is None else one for one in printed], "kD", markersize=3, label="original")
+    axis.plot(places, [np.nan if value is None else value for value in printed], "kD", markersize=3, label="original")
     axis.set_xticks(places, list(numbers))
     *_, second, longest = sorted(highs[np.isfinite(highs)]) or (0.0, 0.0)
     if longest > LONG * second:

@@ -45,7 +45,7 @@ def figure_18(
     asked = asked_of(settings, windows, layout)
     runs = ordered(runs_of(read_scores(*scores), asked), scenario=list(settings.panels), method=settings.methods)
     place = ["scenario", "method", "shown"]
-    numbers = measured(runs, place, {"rmse_nm": lambda own: number_of(own, statistics)})
+    numbers = measured(runs, place, {"rmse_nm": lambda same: number_of(same, statistics)})
     places = asked[["shown", "shown_limb", "shown_joint"]].drop_duplicates("shown")
     rows = numbers.merge(places, how="left", on="shown")
     rows = rows.rename(columns={"shown_limb": "limb", "shown_joint": "joint"})
@@ -70,8 +70,8 @@ def asked_of(settings: Figure18, windows: Mapping[str, PushWindow], layout: Join
     for scenario in settings.panels:
         metric = PUSHED if scenario in windows else ERROR
         for method in settings.methods:
-            for k, (limb, joint, own) in enumerate(shown):
-                asked += [(k, limb, joint, scenario, *one, settings.level, method, metric) for one in own]
+            for k, (limb, joint, places) in enumerate(shown):
+                asked += [(k, limb, joint, scenario, *place, settings.level, method, metric) for place in places]
     columns = ["shown", "shown_limb", "shown_joint", "scenario", "limb", "joint", "level", "method", "metric"]
     return pd.DataFrame(asked, columns=columns)
 
@@ -101,11 +101,11 @@ def _draw(axis: Axes, rows: pd.DataFrame) -> None:
     width = BAR_SHARE / max(1, len(methods))
     styles = looks(methods)
     for k, method in enumerate(methods):
-        own = rows_of(rows, method=method)
+        bars = rows_of(rows, method=method)
         x = places + (k - (len(methods) - 1) / 2) * width
-        value = own["value"].to_numpy()
-        low = own["low"].fillna(own["value"]).to_numpy()
-        high = own["high"].fillna(own["value"]).to_numpy()
+        value = bars["value"].to_numpy()
+        low = bars["low"].fillna(bars["value"]).to_numpy()
+        high = bars["high"].fillna(bars["value"]).to_numpy()
         look = {"color": styles[method].colour, "hatch": styles[method].hatch, **HATCHED}
         axis.bar(x, value, 0.92 * width, label=method, **look)
         axis.vlines(x, low, high, color="black", linewidth=0.8)

@@ -53,8 +53,8 @@ def figure_19(
     sets[TESTS] = np.concatenate(tested)
     planes: list[Plane] = []
     for k, joint in enumerate(joints):
-        own = {name: samples[:, k] for name, samples in sets.items()}
-        planes.append(plane_of(joint, own, coverage))
+        of_joint = {name: samples[:, k] for name, samples in sets.items()}
+        planes.append(plane_of(joint, of_joint, coverage))
     rows = [row for plane in planes for row in plane.rows()]
     save_figure(draw_ranges(planes), figure_dir / "figure_19", PLANES, rows)
 
@@ -79,11 +79,13 @@ def draw_ranges(planes: Sequence[Plane]) -> Figure:
 
 def _ranges(axis: Axes, plane: Plane) -> None:
     """Draw the ranges of the torque [N m] over the phase of the gait [-]: one filled, the others as outlines."""
-    for k, (found, colour, dash) in enumerate(zip(plane.ranges.values(), (FIRST, SECOND, TEST), DASHES, strict=True)):
-        edges = found.cells.edges[0]
+    for k, (torque_range, colour, dash) in enumerate(
+        zip(plane.ranges.values(), (FIRST, SECOND, TEST), DASHES, strict=True)
+    ):
+        edges = torque_range.cells.edges[0]
         if k == 0:
-            axis.stairs(found.high, edges, baseline=found.low, fill=True, color=colour, alpha=SHADE, lw=0)
-        for end in (found.low, found.high):
+            axis.stairs(torque_range.high, edges, baseline=torque_range.low, fill=True, color=colour, alpha=SHADE, lw=0)
+        for end in (torque_range.low, torque_range.high):
             axis.stairs(end, edges, baseline=None, color=colour, linestyle=dash, linewidth=0.9)
     axis.axvline(HALF, color="0.6", linewidth=0.6, linestyle=(0, (2, 2)), zorder=0)
     above: Mapping[str, Any] = {"transform": axis.get_xaxis_transform(), "va": "bottom", "fontsize": NOTE_POINTS}

@@ -35,8 +35,8 @@ def panels_of(sizes: pd.DataFrame) -> list[LinePanel]:
     """Return a panel for each of `TITLES` with a line for each estimator: error [N m] over the size that it varies."""
     panels: list[LinePanel] = []
     for panel, title in TITLES.items():
-        own = rows_of(sizes, panel=panel)
-        lines = [growth_line(of, panel, str(base)) for base, of in own.groupby("base", sort=False)]
+        of_panel = rows_of(sizes, panel=panel)
+        lines = [growth_line(of, panel, str(base)) for base, of in of_panel.groupby("base", sort=False)]
         drawn = LinePanel(
             title,
             X_LABELS[panel],
@@ -50,10 +50,10 @@ def panels_of(sizes: pd.DataFrame) -> list[LinePanel]:
     return panels
 
 
-def growth_line(own: pd.DataFrame, panel: str, base: str) -> Line:
+def growth_line(of_base: pd.DataFrame, panel: str, base: str) -> Line:
     """Return the errors (n,) [N m] of an estimator's variations over the size that their panel varies."""
-    numbers = [number_from(row) for row in own.rename(columns=ERROR).to_dict("records")]
-    return Line(base, (own[panel] / THOUSAND).tolist(), numbers)
+    numbers = [number_from(row) for row in of_base.rename(columns=ERROR).to_dict("records")]
+    return Line(base, (of_base[panel] / THOUSAND).tolist(), numbers)
 
 
 def printed_place(sizes: pd.DataFrame, panel: str) -> float | None:

@@ -76,8 +76,8 @@ def figure_21(
     rate_hz = course.note["rate_hz"]
     stances = list(stances_of(description, course))
     rows = [
-        (own.side, k, int(own.number > 0), own.start / rate_hz, *own.place.tolist(), own.end / rate_hz)
-        for k, own in enumerate(stances)
+        (stance.side, k, int(stance.number > 0), stance.start / rate_hz, *stance.place.tolist(), stance.end / rate_hz)
+        for k, stance in enumerate(stances)
     ]
     figure = draw_strips(course, stances, obstacles)
     save_figure(figure, figure_dir / "figure_21", COLUMNS, rows)
@@ -91,15 +91,15 @@ def stances_of(robot: RobotDescription, course: StoredCourse) -> Iterator[DrawnS
     still = np.zeros(N_VIRTUAL + len(tree.body_of_joint))
     reacted = course.at("reacted_s")
     last = len(course.q) - 1
-    found: list[tuple[int, int, int]] = []
+    contacts: list[tuple[int, int, int]] = []
     for k in range(len(SIDES)):
         in_air = course.swing[:, k] >= IN_THE_AIR
         landed = [0, *(np.flatnonzero(in_air[:-1] & ~in_air[1:]) + 1).tolist()]
         for start in landed:
             lifted = np.flatnonzero(in_air[start:])
-            found.append((start, k, start + int(lifted[0]) if lifted.size else last))
+            contacts.append((start, k, start + int(lifted[0]) if lifted.size else last))
     count = 0
-    for start, k, end in sorted(found):
+    for start, k, end in sorted(contacts):
         update(tree, course.q[start], still, 0.0, pose)
         body = names.index(robot.feet[SIDES[k]].body)
         rotation = pose.rotation[body]
@@ -145,11 +145,11 @@ def draw_strips(course: StoredCourse, stances: Sequence[DrawnStance], obstacles:
     times = np.arange(len(course.q)) / rate_hz
     outlines = obstacle_outlines(course, obstacles)
     for k, (axis, side) in enumerate(zip(axes, SIDES, strict=True)):
-        steps = [own for own in stances if own.side == side]
-        for own in steps:
-            _sole(axis, own, rate_hz)
+        steps = [stance for stance in stances if stance.side == side]
+        for stance in steps:
+            _sole(axis, stance, rate_hz)
         for outline in outlines:
-            if any(is_beside(outline, own.outline) for own in steps):
+            if any(is_beside(outline, stance.outline) for stance in steps):
                 axis.axhline(outline[:, 0].min(), **OBSTACLE)
         axis.plot(times, course.q[:, 0], **PELVIS)
         for name, look in MOMENTS.items():
@@ -168,15 +168,17 @@ def is_beside(outline: Array, other: Array) -> bool:
     return bool(outline[:, 1].min() < other[:, 1].max() and other[:, 1].min() < outline[:, 1].max())
 
 
-def _sole(axis: Axes, own: DrawnStance, rate_hz: float) -> None:
+def _sole(axis: Axes, stance: DrawnStance, rate_hz: float) -> None:
     """Draw from heel to toe [m] and over its time [s] a sole on the ground, with its number after the reaction."""
-    heel = own.outline[:, 0].min()
-    toe = own.outline[:, 0].max()
-    start = own.start / rate_hz
-    lasting = (own.end - own.start) / rate_hz
-    colour = COLOURS[own.side]
-    look = {"facecolor": colour, "alpha": 0.5, **SOLES[own.number > 0]}
+    heel = stance.outline[:, 0].min()
+    toe = stance.outline[:, 0].max()
+    start = stance.start / rate_hz
+    lasting = (stance.end - stance.start) / rate_hz
+    colour = COLOURS[stance.side]
+    look = {"facecolor": colour, "alpha": 0.5, **SOLES[stance.number > 0]}
     axis.add_patch(Rectangle((start, heel), lasting, toe - heel, edgecolor=colour, linewidth=0.8, **look))
-    if own.number:
+    if stance.number:
         at = (start + lasting / 2, toe)
-        axis.annotate(str(own.number), at, (0.0, -2.0), textcoords="offset points", ha="center", va="top", fontsize=7)
+        axis.annotate(
+            str(stance.number), at, (0.0, -2.0), textcoords="offset points", ha="center", va="top", fontsize=7
+        )

@@ -79,8 +79,8 @@ def figure_22(
     trials = read_trials(reactions, settings.cases)
     shown: list[ShownWalk] = []
     for case in settings.cases:
-        own = trials_of(trials, case, reaction.ours)
-        shown += walks_of(case, own, [of[case] for of in courses.values()], description.layout)
+        reacted = trials_of(trials, case, reaction.ours)
+        shown += walks_of(case, reacted, [of[case] for of in courses.values()], description.layout)
     rows = list[list[Field]]()
     figure, grid = rows_of_pictures(len(shown), len(settings.moments_s) + 2)
     for k, (axes, walk) in enumerate(zip(grid, shown, strict=True)):
@@ -126,8 +126,8 @@ def walks_of(case: str, trials: pd.DataFrame, stems: Sequence[Path], layout: Joi
     }
     courses = [read_course(stem, layout) for stem in stems]
     for fell, count in counts.items():
-        found = [course for course in courses if has_fallen(course, trials) == fell]
-        for course in found[:1]:
+        ended = [course for course in courses if has_fallen(course, trials) == fell]
+        for course in ended[:1]:
             level = course.note["level"]
             robot = level.replace("_", " ")
             yield ShownWalk(f"{case}: {count}; this one is that of {robot}", case, level, fell, course)

@@ -73,8 +73,8 @@ def limb_of(layout: JointLayout, joint: str) -> tuple[str, list[str]]:
     """Return the limb of a joint and its joints of the same unit; where there are others too, the name says which."""
     limb = layout.limb_of[joint]
     every = layout.limb(limb)
-    own = [each for each in every if layout.unit(each) == layout.unit(joint)]
-    return (limb if len(own) == len(every) else f"{own[0]} to {own[-1]}"), own
+    alike = [each for each in every if layout.unit(each) == layout.unit(joint)]
+    return (limb if len(alike) == len(every) else f"{alike[0]} to {alike[-1]}"), alike
 
 
 def relative_errors(
@@ -99,8 +99,8 @@ def relative_errors(
     runs = runs_of(scores, pd.DataFrame(asked, columns=["title", "shown", *CELL]), may_lack=True)
     runs = ordered(runs, title=list(limbs), shown=settings.methods)
 
-    def law(own: pd.DataFrame) -> Number:
-        return replace(number_of(own, statistics, Formula(over_zero, positive=True)), unit="-")
+    def law(same: pd.DataFrame) -> Number:
+        return replace(number_of(same, statistics, Formula(over_zero, positive=True)), unit="-")
 
     numbers = measured(runs, ["title", "shown"], {RELATIVE.format(metric, ZERO): law})
     names = {"title": "joint", "shown": "method", "quantity": "metric"}

@@ -64,11 +64,11 @@ class Evidence:
         names = cell.joint
         if scenario is None or level is None or method is None or names is None:
             raise ConfigError(f"cell {cell}: scenario, level, method and joint are expected")
-        held = self.metrics.get((scenario, level, method))
-        if held is None:
+        scored = self.metrics.get((scenario, level, method))
+        if scored is None:
             raise DataError(f"scores: no run of {method} in {scenario}, {level}")
         # The runs are there, but a test may be too short to hold what is asked, such as a push.
-        if not held.issuperset(metrics):
+        if not scored.issuperset(metrics):
             return None
         joints: list[str] = []
         for name in listed(names):
@@ -86,12 +86,12 @@ class Evidence:
 
     def _measured(self, method: str, metric: str) -> list[RunGrid] | None:
         """Return a measure of the trainings of a method that did not diverge, (networks, 1); None where all did."""
-        own = rows_of(self.networks, method=method)
-        if own.empty:
+        trained = rows_of(self.networks, method=method)
+        if trained.empty:
             raise DataError(not_accepted("trainings", method, self.networks["method"].unique()))
         if metric == DIVERGED:
-            return [RunGrid(own[["diverged"]].to_numpy(dtype=np.float64))]
-        good = own[~own["diverged"]]
+            return [RunGrid(trained[["diverged"]].to_numpy(dtype=np.float64))]
+        good = trained[~trained["diverged"]]
         if good.empty:
             return None
         robots = robots_of(good["seed"].tolist())
@@ -129,10 +129,10 @@ class Evidence:
 
     def _fields(self, cell: Cell) -> list[RunGrid] | None:
         """Return the numbers in a column of a table; those of several rows, such as joints, are runs (1, n) [unit]."""
-        held = [float(text) for row in self._rows(cell) if (text := row[str(cell.column)])]
-        if not held:
+        numbers = [float(text) for row in self._rows(cell) if (text := row[str(cell.column)])]
+        if not numbers:
             log.warning("%s: no row with %s has a number", cell.table, dict(cell.where))
-        return [RunGrid(np.array([held]))] if held else None
+        return [RunGrid(np.array([numbers]))] if numbers else None
 
     def _rows(self, cell: Cell) -> list[Mapping[str, str]]:
         """Return the rows of a table in which columns have the texts that a cell asks for.
@@ -141,17 +141,17 @@ class Evidence:
         """
         rows = self.tables[str(cell.table)]
         asked = {str(cell.column), *cell.where}
-        held = rows[0].keys() if rows else asked
-        for name in sorted(asked - held):
-            raise DataError(not_accepted(f"column of {cell.table}", name, held))
+        columns = rows[0].keys() if rows else asked
+        for name in sorted(asked - columns):
+            raise DataError(not_accepted(f"column of {cell.table}", name, columns))
         # Beside its joints a table has a row for all of them together, which would count each joint twice.
         unasked = () if "joint" in cell.where else (ALL,)
-        found: list[Mapping[str, str]] = []
+        chosen: list[Mapping[str, str]] = []
         for row in rows:
             is_asked = all(row[key] == text for key, text in cell.where.items())
             if is_asked and row.get("joint") not in unasked:
-                found.append(row)
-        return found
+                chosen.append(row)
+        return chosen
 
 
 def read_results(
@@ -164,17 +164,17 @@ def read_results(
         for metric in listed(cell.metric or METRIC):
             asked.add((str(cell.scenario), str(cell.level), str(cell.method), metric))
     wanted = pd.DataFrame(sorted(asked), columns=[*RUN, "metric"])
-    found: dict[tuple[str, ...], pd.DataFrame] = {}
+    by_cell: dict[tuple[str, ...], pd.DataFrame] = {}
     metrics: dict[tuple[str, ...], set[str]] = {}
     # Metrics of all runs are noted, so that a run without a metric is told from one that is missing.
     read = read_scores(*scores)
-    for run, own in read.groupby(list(RUN), sort=False):
-        metrics[tuple(map(str, run))] = set(own["metric"])
-    for place, own in read.merge(wanted, on=list(wanted)).groupby(CELL, sort=False):
-        found[tuple(map(str, place))] = own
+    for run, same in read.groupby(list(RUN), sort=False):
+        metrics[tuple(map(str, run))] = set(same["metric"])
+    for place, same in read.merge(wanted, on=list(wanted)).groupby(CELL, sort=False):
+        by_cell[tuple(map(str, place))] = same
     rows = {name: read_texts(path) for name, path in (tables or {}).items()}
     networks, _ = read_trainings(folders)
-    return Evidence(layout, found, metrics, networks, rows)
+    return Evidence(layout, by_cell, metrics, networks, rows)
 
 
 def listed(names: str | Sequence[str]) -> list[str]:

@@ -75,9 +75,9 @@ def text_of(efforts: Sequence[Effort], scales: Sequence[str]) -> str:
     if not efforts:
         return ""
     # Size and sign of a single run are decided by the same: it is said once.
-    found = "; ".join(dict.fromkeys(effort.text for effort in efforts))
+    texts = "; ".join(dict.fromkeys(effort.text for effort in efforts))
     walked = f" Scale {' or '.join(scales)} is made for it." if scales else ""
-    return f"Open: if the number stays, {found}.{walked}"
+    return f"Open: if the number stays, {texts}.{walked}"
 
 
 def count_text(needed: float, runs: Shrinking) -> str:
@@ -115,10 +115,10 @@ def least_times(ends: Callable[[float], Ends], bounds: Bounds) -> float:
 
 
 def shrinking(
-    made: MadeNumber, held: tuple[float, float, float], number: Number, statistics: Statistics
+    made: MadeNumber, ends_of: tuple[float, float, float], number: Number, statistics: Statistics
 ) -> Shrinking:  # fmt: skip
     """Return the interval of a number, held with its ends [its unit], by how many runs it is made of."""
-    value, low, high = held
+    value, low, high = ends_of
     table = made.cells[0].table or "" if made.quantity == "value" else ""
     if table in counts.HOURS:
         hours = size_of(lambda size: rate_ends(value, size, statistics)[1], high)

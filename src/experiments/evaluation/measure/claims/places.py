@@ -5,87 +5,82 @@ Without such a number it is how far ours lies on the claimed side of the claim's
 of its interval.
 """
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+# pandas has no complete types, which the strict rules of this folder ask for.
+# pyright: standard
 
-from experiments.evaluation.measure.claims.verdicts import WORST_FIRST, Judged
+from collections.abc import Mapping
+from typing import Any
+
+import pandas as pd
+
+from experiments.evaluation.measure.claims.verdicts import WORST_FIRST, bounds_of
+from experiments.evaluation.number.laws import number_from
+from experiments.evaluation.number.number import is_missing
 from experiments.intervals.bounds import Bounds
-from experiments.settings.claim_ranges import shown_range
 from experiments.settings.verdicts import VERDICTS
 
 OVER_PAPER, BEYOND_BOUND = "ours over the original's", "beyond the bound"  # what an axis has
+POSITION = ("at", "at_low", "at_high", "band_from", "band_to")  # columns: our number, its interval, and a range [-]
+Claimed = Mapping[Any, Any]  # a claim as `judged` returns it
+Ends = tuple[float | None, float | None]
 
 
-@dataclass(frozen=True)
-class ClaimPosition:
-    """Where a claim stands on its axis [-]: our number with its interval, and the range of the claimed size or sign."""
+def statements_of(claims: pd.DataFrame) -> pd.DataFrame:
+    """Return the statements of judged claims, score by score, those that count against us first.
 
-    judged: Judged
-    axis: str
-    values: tuple[float | None, float | None, float | None]
-    band: Bounds
-
-
-@dataclass(frozen=True)
-class StatementPosition:
-    """A statement of the paper or of ours: its worst claim, whose verdict it has, of so many."""
-
-    worst: ClaimPosition
-    claims: int
-
-    @property
-    def record(self) -> tuple[str | float | None, ...]:
-        """Return the row of the figure's CSV file."""
-        judged = self.worst.judged
-        of = judged.score, judged.row.statement, self.claims, judged.row.name, judged.verdict, self.worst.axis
-        return (*of, *self.worst.values, *self.worst.band)
+    Returns:
+        A row for each statement: the columns of its worst claim, whose verdict it has, of how many `claims` it is one,
+        and where that stands: its `axis`, and `POSITION` on it.
+    """
+    ranked = claims.assign(rank=claims["verdict"].map(WORST_FIRST.index))
+    ranked["claims"] = ranked.groupby("statement")["claim"].transform("size")
+    worst = ranked.loc[ranked.groupby("statement", sort=False)["rank"].idxmin()]
+    scores = list(claims["score"].unique())
+    order = worst.assign(score_rank=worst["score"].map(scores.index), shown=worst["verdict"].map(VERDICTS.index))
+    worst = worst.loc[order.sort_values(["score_rank", "shown"], kind="stable").index].reset_index(drop=True)
+    positions = pd.DataFrame([position_of(row) for row in worst.to_dict("records")], columns=["axis", *POSITION])
+    return pd.concat([worst, positions.astype(dict.fromkeys(POSITION, float))], axis=1)
 
 
-def statements_of(judged: Sequence[Judged]) -> list[StatementPosition]:
-    """Return the statements of claims, score by score, those that count against us first."""
-    found: dict[str, list[Judged]] = {}
-    for each in judged:
-        found.setdefault(each.row.statement, []).append(each)
-    worst = [(min(own, key=lambda each: WORST_FIRST.index(each.verdict)), len(own)) for own in found.values()]
-    scores = list(dict.fromkeys(each.score for each in judged))
-    ordered = sorted(worst, key=lambda each: (scores.index(each[0].score), VERDICTS.index(each[0].verdict)))
-    return [StatementPosition(place_of(each), count) for each, count in ordered]
+def position_of(row: Claimed) -> dict[str, Any]:
+    """Return where a claim stands: its axis, and `POSITION` on it."""
+    if is_missing(row["published"]):
+        return {"axis": BEYOND_BOUND, **beyond_bound(row)}
+    return {"axis": OVER_PAPER, **over_paper(row)}
 
 
-def place_of(judged: Judged) -> ClaimPosition:
-    """Return where a claim stands."""
-    return beyond_bound(judged) if judged.row.claim.published is None else over_paper(judged)
-
-
-def over_paper(judged: Judged) -> ClaimPosition:
+def over_paper(row: Claimed) -> dict[str, float | None]:
     """Return where our number is over the paper's [-]; of a cut, where what remains of an error is."""
-    published = judged.row.claim.published or 1.0
-    is_cut = judged.row.claim.quantity == "cut"
+    published = row["published"] or 1.0
+    is_cut = row["quantity"] == "cut"
 
     def over(number: float | None) -> float | None:
         if number is None:
             return None
         return (1.0 - number) / (1.0 - published) if is_cut else number / published
 
-    (value, low, high) = map(over, judged.ours.with_ends)
-    (first, last) = map(over, shown_range(judged.ranges))
-    return ClaimPosition(judged, OVER_PAPER, (value, *in_order(low, high, is_cut)), in_order(first, last, is_cut))
+    (value, low, high) = map(over, number_from(row).with_ends)
+    (first, last) = map(over, bounds_of(row))
+    values = (value, *in_order(low, high, is_cut), *in_order(first, last, is_cut))
+    return dict(zip(POSITION, values, strict=True))
 
 
-def in_order(low: float | None, high: float | None, turned: bool) -> tuple[float | None, float | None]:
+def in_order(low: float | None, high: float | None, turned: bool) -> Ends:
     """Return two ends [-], the other way round where the axis is turned."""
     return (high, low) if turned else (low, high)
 
 
-def beyond_bound(judged: Judged) -> ClaimPosition:
+def beyond_bound(row: Claimed) -> dict[str, float | None]:
     """Return how far our number lies on the claimed side of its bound, as a share of the farthest end [-]."""
-    found = [None if number is None else margin(number, shown_range(judged.ranges)) for number in judged.ours.with_ends]
-    held = [each for each in found if each is not None]
-    scale = max(map(abs, held), default=0.0) or 1.0
-    value, low, high = (None if each is None else each / scale for each in found)
+    margins: list[float | None] = []
+    for number in number_from(row).with_ends:
+        margins.append(None if number is None else margin(number, bounds_of(row)))
+    sizes = [abs(each) for each in margins if each is not None]
+    scale = max(sizes, default=0.0) or 1.0
+    value, low, high = (None if each is None else each / scale for each in margins)
     if value is not None and low is not None and high is not None:  # in a two-sided range the middle lies farthest in
         low, high = min(low, high), max(low, high, value)
-    return ClaimPosition(judged, BEYOND_BOUND, (value, low, high), (0.0, None))
+    return dict(zip(POSITION, (value, low, high, 0.0, None), strict=True))
 
 
 def margin(number: float, bounds: Bounds) -> float:

@@ -9,16 +9,16 @@ is judged on a method of ours, or that rests on fewer than `LEAST_TRAININGS` tra
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import get_args
 
 from experiments.evaluation.measure.claims.cells import Evidence, listed
-from experiments.evaluation.measure.claims.verdicts import ClaimNumbers, Judged, made_number, verdicts_of
+from experiments.evaluation.measure.claims.verdicts import ClaimNumbers, made_number, verdicts_of
 from experiments.evaluation.number.number import Number
 from experiments.settings.claim_ranges import ranges_of
 from experiments.settings.claims import Cell, Claim, MadeNumber, TrainingMetric
 from experiments.settings.runs import Statistics
-from experiments.settings.verdicts import DESCRIPTION, MOB_NET, NOT_MEASURED, OURS, REPRODUCED, STAND_INS
+from experiments.settings.verdicts import MOB_NET, NOT_MEASURED, OURS, REPRODUCED, STAND_INS
 from mobnet.settings.detection import DetectorSettings
 from mobnet.settings.methods import Method
 
@@ -58,12 +58,12 @@ class KnownMethods:
 
     def not_original(self, claim: Claim) -> list[str]:
         """Return the methods and detectors of a claim that the paper does not have, and methods that these run on."""
-        found: dict[str, None] = {}
+        others: dict[str, None] = {}
         for cell in claim.cells:
             for name in (name_of(cell), self.method_of(cell)):
                 if name and VALUE.sub("", name) not in self.original:
-                    found[name] = None
-        return list(found)
+                    others[name] = None
+        return list(others)
 
 
 def name_of(cell: Cell) -> str:
@@ -101,18 +101,18 @@ def _of(made: MadeNumber | None, cells: tuple[Cell, ...] | None) -> MadeNumber |
 def _with(made: MadeNumber, network: str, stand_in: str) -> tuple[Cell, ...] | None:
     """Return the cells of a number with another method in the place of a network, None where it cannot stand there."""
     others = [cell for cell in made.cells if name_of(cell) != network]
-    found: list[Cell] = []
+    cells: list[Cell] = []
     for cell in made.cells:
         if is_training(cell):
             return None
         if name_of(cell) != network:
-            found.append(cell)
+            cells.append(cell)
             continue
         replaced = _replaced(cell, stand_in)
         if replaced in others:
             return None
-        found.append(replaced)
-    return tuple(found)
+        cells.append(replaced)
+    return tuple(cells)
 
 
 def _replaced(cell: Cell, name: str) -> Cell:
@@ -126,17 +126,17 @@ def _replaced(cell: Cell, name: str) -> Cell:
 def stand_ins_of(claim: Claim, known: KnownMethods) -> dict[str, Claim]:
     """Return the claim with each method of `STAND_INS` in its network's place, of those that can stand there."""
     network = known.network_of(claim)
-    found: dict[str, Claim] = {}
+    claims: dict[str, Claim] = {}
     for name in STAND_INS if network else ():
         other = in_place(claim, network, name)
         if other is not None:
-            found[name] = other
-    return found
+            claims[name] = other
+    return claims
 
 
 def control_of(claim: Claim, results: Evidence, statistics: Statistics, known: KnownMethods) -> dict[str, str]:
     """Return the verdict that a claim would have with each method of `STAND_INS`, of those that were measured."""
-    found: dict[str, str] = {}
+    verdicts: dict[str, str] = {}
     for name, other in stand_ins_of(claim, known).items():
         numbers = [other, *([other.sign_of] if other.sign_of else [])]
         if not all(results.holds(cell) for number in numbers for cell in number.cells):
@@ -144,38 +144,24 @@ def control_of(claim: Claim, results: Evidence, statistics: Statistics, known: K
         ours, *signed = (made_number(number, results, statistics, claim.unit) for number in numbers)
         _, _, verdict = verdicts_of(ClaimNumbers(ours, signed[0] if signed else ours), ranges_of(other))
         if verdict != NOT_MEASURED:
-            found[name] = verdict
-    return found
+            verdicts[name] = verdict
+    return verdicts
 
 
-def scaled(judged: Judged, control: Mapping[str, str], known: KnownMethods) -> Judged:
-    """Return a judged claim with its control; one that tells too little to be counted becomes a description.
-
-    A claim that is only described is one whatever its number, against us or for us.
-    """
-    described = judged.row.claim.described
-    if described and judged.verdict != NOT_MEASURED:
-        return replace(judged, control=control, verdict=DESCRIPTION, weaknesses=(described,), efforts=())
-    weaknesses = weaknesses_of(judged, control, known)
-    if judged.verdict != REPRODUCED or not weaknesses:
-        return replace(judged, control=control)
-    return replace(judged, control=control, verdict=DESCRIPTION, weaknesses=tuple(weaknesses))
-
-
-def weaknesses_of(judged: Judged, control: Mapping[str, str], known: KnownMethods) -> list[str]:
-    """Return why a claim would not be counted as reproduced."""
-    claim = judged.row.claim
-    found: list[str] = []
+def weaknesses_of(claim: Claim, score: str, ours: Number, control: Mapping[str, str], known: KnownMethods) -> list[str]:
+    """Return why a claim with a number of ours would not be counted as reproduced: it tells too little."""
+    weaknesses: list[str] = []
     other = known.not_original(claim)
-    if judged.score != OURS and other:
-        found.append(f"the original has no {' or '.join(other)}, so it is not measured like for like")
+    if score != OURS and other:
+        weaknesses.append(f"the original has no {' or '.join(other)}, so it is not measured like for like")
     passing = [name for name, verdict in control.items() if verdict == REPRODUCED]
     if passing:
-        found.append(f"with {' or '.join(passing)} in the place of {known.network_of(claim)} it would be, too")
-    trainings = trainings_of(claim, judged.ours)
+        network = known.network_of(claim)
+        weaknesses.append(f"with {' or '.join(passing)} in the place of {network} it would be, too")
+    trainings = trainings_of(claim, ours)
     if known.network_of(claim) and 0 < trainings < LEAST_TRAININGS:
-        found.append(f"it rests on {COUNTS[trainings]}")
-    return found
+        weaknesses.append(f"it rests on {COUNTS[trainings]}")
+    return weaknesses
 
 
 def trainings_of(claim: Claim, number: Number) -> int:

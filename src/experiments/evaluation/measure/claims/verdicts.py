@@ -5,18 +5,24 @@ Two verdicts follow from an interval and the closed ranges of a claim's size and
 a number without an interval always is. `verdict_of` joins them to one word.
 """
 
+# pandas has no complete types, which the strict rules of this folder ask for.
+# pyright: standard
+
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
-from typing import get_args
+from dataclasses import dataclass, replace
+from typing import Any, get_args
+
+import pandas as pd
 
 from experiments.evaluation.measure.claims.cells import Evidence, listed
 from experiments.evaluation.measure.claims.deciding import Effort, effort_of, text_of
-from experiments.evaluation.number.number import Number
-from experiments.intervals.bounds import Bounds, verdict_on
+from experiments.evaluation.number.laws import fields_of
+from experiments.evaluation.number.number import Number, is_missing
+from experiments.intervals.bounds import ANY, Bounds, verdict_on
 from experiments.intervals.quantities import QUANTITIES, difference_of
 from experiments.settings.claim_ranges import Ranges, ranges_of, shown_range
-from experiments.settings.claims import Claim, MadeNumber, TrainingMetric, by_other_reading
+from experiments.settings.claims import MOST_FIRST, Claim, MadeNumber, TrainingMetric, by_other_reading
 from experiments.settings.runs import Statistics
 from experiments.settings.verdicts import (
     DESCRIPTION,
@@ -35,6 +41,7 @@ from experiments.settings.verdicts import (
     SAME,
     SIGN_AT_LEAST,
     SIGN_ONLY,
+    STAND_INS,
 )
 from mobnet.settings.methods import Method
 
@@ -43,6 +50,12 @@ NO_CAUSE = "No cause found."
 TO_MEASURE = "Not measured: the run lacks a test or training for it, or defined the number otherwise."
 NOT_COUNTED = "Not counted as reproduced: {}."
 NOT_JUDGED = "Described, not judged: {}"
+REALS = (  # columns of numbers
+    *("published", "value", "low", "high", "std_networks", "std_walks", "from", "to"),
+    *("sign_value", "sign_low", "sign_high", "sign_from", "sign_to", "without", "without_low", "without_high"),
+    *("shown_from", "shown_to"),
+)
+SHOWN_RANGE = ("shown_from", "shown_to")
 WORST_FIRST = (NOT_REPRODUCED, SIGN_ONLY, NOT_MEASURED, OPEN, DESCRIPTION, SIGN_AT_LEAST, REPRODUCED)
 
 
@@ -74,96 +87,33 @@ class ClaimNumbers:
     other: "ClaimNumbers | None" = None
 
 
-@dataclass(frozen=True)
-class Judged:
-    """A claim with our numbers, what they are held against, and what follows.
-
-    Attributes:
-        score: one of `SCORED`: about the observer alone, about networks, without a number of the paper, or ours.
-        found: our numbers; none where the tests are too short to hold what it is about, or all trainings diverged.
-        size: one of `SIZE_VERDICTS`, or empty where no size is claimed.
-        sign: one of `SIGN_VERDICTS`, or empty where no sign is claimed.
-        verdict: both together, one of `VERDICTS`.
-        is_explained: whether the claim fails and would not without its cause.
-        efforts: what decides the size and the sign, of those that are open.
-        control: the verdict that it would have with each method of `STAND_INS` in its network's place, of those that
-            could be judged.
-        weaknesses: why a description is not counted as reproduced.
-    """
-
-    row: Row
-    score: str
-    found: ClaimNumbers
-    ranges: Ranges
-    size: str
-    sign: str
-    verdict: str
-    is_explained: bool
-    efforts: tuple[Effort, ...] = ()
-    control: Mapping[str, str] = field(default_factory=dict[str, str])
-    weaknesses: tuple[str, ...] = ()
-
-    @property
-    def ours(self) -> Number:
-        """Our number, beside the paper's."""
-        return self.found.ours
-
-    @property
-    def cause(self) -> str:
-        """Why it is not reproduced, as far as a number says; empty where it is, and where none does."""
-        if not self.is_explained or self.row.claim.cause is None or self.found.without is None:
-            return ""
-        cause = self.row.claim.cause
-        unit = "" if self.ours.unit == "-" else f" {self.ours.unit}"
-        without = " ".join(self.found.without.texts()) + unit
-        seen = "after" if cause.seen else "before"
-        return f"{cause.says}: {without} without it (named {cause.since}, {seen} results had been seen)."
-
-    @property
-    def other(self) -> str:
-        """Our number by the other reading of the paper and what its verdict would be; it counts nowhere."""
-        reading = self.row.claim.other
-        if reading is None or self.found.other is None or self.found.other.ours.value is None:
-            return ""
-        _, _, verdict = verdicts_of(self.found.other, self.ranges)
-        unit = "" if self.ours.unit == "-" else f" {self.ours.unit}"
-        number = " ".join(self.found.other.ours.texts()).strip()
-        return f"With {reading.says}: {number}{unit}, {verdict}."
-
-    @property
-    def remark(self) -> str:
-        """What stands below the claim: the cause of one that fails, or that none is found, or what decides an open one.
-
-        Below a description stands why it is not counted. It is empty where nothing is open and nothing fails.
-        """
-        if self.verdict == NOT_MEASURED:
-            return TO_MEASURE
-        if self.row.claim.described:
-            return NOT_JUDGED.format(self.row.claim.described)
-        if self.verdict == DESCRIPTION:
-            return NOT_COUNTED.format("; ".join(self.weaknesses))
-        if self.verdict in (NOT_REPRODUCED, SIGN_ONLY):
-            return f"Cause: {self.cause}" if self.cause else NO_CAUSE
-        return text_of(self.efforts, self.row.claim.decided_at)
-
-    @property
-    def is_beyond_reach(self) -> bool:
-        """Whether the claim is open and no affordable number of runs decides its size or its sign."""
-        return self.verdict == OPEN and all(effort.is_beyond for effort in self.efforts)
-
-
 def rows_of(claims: Mapping[str, Claim]) -> Iterator[Row]:
-    """Yield every claim, followed by those of its joints, which have no bar; a cause is of each joint by itself."""
-    for name, claim in claims.items():
+    """Yield every claim, followed by those of its joints, which have no bar; a cause is of each joint by itself.
+
+    The ten statements that stand first come first, in their order.
+    """
+    places = places_of(claims)
+    names = sorted(claims, key=lambda name: places[claims[name].statement or name])
+    for name in names:
+        claim = claims[name]
         statement = claim.statement or name
         yield Row(name, statement, claim)
         for joint, printed in claim.by_joint.items():
-            own: dict[str, object] = {"cells": of_joint(claim, joint), "published": printed, "bar": None}
+            of_one: dict[str, object] = {"cells": of_joint(claim, joint), "published": printed, "bar": None}
             if claim.cause:
                 without = claim.cause.without
                 without = without.model_copy(update={"cells": of_joint(without, joint)})
-                own["cause"] = claim.cause.model_copy(update={"without": without})
-            yield Row(f"{name}-{joint}", statement, claim.model_copy(update=own), joint)
+                of_one["cause"] = claim.cause.model_copy(update={"without": without})
+            yield Row(f"{name}-{joint}", statement, claim.model_copy(update=of_one), joint)
+
+
+def places_of(claims: Mapping[str, Claim]) -> dict[str, int]:
+    """Return the place of each statement among those that stand first; all others share the place behind them."""
+    places: dict[str, int] = {}
+    for name, claim in claims.items():
+        statement = claim.statement or name
+        places[statement] = min(places.get(statement, MOST_FIRST + 1), claim.first or MOST_FIRST + 1)
+    return places
 
 
 def of_joint(made: MadeNumber, joint: str) -> tuple[object, ...]:
@@ -171,46 +121,145 @@ def of_joint(made: MadeNumber, joint: str) -> tuple[object, ...]:
     return tuple(cell.model_copy(update={"joint": joint}) for cell in made.cells)
 
 
-def judge(row: Row, results: Evidence, statistics: Statistics, methods: Mapping[str, Method]) -> Judged:
-    """Return our numbers for a claim with their intervals, and the verdicts that follow from them alone."""
-    return judged(row, found_of(row.claim, results, statistics), score_of(row.claim, methods), statistics)
-
-
-def found_of(claim: Claim, results: Evidence, statistics: Statistics) -> ClaimNumbers:
+def numbers_of(claim: Claim, results: Evidence, statistics: Statistics) -> ClaimNumbers:
     """Return the numbers that a claim needs [its unit]."""
     ours = made_number(claim, results, statistics, claim.unit)
     signed = made_number(claim.sign_of, results, statistics, claim.unit) if claim.sign_of else ours
     without = made_number(claim.cause.without, results, statistics, claim.unit) if claim.cause else None
     other = by_other_reading(claim)
-    found = found_of(other, results, statistics) if other else None
-    return ClaimNumbers(replace(ours, published=claim.published), signed, without, found)
+    by_other = numbers_of(other, results, statistics) if other else None
+    return ClaimNumbers(replace(ours, published=claim.published), signed, without, by_other)
 
 
-def judged(row: Row, found: ClaimNumbers, score: str, statistics: Statistics) -> Judged:
-    """Return a claim with the verdicts that follow from its numbers, and what would decide those that are open."""
-    ranges = ranges_of(row.claim)
-    size, sign, verdict = verdicts_of(found, ranges)
-    explained = False
-    if verdict in (NOT_REPRODUCED, SIGN_ONLY) and found.without is not None:
-        explained = is_within(found.without, shown_range(ranges))
+def judged(
+    row: Row,
+    numbers: ClaimNumbers,
+    score: str,
+    statistics: Statistics,
+    control: Mapping[str, str] | None = None,
+    weaknesses: Sequence[str] = (),
+) -> dict[str, Any]:
+    """Return a claim with the verdicts that follow from its numbers, and what would decide those that are open.
+
+    Args:
+        row: the claim.
+        numbers: our numbers; none where the tests are too short to hold what it is about, or all trainings diverged.
+        score: one of `SCORED`.
+        statistics: of the intervals.
+        control: the verdict that it would have with each method of `STAND_INS` in its network's place, of those that
+            could be judged.
+        weaknesses: why it is not counted where it would be reproduced: it is a description then. A claim that is
+            described is one whatever its number.
+
+    Returns:
+        The columns `CLAIMS`, its `joint`, and the ends of the range that pictures and tables show.
+    """
+    claim = row.claim
+    ours = numbers.ours
+    ranges = ranges_of(claim)
+    size, sign, verdict = verdicts_of(numbers, ranges)
+    is_weak = verdict == REPRODUCED and weaknesses
+    if is_weak or (claim.described and verdict != NOT_MEASURED):
+        verdict = DESCRIPTION
     efforts: list[Effort] = []
     if size == OPEN and ranges.size:
-        efforts.append(effort_of(row.claim, found.ours, ranges.size, "size", statistics))
+        efforts.append(effort_of(claim, ours, ranges.size, "size", statistics))
     if sign == OPEN and ranges.sign:
-        efforts.append(effort_of(row.claim.sign_of or row.claim, found.signed, ranges.sign, "sign", statistics))
-    return Judged(row, score, found, ranges, size, sign, verdict, explained, tuple(efforts))
+        efforts.append(effort_of(claim.sign_of or claim, numbers.signed, ranges.sign, "sign", statistics))
+    cause = cause_of(claim, numbers, ranges) if verdict in (NOT_REPRODUCED, SIGN_ONLY) else ""
+    is_beyond_reach = verdict == OPEN and all(effort.is_beyond for effort in efforts)
+    no_ends = (None, None, None)
+    return {
+        "claim": row.name,
+        "statement": row.statement,
+        "joint": row.joint,
+        "score": score,
+        "printed": claim.printed,
+        "says": f"{claim.says.removesuffix('.')}, {row.joint}." if row.joint else claim.says,
+        "quantity": claim.quantity,
+        **fields_of(ours),
+        **_ends(("from", "to"), ranges.size or ANY),
+        **_ends(("sign_value", "sign_low", "sign_high"), numbers.signed.with_ends if ranges.sign else no_ends),
+        **_ends(("sign_from", "sign_to"), ranges.sign or ANY),
+        **_ends(SHOWN_RANGE, shown_range(ranges)),
+        "size": size,
+        "sign": sign,
+        "verdict": verdict,
+        **_ends(("without", "without_low", "without_high"), numbers.without.with_ends if numbers.without else no_ends),
+        "cause": cause,
+        "remark": remark_of(claim, verdict, cause, efforts, weaknesses),
+        "other_reading": other_reading(claim, numbers, ranges),
+        "beyond_reach": "yes" if is_beyond_reach else "",
+        **{column: (control or {}).get(name, "") for name, column in STAND_INS.items()},
+    }
 
 
-def verdicts_of(found: ClaimNumbers, ranges: Ranges) -> tuple[str, str, str]:
+def claims_frame(rows: Sequence[Mapping[str, Any]]) -> pd.DataFrame:
+    """Return claims, each as `judged` returns it, as a frame; a number that is missing is NaN."""
+    table = pd.DataFrame(rows)
+    return table.astype(dict.fromkeys(REALS, float))
+
+
+def _ends(names: Sequence[str], values: Sequence[float | None]) -> dict[str, float | None]:
+    """Return values in columns of these names."""
+    return dict(zip(names, values, strict=True))
+
+
+def cause_of(claim: Claim, numbers: ClaimNumbers, ranges: Ranges) -> str:
+    """Return why a claim that fails is not reproduced, as far as a number says: it would not fail without its cause."""
+    if claim.cause is None or numbers.without is None or not is_within(numbers.without, shown_range(ranges)):
+        return ""
+    without = " ".join(numbers.without.texts()) + unit_text(numbers.ours.unit)
+    seen = "after" if claim.cause.seen else "before"
+    return f"{claim.cause.says}: {without} without it (named {claim.cause.since}, {seen} results had been seen)."
+
+
+def other_reading(claim: Claim, numbers: ClaimNumbers, ranges: Ranges) -> str:
+    """Return our number by the other reading of the paper and what its verdict would be; it counts nowhere."""
+    if claim.other is None or numbers.other is None or numbers.other.ours.value is None:
+        return ""
+    _, _, verdict = verdicts_of(numbers.other, ranges)
+    number = " ".join(numbers.other.ours.texts()).strip()
+    return f"With {claim.other.says}: {number}{unit_text(numbers.ours.unit)}, {verdict}."
+
+
+def remark_of(claim: Claim, verdict: str, cause: str, efforts: Sequence[Effort], weaknesses: Sequence[str]) -> str:
+    """Return what stands below a claim: the cause of one that fails, if one is found, or what decides an open one.
+
+    Below a description stands why it is not counted. It is empty where nothing is open and nothing fails.
+    """
+    if verdict == NOT_MEASURED:
+        return TO_MEASURE
+    if claim.described:
+        return NOT_JUDGED.format(claim.described)
+    if verdict == DESCRIPTION:
+        return NOT_COUNTED.format("; ".join(weaknesses))
+    if verdict in (NOT_REPRODUCED, SIGN_ONLY):
+        return f"Cause: {cause}" if cause else NO_CAUSE
+    return text_of(efforts, claim.decided_at)
+
+
+def bounds_of(row: Mapping[Any, Any]) -> Bounds:
+    """Return the range of a judged claim that pictures and tables show [its unit]."""
+    low, high = (None if is_missing(row[name]) else row[name] for name in SHOWN_RANGE)
+    return low, high
+
+
+def unit_text(unit: str) -> str:
+    """Return a unit behind a number; nothing where there is none."""
+    return "" if unit == "-" else f" {unit}"
+
+
+def verdicts_of(numbers: ClaimNumbers, ranges: Ranges) -> tuple[str, str, str]:
     """Return the verdict on the size, that on the sign, each empty where there is none, and both as one."""
-    if found.ours.value is None:
+    if numbers.ours.value is None:
         return "", "", NOT_MEASURED
-    size = _word(found.ours, ranges.size, (INSIDE, OUTSIDE)) if ranges.size else ""
-    sign = _word(found.signed, ranges.sign, (SAME, OPPOSITE)) if ranges.sign else ""
+    size = _verdict(numbers.ours, ranges.size, (INSIDE, OUTSIDE)) if ranges.size else ""
+    sign = _verdict(numbers.signed, ranges.sign, (SAME, OPPOSITE)) if ranges.sign else ""
     return size, sign, verdict_of(size, sign)
 
 
-def _word(number: Number, bounds: Bounds, words: tuple[str, str]) -> str:
+def _verdict(number: Number, bounds: Bounds, words: tuple[str, str]) -> str:
     """Return the first word for a number within a range [its unit], the second one for one apart from it, or `OPEN`."""
     return {"inside": words[0], "outside": words[1], "open": OPEN}[verdict_on(number, bounds)]
 
@@ -240,10 +289,10 @@ def made_number(made: MadeNumber, results: Evidence, statistics: Statistics, uni
         if made.quantity == "difference":
             return difference_of(entries[0], entries[1], unit)
     cells = [results.grids(cell) for cell in made.cells]
-    held = [cell for cell in cells if cell is not None]
-    if len(held) < len(cells):
+    measured = [cell for cell in cells if cell is not None]
+    if len(measured) < len(cells):
         return Number(None, unit=unit)
-    return QUANTITIES[made.quantity](held, statistics, unit)
+    return QUANTITIES[made.quantity](measured, statistics, unit)
 
 
 def score_of(claim: Claim, methods: Mapping[str, Method]) -> str:

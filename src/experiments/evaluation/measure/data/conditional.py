@@ -36,14 +36,14 @@ class Cells:
 
     def of(self, conditions: NDArray[Any]) -> NDArray[np.intp]:
         """Return the number of the cell (n,) of each sample's conditions (n, k), -1 where it is in none."""
-        found = np.zeros(len(conditions), dtype=np.intp)
+        number = np.zeros(len(conditions), dtype=np.intp)
         inside = np.ones(len(conditions), dtype=bool)
         for edge, values in zip(self.edges, conditions.T, strict=True):
             place = np.searchsorted(edge, values, side="right") - 1
             place[values == edge[-1]] = len(edge) - 2
             inside &= (place >= 0) & (place < len(edge) - 1)
-            found = found * (len(edge) - 1) + place
-        return np.where(inside, found, -1)
+            number = number * (len(edge) - 1) + place
+        return np.where(inside, number, -1)
 
 
 @dataclass(frozen=True)

@@ -115,11 +115,11 @@ def training_rows(
 
 def without_part(sets: Samples, part: int, parts: int) -> list[NDArray[Any]]:
     """Return the samples (n, n_in) of each set without one of so many equal stretches of time."""
-    found: list[NDArray[Any]] = []
+    parts_left: list[NDArray[Any]] = []
     for array in sets:
         edges = np.linspace(0, len(array), parts + 1).astype(int)
-        found.append(np.delete(array, slice(edges[part], edges[part + 1]), axis=0))
-    return found
+        parts_left.append(np.delete(array, slice(edges[part], edges[part + 1]), axis=0))
+    return parts_left
 
 
 def with_interval(row: Row, left_out: Sequence[Sequence[Row]], statistics: Statistics) -> Row:
@@ -194,18 +194,18 @@ def conditional(
     The samples (n, n_in) have these names of inputs (n_in,). Cells of position and velocity lie between the rarest
     samples of both sets together.
     """
-    found: dict[tuple[str, str], list[TorqueRange]] = {}
+    ranges: dict[tuple[str, str], list[TorqueRange]] = {}
     for condition, joint in product(GIVEN, joints):
         columns, torque = _columns_of(condition, joint, names)
         cells = even_cells([(0.0, 1.0)], [settings.phases])
         if condition != PHASE:
             ends = np.quantile(np.concatenate(samples)[:, columns], settings.cell_range, axis=0)
             cells = even_cells(list(zip(*ends.tolist(), strict=True)), [settings.state_cells] * len(columns))
-        found[condition, joint] = [
+        ranges[condition, joint] = [
             torque_range(cells, array[:, columns], array[:, torque], settings.range, settings.cell_samples)
             for array in samples
         ]
-    return found
+    return ranges
 
 
 def widths(ranges: Ranges) -> Iterator[Row]:
@@ -214,7 +214,7 @@ def widths(ranges: Ranges) -> Iterator[Row]:
         known: dict[str, list[float]] = {}
         for (given, joint), both in ranges.items():
             if given == condition:
-                known[joint] = [one.width for one in both]
+                known[joint] = [torques.width for torques in both]
         for joint, (have, lack) in _with_all(known):
             yield row_of("training", "", measure, joint, 0, (have, lack), Number(have / lack))
 
@@ -232,9 +232,11 @@ def beyond(test: CoverageTest, blocks: Blocks, ranges: Ranges, names: Sequence[s
                 continue
             columns, torque = _columns_of(condition, joint, names)
             # A swing or stance that is cut by the end of its segment has no phase.
-            own = samples[np.isfinite(samples[:, columns]).all(axis=1)]
-            if len(own):
-                known[joint] = [float(one.outside(own[:, columns], own[:, torque]).mean()) for one in both]
+            phased = samples[np.isfinite(samples[:, columns]).all(axis=1)]
+            if len(phased):
+                known[joint] = [
+                    float(torques.outside(phased[:, columns], phased[:, torque]).mean()) for torques in both
+                ]
         for joint, pair in _with_all(known):
             yield row_of(test.scenario, test.level, measure, joint, len(blocks), pair, Number(None))
 
@@ -247,10 +249,10 @@ def _columns_of(condition: str, joint: str, names: Sequence[str]) -> tuple[list[
 
 def _with_all(known: Mapping[str, Sequence[float]]) -> Iterator[tuple[str, Sequence[float]]]:
     """Yield the pairs of numbers of joints, with and without exploration, that have them, and last their mean."""
-    found = {joint: pair for joint, pair in known.items() if np.isfinite(pair).all()}
-    yield from found.items()
-    if found:
-        yield ALL, np.mean(list(found.values()), axis=0).tolist()
+    finite = {joint: pair for joint, pair in known.items() if np.isfinite(pair).all()}
+    yield from finite.items()
+    if finite:
+        yield ALL, np.mean(list(finite.values()), axis=0).tolist()
 
 
 def nearest(
@@ -265,7 +267,7 @@ def nearest(
         distances.append([ref.tree.query(block)[0] for block in blocks])
     for measure, share in NEAREST.items():
         # Neighbouring samples are alike: blocks of time, and not samples, take the place of walks in the interval.
-        have, lack = (_quantiles(found, share) for found in distances)
+        have, lack = (_quantiles(of_set, share) for of_set in distances)
         ratio = summarise([have, lack], statistics, RATIO)
         yield row_of(test.scenario, test.level, measure, ALL, len(blocks), (have.mean, lack.mean), ratio)
 

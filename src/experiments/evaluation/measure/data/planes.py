@@ -47,14 +47,14 @@ class Plane:
         for name, share in self.shares.items():
             for i, k in zip(*np.nonzero(share), strict=True):
                 yield "plane", name, self.joint, *map(float, (x[i], x[i + 1], y[k], y[k + 1], share[i, k]))
-        for name, found in self.ranges.items():
-            phases = found.cells.edges[0]
-            for k in np.flatnonzero(np.isfinite(found.low)):
+        for name, torques in self.ranges.items():
+            phases = torques.cells.edges[0]
+            for k in np.flatnonzero(np.isfinite(torques.low)):
                 yield (
                     "phase",
                     name,
                     self.joint,
-                    *map(float, (phases[k], phases[k + 1], found.low[k], found.high[k])),
+                    *map(float, (phases[k], phases[k + 1], torques.low[k], torques.high[k])),
                     None,
                 )
 
@@ -93,8 +93,8 @@ def read_samples(
         array, meta = read_array(stem, names)
         phase = gait_phase(array[:, 0] > FLAG, meta["segments"]).astype(np.float32)
         both = array[:, 1:].reshape(len(array), len(joints), 2)
-        found = np.concatenate([both, np.broadcast_to(phase[:, None, None], (*both.shape[:2], 1))], axis=2)
+        both_and_phase = np.concatenate([both, np.broadcast_to(phase[:, None, None], (*both.shape[:2], 1))], axis=2)
         spans = pushed.spans(stem) if pushed else meta["segments"]
-        arrays += [found[start:end][np.isfinite(phase[start:end])] for start, end in spans]
+        arrays += [both_and_phase[start:end][np.isfinite(phase[start:end])] for start, end in spans]
     together = np.concatenate(arrays)
     return together[evenly(len(together), count)]

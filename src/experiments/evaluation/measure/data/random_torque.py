@@ -60,7 +60,7 @@ def _steps_of(
     """
     joints = layout.limb(limb)
     feet = [foot for foot in FEET if layout.legs.get(foot.removesuffix("_foot")) == limb]
-    found: dict[str, list[tuple[Array, Array]]] = {joint: [] for joint in joints}
+    stepped: dict[str, list[tuple[Array, Array]]] = {joint: [] for joint in joints}
     for stem in stems:
         array, meta = read_array(stem, [*named(DESIRED, joints), *named(RANDOM, joints), *named(SWING, feet)])
         desired, random, swing = np.split(array.astype(np.float64), [len(joints), 2 * len(joints)], axis=1)
@@ -69,8 +69,8 @@ def _steps_of(
         for k, joint in enumerate(joints):
             rows = steps_of(random[:, k], air, meta["segments"], int(lags.max()))
             change = desired[rows[:, None] + lags, k] - desired[rows - 1, k][:, None]
-            found[joint].append((random[rows + SETTLED, k] - random[rows - 1, k], change))
-    for joint, parts in found.items():
+            stepped[joint].append((random[rows + SETTLED, k] - random[rows - 1, k], change))
+    for joint, parts in stepped.items():
         steps, changes = zip(*parts, strict=True)
         yield joint, np.concatenate(steps), np.concatenate(changes)
 

@@ -40,10 +40,10 @@ def read_blocks(
     taken in which it is in the air; with pushes, only samples around them, a block for each push.
     """
     blocks = []
-    own = FEET.index(foot_of(layout, layout.limb(settings.limb)[0]))
+    swing_foot = FEET.index(foot_of(layout, layout.limb(settings.limb)[0]))
     for stem in stems:
         recording = read_sensed(stem, layout)
-        phase = gait_phase(recording.sensed.swing[:, own] > FLAG, recording.segments)
+        phase = gait_phase(recording.sensed.swing[:, swing_foot] > FLAG, recording.segments)
         spans = pushed.spans(stem) if pushed else recording.segments
         for start, end in blocks_of(spans, round(settings.block_s * recording.rate_hz)):
             rows = slice(start, end, settings.every)

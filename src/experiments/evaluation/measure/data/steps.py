@@ -90,12 +90,12 @@ def read_steps(stems: Sequence[Path], layout: JointLayout) -> WalkedSteps:
     Raises:
         DataError: a file or a column is missing, or no step is made.
     """
-    found = [_steps_of(stem, layout) for stem in stems]
+    parts = [_steps_of(stem, layout) for stem in stems]
     steps = WalkedSteps(
-        foot=np.concatenate([one.foot for one in found]),
-        commanded=np.concatenate([one.commanded for one in found]),
-        duration_s=np.concatenate([one.duration_s for one in found]),
-        landed=np.concatenate([one.landed for one in found]),
+        foot=np.concatenate([part.foot for part in parts]),
+        commanded=np.concatenate([part.commanded for part in parts]),
+        duration_s=np.concatenate([part.duration_s for part in parts]),
+        landed=np.concatenate([part.landed for part in parts]),
     )
     if not len(steps):
         raise DataError(f"{', '.join(map(str, stems))}: no step is made in these recordings")

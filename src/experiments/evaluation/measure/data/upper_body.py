@@ -81,9 +81,9 @@ def joint_ranges(
     bounds = np.array([joint.range for joint in robot.joints])
     share = (high - low) / (bounds[:, 1] - bounds[:, 0])
     for limb in LIMBS:
-        own = [robot.layout.actuated.index(joint) for joint in robot.layout.limb(limb)]
-        yield "joint range visited", f"limb {limb}", float(share[own].mean()), "-"
-        for k in own:
+        columns = [robot.layout.actuated.index(joint) for joint in robot.layout.limb(limb)]
+        yield "joint range visited", f"limb {limb}", float(share[columns].mean()), "-"
+        for k in columns:
             joint = robot.layout.actuated[k]
             yield "joint range visited", joint, float(share[k]), "-"
             yield "smallest position", joint, float(low[k]), "rad"

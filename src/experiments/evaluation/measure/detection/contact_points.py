@@ -79,7 +79,7 @@ def contacts_of(
         # The hit leg alone, too: its torques are fewer than the unknowns of a hit above the foot
         # (docs/notes/contact.md).
         finders[leg, True] = ContactLocator.of(contact_numbers(numbers), robot, leg, robot.layout.limb(leg))
-    found: list[dict[str, object]] = []
+    rows: list[dict[str, object]] = []
     for recording in dict.fromkeys(run.recording for run in runs):
         walked = _walked(robot, joints, gain_hz, [run for run in runs if run.recording == recording])
         alarms = _alarms(settings, detections, recording)
@@ -89,8 +89,8 @@ def contacts_of(
             # Files of detectors number the collisions of each leg by themselves.
             alarm = alarms.get((hit.leg, count[hit.leg]))
             if alarm is not None and hit.force.max() >= settings.least_n:
-                found += _found(settings, finders, walked, hit, pushes[hit.name].point or "", alarm)
-    return pd.DataFrame(found, columns=list(CONTACTS)).astype({name: kind for name, (kind, _, _) in CONTACTS.items()})
+                rows += _found(settings, finders, walked, hit, pushes[hit.name].point or "", alarm)
+    return pd.DataFrame(rows, columns=list(CONTACTS)).astype({name: kind for name, (kind, _, _) in CONTACTS.items()})
 
 
 def _alarms(settings: ContactPoints, detections: Detections, recording: Path) -> Alarms:
@@ -140,10 +140,12 @@ def _found(
 
     for title, line in settings.lines.items():
         row = row_after(settings.after_s if line.after_s is None else line.after_s)
-        own = finders[hit.leg, line.alone]
+        locator = finders[hit.leg, line.alone]
         # The base feels the unknown wrench of the ground on the standing foot, too (docs/notes/contact.md), a leg alone
         # does not.
-        contact = own.locate(walked.q[row], *_torques(walked, line, own, finder, row), () if line.alone else standing)
+        contact = locator.locate(
+            walked.q[row], *_torques(walked, line, locator, finder, row), () if line.alone else standing
+        )
         if contact is not None:
             force, angle_deg = _compared(contact.force, walked.force[row])
             said = {"spread_m": contact.spread_m, "force": force, "angle_deg": angle_deg}
@@ -156,16 +158,16 @@ def _found(
 
 
 def _torques(
-    walked: CollisionWalk, line: ContactLine, own: ContactLocator, whole: ContactLocator, row: int
+    walked: CollisionWalk, line: ContactLine, locator: ContactLocator, whole: ContactLocator, row: int
 ) -> tuple[Array, Array]:  # fmt: skip
     """Return the torques of a finder's joints in a row by a line, and the standard deviations of their errors (n,).
 
     Estimates hold the joints of the whole finder.
     """
     estimate = walked.estimates[line.method]
-    columns = [whole.joints.index(joint) for joint in own.joints]
+    columns = [whole.joints.index(joint) for joint in locator.joints]
     if line.std is not None:
-        std = np.array([line.std[own.robot.layout.unit(joint) == "N"] for joint in own.joints])
+        std = np.array([line.std[locator.robot.layout.unit(joint) == "N"] for joint in locator.joints])
     elif estimate.std is not None:
         std = estimate.std[row, columns]
     else:

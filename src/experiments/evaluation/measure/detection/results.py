@@ -29,10 +29,10 @@ def owners(detections: Detections, level: str, levels: Sequence[str]) -> list[st
     Raises:
         DataError: nobody was tried at the level.
     """
-    found = [level] if level in detections else [name for name in detections if name not in levels]
-    if not found:
+    robots = [level] if level in detections else [name for name in detections if name not in levels]
+    if not robots:
         raise DataError(not_accepted("level of detectors", level, detections))
-    return found
+    return robots
 
 
 def read_of_leg(settings: AlarmTable, detections: Detections, name: str) -> pd.DataFrame:
@@ -73,9 +73,9 @@ def with_all(hits: pd.DataFrame) -> pd.DataFrame:
     Both parts have the same cells: a concatenation of others would lose their order.
     """
     cells = [*CELLS, ALL]
-    own = hits.assign(cell=hits["cell"].cat.set_categories(cells))
+    in_cells = hits.assign(cell=hits["cell"].cat.set_categories(cells))
     every = hits.assign(cell=pd.Categorical([ALL] * len(hits), cells))
-    return pd.concat([own, every], ignore_index=True)
+    return pd.concat([in_cells, every], ignore_index=True)
 
 
 def median_of(values: Sequence[float], statistics: Statistics, unit: str) -> Number:
@@ -142,8 +142,8 @@ def found_at(points: pd.DataFrame) -> tuple[list[bool], list[ClusterKey]]:
     """Return whether each collision behind some points is found, and its cluster: all walks of a robot together."""
     flags: list[bool] = []
     places: list[ClusterKey] = []
-    for robot, found, count in points[["robot", "found", "collisions"]].itertuples(index=False):
-        flags += [True] * found + [False] * (count - found)
+    for robot, found_count, count in points[["robot", "found", "collisions"]].itertuples(index=False):
+        flags += [True] * found_count + [False] * (count - found_count)
         places += [ClusterKey(robot, 0)] * count
     return flags, places
 
@@ -152,7 +152,7 @@ def found_at(points: pd.DataFrame) -> tuple[list[bool], list[ClusterKey]]:
 # steepnesses spread evenly on a logarithmic scale, each counts as much as it makes what was found likely. The number is
 # the median over them, and the interval that of the nominal share in their middle. A likeliest law alone would not do:
 # where all collisions above a force are found and none below it, it is as steep as one allows.
-def smallest_force(force: Array, found: Array, settings: SmallestForce, statistics: Statistics) -> Number:
+def smallest_force(force: Array, is_found: Array, settings: SmallestForce, statistics: Statistics) -> Number:
     """Return the force of which a share of collisions is found [N], with its interval.
 
     Forces (n,) [N] are the largest ones of the collisions, found (n,) is 1 or 0. Where the force lies below or above
@@ -164,7 +164,7 @@ def smallest_force(force: Array, found: Array, settings: SmallestForce, statisti
     half, steep = (grid.ravel() for grid in np.meshgrid(halves, steepness, indexing="ij"))
     slope = steep * (np.log(force)[:, None] - np.log(half))
     # The logarithm of a share near 0 or 1 would be lost in rounding if the share came first.
-    likely = -np.logaddexp(0.0, np.where(found[:, None] > 0, -slope, slope)).sum(axis=0)
+    likely = -np.logaddexp(0.0, np.where(is_found[:, None] > 0, -slope, slope)).sum(axis=0)
     wanted = half * (settings.share / (1.0 - settings.share)) ** (1.0 / steep)
     tail = (1.0 - statistics.confidence) / 2.0
     low, value, high = quantiles(wanted, np.exp(likely - likely.max()), (tail, 0.5, 1.0 - tail))
@@ -184,14 +184,14 @@ def half_force(hits: pd.DataFrame, settings: SmallestForce, statistics: Statisti
     """
     of_half = settings.model_copy(update={"share": HALF})
     robots: list[str] = []
-    found: list[Number] = []
-    for robot, own in hits.groupby("robot"):
+    forces: list[Number] = []
+    for robot, of_robot in hits.groupby("robot"):
         robots.append(str(robot))
-        found.append(force_of(own, of_half, statistics))
-    values = [number.value for number in found if number.value is not None]
-    if values and len(values) == len(found):
+        forces.append(force_of(of_robot, of_half, statistics))
+    values = [number.value for number in forces if number.value is not None]
+    if values and len(values) == len(forces):
         return mean_in(values, [ClusterKey(robot, 0) for robot in robots], statistics, "N")
-    without = [number for number in found if number.value is None]
+    without = [number for number in forces if number.value is None]
     most = [number.high for number in without if number.high is not None]
     least = [number.low for number in without if number.low is not None]
     if most:
@@ -203,8 +203,8 @@ def force_of(hits: pd.DataFrame, settings: SmallestForce, statistics: Statistics
     """Return the force of which a share of some hits is found [N], as `smallest_force` does; none of no hit."""
     if hits.empty:
         return Number(None, unit="N")
-    found = hits["found"].to_numpy(np.float64)
-    return smallest_force(hits["force_n"].to_numpy(), found, settings, statistics)
+    is_found = hits["found"].to_numpy(np.float64)
+    return smallest_force(hits["force_n"].to_numpy(), is_found, settings, statistics)
 
 
 def force_text(value: float | None, low: float | None, high: float | None) -> str:

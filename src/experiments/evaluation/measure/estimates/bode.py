@@ -23,7 +23,7 @@ def measure(pair: Pair, scene: Scene, settings: Bode) -> Measures:
     shown = shown_pushes(pair, scene)
     spans = flagged_spans(scene.pushed, pair.spans, 0)
     for k, band_hz in enumerate(settings.bands_hz):
-        found = np.full(len(pair.joints), np.nan, dtype=complex)
+        response = np.full(len(pair.joints), np.nan, dtype=complex)
         for joint, frequencies in scene.asked.lines.items():
             if spans and joint in pair.joints:
                 place = pair.joints.index(joint)
@@ -31,9 +31,9 @@ def measure(pair: Pair, scene: Scene, settings: Bode) -> Measures:
                 signals = shown.push[start:end, place], shown.estimate[start:end, place]
                 # Over the whole injection, lines of other joints and of the gait do not leak into this one
                 # (docs/notes/measures.md).
-                found[place] = transfer(*signals, frequencies[k], pair.rate_hz)
-        yield Measured(GAIN.format(band_hz), np.abs(found))
-        yield Measured(PHASE.format(band_hz), np.angle(found, deg=True))
+                response[place] = transfer(*signals, frequencies[k], pair.rate_hz)
+        yield Measured(GAIN.format(band_hz), np.abs(response))
+        yield Measured(PHASE.format(band_hz), np.angle(response, deg=True))
 
 
 def transfer(injected: NDArray[np.float64], shown: NDArray[np.float64], frequency_hz: float, rate_hz: float) -> complex:

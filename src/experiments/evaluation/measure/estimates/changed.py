@@ -45,6 +45,6 @@ def knowledge(pair: Pair, std: NDArray[np.float32] | None, scene: Scene, share: 
     shares = shares[~np.isnan(shares)]
     if len(shares):
         flagged = shares < settings.least_share
-        found = {FREE: shares.mean(), FLAGGED: flagged.mean(), FLAGS: flagged.sum()}
-        for metric, value in (found | {WATCHED: len(shares) * settings.window_s / HOUR_S}).items():
+        numbers = {FREE: shares.mean(), FLAGGED: flagged.mean(), FLAGS: flagged.sum()}
+        for metric, value in (numbers | {WATCHED: len(shares) * settings.window_s / HOUR_S}).items():
             yield Measured(metric, np.full(count, value), average_only=True)

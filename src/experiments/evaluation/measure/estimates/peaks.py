@@ -37,11 +37,14 @@ def measure(pair: Pair, scene: Scene, settings: Peaks) -> Measures:
     turned = [turned_joints(shown.push[rise], settings.turned_share, motors) for _, rise in windows]
     yield Measured(SHARE, slopes(shown, [around for around, _ in windows], turned))
     for suffix, signal in (("", shown.estimate), (OBSERVER, shown.behind)):
-        found = [delays(shown.push[rise], signal[rise], own) for (_, rise), own in zip(windows, turned, strict=True)]
-        yield Measured(DELAY + suffix, medians(found, len(pair.joints)) * MS / pair.rate_hz)
+        delays_of = [
+            delays(shown.push[rise], signal[rise], is_turned)
+            for (_, rise), is_turned in zip(windows, turned, strict=True)
+        ]
+        yield Measured(DELAY + suffix, medians(delays_of, len(pair.joints)) * MS / pair.rate_hz)
     never: list[Array] = []
-    for (_, rise), own in zip(windows, turned, strict=True):
-        never.append(never_half(shown.push[rise], shown.estimate[rise], own))
+    for (_, rise), is_turned in zip(windows, turned, strict=True):
+        never.append(never_half(shown.push[rise], shown.estimate[rise], is_turned))
     yield Measured(BOUND, np.ceil(medians(never, len(pair.joints))))
 
 
@@ -76,10 +79,10 @@ def slopes(shown: ShownPushes, windows: Sequence[slice], turned: Sequence[NDArra
     follows the push, 0 of one that shows nothing of it, however noisy it is. It is nan of joints that no push turns.
     """
     products, squares = np.zeros((2, shown.push.shape[1]))
-    for rows, own in zip(windows, turned, strict=True):
+    for rows, is_turned in zip(windows, turned, strict=True):
         push, estimate = (scipy.signal.detrend(signal[rows], axis=0) for signal in (shown.behind, shown.estimate))
-        products += own * (push * estimate).sum(axis=0)
-        squares += own * (push * push).sum(axis=0)
+        products += is_turned * (push * estimate).sum(axis=0)
+        squares += is_turned * (push * push).sum(axis=0)
     return np.divide(products, squares, out=np.full(len(squares), np.nan), where=squares > 0.0)
 
 
@@ -120,7 +123,7 @@ def first_above(signal: NDArray[np.float64], level: float) -> Array:
 def medians(rows: list[Array], width: int) -> Array:
     """Return the median over pushes of each joint (width,) [any unit], nan of one that none turned."""
     values = np.array(rows).reshape(-1, width)
-    held = ~np.isnan(values).all(axis=0) if len(values) else np.zeros(width, dtype=bool)
-    found = np.full(width, np.nan)
-    found[held] = np.nanmedian(values[:, held], axis=0)
-    return found
+    is_known = ~np.isnan(values).all(axis=0) if len(values) else np.zeros(width, dtype=bool)
+    median = np.full(width, np.nan)
+    median[is_known] = np.nanmedian(values[:, is_known], axis=0)
+    return median

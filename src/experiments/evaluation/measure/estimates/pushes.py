@@ -44,8 +44,8 @@ def push_numbers(
     errors = [(str(k), [metric]) for k, metric in enumerate(metrics, start=1)]
     asked: list[tuple[str, ...]] = []
     for method in test.methods if metrics else ():
-        for push, own in (*errors, (AVERAGE, metrics), (INCREASE, metrics)):
-            asked += [(method, push, ERROR, test.scenario, test.level, metric) for metric in own]
+        for push, names in (*errors, (AVERAGE, metrics), (INCREASE, metrics)):
+            asked += [(method, push, ERROR, test.scenario, test.level, metric) for metric in names]
         # The last of these cells is subtracted.
         asked.append((method, INCREASE, ERROR, against.scenario, against.level, ERROR))
         for metric in (SHARE, DELAY, DELAY + OBSERVER):
@@ -56,9 +56,9 @@ def push_numbers(
     row = cells.groupby(place, sort=False).ngroup()
     runs = runs_of(scores, cells.assign(row=row), may_lack=True)
 
-    def law(own: pd.DataFrame) -> Number:
-        formula = INCREASED if own["push"].iloc[0] == INCREASE else MEAN
-        return number_of(own, statistics, formula)
+    def law(same: pd.DataFrame) -> Number:
+        formula = INCREASED if same["push"].iloc[0] == INCREASE else MEAN
+        return number_of(same, statistics, formula)
 
     numbers = measured(runs, ["row"], {"": law}).drop(columns="published")
     rows = pd.concat([cells[place].drop_duplicates(ignore_index=True), numbers], axis=1)
@@ -69,8 +69,8 @@ def push_numbers(
 
 def push_metrics(scores: pd.DataFrame, scenario: str) -> list[str]:
     """Return the names of the errors of single pushes that a scenario was scored for, in order."""
-    found = set(rows_of(scores, scenario=scenario)["metric"])
-    return [PUSH.format(k) for k in range(1, len(found) + 1) if PUSH.format(k) in found]
+    scored = set(rows_of(scores, scenario=scenario)["metric"])
+    return [PUSH.format(k) for k in range(1, len(scored) + 1) if PUSH.format(k) in scored]
 
 
 def read_pushes(

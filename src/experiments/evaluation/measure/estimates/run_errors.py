@@ -22,7 +22,7 @@ def measure(pair: Pair, scene: Scene) -> Measures:
         yield Measured(ERROR + LABELLED, rmse(pair.estimate, pair.label, pair.spans))
     window = scene.asked.window
     windows = push_windows(scene.stem, len(raw), window.before_s, window.after_s) if window else ()
-    pushes = {PUSHED: windows, **{PUSH.format(k): (one,) for k, one in enumerate(windows, start=1)}}
+    pushes = {PUSHED: windows, **{PUSH.format(k): (around,) for k, around in enumerate(windows, start=1)}}
     for metric, spans in pushes.items() if windows else ():
         for ending, truth in (("", pair.truth), (RAW, raw)):
             yield Measured(metric + ending, rmse(pair.estimate, truth, spans))

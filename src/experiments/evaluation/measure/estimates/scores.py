@@ -53,8 +53,8 @@ def measure_problems(settings: Settings) -> Iterator[tuple[Place, str]]:
         try:
             numbers_of(name, measure)
         except ValidationError as error:
-            found = problems(error, module_of(name).Options, measure.options)
-            yield from (((*place, "options", *inner), text) for inner, text in found)
+            faults = problems(error, module_of(name).Options, measure.options)
+            yield from (((*place, "options", *inner), text) for inner, text in faults)
 
 
 def score(layout: JointLayout, runs: Sequence[Run], asked: Scoring, out: Path) -> None:
@@ -68,9 +68,9 @@ def score(layout: JointLayout, runs: Sequence[Run], asked: Scoring, out: Path) -
     count = len({run.recording for run in runs})
     # Recording by recording, so that the columns of each are read once and not by every method again.
     by_recording = groupby(sorted(runs, key=lambda run: str(run.recording)), lambda run: run.recording)
-    for number, (recording, own) in enumerate(by_recording, start=1):
+    for number, (recording, runs_on_it) in enumerate(by_recording, start=1):
         scene = Scene(recording, layout, asked)
-        for run in own:
+        for run in runs_on_it:
             rows += score_run(run, scene)
         log.info("%d of %d recordings scored", number, count)
     write_csv(out, SCORES, [astuple(row) for row in rows])
@@ -94,7 +94,7 @@ def score_run(run: Run, scene: Scene) -> list[Score]:
 def late_errors(pair: Pair, scene: Scene) -> tuple[Pair, Measures]:
     """Return a run with its estimate half a walk late, and its errors; what is no error knows nothing of time."""
     late = replace(pair, estimate=np.roll(pair.estimate, len(pair.estimate) // 2, axis=0))
-    errors = (one for one in run_errors.measure(late, scene) if one.metric.startswith(run_errors.ERROR))
+    errors = (error for error in run_errors.measure(late, scene) if error.metric.startswith(run_errors.ERROR))
     return late, errors
 
 

@@ -42,7 +42,7 @@ def spreads(pair: Pair, std: NDArray[np.float32] | None, masks: Masks, share: fl
     inside = np.repeat(rows_in(pair.spans, len(error))[:, None], error.shape[1], axis=1)
     covered = (np.abs(ratio) <= half_width(share)).astype(np.float64)
     sigma = std.astype(np.float64)
-    for name, mask in {"": inside, **{f"_{name}": held for name, held in masks.items()}}.items():
+    for name, mask in {"": inside, **{f"_{name}": mask_of for name, mask_of in masks.items()}}.items():
         yield Measured(STD + name, masked_mean(sigma, mask))
         yield Measured(COVER + name, masked_mean(covered, mask))
     rank = ranks(std, inside, settings.parts)
@@ -60,8 +60,8 @@ def spreads(pair: Pair, std: NDArray[np.float32] | None, masks: Masks, share: fl
 def ranks(std: NDArray[np.float32], inside: NDArray[np.bool_], count: int) -> NDArray[np.intp]:
     """Return in which of equally large parts, by the size of each joint's std (T, n), a sample lies; -1 outside."""
     edges = np.quantile(std[inside.all(axis=1)], np.arange(1, count) / count, axis=0)
-    found = np.stack([np.searchsorted(cuts, column) for cuts, column in zip(edges.T, std.T, strict=True)], axis=1)
-    return np.where(inside, found, -1)
+    part = np.stack([np.searchsorted(cuts, column) for cuts, column in zip(edges.T, std.T, strict=True)], axis=1)
+    return np.where(inside, part, -1)
 
 
 def autocorrelation(signal: NDArray[np.float64], spans: Spans, longest: int) -> Array:

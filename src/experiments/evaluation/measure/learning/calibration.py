@@ -4,22 +4,24 @@ Held-out rows come from the trainings' own notes: there, the factors are fitted 
 and tested on the second half. In tests the factors are those that were fitted to all validation data.
 """
 
+# pandas has no complete types, which the strict rules of this folder ask for.
+# pyright: standard
+
 import logging
-from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 
 from experiments.evaluation.compare.pair import read_pair, read_std
 from experiments.evaluation.compare.rmse import Spans, parts
 from experiments.evaluation.compare.windows import pushed_of
 from experiments.evaluation.measure.learning.trainings import NotedCalibration, read_training_note
-from experiments.evaluation.number.scored import robots_of
+from experiments.evaluation.number.frames import TRUSTED, typed
+from experiments.evaluation.number.scored import AVERAGE
 from experiments.plan.runs import Run
 from experiments.settings.measures import CalibrationTest, Coverage
-from mobnet.core.arrays import Array
 from mobnet.core.columns import STD
 from mobnet.core.errors import DataError
 from mobnet.core.files import RUN
@@ -30,76 +32,61 @@ from mobnet.learning.calibration import Fit, fit_of
 
 log = logging.getLogger(__name__)
 
-Key = tuple[str, str, str]  # method, limb, unit of its torques
 VALIDATION = "validation"  # name of held-out data where other rows have the name of a test
 STAGES = ("before", "after")  # of the scaling; also keys of a training's note
+COVERAGE, NLL, CRPS = "coverage", "nll", "crps"
+CASE = ["scenario", "level", "pushed", "method", "limb", "unit"]  # columns of `TRUSTED`: what a number is of
 
 
-@dataclass(frozen=True)
-class CoverageGrid:
-    """Measures of one limb of a method in one test, or in VALIDATION, at one level.
-
-    Where only samples around pushes count, `pushed` is the joint that is pushed, else it is empty. Values are means
-    over the limb's joints (networks, tests, 2, k + 2), uncalibrated and calibrated: coverage of k nominal shares,
-    negative log-likelihood [nats] and CRPS [unit]. `robots` has the seed of each network's robot, where these are
-    robots.
-    """
-
-    test: str
-    level: str
-    pushed: str
-    method: str
-    limb: str
-    unit: str
-    values: Array
-    robots: tuple[int, ...] = ()
-
-    @property
-    def case(self) -> str:
-        """Name of the test in table and figure."""
-        parts = self.test, self.level if self.test == VALIDATION else "", "pushed" if self.pushed else ""
-        return ", ".join(part.replace("_", " ") for part in parts if part)
+def case_of(scenario: str, level: str, pushed: str) -> str:
+    """Return the name of a case in table and figure: of a test, or of held-out data by level."""
+    words = scenario, level if scenario == VALIDATION else "", "pushed" if pushed else ""
+    return ", ".join(word.replace("_", " ") for word in words if word)
 
 
 def limb_columns(layout: JointLayout, joints: Sequence[str]) -> dict[tuple[str, str], list[int]]:
     """Return (limb, unit) -> columns of those of some joints (n,) that are its; the virtual joints have two units."""
-    found: dict[tuple[str, str], list[int]] = {}
+    columns: dict[tuple[str, str], list[int]] = {}
     for limb, members in layout.groups.items():
         for joint in members:
             if joint in joints:
-                found.setdefault((limb, layout.unit(joint)), []).append(list(joints).index(joint))
-    return found
+                columns.setdefault((limb, layout.unit(joint)), []).append(list(joints).index(joint))
+    return columns
 
 
-def numbers_of(fit: Fit, columns: Sequence[int]) -> Array:
-    """Return coverage, likelihood [nats] and CRPS [N m], means over some joints, in one row (k + 2,)."""
-    return np.array([*fit.coverage[:, columns].mean(axis=1), fit.nll[columns].mean(), fit.crps[columns].mean()])
+def measures_of(fits: Sequence[Fit], columns: Sequence[int], shares: Sequence[float]) -> Iterator[dict[str, object]]:
+    """Yield the measures of a limb, means over some joints: `stage`, `metric`, `share` and `value`, columns `TRUSTED`.
+
+    The fits are those of the `STAGES`, the shares (k,) those whose coverage they have.
+    """
+    for stage, fit in zip(STAGES, fits, strict=True):
+        for share, contained in zip(shares, fit.coverage[:, columns].mean(axis=1), strict=True):
+            yield {"stage": stage, "metric": COVERAGE, "share": share, "value": float(contained)}
+        yield {"stage": stage, "metric": NLL, "value": float(fit.nll[columns].mean())}
+        yield {"stage": stage, "metric": CRPS, "value": float(fit.crps[columns].mean())}
 
 
-def held_out(layout: JointLayout, folders: Mapping[str, Sequence[Path]], shares: Sequence[float]) -> list[CoverageGrid]:
-    """Return what trainings noted of their validation data, (networks, 1, 2, k + 2), those that diverged left out.
+def held_out(layout: JointLayout, folders: Mapping[str, Sequence[Path]], shares: Sequence[float]) -> pd.DataFrame:
+    """Return what trainings noted of their validation data, those that diverged left out: columns `TRUSTED`.
 
-    The trained networks are given by the level that they learned at.
+    The trained networks are given by the level that they learned at. Held-out data take the place of a single test.
 
     Raises:
         DataError: a note is missing, or has the coverage of other nominal shares than these (k,).
     """
-    found: dict[tuple[str, Key], list[Array]] = {}
-    for level, own in folders.items():
-        for folder in own:
+    rows: list[dict[str, object]] = []
+    for level, trained in folders.items():
+        for number, folder in enumerate(trained):
             note = read_training_note(folder)
             if note.diverged:
                 log.info("%s: diverged, left out", folder / RUN)
                 continue
             fits = noted_fits(folder / RUN, note.calibration, shares)
+            place = {"scenario": VALIDATION, "level": level, "pushed": "", "method": note.method}
             for (limb, unit), columns in limb_columns(layout, note.calibration.joints).items():
-                cell = np.array([numbers_of(fit, columns) for fit in fits])
-                found.setdefault((level, (note.method, limb, unit)), []).append(cell)
-    grids: list[CoverageGrid] = []
-    for (level, key), cells in found.items():
-        # Held-out data take the place of a single test.
-        grids.append(CoverageGrid(VALIDATION, level, "", *key, np.array(cells)[:, None]))
-    return grids
+                of = {**place, "limb": limb, "joint": AVERAGE, "unit": unit, "network_seed": number, "test_seed": 0}
+                rows += [{**of, **measure} for measure in measures_of(fits, columns, shares)]
+    return in_cases(typed(rows, TRUSTED))
 
 
 def noted_fits(path: Path, noted: NotedCalibration, shares: Sequence[float]) -> list[Fit]:
@@ -112,8 +99,8 @@ def noted_fits(path: Path, noted: NotedCalibration, shares: Sequence[float]) -> 
         raise DataError(f"{path}: coverage of shares {noted.shares}, but {list(shares)} are asked for")
     fits: list[Fit] = []
     for stage in STAGES:
-        own = getattr(noted, stage)
-        coverage, nll, crps = (np.array(values, dtype=np.float64) for values in (own.coverage, own.nll, own.crps))
+        fit = getattr(noted, stage)
+        coverage, nll, crps = (np.array(values, dtype=np.float64) for values in (fit.coverage, fit.nll, fit.crps))
         fits.append(Fit(coverage, nll, crps))
     return fits
 
@@ -121,33 +108,37 @@ def noted_fits(path: Path, noted: NotedCalibration, shares: Sequence[float]) -> 
 def in_tests(
     layout: JointLayout, coverage: Coverage, tests: Sequence[CalibrationTest], runs: Sequence[Sequence[Run]],
     shares: Sequence[float],
-) -> list[CoverageGrid]:  # fmt: skip
-    """Return what the runs of each test show of their standard deviations, (networks, tests, 2, k + 2) each.
+) -> pd.DataFrame:  # fmt: skip
+    """Return what the runs of each test show of their standard deviations: columns `TRUSTED`.
 
     The shares (k,) are nominal; the section of coverage says what counts as a push.
     """
-    grids: list[CoverageGrid] = []
-    for test, own in zip(tests, runs, strict=True):
+    rows: list[dict[str, object]] = []
+    for test, runs_of_test in zip(tests, runs, strict=True):
         pushed = pushed_of(test, coverage)
-        cells = defaultdict[Key, dict[tuple[int, int], Array]](dict)
-        for run in own:
+        before = len(rows)
+        for run in runs_of_test:
             spans = pushed.spans(run.recording) if pushed else None
-            for (limb, unit), cell in run_cells(layout, run, spans, shares):
-                if limb in test.limbs:
-                    cells[run.method, limb, unit][run.network_seed, run.test_seed] = cell
-        if not cells:
-            log.warning("%s: no push or no such limb in its %d runs", test.scenario, len(own))
-        head = test.scenario, test.level, test.pushed or ""
-        for key, found in cells.items():
-            robots = robots_of(sorted({network for network, _ in found}))
-            grids.append(CoverageGrid(*head, *key, grid_of(found), robots))
-    return grids
+            seeds = {"network_seed": run.network_seed, "test_seed": run.test_seed}
+            place = {"scenario": test.scenario, "level": test.level, "pushed": test.pushed or "", "method": run.method}
+            for (limb, unit), measures in run_measures(layout, run, spans, shares):
+                of = {**place, **seeds, "limb": limb, "joint": AVERAGE, "unit": unit}
+                rows += [{**of, **measure} for measure in measures if limb in test.limbs]
+        if len(rows) == before:
+            log.warning("%s: no push or no such limb in its %d runs", test.scenario, len(runs_of_test))
+    return in_cases(typed(rows, TRUSTED))
 
 
-def run_cells(
+def in_cases(rows: pd.DataFrame) -> pd.DataFrame:
+    """Return rows with those of a case together, in the order of their first ones; a limb of two units is two cases."""
+    parts = [same for _, same in rows.groupby(CASE, sort=False)]
+    return pd.concat(parts, ignore_index=True) if parts else rows
+
+
+def run_measures(
     layout: JointLayout, run: Run, spans: Spans | None, shares: Sequence[float]
-) -> Iterator[tuple[tuple[str, str], Array]]:
-    """Yield limb and unit, and the measures (2, k + 2) of a run, limb by limb, for nominal shares (k,).
+) -> Iterator[tuple[tuple[str, str], list[dict[str, object]]]]:
+    """Yield limb and unit, and the measures of a run, limb by limb, for nominal shares (k,).
 
     A limb whose network has run under an earlier seed is left out. Of the rows, the stretches `spans` count, or all if
     it is None; if there are no stretches, nothing is yielded.
@@ -167,26 +158,7 @@ def run_cells(
     error, scaled = (np.concatenate(parts(array, spans or pair.spans)) for array in arrays)
     # What is stored is calibrated; without the factors, which validation data gave (docs/notes/sigma.md), it is as
     # learned.
-    fits = [fit_of(error, one, shares) for one in (scaled / factors, scaled)]
-    own = {key: columns for key, columns in limb_columns(layout, pair.joints).items() if key[0] not in run.repeated}
-    for key, columns in own.items():
-        yield key, np.array([numbers_of(fit, columns) for fit in fits])
-
-
-def grid_of(runs: Mapping[tuple[int, int], Array]) -> Array:
-    """Return the cells of runs (network seed, test seed) as one array (networks, tests, ...) [their units].
-
-    Each robot has tests of its own.
-
-    Raises:
-        DataError: a network misses a test.
-    """
-    networks = sorted({network for network, _ in runs})
-    tests = sorted({test for _, test in runs})
-    rows: list[list[Array]] = []
-    for network in networks:
-        rows.append([runs[network, test] for test in tests if (network, test) in runs])
-    expected = len(rows[0]) if robots_of(networks) else len(tests)
-    if any(len(own) != expected for own in rows):
-        raise DataError(f"runs {sorted(runs)}; expected one for each of networks {networks} on tests {tests}")
-    return np.array(rows)
+    fits = [fit_of(error, stds, shares) for stds in (scaled / factors, scaled)]
+    for (limb, unit), columns in limb_columns(layout, pair.joints).items():
+        if limb not in run.repeated:
+            yield (limb, unit), list(measures_of(fits, columns, shares))

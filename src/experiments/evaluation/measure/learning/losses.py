@@ -57,11 +57,11 @@ def runs_of(networks: pd.DataFrame, epochs: pd.DataFrame) -> pd.DataFrame:
 def losses_of(runs: pd.DataFrame, statistics: Statistics) -> pd.DataFrame:
     """Return the mean over runs, as `runs_of` returns them, by method, of each epoch and of the end."""
     methods: Sequence[str] = list(runs["method"].unique())
-    own = ordered(runs, method=methods, measure=list(COURSES.values()))
+    ranked = ordered(runs, method=methods, measure=list(COURSES.values()))
 
     def law(rows: pd.DataFrame) -> Number:
         return over_networks("value", UNITS[rows["measure"].iloc[0]], statistics)(rows)
 
-    losses = measured(own, PLACE, {"mean": law})
-    strides = own.groupby(PLACE, observed=True)["stride"].first().astype("int64")
+    losses = measured(ranked, PLACE, {"mean": law})
+    strides = ranked.groupby(PLACE, observed=True)["stride"].first().astype("int64")
     return losses.merge(strides.reset_index(), how="left", on=PLACE)

@@ -11,15 +11,13 @@ from pathlib import Path
 import numpy as np
 
 from experiments.evaluation.compare.windows import push_windows
-from experiments.evaluation.measure.learning.trials import Known, ObservedWalks
+from experiments.evaluation.measure.learning.trials import ObservedWalks, estimator_of
 from experiments.plan.runs import Tried
 from mobnet.core.arrays import Array
 from mobnet.core.errors import DataError
 from mobnet.core.joints import N_VIRTUAL, NQ_BASE
 from mobnet.core.recording import Sensed, SensedRecording, read_sensed
-from mobnet.estimation.estimate import ObservedRecording, rate_of, run_segments
-from mobnet.estimation.kinds import build_estimator
-from mobnet.estimation.recipe import Recipe
+from mobnet.estimation.estimate import ObservedRecording, run_segments
 from mobnet.robot.description import describe
 
 EVERY = "all inputs"
@@ -29,7 +27,6 @@ GROUPS: dict[str, tuple[str, ...]] = {EVERY: INPUTS, **{name: (name,) for name i
 
 def taken_by_inputs(
     tried: Tried,
-    known: Known,
     hits: ObservedWalks,
     walks: Sequence[tuple[Path, Path]],
     after_s: float,
@@ -44,29 +41,29 @@ def taken_by_inputs(
     Raises:
         DataError: a walk and its twin differ before the first hit.
     """
-    layout = describe(known.robot).layout
+    layout = describe(hits.robot).layout
     place = hits.joints.index(joint)
     spans: list[tuple[int, int]] = []
     for (stem, _), truth in zip(walks, hits.truths, strict=True):
         spans.append(push_windows(stem, len(truth), 0.0, after_s)[0])
     twins: list[Sensed] = []
-    for (stem, other), one, (start, _) in zip(walks, hits.read, spans, strict=True):
+    for (stem, other), read, (start, _) in zip(walks, hits.read, spans, strict=True):
         twin = read_sensed(other, layout).sensed
-        if not np.array_equal(twin.q[:start], one.recording.sensed.q[:start]):
+        if not np.array_equal(twin.q[:start], read.recording.sensed.q[:start]):
             raise DataError(f"{other}: differs from {stem} before the first hit; accepted: the same walk without hits")
         twins.append(twin)
-    without = _predictions(tried, known, hits, twins, spans, joint)
-    found: dict[str, float] = {}
+    without = _predictions(tried, hits, twins, spans, joint)
+    shares: dict[str, float] = {}
     for name, inputs in GROUPS.items():
-        mixed = [mix(twin, one.recording.sensed, inputs) for twin, one in zip(twins, hits.read, strict=True)]
-        predictions = _predictions(tried, known, hits, mixed, spans, joint)
+        mixed = [mix(twin, read.recording.sensed, inputs) for twin, read in zip(twins, hits.read, strict=True)]
+        predictions = _predictions(tried, hits, mixed, spans, joint)
         products = squares = 0.0
-        for own, base, truth, (start, end) in zip(predictions, without, hits.truths, spans, strict=True):
+        for prediction, base, truth, (start, end) in zip(predictions, without, hits.truths, spans, strict=True):
             push = truth[start:end, place]
-            products += float(push @ (own - base)[start:end])
+            products += float(push @ (prediction - base)[start:end])
             squares += float(push @ push)
-        found[name] = products / squares
-    return found
+        shares[name] = products / squares
+    return shares
 
 
 def mix(twin: Sensed, hit: Sensed, inputs: Sequence[str]) -> Sensed:
@@ -92,25 +89,23 @@ def mix(twin: Sensed, hit: Sensed, inputs: Sequence[str]) -> Sensed:
 
 def _predictions(
     tried: Tried,
-    known: Known,
     hits: ObservedWalks,
     sensed: Sequence[Sensed],
     spans: Sequence[tuple[int, int]],
     joint: str,
 ) -> list[Array]:
     """Return what a network predicts of a joint from what was sensed, up to the end of the first hit (T_i,) [N m]."""
-    read: list[ObservedRecording] = []
-    for own, one, (_, end) in zip(sensed, hits.read, spans, strict=True):
-        assert one.residual is not None
-        recording = SensedRecording(own[:end], ((0, end),), one.recording.rate_hz, one.recording.meta)
-        read.append(ObservedRecording(recording, one.residual[:end]))
-    given = known.robot, hits.level.nominal_mass_ratio, known.gravity_m_s2, known.observer
-    estimator = build_estimator(Recipe(tried.name, tried.methods, *given, rate_of(read), tried.networks, tried.fitted))
+    cut: list[ObservedRecording] = []
+    for signals, read, (_, end) in zip(sensed, hits.read, spans, strict=True):
+        assert read.residual is not None
+        recording = SensedRecording(signals[:end], ((0, end),), read.recording.rate_hz, read.recording.meta)
+        cut.append(ObservedRecording(recording, read.residual[:end]))
+    estimator = estimator_of(tried, hits)
     column = estimator.joints.index(joint)
-    whole = describe(known.robot).layout.columns([joint])[0]
-    estimates = run_segments(estimator, read)
-    found: list[Array] = []
-    for estimate, one in zip(estimates, read, strict=True):
-        assert one.residual is not None
-        found.append(one.residual[:, whole].astype(np.float64) - estimate.tau_ext[:, column])
-    return found
+    whole = describe(hits.robot).layout.columns([joint])[0]
+    estimates = run_segments(estimator, cut)
+    predictions: list[Array] = []
+    for estimate, read in zip(estimates, cut, strict=True):
+        assert read.residual is not None
+        predictions.append(read.residual[:, whole].astype(np.float64) - estimate.tau_ext[:, column])
+    return predictions

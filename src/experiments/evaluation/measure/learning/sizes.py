@@ -30,26 +30,26 @@ def sizes_of(sweeps: Sequence[SweptSize], statistics: Statistics) -> pd.DataFram
     for swept in sweeps:
         networks, _ = read_trainings(swept.folders)
         sound = networks[~networks["diverged"]]
-        kept += [(swept, own) for _, own in sound.groupby("method", sort=False)]
-    largest = {swept.base: own for swept, own in sorted(kept, key=_samples) if swept.panel == SAMPLES}
-    rows = [_size_of(swept, own, largest.get(swept.base), statistics) for swept, own in kept]
+        kept += [(swept, of_method) for _, of_method in sound.groupby("method", sort=False)]
+    largest = {swept.base: of_method for swept, of_method in sorted(kept, key=_samples) if swept.panel == SAMPLES}
+    rows = [_size_of(swept, of_method, largest.get(swept.base), statistics) for swept, of_method in kept]
     return pd.DataFrame(sorted(rows, key=lambda row: row[row["panel"]]), columns=list(SIZES))
 
 
-def _samples(one: tuple[SweptSize, pd.DataFrame]) -> int:
-    return one[1]["samples"].iloc[0]
+def _samples(trained: tuple[SweptSize, pd.DataFrame]) -> int:
+    return trained[1]["samples"].iloc[0]
 
 
 def _size_of(
-    swept: SweptSize, own: pd.DataFrame, printed: pd.DataFrame | None, statistics: Statistics
+    swept: SweptSize, networks: pd.DataFrame, printed: pd.DataFrame | None, statistics: Statistics
 ) -> dict[str, Any]:
     """Return one size, a row of `SIZES`, from its networks and those of the printed size, if there are any."""
-    first = own.iloc[0]
-    loss, rmse = extremes(own[["validation_loss", "validation_rmse"]].to_numpy())
+    first = networks.iloc[0]
+    loss, rmse = extremes(networks[["validation_loss", "validation_rmse"]].to_numpy())
     ratio = Number(None)
     if printed is not None:
-        ratio = summarise([_errors(own), _errors(printed)], statistics, RATIO)
-    of = swept.panel, swept.base, first["method"], int(first["parameters"]), int(first["samples"]), len(own)
+        ratio = summarise([_errors(networks), _errors(printed)], statistics, RATIO)
+    of = swept.panel, swept.base, first["method"], int(first["parameters"]), int(first["samples"]), len(networks)
     return dict(zip(SIZES, (*of, *loss.with_ends, *rmse.with_ends, *ratio.with_ends), strict=True))
 
 

@@ -10,7 +10,7 @@ from experiments.evaluation.compare.scene import Scene
 from experiments.evaluation.compare.windows import push_windows
 from experiments.evaluation.measure.estimates.peaks import SHARE
 from experiments.evaluation.measure.estimates.peaks import measure as measure_peaks
-from experiments.evaluation.measure.learning.trials import Known, ObservedWalks, estimates_of
+from experiments.evaluation.measure.learning.trials import ObservedWalks, estimates_of
 from experiments.plan.runs import Run, TaughtRobot, Tried
 from experiments.settings.measures import Peaks
 from mobnet.core.arrays import Array
@@ -22,8 +22,7 @@ WALKING, HITS, SHARE_OF_HIT, ROUGHNESS = "walking", "hits", "share", "roughness"
 def judged(
     scenario: str,
     joint: str,
-    known: Known,
-    own: TaughtRobot,
+    taught: TaughtRobot,
     tried: Tried,
     walks: tuple[ObservedWalks, ObservedWalks],
     peaks: Peaks,
@@ -35,11 +34,11 @@ def judged(
     """
     walk, hits = walks
     place = hits.joints.index(joint)
-    layout = describe(known.robot).layout
+    layout = describe(hits.robot).layout
     columns = layout.columns(walk.joints)
     walking: list[float] = []
     rough: list[float] = []
-    estimates = estimates_of(tried, known, walk)
+    estimates = estimates_of(tried, walk)
     for estimate, truth, read in zip(estimates, walk.truths, walk.read, strict=True):
         segments = read.recording.segments
         walking.append(float(rmse(estimate, truth, segments).mean()))
@@ -48,18 +47,19 @@ def judged(
         rough.append(_change(estimate, segments) / _change(residual, segments))
     errors: list[float] = []
     shares: list[float] = []
-    estimates = estimates_of(tried, known, hits)
+    estimates = estimates_of(tried, hits)
     for k, (estimate, truth) in enumerate(zip(estimates, hits.truths, strict=True)):
-        recording = own.hits.recordings[k]
-        one = hits.read[k].recording
-        window = own.asked.window
+        recording = taught.hits.recordings[k]
+        read = hits.read[k].recording
+        window = taught.asked.window
         assert window is not None  # the plan gives one
         around = push_windows(recording, len(truth), window.before_s, window.after_s)
         errors.append(float(rmse(estimate, truth, around)[place]))
-        run = Run(scenario, "", tried.name, 0, k, recording, own.hits.residuals[k], recording)
-        pair = Pair(run, tuple(hits.joints), estimate, truth, one.segments, one.rate_hz)
-        measured = {one.metric: one.values for one in measure_peaks(pair, Scene(recording, layout, own.asked), peaks)}
-        shares.append(float(measured[SHARE][place]))
+        run = Run(scenario, "", tried.name, 0, k, recording, taught.hits.residuals[k], recording)
+        pair = Pair(run, tuple(hits.joints), estimate, truth, read.segments, read.rate_hz)
+        measured = measure_peaks(pair, Scene(recording, layout, taught.asked), peaks)
+        values = {each.metric: each.values for each in measured}
+        shares.append(float(values[SHARE][place]))
     return {
         WALKING: np.array(walking),
         HITS: np.array(errors),

@@ -14,7 +14,7 @@ import numpy as np
 import pandas as pd
 from pydantic import Field
 
-from experiments.evaluation.number.frames import NETWORKS, TRAININGS, Schema
+from experiments.evaluation.number.frames import NETWORKS, TRAININGS, typed
 from experiments.evaluation.number.laws import Law
 from experiments.evaluation.number.number import Number
 from experiments.evaluation.number.rows import read_scores
@@ -228,9 +228,9 @@ def _disagreements(note: TrainingNote, epochs: Sequence[Epoch]) -> Iterator[str]
         yield _apart(f"epoch of the smallest {note.chosen_by}", kept and kept.epoch, noted)
     for name in ("validation_loss", "validation_rmse") if note.best and kept and noted == kept.epoch else ():
         said = getattr(note.best, name)
-        found = getattr(kept, name)
-        if said is not None and not isclose(said, found, rel_tol=DIGITS):
-            yield _apart(f"{name} of epoch {noted}", found, said)
+        written = getattr(kept, name)
+        if said is not None and not isclose(said, written, rel_tol=DIGITS):
+            yield _apart(f"{name} of epoch {noted}", written, said)
 
 
 def _errors_apart(note: TrainingNote, epochs: Sequence[Epoch], errors: Mapping[str, Sequence[float]]) -> Iterator[str]:
@@ -238,17 +238,17 @@ def _errors_apart(note: TrainingNote, epochs: Sequence[Epoch], errors: Mapping[s
     joints = note.calibration.joints
     if errors and list(errors) != list(joints):
         yield _apart("joints with errors", ", ".join(errors), ", ".join(joints))
-    for epoch, own in zip(epochs, zip(*errors.values(), strict=True), strict=False):
-        if not isclose(fmean(own), epoch.validation_rmse, rel_tol=DIGITS):
+    for epoch, errors_of_joints in zip(epochs, zip(*errors.values(), strict=True), strict=False):
+        if not isclose(fmean(errors_of_joints), epoch.validation_rmse, rel_tol=DIGITS):
             yield f"validation_rmse of epoch {epoch.epoch}: " + not_accepted(
-                METRICS, epoch.validation_rmse, [f"the mean over the joints, {fmean(own):.6g}"]
+                METRICS, epoch.validation_rmse, [f"the mean over the joints, {fmean(errors_of_joints):.6g}"]
             )
             return
 
 
-def _apart(what: str, found: object, said: object) -> str:
+def _apart(what: str, written: object, said: object) -> str:
     """Return the message that the two files of a training differ; which of them is wrong nobody can tell."""
-    return f"{what}: {found} in {METRICS} and {said} in {RUN} are not accepted; accepted: the same in both"
+    return f"{what}: {written} in {METRICS} and {said} in {RUN} are not accepted; accepted: the same in both"
 
 
 def _calibration_faults(noted: NotedCalibration) -> Iterator[str]:
@@ -283,29 +283,23 @@ def read_trainings(folders: Iterable[Path]) -> tuple[pd.DataFrame, pd.DataFrame]
     epochs: list[dict[str, Any]] = []
     for folder in folders:
         training = read_training(folder)
-        own = {name: getattr(training, name) for name in NETWORKS if hasattr(training, name)}
+        row = {name: getattr(training, name) for name in NETWORKS if hasattr(training, name)}
         if training.epochs:
             kept, last = training.kept, training.last
-            own |= {name: getattr(kept, name) for name in ("stride", "validation_loss", "validation_rmse")}
-            own |= {f"last_{name}": getattr(last, name) for name in ("train_loss", "validation_loss")}
-        networks.append(own)
-        epochs += [{**own, **vars(epoch)} for epoch in training.epochs]
+            row |= {name: getattr(kept, name) for name in ("stride", "validation_loss", "validation_rmse")}
+            row |= {f"last_{name}": getattr(last, name) for name in ("train_loss", "validation_loss")}
+        networks.append(row)
+        epochs += [{**row, **vars(epoch)} for epoch in training.epochs]
     return typed(networks, NETWORKS), typed(epochs, TRAININGS)
-
-
-def typed(rows: Sequence[Mapping[str, Any]], schema: Schema) -> pd.DataFrame:
-    """Return rows as a frame with the columns of a schema; what a row lacks is missing."""
-    columns = {name: [row.get(name) for row in rows] for name in schema}
-    return pd.DataFrame({name: pd.Series(columns[name], dtype=kind) for name, (kind, _, _) in schema.items()})
 
 
 def over_networks(column: str, unit: str, statistics: Statistics) -> Law:
     """Return the law of the mean of a column [unit] of networks, each on one walk; there is none without a network."""
 
-    def law(own: pd.DataFrame) -> Number:
-        if own.empty:
+    def law(networks: pd.DataFrame) -> Number:
+        if networks.empty:
             return Number(None, unit=unit)
-        return summarise([RunGrid(own[[column]].to_numpy(dtype=np.float64))], statistics, unit=unit)
+        return summarise([RunGrid(networks[[column]].to_numpy(dtype=np.float64))], statistics, unit=unit)
 
     return law
 

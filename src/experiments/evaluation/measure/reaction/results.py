@@ -103,8 +103,8 @@ def outcome_laws(statistics: Statistics) -> Mapping[str, Law]:
 
 def outcome_of(trials: pd.DataFrame, settings: Safety, statistics: Statistics) -> dict[str, Number]:
     """Return measure -> what came of some trials; intervals are over robots and walks."""
-    own = with_measures(trials, settings)
-    return {name: law(own) for name, law in outcome_laws(statistics).items()}
+    rows = with_measures(trials, settings)
+    return {name: law(rows) for name, law in outcome_laws(statistics).items()}
 
 
 def with_walked(trials: pd.DataFrame) -> pd.DataFrame:
@@ -124,7 +124,9 @@ def walked_laws(statistics: Statistics) -> Mapping[str, Law]:
     """Return what happens in free walks -> its law: events in an hour [1/h], and means of the walks."""
 
     def rate(event: str) -> Law:
-        return lambda own: rate_in(own[event].astype(int).tolist(), own["hours"].tolist(), clusters(own), statistics)
+        return lambda rows: rate_in(
+            rows[event].astype(int).tolist(), rows["hours"].tolist(), clusters(rows), statistics
+        )
 
     rates = {event: rate(event) for event in (FALLEN, REACTED)}
     units = {VELOCITY: "mm/s", TRACKING: "mrad", POWER: "W"}

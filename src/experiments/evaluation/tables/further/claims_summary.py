@@ -62,8 +62,8 @@ def claims_summary(claims_csv: Path, table_dir: Path) -> None:
     rows = read_texts(claims_csv, USED)
     counts: dict[tuple[str, str], tuple[int, int, int]] = {}
     for score in (*SCORED, PAPER):
-        for name, found in outcomes_of(rows, score).items():
-            counts[score, name] = found
+        for name, numbers in outcomes_of(rows, score).items():
+            counts[score, name] = numbers
     records = [(*place, *numbers) for place, numbers in counts.items()]
     lines: list[Line] = []
     for name in VERDICTS:
@@ -108,11 +108,11 @@ def outcomes_of(rows: Sequence[Row], score: str) -> dict[str, tuple[int, int, in
     prints a number of beside an interval of ours, and those whose interval holds this number or whose own number is
     near it. A statement fails with a cause if each of its claims that fail has one.
     """
-    own = [row for row in rows if is_of(row, score)]
+    of_score = [row for row in rows if is_of(row, score)]
     by_statement: dict[str, list[Row]] = {}
-    for row in own:
+    for row in of_score:
         by_statement.setdefault(row["statement"], []).append(row)
-    held = list(by_statement.values())
+    by_name = list(by_statement.values())
     statements = Counter[str]()
     still_open: set[str] = set()
     for name, of_statement in by_statement.items():
@@ -120,34 +120,34 @@ def outcomes_of(rows: Sequence[Row], score: str) -> dict[str, tuple[int, int, in
         statements[verdict] += 1
         if verdict == OPEN:
             still_open.add(name)
-    firsts = Counter(claims[0]["verdict"] for claims in held)
-    claims = Counter(row["verdict"] for row in own)
-    found = {verdict: (statements[verdict], firsts[verdict], claims[verdict]) for verdict in VERDICTS}
-    found[ALL] = (len(held), len(held), len(own))
-    printed = [row for row in own if row["published"] and row["low"] and row["high"]]
+    firsts = Counter(claims[0]["verdict"] for claims in by_name)
+    claims = Counter(row["verdict"] for row in of_score)
+    counts = {verdict: (statements[verdict], firsts[verdict], claims[verdict]) for verdict in VERDICTS}
+    counts[ALL] = (len(by_name), len(by_name), len(of_score))
+    printed = [row for row in of_score if row["published"] and row["low"] and row["high"]]
     selected = {
-        UNEXPLAINED: [row for row in own if row["verdict"] in (NOT_REPRODUCED, SIGN_ONLY) and not row["cause"]],
-        BEYOND: [row for row in own if row["statement"] in still_open and row["beyond_reach"]],
+        UNEXPLAINED: [row for row in of_score if row["verdict"] in (NOT_REPRODUCED, SIGN_ONLY) and not row["cause"]],
+        BEYOND: [row for row in of_score if row["statement"] in still_open and row["beyond_reach"]],
         PRINTED: printed,
         HELD: [row for row in printed if is_held(row)],
         NEAR: [row for row in printed if is_near(row)],
     }
     for kind, words in (("size", SIZE_VERDICTS), ("sign", SIGN_VERDICTS)):
         for word in words:
-            selected[f"{kind} {word}"] = [row for row in own if row[kind] == word]
-    first = {claims[0]["statement"]: claims[0] for claims in held}
+            selected[f"{kind} {word}"] = [row for row in of_score if row[kind] == word]
+    first = {claims[0]["statement"]: claims[0] for claims in by_name}
     for name, column in STAND_INS.items():
-        selected[JUDGED_WITH.format(name)] = [row for row in own if row[column]]
-        selected[REPRODUCED_WITH.format(name)] = [row for row in own if row[column] == REPRODUCED]
+        selected[JUDGED_WITH.format(name)] = [row for row in of_score if row[column]]
+        selected[REPRODUCED_WITH.format(name)] = [row for row in of_score if row[column] == REPRODUCED]
     for name, some in selected.items():
         begun = [row for row in some if first[row["statement"]] is row]
-        found[name] = (len({row["statement"] for row in some}), len(begun), len(some))
+        counts[name] = (len({row["statement"] for row in some}), len(begun), len(some))
     for name, column in STAND_INS.items():
         # As for a network, all claims of a statement have to be reproduced.
-        whole = sum(all(row[column] == REPRODUCED for row in claims) for claims in held)
-        _, firsts, single = found[REPRODUCED_WITH.format(name)]
-        found[REPRODUCED_WITH.format(name)] = (whole, firsts, single)
-    return found
+        whole = sum(all(row[column] == REPRODUCED for row in claims) for claims in by_name)
+        _, firsts, single = counts[REPRODUCED_WITH.format(name)]
+        counts[REPRODUCED_WITH.format(name)] = (whole, firsts, single)
+    return counts
 
 
 def is_of(row: Row, score: str) -> bool:

@@ -1,16 +1,21 @@
 """Table of the paper's claims, judged against their bounds."""
 
+# pandas has no complete types, which the strict rules of this folder ask for.
+# pyright: standard
+
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from experiments.evaluation.measure.claims.verdicts import Judged
+import pandas as pd
+
+from experiments.evaluation.measure.claims.verdicts import bounds_of, unit_text
+from experiments.evaluation.number.frames import records_of
+from experiments.evaluation.number.laws import number_from
 from experiments.evaluation.number.number import number_text
-from experiments.evaluation.number.rows import Field
 from experiments.evaluation.tables.layout import GAP, Line, Table, long_table, tex_escape, write_table
-from experiments.intervals.bounds import ANY, range_text
-from experiments.settings.claim_ranges import shown_range
+from experiments.evaluation.tables.look import Row
+from experiments.intervals.bounds import range_text
 from experiments.settings.table_columns import CLAIMS
-from experiments.settings.verdicts import STAND_INS
 
 HEADER = ("Claim", "Printed in", "Paper", "Ours", "{:.0%}", "Claimed", "Size", "Sign", "Verdict")
 # Columns of the Markdown table; in TeX they are lines below the claim.
@@ -19,82 +24,34 @@ CAPTION = r"\claimscaption"  # the paper's
 COLUMNS = r">{\raggedright\arraybackslash}p{.36\linewidth}>{\raggedright\arraybackslash}p{.13\linewidth}rrrllll"
 
 
-def claim_table(judged: Sequence[Judged], confidence: float, table_dir: Path) -> None:
+def claim_table(claims: pd.DataFrame, confidence: float, table_dir: Path) -> None:
     """Write claims.csv, .md and .tex; the TeX file has no rows of single joints.
 
-    `confidence` is that of the intervals, a share [-].
+    The claims are judged; `confidence` is that of the intervals, a share [-].
     """
     header = [text.format(confidence) for text in HEADER]
-    lines = [[*line_of(each), each.remark, each.other] for each in judged]
-    records = [record_of(each) for each in judged]
-    table = Table(CLAIMS, records, [*header, REMARK, OTHER], lines, left=len(header) + 2)
-    shown = [each for each in judged if not each.row.joint]
+    rows = claims.to_dict("records")
+    lines = [[*line_of(row), row["remark"], row["other_reading"]] for row in rows]
+    table = Table(CLAIMS, records_of(claims, CLAIMS), [*header, REMARK, OTHER], lines, left=len(header) + 2)
+    shown = [row for row in rows if not row["joint"]]
     write_table(table_dir / "claims", table, long_table(COLUMNS, CAPTION, header, list(with_remarks(shown))))
 
 
-def record_of(each: Judged) -> tuple[Field, ...]:
-    """Return the row of a claim in claims.csv."""
-    row = each.row
-    claim = each.row.claim
-    ours = each.ours
-    signed = each.found.signed.with_ends if each.ranges.sign else (None, None, None)
-    without = each.found.without.with_ends if each.found.without else (None, None, None)
-    return (
-        row.name,
-        row.statement,
-        each.score,
-        claim.printed,
-        says(each),
-        claim.quantity,
-        ours.published,
-        *ours.with_ends,
-        *ours.spread,
-        ours.unit,
-        *(each.ranges.size or ANY),
-        *signed,
-        *(each.ranges.sign or ANY),
-        each.size,
-        each.sign,
-        each.verdict,
-        *without,
-        each.cause,
-        each.remark,
-        each.other,
-        "yes" if each.is_beyond_reach else "",
-        *(each.control.get(name, "") for name in STAND_INS),
-    )
-
-
-def says(each: Judged) -> str:
-    """Return what a claim says, with its joint where it is about one of several."""
-    text = each.row.claim.says
-    return f"{text.removesuffix('.')}, {each.row.joint}." if each.row.joint else text
-
-
-def line_of(each: Judged) -> list[str]:
+def line_of(row: Row) -> list[str]:
     """Return the texts of a row of the table."""
-    claim = each.row.claim
-    unit = "" if each.ours.unit == "-" else f" {each.ours.unit}"
-    ours = [number_text(claim.published), *each.ours.texts()]
-    return [
-        says(each),
-        claim.printed,
-        *ours,
-        range_text(shown_range(each.ranges)) + unit,
-        each.size,
-        each.sign,
-        each.verdict,
-    ]
+    ours = [number_text(row["published"]), *number_from(row).texts()]
+    bounds = range_text(bounds_of(row)) + unit_text(row["unit"])
+    return [row["says"], row["printed"], *ours, bounds, row["size"], row["sign"], row["verdict"]]
 
 
-def with_remarks(judged: Sequence[Judged]) -> Iterator[Line]:
+def with_remarks(rows: Sequence[Row]) -> Iterator[Line]:
     """Yield the lines of claims, a gap between statements, each followed by lines with what is remarked on it."""
     across = rf"\multicolumn{{{len(HEADER)}}}{{@{{\quad}}p{{.96\linewidth}}}}"
     before = ""
-    for each in judged:
-        if before and each.row.statement != before:
+    for row in rows:
+        if before and row["statement"] != before:
             yield GAP
-        before = each.row.statement
-        yield line_of(each)
-        for text in filter(None, (each.remark, each.other)):
+        before = row["statement"]
+        yield line_of(row)
+        for text in filter(None, (row["remark"], row["other_reading"])):
             yield rf"{across}{{\emph{{{tex_escape(text)}}}}} \\"

@@ -70,9 +70,9 @@ def counts_of(rows: Sequence[Row], judged: Sequence[str]) -> dict[str, tuple[int
     statements: dict[str, list[str]] = {}
     for row, verdict in zip(rows, judged, strict=True):
         statements.setdefault(row["statement"], []).append(verdict)
-    found: dict[str, tuple[int, int, int]] = {}
+    counts: dict[str, tuple[int, int, int]] = {}
     for name in VERDICTS:
         whole = sum(worst(verdicts) == name for verdicts in statements.values())
         firsts = sum(verdicts[0] == name for verdicts in statements.values())
-        found[name] = (whole, firsts, judged.count(name))
-    return found
+        counts[name] = (whole, firsts, judged.count(name))
+    return counts

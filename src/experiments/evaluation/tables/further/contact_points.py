@@ -62,45 +62,45 @@ def contact_points(
     that is expected, the force over the true one less 1 [%] with and without its sign, and the angle between them.
     """
     description = describe(robot)
-    found = contacts_of(settings, contact_point, description, observer.gain_hz, pushes, runs, detections)
-    write_contacts(table_dir / "contact_points", settings, statistics, found)
+    contacts = contacts_of(settings, contact_point, description, observer.gain_hz, pushes, runs, detections)
+    write_contacts(table_dir / "contact_points", settings, statistics, contacts)
 
 
-def write_contacts(stem: Path, settings: ContactPoints, statistics: Statistics, found: pd.DataFrame) -> None:
+def write_contacts(stem: Path, settings: ContactPoints, statistics: Statistics, contacts: pd.DataFrame) -> None:
     """Write the three files of the table from what each line says of each collision."""
-    found = with_quantities(found)
+    contacts = with_quantities(contacts)
     rows: list[dict[str, object]] = []
     for title, cell in product((*settings.lines, NAMED, NOTHING), (*CELLS, ALL)):
         # A line may have no collision of a cell, and has a row of it all the same.
-        own = rows_of(found, line=title) if cell == ALL else rows_of(found, line=title, cell=cell)
+        same = rows_of(contacts, line=title) if cell == ALL else rows_of(contacts, line=title, cell=cell)
         for quantity, unit in QUANTITIES.items():
-            number = median_of(own[quantity].dropna().tolist(), statistics, unit)
+            number = median_of(same[quantity].dropna().tolist(), statistics, unit)
             place = {"detector": title, "cell": cell, "quantity": quantity, "guess": title in (NAMED, NOTHING)}
-            rows.append({**place, **fields_of(number), "count": len(own)})
+            rows.append({**place, **fields_of(number), "count": len(same)})
     table = pd.DataFrame(rows).assign(level=settings.level, leg="+".join(settings.legs), kind=settings.kind)
     look = look_of(statistics)
     # The guesses are of every collision; a line has none of those in which it finds no contact.
-    hit = rows_of(found, line=NOTHING)["cell"]
+    hit = rows_of(contacts, line=NOTHING)["cell"]
     counts = [str((hit == cell).sum()) for cell in CELLS]
     lines: list[Line] = [["collisions", str(len(hit)), "", *counts, "", "", ""], RULE, *lines_of(table, look)]
     write_table(stem, Table(DETECTION, records_of(table, DETECTION), look.header, lines))
 
 
-def with_quantities(found: pd.DataFrame) -> pd.DataFrame:
+def with_quantities(contacts: pd.DataFrame) -> pd.DataFrame:
     """Return CONTACTS with the quantities of the table [cm], [%], [deg]."""
-    errors = found[[*ERRORS]]
+    errors = contacts[[*ERRORS]]
     # Rounded, as a part may be a zero that only rounding errors tell from zero.
     parts = {
         f"{ERROR}_{axis}": (CM * errors[name].abs()).round(DIGITS) for axis, name in zip("xyz", ERRORS, strict=True)
     }
-    return found.assign(
+    return contacts.assign(
         **parts,
         **{
-            ERROR: CM * np.linalg.norm(found[[*ERRORS]], axis=1),
-            SPREAD: CM * found["spread_m"],
-            FORCE: PERCENT * found["force"],
-            SIZE: PERCENT * found["force"].abs(),
-            ANGLE: found["angle_deg"],
+            ERROR: CM * np.linalg.norm(contacts[[*ERRORS]], axis=1),
+            SPREAD: CM * contacts["spread_m"],
+            FORCE: PERCENT * contacts["force"],
+            SIZE: PERCENT * contacts["force"].abs(),
+            ANGLE: contacts["angle_deg"],
         },
     )
 

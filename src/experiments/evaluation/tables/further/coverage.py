@@ -48,10 +48,10 @@ def coverage_lines(compared: pd.DataFrame) -> list[Line]:
     """Return the rows of text, a rule between explorations; shares in %."""
     numbers = (*NEAREST, *WIDTH.values())
     blocks: list[tuple[list[str], list[list[str]]]] = []
-    for (name, scenario, level), own in compared.groupby(["training", "scenario", "level"], sort=False):
+    for (name, scenario, level), same in compared.groupby(["training", "scenario", "level"], sort=False):
         labels = [str(name), str(scenario).replace("_", " "), str(level).replace("_", " ")]
         lines: list[list[str]] = []
-        for row in own.to_dict("records"):
+        for row in same.to_dict("records"):
             values = row["with_rte"], row["without_rte"]
             texts = [number_text(value) if row["measure"] in numbers else f"{value:.1%}" for value in values]
             lines.append([row["measure"], *texts, number_text(row["ratio"]), interval_text(row["low"], row["high"])])

@@ -1,17 +1,21 @@
 """What the training sets are: how long, on which ground, which commands of Table 2, how the upper body moved."""
 
+# pandas has no complete types, which the strict rules of this folder ask for.
+# pyright: standard
+
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pandas as pd
 
 from experiments.evaluation.measure.data.random_torque import torque_left
 from experiments.evaluation.measure.data.steps import CHOICES, KEYS, UNITS, read_steps
 from experiments.evaluation.measure.data.upper_body import upper_body
-from experiments.evaluation.number.number import Number
-from experiments.evaluation.tables.layout import Table, write_table
+from experiments.evaluation.number.number import is_missing
+from experiments.evaluation.tables.look import Row, ShownColumn, TableLook, write_look
 from experiments.settings.published import PublishedData
 from experiments.settings.table_columns import DATA
 from experiments.settings.tables import DataTable
@@ -26,14 +30,12 @@ from mobnet.settings.data import Commands, RecordingSettings, Terrain
 from mobnet.settings.robot import RobotTable
 from mobnet.settings.walking import Walking
 
-Found = tuple[str, str, float, str]  # quantity, part, value, unit
+Fact = tuple[str, str, float, str]  # quantity, part (empty: the whole set's), value, unit
 
 EDGE = 1e-3  # [-] of a range: a command nearer than this to its end counts as on the edge
 MINUTE_S = 60.0
 FORMATS = {"-": ".0%", "": ".0f", "min": ".1f", "deg": ".1f", "rad": ".2f", "m/s": ".2f"}  # of numbers by unit
 PLAIN = ".3f"
-
-Facts = Mapping[tuple[str, str, str], Number]  # set, quantity, part (empty: the whole set's)
 
 
 def data(
@@ -52,26 +54,52 @@ def data(
     The text leaves out single joints, and sets that it is not asked to show.
     """
     nominal = NominalModel(describe(robot))
-    facts: dict[tuple[str, str, str], Number] = {}
+    rows: list[tuple[str, str, str, float, str, float | None]] = []
     for name, stems in sets.items():
-        found = [
+        facts = [
             *extent(stems, [name for name, row in terrain if row is not None], recording.clearance_hz),
             *commanded(commands, walking.foot_spacing_m, stems, nominal),
             *upper_body(settings.every, stems, nominal),
             *torque_left(stems, nominal.robot.layout, settings.limbs, settings.lags_s),
         ]
-        for quantity, part, value, unit in found:
+        for quantity, part, value, unit in facts:
             printed = _published(commands, published.sets.get(name, {}), quantity, part)
-            facts[name, quantity, part] = Number(value, unit=unit, published=printed)
-    records = [(*of, fact.value, fact.unit, fact.published) for of, fact in facts.items()]
-    columns = [name for name in sets if name in settings.shown]
-    header = ["", *(name.replace("_", " ") for name in columns), "Paper"]
-    joints = nominal.robot.layout.actuated
-    shown = {of: fact for of, fact in facts.items() if of[0] in columns and of[2] not in joints}
-    write_table(table_dir / "data", Table(DATA, records, header, fact_lines(shown, columns)))
+            rows.append((name, quantity, part, value, unit, printed))
+    table = pd.DataFrame(rows, columns=list(DATA)).astype({"value": object, "published": float})
+    shown = table[table["set"].isin(settings.shown) & ~table["part"].isin(nominal.robot.layout.actuated)]
+    look = look_at([name for name in sets if name in settings.shown])
+    write_look(table_dir / "data", with_labels(shown), DATA, look, filed=table)
 
 
-def extent(stems: Sequence[Path], terrains: Sequence[str], clearance_hz: float) -> Iterator[Found]:
+def with_labels(facts: pd.DataFrame) -> pd.DataFrame:
+    """Return facts, columns `DATA`, with what a line calls each, and the paper's number of the first set that has one.
+
+    A line is a quantity, of the whole sets or of a part of them.
+    """
+    labels = [_label(row) for row in facts.to_dict("records")]
+    paper = facts.groupby(["quantity", "part"])["published"].transform("first")
+    return facts.assign(label=labels, paper=paper)
+
+
+def look_at(sets: Sequence[str]) -> TableLook:
+    """Return what a reader sees: a quantity a line, a set a column, the paper's number last."""
+    shown = [ShownColumn(name.replace("_", " "), {"set": name}, text=_text("value")) for name in sets]
+    return TableLook({"label": ""}, [*shown, ShownColumn("Paper", text=_text("paper"))])
+
+
+def _label(row: Row) -> str:
+    """Return what a line calls a quantity: with its part, and its unit."""
+    part = f", {row['part'].replace('_', ' ')}" if row["part"] else ""
+    unit = f" [{row['unit']}]" if row["unit"] not in ("", "-") else ""
+    return row["quantity"] + part + unit
+
+
+def _text(name: str) -> Callable[[Row], str]:
+    """Return the text of a column of a row, in the format of its unit."""
+    return lambda row: "-" if is_missing(row[name]) else format(row[name], FORMATS.get(row["unit"], PLAIN))
+
+
+def extent(stems: Sequence[Path], terrains: Sequence[str], clearance_hz: float) -> Iterator[Fact]:
     """Yield length [min], samples, falls, episodes and the shares of the terrains [-] of recordings.
 
     Of those in which self-collisions were looked for at a rate [Hz], also the least distance [m], and the time in which
@@ -97,7 +125,7 @@ def extent(stems: Sequence[Path], terrains: Sequence[str], clearance_hz: float) 
         yield "time in self-collision", "", sum(note.get("self_collisions", 0) for note in watched) / looks, "-"
 
 
-def ground(notes: Sequence[Mapping[str, Any]], terrains: Sequence[str]) -> Iterator[Found]:
+def ground(notes: Sequence[Mapping[str, Any]], terrains: Sequence[str]) -> Iterator[Fact]:
     """Yield the share of the samples on each terrain [-], as the recordings note it segment by segment."""
     walked: Counter[str] = Counter()
     for note in notes:
@@ -107,7 +135,7 @@ def ground(notes: Sequence[Mapping[str, Any]], terrains: Sequence[str]) -> Itera
         yield "time on terrain", terrain, walked[terrain] / walked.total(), "-"
 
 
-def commanded(commands: Commands, spacing_m: float, stems: Sequence[Path], nominal: NominalModel) -> Iterator[Found]:
+def commanded(commands: Commands, spacing_m: float, stems: Sequence[Path], nominal: NominalModel) -> Iterator[Fact]:
     """Yield the time standing [-], the steps, and of a command its ends [m], [deg], [s] and the share on them [-]."""
     column = recording_columns(nominal.robot.layout)["command"][DURATION][0]
     duration = np.concatenate([read_array(stem, [column])[0][:, 0] for stem in stems])
@@ -135,18 +163,3 @@ def _published(commands: Commands, known: Mapping[str, float], quantity: str, pa
         key = KEYS[[name for name, _ in COMMAND].index(part)]
         return float(getattr(commands, key)[0 if quantity.startswith("smallest") else -1])
     return known.get(quantity)
-
-
-def fact_lines(facts: Facts, sets: Sequence[str]) -> list[list[str]]:
-    """Return the rows of text: a quantity a row, a set a column, the paper's number last."""
-    lines = []
-    for quantity, part in dict.fromkeys((quantity, part) for _, quantity, part in facts):
-        own = [facts.get((name, quantity, part)) for name in sets]
-        unit, *_ = (fact.unit for fact in own if fact)
-        layout = FORMATS.get(unit, PLAIN)
-        printed = [format(fact.published, layout) for fact in own if fact and fact.published is not None]
-        label = f"{quantity}, {part.replace('_', ' ')}" if part else quantity
-        label += f" [{unit}]" if unit not in ("", "-") else ""
-        texts = [format(fact.value, layout) if fact and fact.value is not None else "-" for fact in own]
-        lines.append([label, *texts, *(printed[:1] or ["-"])])
-    return lines

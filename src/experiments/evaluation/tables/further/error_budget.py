@@ -61,13 +61,13 @@ def numbers_of(runs: pd.DataFrame, statistics: Statistics) -> pd.DataFrame:
     one_off = runs[runs["label"] != runs["label"].iloc[0]]
     gone_of = Formula(share_left, lambda left: PERCENT * (1.0 - left), positive=True)
 
-    def gone(own: pd.DataFrame) -> Number:
-        full = every[every["column"] == own["column"].iloc[0]]
-        squares = pd.concat([full, own])
+    def gone(part: pd.DataFrame) -> Number:
+        full = every[every["column"] == part["column"].iloc[0]]
+        squares = pd.concat([full, part])
         squares["value"] = squares["value"] ** 2
         return replace(number_of(squares, statistics, gone_of), unit="%")
 
-    errors = measured(runs, PLACE, {METRIC: lambda own: number_of(own, statistics)})
+    errors = measured(runs, PLACE, {METRIC: lambda same: number_of(same, statistics)})
     shares = measured(one_off, PLACE, {GONE: gone})
     return pd.concat([errors, shares]).sort_values(PLACE, kind="stable", ignore_index=True)
 
@@ -81,13 +81,13 @@ def share_left(means: Array) -> Array:
 def budget_lines(numbers: pd.DataFrame, means: Sequence[str], confidence: float) -> list[Line]:
     """Return the lines of text, RMSE [N m] and share gone [%] in turn; intervals and a rule below each mean."""
     lines: list[Line] = []
-    for name, own in numbers.groupby("column", observed=True):
+    for name, of_column in numbers.groupby("column", observed=True):
         texts: list[str] = []
         intervals: list[str] = []
-        for metric, value, low, high in own[["quantity", "value", "low", "high"]].itertuples(index=False):
+        for metric, value, low, high in of_column[["quantity", "value", "low", "high"]].itertuples(index=False):
             texts.append(number_text(value, DIGITS[metric]) + SIGN[metric])
             intervals.append(interval_text(low, high, DIGITS[metric]))
-        lines.append([str(name), own["unit"].iloc[0], *texts])
+        lines.append([str(name), of_column["unit"].iloc[0], *texts])
         if name in means:
             lines += [[f"{confidence:.0%}", "", *intervals]] if intervals[0] else []
             lines.append(RULE)

@@ -17,7 +17,7 @@ import numpy as np
 import pandas as pd
 
 from experiments.evaluation.measure.learning.taught import HITS, SHARE_OF_HIT, WALKING, judged
-from experiments.evaluation.measure.learning.trials import Known, read_walks
+from experiments.evaluation.measure.learning.trials import read_walks
 from experiments.evaluation.number.frames import ordered, records_of, rows_of
 from experiments.evaluation.number.laws import ENDS, fields_of
 from experiments.evaluation.number.number import is_missing
@@ -69,24 +69,24 @@ def factorial(
     Recordings at a rate [Hz] and `out` are paths without a suffix; gravity is in [m/s^2], `torque_nm` is the largest
     random torque [N m].
     """
-    known = Known(robot, gravity_m_s2, observer)
-    found: dict[str, dict[str, list[Array]]] = {}
-    for name, own in robots.items():
-        walk, hits = (read_walks(known, task, rate_hz) for task in (own.walk, own.hits))
-        for tried in own.walk.tried:
-            every = judged(settings.hits, settings.joint, known, own, tried, (walk, hits), peaks)
+    numbers_of_sets: dict[str, dict[str, list[Array]]] = {}
+    for name, taught in robots.items():
+        walk = read_walks(robot, gravity_m_s2, observer, taught.walk, rate_hz)
+        hits = read_walks(robot, gravity_m_s2, observer, taught.hits, rate_hz)
+        for tried in taught.walk.tried:
+            every = judged(settings.hits, settings.joint, taught, tried, (walk, hits), peaks)
             numbers = {key: every[key] for key in UNITS}
             log.info("%s, %s: %s", name, tried.name, {key: round(float(row.mean()), 3) for key, row in numbers.items()})
             for key, row in numbers.items():
-                found.setdefault(_label(tried), {}).setdefault(key, []).append(row)
-    by_robot = {name: {key: np.array(rows) for key, rows in own.items()} for name, own in found.items()}
+                numbers_of_sets.setdefault(_label(tried), {}).setdefault(key, []).append(row)
+    by_robot = {name: {key: np.array(rows) for key, rows in of_set.items()} for name, of_set in numbers_of_sets.items()}
     effects = effects_of(by_robot, cells, torque_nm, statistics)
     another = ratios(by_robot, [(settings.another_day, settings.same_day)], statistics)
     effects = pd.concat([effects, another.assign(name=ANOTHER_DAY)])
     write_table(out, table_of(settings, list(robots), by_robot, cells, torque_nm, effects, statistics))
 
 
-def effects_of(found: ByRobot, cells: Mapping[str, Factors], torque_nm: float, statistics: Statistics) -> pd.DataFrame:
+def effects_of(errors: ByRobot, cells: Mapping[str, Factors], torque_nm: float, statistics: Statistics) -> pd.DataFrame:
     """Return the effect of each factor at each pair of levels of the other two, then over all of them.
 
     A row has the name of an effect, `measure` and the ratio of errors on two levels of a factor [-]. Levels of the
@@ -100,22 +100,22 @@ def effects_of(found: ByRobot, cells: Mapping[str, Factors], torque_nm: float, s
         others = [other for other in EFFECTS if other != factor]
         pairs: list[tuple[str, str]] = []
         for levels in product(*(EFFECTS[other][:2] for other in others)):
-            held = dict(zip(others, levels, strict=True))
-            pair = names[Factors(**held, **{factor: above})], names[Factors(**held, **{factor: below})]
+            at_levels = dict(zip(others, levels, strict=True))
+            pair = names[Factors(**at_levels, **{factor: above})], names[Factors(**at_levels, **{factor: below})]
             pairs.append(pair)
             shown = {name: text for name, text in levels_of(cells[pair[0]], torque_nm).items() if name != OF[factor]}
-            rows.append(ratios(found, [pair], statistics).assign(name=title, **shown))
-        rows.append(ratios(found, pairs, statistics).assign(name=title))
+            rows.append(ratios(errors, [pair], statistics).assign(name=title, **shown))
+        rows.append(ratios(errors, pairs, statistics).assign(name=title))
     return pd.concat(rows, ignore_index=True)
 
 
-def ratios(found: ByRobot, pairs: Sequence[tuple[str, str]], statistics: Statistics) -> pd.DataFrame:
+def ratios(errors: ByRobot, pairs: Sequence[tuple[str, str]], statistics: Statistics) -> pd.DataFrame:
     """Return the ratio of the errors of pairs of training sets by measure, of several their geometric mean."""
     rows: list[dict[str, object]] = []
     for measure in ERRORS:
         logs: list[Array] = []
         for above, below in pairs:
-            logs.append(np.log(found[above][measure].mean(axis=1) / found[below][measure].mean(axis=1)))
+            logs.append(np.log(errors[above][measure].mean(axis=1) / errors[below][measure].mean(axis=1)))
         number = summarise([_grid(np.mean(logs, axis=0)[:, None])], statistics, LOGS)
         value, low, high = (None if end is None else float(np.exp(end)) for end in number.with_ends)
         rows.append({"measure": measure, "value": value, "low": low, "high": high, "unit": "-"})
@@ -125,7 +125,7 @@ def ratios(found: ByRobot, pairs: Sequence[tuple[str, str]], statistics: Statist
 def table_of(
     settings: Factorial,
     robots: Sequence[str],
-    found: ByRobot,
+    by_robot: ByRobot,
     cells: Mapping[str, Factors],
     torque_nm: float,
     effects: pd.DataFrame,
@@ -133,7 +133,7 @@ def table_of(
 ) -> Table:
     """Return the table: a line for each training set and each method beside them, then those of the effects."""
     sets: list[dict[str, object]] = []
-    for name, numbers in found.items():
+    for name, numbers in by_robot.items():
         part = "training sets" if name in settings.cells else "beside"
         place = {"part": part, "name": name, **(levels_of(cells[name], torque_nm) if name in cells else {})}
         for measure, unit in UNITS.items():

@@ -79,19 +79,19 @@ def in_cells(swings: pd.DataFrame, detection: Detection) -> pd.DataFrame:
 
     What is held out is random walking and the swings between pushes together: a leg that was hit goes on walking.
     """
-    held = rows_of(swings, part=HELD_OUT)
-    random = rows_of(held, scenario=detection.random)
+    unpushed = rows_of(swings, part=HELD_OUT)
+    random = rows_of(unpushed, scenario=detection.random)
     between = rows_of(swings, part=UNPUSHED)
-    grounds = {f"random on {terrain}": own for terrain, own in random.groupby("terrain", sort=False)}
+    grounds = {f"random on {terrain}": on_ground for terrain, on_ground in random.groupby("terrain", sort=False)}
     cells = {
         COUNTED: pd.concat([random, between]),
         RANDOM: random,
         **grounds,
-        PLACE: rows_of(held, scenario=detection.place),
+        PLACE: rows_of(unpushed, scenario=detection.place),
         BETWEEN: between,
         CALIBRATION: rows_of(swings, part=CALIBRATION, scenario=detection.random),
     }
-    placed = pd.concat([own.assign(cell=cell) for cell, own in cells.items()], ignore_index=True)
+    placed = pd.concat([of_cell.assign(cell=cell) for cell, of_cell in cells.items()], ignore_index=True)
     return placed.assign(cell=pd.Categorical(placed["cell"], list(cells)))
 
 
@@ -107,10 +107,10 @@ def rates_of(promises: pd.DataFrame, swings: pd.DataFrame, statistics: Statistic
 
     swing_h = hours_per_swing(promises)
     factors = promises.pivot(index="robot", columns="kind", values="factor")
-    for kind, own in promises.groupby("kind", sort=False):
-        rate, low, high = own[["rate_per_h", "low", "high"]].mean()
+    for kind, of_kind in promises.groupby("kind", sort=False):
+        rate, low, high = of_kind[["rate_per_h", "low", "high"]].mean()
         promised = Number(rate, low, high, unit="1/h")
-        add(promised, kind, ALL, PROMISED, int(own["swings"].sum()))
+        add(promised, kind, ALL, PROMISED, int(of_kind["swings"].sum()))
         # Ratios are over the threshold for one false alarm an hour, of which that of another kind is a multiple,
         # another one on each robot.
         over = swings["robot"].map(factors[kind] / factors[COLLISION])

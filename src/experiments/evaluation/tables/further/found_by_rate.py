@@ -53,22 +53,22 @@ def found_by_rate(
     """
     rates = dict(sorted(detection.thresholds.rates_per_h.items(), key=lambda row: row[1]))
     hits = hits_of(settings, detections, detection.collisions, list(rates)).assign(cell=ALL)
-    found = measured(hits, PLACE, {FOUND: share("found", statistics)})
+    shares_found = measured(hits, PLACE, {FOUND: share("found", statistics)})
     late = measured(hits, PLACE, {DELAY: mean("delay_ms", "ms", statistics)}, of="found")
-    by_rate = pd.concat([found, late]).sort_index(kind="stable")
+    by_rate = pd.concat([shares_found, late]).sort_index(kind="stable")
     at_collisions = hits[hits["kind"] == COLLISION]
     tried = at_collisions[["level", "detector"]].drop_duplicates()
     counted = counted_of(settings, detection, statistics, detections, tried)
     parts: list[pd.DataFrame] = [by_rate]
-    for (level, name), own in at_collisions.groupby(["level", "detector"], observed=True):
+    for (level, name), of_detector_at in at_collisions.groupby(["level", "detector"], observed=True):
         parts.append(rows_of(counted, level=level, detector=name))
         reference = rows_of(at_collisions, level=level, detector=settings.reference)
         if name != settings.reference and len(reference):
-            parts.append(pairs_of(reference, own, statistics))
+            parts.append(pairs_of(reference, of_detector_at, statistics))
     rows = pd.concat(parts, ignore_index=True)
     sentences: list[str] = []
-    for level, own in found.groupby("level", observed=True):
-        shares = own.pivot(index="detector", columns="kind", values="value")
+    for level, of_level in shares_found.groupby("level", observed=True):
+        shares = of_level.pivot(index="detector", columns="kind", values="value")
         by_detector = {str(name): row.to_list() for name, row in shares.iterrows()}
         gain = gain_text(list(rates.values()), by_detector, settings.beside)
         sentences.append(f"{str(level).replace('_', ' ').capitalize()}: {gain}")
@@ -106,9 +106,9 @@ def counted_of(
     rows: list[dict[str, object]] = []
     for level, name in tried.itertuples(index=False):
         of_detector = {"level": level, "detector": name}
-        own, promised, points = (rows_of(frame, **of_detector) for frame in (quiet, promises, curves))
-        hours = len(own) * hours_per_swing(promised)
-        flags, places = found_at(at_counted_rate(points, own, hours, settings.counted_per_h))
+        calm, promised, points = (rows_of(frame, **of_detector) for frame in (quiet, promises, curves))
+        hours = len(calm) * hours_per_swing(promised)
+        flags, places = found_at(at_counted_rate(points, calm, hours, settings.counted_per_h))
         place = {**of_detector, "leg": settings.leg, "kind": MEASURED, "cell": ALL, "quantity": COUNTED}
         rows.append({**place, **fields_of(share_in(flags, places, statistics)), "count": len(flags)})
     return pd.DataFrame(rows)
@@ -163,9 +163,9 @@ def gain_text(rates: Sequence[float], shares: Mapping[str, Sequence[float]], bes
     """
     best = max(shares, key=lambda name: np.nan_to_num(shares[name]).tolist())
     accepted = listed([f"{rate:g}" for rate in rates])
-    found = {name: listed(list(map(percent_text, shares[name]))) for name in (best, beside) if name in shares}
-    text = f"whoever accepts {accepted} false alarms of a leg in an hour of random walking finds {found[best]} % of"
-    other = f"; {beside} finds {found[beside]} %" if beside in found else ""
+    texts = {name: listed(list(map(percent_text, shares[name]))) for name in (best, beside) if name in shares}
+    text = f"whoever accepts {accepted} false alarms of a leg in an hour of random walking finds {texts[best]} % of"
+    other = f"; {beside} finds {texts[beside]} %" if beside in texts else ""
     return f"{text} these collisions with {best}, the detector that finds most at {rates[0]:g}{other}."
 
 

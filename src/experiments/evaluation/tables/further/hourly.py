@@ -36,8 +36,8 @@ def hourly(
     tests = {title: changed.tests[title] for title in settings.known}
     rows: list[dict[str, object]] = []
     for event, walked, method, hours, count in (*falls(walks), *flags(read_scores(*scores), tests)):
-        found = fields_of(rate_of(count, hours, statistics))
-        rows.append({**found, "event": event, "walks": walked, "method": method, "hours": hours, "count": count})
+        rate = fields_of(rate_of(count, hours, statistics))
+        rows.append({**rate, "event": event, "walks": walked, "method": method, "hours": hours, "count": count})
     shown = [
         ShownColumn("Hours", text=column("hours", ".2f")),
         ShownColumn("Events", text=column("count")),
@@ -61,8 +61,8 @@ def flags(scores: pd.DataFrame, tests: Mapping[str, LegRuns]) -> Iterator[Counte
     for test in tests.values():
         methods += test.methods
     for method in dict.fromkeys(methods):
-        found = {title: totals(scores, test, method) for title, test in tests.items() if method in test.methods}
-        kept = {title: own for title, own in found.items() if own[0] > 0.0}
+        by_test = {title: totals(scores, test, method) for title, test in tests.items() if method in test.methods}
+        kept = {title: total for title, total in by_test.items() if total[0] > 0.0}
         for title, (hours, count) in kept.items():
             yield FLAG, title, method, hours, count
         if kept:
@@ -72,7 +72,7 @@ def flags(scores: pd.DataFrame, tests: Mapping[str, LegRuns]) -> Iterator[Counte
 
 def totals(scores: pd.DataFrame, test: LegRuns, method: str) -> tuple[float, int]:
     """Return for how long a method was watched in a test [h], and how many windows were flagged, over all runs."""
-    own = rows_of(scores, scenario=test.scenario, level=test.level, method=method, joint=AVERAGE)
-    own = own[own["limb"].isin(test.limbs)]
-    hours, count = (float(rows_of(own, metric=metric)["value"].sum()) for metric in (WATCHED, FLAGS))
+    watched = rows_of(scores, scenario=test.scenario, level=test.level, method=method, joint=AVERAGE)
+    watched = watched[watched["limb"].isin(test.limbs)]
+    hours, count = (float(rows_of(watched, metric=metric)["value"].sum()) for metric in (WATCHED, FLAGS))
     return hours, round(count)

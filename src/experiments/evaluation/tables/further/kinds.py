@@ -65,8 +65,8 @@ def kinds(
         ranks |= {method: k for k, method in enumerate(ranked, start=1)}
     rows: list[pd.DataFrame] = []
     for method in (*parts[0], *parts[1], *settings.variants):
-        own = rows_of(networks, method=method)
-        counts = counts_of(own, ranks.get(method), kinds.get(method, method), published)
+        of_method = rows_of(networks, method=method)
+        counts = counts_of(of_method, ranks.get(method), kinds.get(method, method), published)
         # Counts are whole numbers, and stay so beside others.
         rows += [counts.assign(method=method), rows_of(measures, method=method).astype(object)]
     shown = pd.concat(rows)
@@ -92,12 +92,12 @@ def kind_lines(rows: pd.DataFrame, firsts: Sequence[str], confidence: float) -> 
     """Return the rows of text, two a kind where there are intervals, a rule above `firsts`, where a part begins."""
     lines: list[Line] = []
     for method, of in rows.groupby("method", sort=False):
-        own = numbers_by(of, "quantity")
+        numbers = numbers_by(of, "quantity")
         if lines:
             lines.append(RULE if method in firsts else GAP)
-        order, size, runs, diverged = (own[name] for name in ("order", "parameters", "runs", "diverged"))
+        order, size, runs, diverged = (numbers[name] for name in ("order", "parameters", "runs", "diverged"))
         ranks = [order.text(0), number_text(order.published, 0)]
         sizes = [size.text(0), number_text(size.published, 0)]
         count = runs.text(0) + (f", {diverged.text(0)} diverged" if diverged.value else "")
-        lines += with_intervals([*ranks, str(method), *sizes, count], [own[name] for name in MEASURES], confidence)
+        lines += with_intervals([*ranks, str(method), *sizes, count], [numbers[name] for name in MEASURES], confidence)
     return lines

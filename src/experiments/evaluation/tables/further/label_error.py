@@ -42,7 +42,7 @@ def label_error(
     joints = layout.limb(settings.leg)
     columns = [layout.names.index(joint) for joint in joints]
     foot = FEET.index(foot_of(layout, joints[0]))
-    found: dict[tuple[str, str, str], Array] = {}
+    by_place: dict[tuple[str, str, str], Array] = {}
     for owner, (recording, residual) in walks.items():
         read = read_sensed(recording, layout)
         wrenches = read_wrenches(recording, nominal.robot)
@@ -52,9 +52,9 @@ def label_error(
             torque = foot_label(nominal, read, wrenches, observer.gain_hz, plates=plates)
             square = (torque[:, columns] - truth) ** 2
             for phase, rows in zip(PHASES, (np.ones_like(air), air, ~air), strict=True):
-                found[owner, label, phase] = np.sqrt(square[rows].mean(axis=0))
+                by_place[owner, label, phase] = np.sqrt(square[rows].mean(axis=0))
     errors: list[tuple[str, str, str, str, float]] = []
-    for place, values in found.items():
+    for place, values in by_place.items():
         errors += [(*place, joint, value) for joint, value in with_mean(joints, values)]
     rows = pd.DataFrame(errors, columns=["robot", "label", "phase", "joint", "value"]).assign(unit="N m")
     shown = [ShownColumn(joint, {"phase": WALK, "joint": joint}) for joint in (*joints, AVERAGE)]

@@ -4,13 +4,19 @@ Times differ from run to run, so the table has no time: in each of some stretche
 robot's or it is not.
 """
 
+# pandas has no complete types, which the strict rules of this folder ask for.
+# pyright: standard
+
 import time
 from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 
-from experiments.evaluation.tables.layout import Table, write_table
+from experiments.evaluation.number.laws import measured
+from experiments.evaluation.number.number import Number
+from experiments.evaluation.tables.look import ShownColumn, TableLook, write_look
 from experiments.intervals.crossed import RunGrid
 from experiments.intervals.single import share
 from experiments.settings.runs import Statistics
@@ -24,6 +30,7 @@ from mobnet.settings.plant import Rates
 
 MET = "stretches within a tick"
 MS = 1e3
+LABELS = {"limbs": "Networks", "tick_ms": "Tick [ms]", "stretches": "Stretches", "ticks": "Ticks of each"}
 
 
 def latency(
@@ -43,11 +50,17 @@ def latency(
     """
     tick_ms = MS / rates.data_hz
     medians = medians_ms(load_limb_networks(networks, layout), random_sample(layout, seed), settings)
-    met = share([RunGrid(np.array([[float(median < tick_ms) for median in medians]]))], statistics)
-    header = ["Networks", "Tick [ms]", "Stretches", "Ticks of each", "Within a tick", f"{statistics.confidence:.0%}"]
-    counts = [str(settings.stretches), str(settings.ticks)]
-    line = [str(len(networks)), f"{tick_ms:g}", *counts, *met.texts()]
-    write_table(table_dir / "latency", Table(LATENCY, [(MET, *met.with_ends, met.unit)], header, [line], left=0))
+    stretches = pd.DataFrame({"is_met": [median < tick_ms for median in medians]})
+    stretches = stretches.assign(
+        limbs=len(networks), tick_ms=tick_ms, stretches=settings.stretches, ticks=settings.ticks
+    )
+
+    def met(rows: pd.DataFrame) -> Number:
+        return share([RunGrid(rows[["is_met"]].to_numpy(dtype=np.float64).T)], statistics)
+
+    rows = measured(stretches, list(LABELS), {MET: met})
+    shown = [ShownColumn("Within a tick", ends=f"{statistics.confidence:.0%}")]
+    write_look(table_dir / "latency", rows, LATENCY, TableLook(LABELS, shown, left=0))
 
 
 def random_sample(layout: JointLayout, seed: int) -> Sensed:

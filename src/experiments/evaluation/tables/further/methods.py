@@ -81,11 +81,11 @@ def method_lines(rows: pd.DataFrame, places: pd.MultiIndex, confidence: float) -
     A test that does not ask for a place, a limb and a joint, has a dash there.
     """
     blocks: dict[tuple[str, str], list[list[str]]] = {}
-    for _, own in rows.groupby("row"):
-        scenario, level, method, what = own[["scenario", "level", "method", "what"]].iloc[0]
+    for _, of_row in rows.groupby("row"):
+        scenario, level, method, what = of_row[["scenario", "level", "method", "what"]].iloc[0]
         lines = blocks.setdefault((f"{scenario}, {level}".replace("_", " "), method), [])
-        numbers = own.set_index(["limb", "joint"]).reindex(places)
+        numbers = of_row.set_index(["limb", "joint"]).reindex(places)
         lines.append([LABELS[what], *map(number_text, numbers["value"])])
-        if not what and own["low"].notna().any():
+        if not what and of_row["low"].notna().any():
             lines.append([f"{confidence:.0%}", *map(interval_text, numbers["low"], numbers["high"])])
     return in_blocks(blocks.items(), nested=True)

@@ -45,16 +45,16 @@ def noise(
     cells = readings.merge(columns_of(layout, settings.joints), how="cross").assign(metric=METRIC)
     runs = runs_of(read_scores(*scores), cells)
     place = ["cell", "label", *RUN, "limb", "joint", "metric"]
-    errors = measured(runs, place, {METRIC: lambda own: number_of(own, statistics)})
+    errors = measured(runs, place, {METRIC: lambda same: number_of(same, statistics)})
     paper: dict[str, float | None] = {}
     for table, printed_at in settings.paper.items():
         paper |= published_row(printed[table], printed_at, readings["method"].iloc[0])
     errors["published"] = errors["joint"].map(paper).astype(float)
-    found = factors(errors)
-    rows = pd.concat([errors, found.assign(joint=found["limb"], metric=FACTOR)])
+    by_reading = factors(errors)
+    rows = pd.concat([errors, by_reading.assign(joint=by_reading["limb"], metric=FACTOR)])
     rows = pd.concat([rows[rows["label"] == label] for label in readings["label"]])
     header = ["Joint", "Unit", "Paper", *readings["label"]]
-    lines = noise_lines(errors, found)
+    lines = noise_lines(errors, by_reading)
     write_table(table_dir / "noise", Table(ERRORS, records_of(rows, ERRORS), header, lines, left=2))
 
 
@@ -62,24 +62,24 @@ def factors(errors: pd.DataFrame) -> pd.DataFrame:
     """Return a row for each reading and limb, and for all joints: exp(mean |ln(ours / paper)|) [-] of its errors."""
     known = errors[(errors["value"] > 0) & (errors["published"] > 0)]
     known = known.assign(log=np.abs(np.log(known["value"] / known["published"])))
-    found: list[dict[str, object]] = []
+    rows: list[dict[str, object]] = []
     for run, reading in known.groupby(["label", *RUN], sort=False):
-        logs = {str(limb): own["log"].mean() for limb, own in reading.groupby("limb", sort=False)}
+        logs = {str(limb): errors_of_limb["log"].mean() for limb, errors_of_limb in reading.groupby("limb", sort=False)}
         logs[ALL] = reading["log"].mean()
         for limb, log in logs.items():
             factor = fields_of(Number(float(np.exp(log))))
-            found.append({**dict(zip(["label", *RUN], run, strict=True)), "limb": limb, **factor})
-    return pd.DataFrame(found, columns=["label", *RUN, "limb", *fields_of(Number(None))])
+            rows.append({**dict(zip(["label", *RUN], run, strict=True)), "limb": limb, **factor})
+    return pd.DataFrame(rows, columns=["label", *RUN, "limb", *fields_of(Number(None))])
 
 
-def noise_lines(errors: pd.DataFrame, found: pd.DataFrame) -> list[Line]:
+def noise_lines(errors: pd.DataFrame, factors_by_reading: pd.DataFrame) -> list[Line]:
     """Return the lines of text, a joint each and a rule between limbs, then the factors."""
     lines: list[Line] = []
     for _, limb in errors.groupby("limb", sort=False):
-        for joint, own in limb.groupby("joint", sort=False):
-            unit, published = own[["unit", "published"]].iloc[0]
-            lines.append([str(joint), unit, number_text(published), *map(number_text, own["value"])])
+        for joint, of_joint in limb.groupby("joint", sort=False):
+            unit, published = of_joint[["unit", "published"]].iloc[0]
+            lines.append([str(joint), unit, number_text(published), *map(number_text, of_joint["value"])])
         lines.append(RULE)
-    for limb, own in found.groupby("limb", sort=False):
-        lines.append([f"factor, {limb}", "-", "", *map(number_text, own["value"])])
+    for limb, of_limb in factors_by_reading.groupby("limb", sort=False):
+        lines.append([f"factor, {limb}", "-", "", *map(number_text, of_limb["value"])])
     return lines

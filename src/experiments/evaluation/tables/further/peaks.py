@@ -42,8 +42,8 @@ def peaks(
 def lines_of(averages: pd.DataFrame) -> list[list[str]]:
     """Return a line of texts for each method, below one of the observer's low-pass alone, which has all of a push."""
     lines: list[list[str]] = []
-    for method, own in averages.groupby("method", sort=False):
-        numbers = dict(own.set_index("metric").iterrows())
+    for method, of_method in averages.groupby("method", sort=False):
+        numbers = dict(of_method.set_index("metric").iterrows())
         if not lines:
             lines.append([REFERENCE, "1", "", *texts_of(numbers[DELAY + OBSERVER], 1)])
         late, ends = texts_of(numbers[DELAY], 1)

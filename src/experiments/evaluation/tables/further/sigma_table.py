@@ -71,15 +71,15 @@ def rises_of(settings: Sigma, numbers: pd.DataFrame, scores: pd.DataFrame, stati
             for limb in test.limbs:
                 pushed = pd.notna(averages[title, limb, method, f"{STD}_{PUSHED}"])
                 pairs = [(f"{STD}_{PUSHED}", STD), (ERROR_PUSHED, ERROR)] if pushed else [(STD, STD), (ERROR, ERROR)]
-                for rise, (own, other) in zip(RISES, pairs, strict=True):
+                for rise, (metric, other) in zip(RISES, pairs, strict=True):
                     place = {"title": title, "limb": limb, "method": method, "rise": rise}
-                    asked.append({**place, **cell(test, own)})
+                    asked.append({**place, **cell(test, metric)})
                     asked.append({**place, **cell(settings.tests[like], other)})
     if not asked:
         return numbers.iloc[:0]
     runs = runs_of(scores, pd.DataFrame(asked), may_lack=True)
     place = ["title", "limb", "method", "rise"]
-    rises = measured(runs, place, {"rise": lambda own: number_of(own, statistics, RATIO)})
+    rises = measured(runs, place, {"rise": lambda same: number_of(same, statistics, RATIO)})
     return rises.rename(columns={"rise": "metric"})
 
 

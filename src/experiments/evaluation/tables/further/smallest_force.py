@@ -20,7 +20,7 @@ def smallest_force(
     It is that of which the share of section `smallest_force` is found, by detector, rule of thresholds and cell.
     """
     hits = hits_of(settings, detections, detection.sweep, settings.kinds)
-    laws = {"smallest_force": lambda own: force_of(own, settings, statistics)}
+    laws = {"smallest_force": lambda same: force_of(same, settings, statistics)}
     rows = measured(hits, ["level", "kind", "detector", "leg"], laws, each="cell")
     shown = [ShownColumn(f"{cell} [N]", {"cell": cell}, text=_force_text) for cell in CELLS]
     labels = {"level": "Level", "kind": "Rule", "detector": "Detector"}

@@ -39,16 +39,16 @@ def steps(
     rows: list[pd.DataFrame] = []
     blocks: list[tuple[list[str], list[list[str]]]] = []
     for name, stems in sets.items():
-        found = read_steps(stems, nominal.robot.layout)
-        measured = found.measured(nominal, walking.foot_spacing_m)
+        walked = read_steps(stems, nominal.robot.layout)
+        measured = walked.measured(nominal, walking.foot_spacing_m)
         for column in range(measured.shape[1]):
             edges = bin_edges(commands, column, settings.bins)
             command, unit = COMMAND[column][0], UNITS[column]
-            own = followed(found, measured, column, edges, settings.tolerance)
-            rows.append(own.assign(set=name, command=command, unit=unit))
+            bins = followed(walked, measured, column, edges, settings.tolerance)
+            rows.append(bins.assign(set=name, command=command, unit=unit))
             digits = 1 if unit == "deg" else 3
             label = f"{command.replace('_', ' ')} [{unit}]"
-            blocks.append(([name, label], [texts_of(row, digits) for row in own.to_dict("records")]))
+            blocks.append(([name, label], [texts_of(row, digits) for row in bins.to_dict("records")]))
     records = records_of(pd.concat(rows), STEPS)
     write_table(table_dir / "steps", Table(STEPS, records, HEADER, in_blocks(blocks), left=2))
 
@@ -60,7 +60,7 @@ def texts_of(row: Mapping[Hashable, Any], digits: int) -> list[str]:
     return [*numbers[:2], str(row["count"]), *numbers[2:], number_text(row["ratio"]), within]
 
 
-def followed(found: WalkedSteps, measured: Array, column: int, edges: Array, tolerance: float) -> pd.DataFrame:
+def followed(walked: WalkedSteps, measured: Array, column: int, edges: Array, tolerance: float) -> pd.DataFrame:
     """Return what came of one command in one set, a row for each bin of it that has steps [m], [deg] or [s].
 
     Beside the ends of a bin it has the `count` of steps of the foot that leads, the mean that was `commanded` and the
@@ -68,14 +68,14 @@ def followed(found: WalkedSteps, measured: Array, column: int, edges: Array, tol
     bin around zero has neither of these two.
 
     Args:
-        found: the steps (N,).
+        walked: the steps (N,).
         measured: what the feet did, (N, 4) [m], [deg], [s].
         column: of the command.
         edges: of its bins [unit of the command].
         tolerance: share of its command within which a step follows it.
     """
-    follows = found.follows(column)
-    wanted = found.commanded[follows, column]
+    follows = walked.follows(column)
+    wanted = walked.commanded[follows, column]
     got = measured[follows, column]
     near = np.abs(got - wanted) <= tolerance * np.abs(wanted)
     steps = pd.DataFrame({"bin": bin_of(wanted, edges), "commanded": wanted, "measured": got, "within": near})

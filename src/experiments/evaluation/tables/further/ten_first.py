@@ -6,7 +6,7 @@ from pathlib import Path
 import pandas as pd
 
 from experiments.evaluation.number.frames import records_of
-from experiments.intervals.number import Number, number_text
+from experiments.evaluation.number.number import Number, number_text
 from experiments.evaluation.tables.layout import GAP, Line, Table, text_table, write_table
 from experiments.evaluation.tables.look import Row
 from experiments.settings.claims import Claim

@@ -1,13 +1,18 @@
 """How large the uncertainty torque is that the networks learn, beside the robot's own."""
 
+# pandas has no complete types, which the strict rules of this folder ask for.
+# pyright: standard
+
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 from numpy.typing import NDArray
 
 from experiments.evaluation.number.number import number_text
-from experiments.evaluation.tables.layout import OUTSIDE, Line, Table, in_blocks, write_table
+from experiments.evaluation.tables.layout import OUTSIDE
+from experiments.evaluation.tables.look import Row, ShownColumn, TableLook, write_look
 from experiments.settings.published import PublishedUncertainty
 from experiments.settings.table_columns import UNCERTAINTY
 from experiments.settings.tables import Uncertainty
@@ -17,7 +22,6 @@ from mobnet.core.store import label_of, read_array
 from mobnet.settings.networks import NetworkRow
 
 PLANT = "section 5.1"  # head of the column of its plant
-Record = tuple[str, str, str, float, str, float | None, float | None, str]  # a row of UNCERTAINTY
 
 
 def uncertainty(
@@ -33,48 +37,38 @@ def uncertainty(
 
     `sets` has the residuals of each training set, `robots` those of each surrogate robot's own sets of the same names.
     """
-    records: list[Record] = []
+    rows: list[dict[str, object]] = []
     for limb in (name for name in networks if name in layout.groups):  # not those that hold several
-        name = networks[limb].data
+        data = networks[limb].data
         joints = layout.limb(limb)
-        known = published.std.get(limb, [None] * len(joints))
-        owners = {name: (sets[name], settings.ratio.get(limb))}
-        owners |= {robot: (own[name], settings.robot_ratio) for robot, own in robots.items() if name in own}
-        for owner, (stems, bounds) in owners.items():
-            for joint, value, theirs in zip(joints, target_std(stems, joints).tolist(), known, strict=True):
-                ratio = None if theirs is None else value / theirs
-                unit = layout.unit(joint)
-                records.append((limb, joint, owner, value, unit, theirs, ratio, verdict(ratio, bounds)))
-    header, lines = text_of(records, list(robots))
-    table = Table(UNCERTAINTY, records, header, lines, left=4, note=published.note)
-    write_table(table_dir / "uncertainty", table)
+        published_std = published.std.get(limb, [None] * len(joints))
+        plants = {PLANT: (data, sets[data], settings.ratio.get(limb))}
+        for robot, sets_of_robot in robots.items():
+            if data in sets_of_robot:
+                plants[robot] = (robot, sets_of_robot[data], settings.robot_ratio)
+        for plant, (name, stems, bounds) in plants.items():
+            for joint, value, printed in zip(joints, target_std(stems, joints).tolist(), published_std, strict=True):
+                ratio = None if printed is None else value / printed
+                place = {"limb": limb, "joint": joint, "data": data, "plant": plant, "set": name}
+                number = {"value": value, "unit": layout.unit(joint), "published": printed, "ratio": ratio}
+                rows.append({**place, **number, "within": verdict(ratio, bounds)})
+    table = pd.DataFrame(rows).astype({"published": float, "ratio": float})
+    write_look(table_dir / "uncertainty", table, UNCERTAINTY, look_at([PLANT, *robots], published.note))
 
 
-def text_of(records: Sequence[Record], robots: Sequence[str]) -> tuple[list[str], list[Line]]:
-    """Return head and lines of the text: a line is a joint, and each plant has its size [N m, N] and its ratio [-]."""
-    owners = (PLANT, *robots)
-    header = ["Limb", "Joint", "Set", "Unit", "Paper"]
-    for owner in owners:
-        header += [owner.replace("_", " "), "ratio"]
-    rows: dict[str, dict[str, Record]] = {}
-    for record in records:
-        owner = record[2] if record[2] in robots else PLANT
-        rows.setdefault(record[1], {})[owner] = record
-    blocks: dict[str, list[list[str]]] = {}
-    for joint, own in rows.items():
-        limb, _, name, _, unit, published, *_ = own[PLANT]
-        cells: list[str] = []
-        for owner in owners:
-            cells += size_texts(own[owner]) if owner in own else ("-", "-")
-        line = [joint, name.replace("_", " "), unit, number_text(published, 1), *cells]
-        blocks.setdefault(limb, []).append(line)
-    return header, in_blocks(([limb], lines) for limb, lines in blocks.items())
+def look_at(plants: Sequence[str], note: str) -> TableLook:
+    """Return what a reader sees: a line is a joint, and each plant has its size [N m, N] and its ratio [-]."""
+    shown = [ShownColumn("Paper", {"plant": PLANT}, text=lambda row: number_text(row["published"], 1))]
+    for plant in plants:
+        shown.append(ShownColumn(plant.replace("_", " "), {"plant": plant}, digits=1))
+        shown.append(ShownColumn("ratio", {"plant": plant}, text=_ratio_text))
+    labels = {"limb": "Limb", "joint": "Joint", "data": "Set", "unit": "Unit"}
+    return TableLook(labels, shown, blocks=("limb",), note=note)
 
 
-def size_texts(record: Record) -> tuple[str, str]:
-    """Return the texts of a size [N m, N] and of its ratio [-] to the robot's, marked where it is out of bounds."""
-    *_, value, _, _, ratio, within = record
-    return number_text(value, 1), number_text(ratio) + (OUTSIDE if within == "no" else "")
+def _ratio_text(row: Row) -> str:
+    """Return the ratio [-] of a size to the robot's, marked where it is out of bounds."""
+    return number_text(row["ratio"]) + (OUTSIDE if row["within"] == "no" else "")
 
 
 def target_std(stems: Sequence[Path], joints: Sequence[str]) -> NDArray[np.float64]:

@@ -81,13 +81,13 @@ def numbers_of(cells: pd.DataFrame, scores: pd.DataFrame, statistics: Statistics
     """
     walked = pd.MultiIndex.from_frame(cells[[*RUN]]).isin(pd.MultiIndex.from_frame(scores[[*RUN]]))
     measures = [*RUN, "metric"]
-    held = pd.MultiIndex.from_frame(cells[measures]).isin(pd.MultiIndex.from_frame(scores[measures]))
-    cells = cells.assign(lacks=walked & ~held)
+    is_scored = pd.MultiIndex.from_frame(cells[measures]).isin(pd.MultiIndex.from_frame(scores[measures]))
+    cells = cells.assign(lacks=walked & ~is_scored)
     of_number = cells.groupby(PLACE, observed=True)
     is_there = ~of_number["lacks"].transform("any")
     metrics = of_number["metric"].agg(lambda names: "+".join(names.unique())).rename("metric")
     runs = runs_of(scores, cells[is_there])
-    errors = measured(runs, PLACE, {"error": lambda own: number_of(own, statistics)}).drop(columns="published")
+    errors = measured(runs, PLACE, {"error": lambda same: number_of(same, statistics)}).drop(columns="published")
     asked = cells.drop_duplicates(PLACE).drop(columns="metric")
     numbers = asked.merge(metrics, on=PLACE).merge(errors, how="left", on=PLACE)
     numbers["unit"] = numbers["unit"].fillna(numbers["torque_unit"])
@@ -177,7 +177,7 @@ def with_increase(row: pd.DataFrame, over: pd.DataFrame | None, name: str) -> li
     """Return the numbers of a row [N m]; its average carries the increase over a floor, as the paper prints it."""
     texts = dict(zip(row["column"], map(number_text, row[name]), strict=True))
     if over is not None and AVERAGE in texts:
-        value, base = (own.set_index("column")[name][AVERAGE] for own in (row, over))
+        value, base = (part.set_index("column")[name][AVERAGE] for part in (row, over))
         if not is_missing(value) and not is_missing(base):
             texts[AVERAGE] += f" ({value - base:+.2f})"
     return list(texts.values())

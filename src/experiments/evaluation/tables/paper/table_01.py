@@ -1,9 +1,15 @@
 """Table 1: inputs, targets and sizes of the limb networks, counted from the networks themselves."""
 
+# pandas has no complete types, which the strict rules of this folder ask for.
+# pyright: standard
+
 import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
+import pandas as pd
+
+from experiments.evaluation.number.frames import records_of
 from experiments.evaluation.number.rows import Field
 from experiments.evaluation.tables.layout import Table, tex_escape, tex_table, write_table
 from experiments.settings.published import PublishedNetwork, PublishedNetworks
@@ -14,19 +20,19 @@ from mobnet.learning.model import build_network, parameter_count
 from mobnet.settings.methods import Target
 from mobnet.settings.networks import Learning, Network
 
-HEADER = ["Network", "Input", "Numbers", "Target", "Architecture", "Parameters", "Paper", "Horizon", "Paper", "Data"]
-SHOWN = (
-    "limb",
-    "inputs",
-    "input_count",
-    "target",
-    "architecture",
-    "parameters",
-    "parameters_published",
-    "horizon_steps",
-    "horizon_published",
-    "data",
-)
+SHOWN = {  # column that a reader sees -> its head
+    "limb": "Network",
+    "inputs": "Input",
+    "input_count": "Numbers",
+    "target": "Target",
+    "architecture": "Architecture",
+    "parameters": "Parameters",
+    "parameters_published": "Paper",
+    "horizon_steps": "Horizon",
+    "horizon_published": "Paper",
+    "data": "Data",
+}
+SYMBOLS = ("inputs", "target")  # of these columns, set as symbols
 COLUMNS = "llrllrrrrl"
 LEFT = 5  # columns of text
 TARGETS = {"uncertainty": "r^{limb} - tau_ext^{limb}", "external": "tau_ext^{limb}"}  # eq. (15), both low-passed alike
@@ -43,21 +49,19 @@ def table_01(
     table_dir: Path,
 ) -> None:
     """Write Table 1 as CSV, TeX and Markdown, each limb's network built and its parameters counted."""
-    records = [
-        describe(limb, networks[limb], TARGETS[target].format(limb=limb), layout, learning.std_min, seed, printed)
-        for limb, printed in published.rows.items()
-    ]
-    places = [TABLE_01.index(name) for name in SHOWN]
-    lines = []
-    for record in records:
-        lines.append([str(record[place]) for place in places])
-    tex = tex_table(COLUMNS, HEADER, list(map(tex_cells, lines)))
-    write_table(table_dir / "table_01", Table(TABLE_01, records, HEADER, lines, LEFT), tex)
+    described: list[dict[str, Field]] = []
+    for limb, printed in published.rows.items():
+        text = TARGETS[target].format(limb=limb)
+        described.append(describe(limb, networks[limb], text, layout, learning.std_min, seed, printed))
+    rows = pd.DataFrame(described)
+    lines = rows[list(SHOWN)].astype(str).to_numpy().tolist()
+    table = Table(TABLE_01, records_of(rows, TABLE_01), list(SHOWN.values()), lines, LEFT)
+    write_table(table_dir / "table_01", table, tex_table(COLUMNS, table.header, list(map(tex_cells, lines))))
 
 
 def describe(
     limb: str, network: Network, target: str, layout: JointLayout, std_min: float, seed: int, printed: PublishedNetwork
-) -> tuple[Field, ...]:
+) -> dict[str, Field]:
     """Build the network of a limb and return its row of `TABLE_01`, beside what the paper prints of it.
 
     Inputs are the symbols of eq. (17): Q positions and velocities, T desired torques of a limb, U^V the pelvis. An
@@ -70,14 +74,27 @@ def describe(
     symbols = [f"Q^{group}" for group in network.Q] + [f"T^{group}" for group in network.T]
     inputs = ", ".join([*symbols, "U^V"])
     layers = f"{network.cell}[{count}, {head.in_features}]-Linear[{head.in_features}, {head.out_features}]"
-    sizes = parameter_count(built), network.horizon_steps
-    paper = printed.architecture, printed.parameters, printed.horizon_steps
-    return (limb, inputs, count, target, layers, *sizes, network.data, *paper)
+    return {
+        "limb": limb,
+        "inputs": inputs,
+        "input_count": count,
+        "target": target,
+        "architecture": layers,
+        "parameters": parameter_count(built),
+        "horizon_steps": network.horizon_steps,
+        "data": network.data,
+        "architecture_published": printed.architecture,
+        "parameters_published": printed.parameters,
+        "horizon_published": printed.horizon_steps,
+    }
 
 
 def tex_cells(line: Sequence[str]) -> list[str]:
     """Return a row of text as TeX, its input and target as symbols."""
-    return [tex_symbols(text) if HEADER[k] in ("Input", "Target") else tex_escape(text) for k, text in enumerate(line)]
+    cells: list[str] = []
+    for name, text in zip(SHOWN, line, strict=True):
+        cells.append(tex_symbols(text) if name in SYMBOLS else tex_escape(text))
+    return cells
 
 
 def tex_symbols(text: str) -> str:

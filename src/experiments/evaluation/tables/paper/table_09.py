@@ -60,8 +60,8 @@ def table_09(
     for (level, kind), shown in rows.groupby(["level", "kind"], observed=True):
         title = f"{str(level).replace('_', ' ')}, {READINGS.get(str(kind), kind)}"
         lines += [RULE] if lines else []
-        for name, own in shown.groupby("detector", observed=True):
-            lines.append([title, str(name), "ours", *our_texts(own)])
+        for name, of_detector in shown.groupby("detector", observed=True):
+            lines.append([title, str(name), "ours", *our_texts(of_detector)])
             lines += printed_lines(published, str(name))
         totals = rows_of(shown, cell=ALL, quantity=FOUND).set_index("detector")["value"]
         halves = rows_of(shown, cell=ALL, quantity=HALF_FORCE)
@@ -70,7 +70,7 @@ def table_09(
         force_taus.append(f"{order_text(ranks, published)} ({title})")
     cells = list(map(_initials, CELLS))
     leading = ["Level, normal walking", "Detector", ""]
-    found = [*cells, "all", f"{statistics.confidence:.0%}", "half [N]"]
+    heads = [*cells, "all", f"{statistics.confidence:.0%}", "half [N]"]
     delays = [*(f"{cell} [ms]" for cell in cells), "cells", "found", "perfect", "from onset"]
     note = (
         "F, A, K: foot, ankle, knee; F, S: front, side. "
@@ -78,12 +78,12 @@ def table_09(
         f"of the forces of which half are found: {', '.join(force_taus)}."
     )
     # in TeX all columns side by side are wider than a page: what is found stands above how late
-    end = len(leading) + len(found)
+    end = len(leading) + len(heads)
     found_lines = [line if isinstance(line, str) else line[:end] for line in lines]
     delay_lines = [line if isinstance(line, str) else [*line[: len(leading)], *line[end:]] for line in lines]
-    above = text_table("lll" + "r" * len(found), [*leading, *found], found_lines)
+    above = text_table("lll" + "r" * len(heads), [*leading, *heads], found_lines)
     below = text_table("lll" + "r" * len(delays), [*leading, *delays], delay_lines)
-    header = [*leading, *found, *delays]
+    header = [*leading, *heads, *delays]
     table = Table(DETECTION, records_of(rows, DETECTION), header, lines, left=len(leading), note=note)
     write_table(table_dir / "table_09", table, above + PART + below)
 
@@ -103,8 +103,8 @@ def numbers_of(
     # With the types of the other parts, as a concatenation would else lose the order of detectors.
     averages = averages.reset_index().rename(columns={"mean": "value"}).astype(delays.dtypes[PLACE].to_dict())
 
-    def force(own: pd.DataFrame) -> Number:
-        return half_force(own, smallest_force, statistics)
+    def force(hits_of: pd.DataFrame) -> Number:
+        return half_force(hits_of, smallest_force, statistics)
 
     both = pd.concat([hits.assign(swept=False), sweep.assign(swept=True)])
     halves = measured(both, PLACE, {HALF_FORCE: force}, of="swept")
@@ -165,8 +165,8 @@ def printed_lines(published: PublishedTable, name: str) -> Iterator[Line]:
     printed, late = (published_row(published, place, name) for place in (DETECTED, DELAY_MS))
     if printed and late:
         weighted = [(printed[cell] or 0.0, late[cell]) for cell in CELLS]
-        found = sum(count for count, _ in weighted)
-        mean_ms = sum(count * (delay or 0.0) for count, delay in weighted) / found if found else None
+        count_found = sum(count for count, _ in weighted)
+        mean_ms = sum(count * (delay or 0.0) for count, delay in weighted) / count_found if count_found else None
         numbers = [number_text(printed[cell], 0) for cell in CELLS]
         total_text = f"{number_text(printed[ALL], 0)}/{TRIED * len(CELLS)}"
         paper = [number_text(late[cell], 1) for cell in (*CELLS, ALL)]

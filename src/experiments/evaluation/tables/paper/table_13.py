@@ -67,9 +67,9 @@ def thresholds_of(settings: ThresholdTable, published: PublishedTable, detection
     for level in settings.levels:
         robots = owners(detections, level, settings.levels)
         parts.append(read_detection(detections, robots, "thresholds").assign(level=level))
-    own = pd.concat(parts, ignore_index=True)
-    own["cell"] = own["signal"] + " " + own["phase"].astype(str)
-    groups = own.groupby(PLACE, sort=False)
+    thresholds = pd.concat(parts, ignore_index=True)
+    thresholds["cell"] = thresholds["signal"] + " " + thresholds["phase"].astype(str)
+    groups = thresholds.groupby(PLACE, sort=False)
     rows = groups["value"].agg(["mean", "min", "max", "count"]).reset_index()
     rows = rows.rename(columns={"mean": "value", "min": "low", "max": "high"})
     rows = rows.assign(quantity=QUANTITY, unit=groups["unit"].first().to_numpy())
