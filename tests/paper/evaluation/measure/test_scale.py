@@ -94,9 +94,9 @@ def test_what_follows_from_our_own_choices_is_never_judged(
 ) -> None:
     row = row_of(configured, "impact-foot")
     found = on(known, row, Number(200.0, low, high, unit="N", networks=(3,)), {})
-    assert found.verdict == "description"
-    assert found.remark == f"Described, not judged: {row.claim.described}"
-    assert on(known, row, Number(None), {}).verdict == "not measured"
+    assert found["verdict"] == "description"
+    assert found["remark"] == f"Described, not judged: {row.claim.described}"
+    assert on(known, row, Number(None), {})["verdict"] == "not measured"
 
 
 def test_the_control_has_the_verdicts_of_other_methods(configured: Settings, known: KnownMethods) -> None:
