@@ -38,6 +38,8 @@ REFUSALS = FULL | {
     errno.ENAMETOOLONG,
 }
 MIB = 2**20
+STDIN = ("-", "/dev/stdin")
+OPEN_FILES = ("/dev/fd", "/proc/self/fd")  # folders in which a process sees its open files by their numbers
 ROOM_BYTES = 2**17  # below this a disk counts as full
 
 
@@ -145,6 +147,19 @@ def write_text(path: Path, text: str) -> None:
 def write_json(path: Path, value: Mapping[str, object]) -> None:
     """Write a JSON file atomically, keys in the order given."""
     write_text(path, json.dumps(value, indent=1) + "\n")
+
+
+def descriptor_of(path: Path) -> int | None:
+    """Return the open file that a path stands for: that of `-`, of /dev/stdin, and of a shell's `<(...)`; else None."""
+    if str(path) in STDIN:
+        return 0
+    is_number = path.name.isascii() and path.name.isdecimal()
+    return int(path.name) if str(path.parent) in OPEN_FILES and is_number else None
+
+
+def stem_of(path: Path) -> str:
+    """Return the name of a robot's file without its endings; that of a pipe says nothing."""
+    return "robot" if descriptor_of(path) is not None else Path(path.name.removesuffix(".gz")).stem
 
 
 def check_regular(path: Path) -> None:

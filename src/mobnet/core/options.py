@@ -3,7 +3,7 @@
 import argparse
 from pathlib import Path
 
-from mobnet.core.files import files_like
+from mobnet.core.files import descriptor_of, files_like
 from mobnet.core.place import command
 
 LABELS = {
@@ -20,6 +20,7 @@ GAIN_HZ = (0.1, 5000.0)
 TORQUE_LIMIT_NM = 100.0
 SPEED_LIMIT_RAD_S = 10.0
 ARMATURE_KG_M2 = 0.0
+FROM_STDIN = ("robot", "file")  # words that may be `-`: files of robots
 
 
 def observe_parser() -> argparse.ArgumentParser:
@@ -48,7 +49,9 @@ def observe_parser() -> argparse.ArgumentParser:
 def add_robot(parser: argparse.ArgumentParser) -> None:
     """Add the option that names the file of a robot."""
     parser.add_argument(
-        "--robot", type=Path, help="table of the robot, or its URDF or MJCF file (default: the table of configs)"
+        "--robot",
+        type=Path,
+        help="table of the robot, or its URDF or MJCF file; - is standard input (default: the table of configs)",
     )
 
 
@@ -265,12 +268,21 @@ def export_parser() -> argparse.ArgumentParser:
 
 def missing_input(options: argparse.Namespace) -> str | None:
     """Return a line about the first file or folder that a command gets and that is not there; None if all are."""
+    readers = list[str]()
     for name, value in vars(options).items():
         if name == "out":
             continue
         for path in value if isinstance(value, list) else [value]:
-            if isinstance(path, Path) and not _is_there(path):
+            if not isinstance(path, Path):
+                continue
+            if descriptor_of(path) == 0:
+                readers.append(name)
+                if name in FROM_STDIN:
+                    continue
+            if not _is_there(path):
                 return f"{path}: no such file or folder{files_like(path)}"
+    if len(readers) > 1:
+        return f"{' and '.join(readers)}: standard input for both is not accepted; accepted: a file for one of them"
     return None
 
 

@@ -9,7 +9,7 @@ from argparse import Namespace
 from pathlib import Path
 
 from mobnet.core.errors import ConfigError, DataError, beyond, not_accepted, refuse_lines
-from mobnet.core.files import RUN, check_place
+from mobnet.core.files import RUN, check_place, stem_of
 from mobnet.core.options import GAIN_HZ, LABELS, MCAP, RATE_HZ, SIGNALS
 from mobnet.core.place import command
 
@@ -103,7 +103,7 @@ def floats(word: str | None) -> bool | None:
 
 def imported_table(options: Namespace) -> Path:
     """Return the table that `robot` makes."""
-    return options.out or Path(f"{options.file.stem}.yaml")
+    return options.out or Path(f"{stem_of(options.file)}.yaml")
 
 
 def check_motion(options: Namespace) -> None:

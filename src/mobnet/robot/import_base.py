@@ -5,7 +5,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from mobnet.core.errors import DataError, not_accepted
-from mobnet.robot.import_tree import BALL, FREE, HINGE, PLANAR, SLIDE, WORLD, Joint, Link, LinkTree
+from mobnet.robot.import_tree import BALL, FREE, HINGE, PLANAR, SLIDE, WORLD, Follows, Joint, Link, LinkTree
 
 WELDED = {SLIDE: "slides", BALL: "is a ball", PLANAR: "moves in a plane", FREE: "moves freely"}
 UNITS = {HINGE: "rad", SLIDE: "m"}
@@ -19,11 +19,13 @@ class RobotSelection:
         base: the link that floats; `WORLD` where the base stands still.
         kept: whether each link is a part of the robot.
         held: index of a joint -> angle [rad] or position [m] at which it is welded.
+        idle: names of links that a hinge moves without any mass.
     """
 
     base: int
     kept: list[bool]
     held: dict[int, float] = field(default_factory=dict)
+    idle: list[str] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
 
     @property
@@ -104,7 +106,7 @@ def _weld(tree: LinkTree, robot: RobotSelection, locked: Sequence[str]) -> Itera
         elif joint.follows is not None:
             robot.held[joint.index] = _coupled(joint, places, asked)
             leader = places.get(-1 if joint.follows.leader is None else joint.follows.leader)
-            what = "is held" if leader is None else f"follows {_shown(leader)}"
+            what = _coupling_text(joint, joint.follows, leader)
             where = f"{robot.held[joint.index]:g} {UNITS[joint.kind]}"
             yield f"{_shown(joint)}: {what}; it is welded at {where}, as a motor of its own moves each joint of a table"
     yield from _weld_idle(tree, robot)
@@ -116,6 +118,15 @@ def _moves_base(tree: LinkTree, robot: RobotSelection, joint: Joint) -> bool:
 
 def _shown(joint: Joint) -> str:
     return joint.name or f"joint {joint.index}"
+
+
+def _coupling_text(joint: Joint, follows: Follows, leader: Joint | None) -> str:
+    """Return what a joint does that its leader, if it has one, moves."""
+    if leader is joint:
+        return "follows itself"
+    if leader is not None:
+        return f"follows {_shown(leader)}"
+    return f"follows {follows.name}, which is not in the file" if follows.name else "is held"
 
 
 def _coupled(joint: Joint, joints: Mapping[int, Joint], asked: Mapping[int, float]) -> float:
@@ -167,7 +178,9 @@ def _weld_idle(tree: LinkTree, robot: RobotSelection) -> Iterator[str]:
     idle = list[Joint]()
     for link, is_kept, has_mass in zip(tree.links, robot.kept, heavy, strict=True):
         if is_kept and not has_mass:
-            idle += [joint for joint in link.joints if joint.kind == HINGE and joint.index not in robot.held]
+            hinges = [joint for joint in link.joints if joint.kind == HINGE and joint.index not in robot.held]
+            idle += hinges
+            robot.idle += [link.name] if hinges else []
     robot.held |= {joint.index: joint.at for joint in idle}
     if idle:
         yield f"welded, as they move no mass: {', '.join(map(_shown, idle))}"

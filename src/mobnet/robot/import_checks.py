@@ -8,7 +8,6 @@ import copy
 import xml.etree.ElementTree as ET
 from collections.abc import Callable, Iterator
 from itertools import chain
-from pathlib import Path
 from typing import Any
 
 import mujoco
@@ -20,12 +19,12 @@ from mobnet.core.arrays import Array
 from mobnet.core.errors import DataError
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.dynamics import bias, mass_matrix
+from mobnet.robot.import_file import RobotFile
 from mobnet.robot.import_inertia import balanced
 from mobnet.robot.import_links import Imported
 from mobnet.robot.import_mjcf import GRAVITY, compiled, spec_of
 from mobnet.robot.import_tree import FREE
 from mobnet.robot.import_urdf import MOMENTS
-from mobnet.robot.importing import read_root
 from mobnet.robot.nominal import NominalModel
 
 POSES, SEED, SPEED = 5, 1, 2.0  # at which models are compared, and their largest velocity [m/s], [rad/s]
@@ -37,17 +36,20 @@ FAULTS = (DataError, ValueError, RuntimeError, KeyError, IndexError, mujoco.Fata
 
 
 def differences(
-    robot: RobotDescription, imported: Imported, path: Path, notes: list[str] | None = None
+    robot: RobotDescription, imported: Imported, notes: list[str] | None = None
 ) -> Iterator[tuple[str, float, float]]:
     """Yield another reading of a file, and by how much mass matrix and bias of the table differ from it.
 
     Both are shares of the largest entry, over some random poses. A reading that cannot be made is noted.
     """
+    file = imported.file
+    if file is None:
+        return
     nominal = NominalModel(robot, gravity_m_s2=-GRAVITY[2])
     readings = {"Pinocchio": _pinocchio, "MuJoCo": _mujoco} if imported.kind == "URDF" else {"MuJoCo": _mujoco}
     for name, read in readings.items():
         try:
-            inertia, terms = _compared(nominal, read(robot, imported, path))
+            inertia, terms = _compared(nominal, read(robot, imported, file))
         except FAULTS as error:
             if notes is not None:
                 said = " ".join(str(error).split()).partition("; accepted")[0]
@@ -87,9 +89,9 @@ def _apart(one: Array, other: Array, least: float) -> float:
     return float(np.abs(one - other).max() / max(np.abs(other).max(), least))
 
 
-def _pinocchio(robot: RobotDescription, imported: Imported, path: Path) -> Terms:
+def _pinocchio(robot: RobotDescription, imported: Imported, file: RobotFile) -> Terms:
     """Return mass matrix and bias by Pinocchio's own reading of a URDF."""
-    text = _plain(read_root(path), imported)
+    text = _plain(file.root, imported)
     whole = pin.buildModelFromXML(text, pin.JointModelFreeFlyer()) if robot.floating else pin.buildModelFromXML(text)
     names = ["root_joint"] * robot.floating + [f"j{joint.index}" for joint in imported.hinges]
     locked = [k for k, name in enumerate(whole.names) if k and name not in names]
@@ -150,6 +152,8 @@ def _plain(root: ET.Element, imported: Imported) -> str:
     names = {link.name: k for k, link in enumerate(imported.tree.links)}
     dropped = set(chain.from_iterable(mass.dropped for mass in imported.masses))
     plain = ET.Element("robot", name="robot")
+    if _has_quaternions(root):
+        plain.set("version", root.get("version", ""))
     for row in root.findall("link"):
         number = names[row.get("name", "")]
         inertial = row.find("inertial")
@@ -170,6 +174,11 @@ def _plain(root: ET.Element, imported: Imported) -> str:
     return ET.tostring(plain, encoding="unicode")
 
 
+def _has_quaternions(root: ET.Element) -> bool:
+    """Return whether a place in a URDF has a quaternion."""
+    return any("quat_xyzw" in origin.attrib for origin in root.iter("origin"))
+
+
 def _end(joint: ET.Element, end: str) -> str:
     element = joint.find(end)
     return "" if element is None else element.get("link", "")
@@ -186,9 +195,9 @@ def _whole(inertial: ET.Element) -> ET.Element:
     return whole
 
 
-def _mujoco(robot: RobotDescription, imported: Imported, path: Path) -> Terms:
+def _mujoco(robot: RobotDescription, imported: Imported, file: RobotFile) -> Terms:
     """Return mass matrix and bias by MuJoCo's own reading of a file."""
-    model = _model(imported, path)
+    model = _model(imported, file)
     joints = {
         joint.index: _number(model, imported, joint.index) for joint in imported.tree.joints() if joint.kind != FREE
     }
@@ -208,6 +217,7 @@ def _mujoco(robot: RobotDescription, imported: Imported, path: Path) -> Terms:
     if robot.floating:
         body = _body(model, imported, imported.robot.base)
         first = int(model.body_jntadr[body])
+        model.dof_armature[np.arange(BASE) + model.jnt_dofadr[first]] = 0.0  # no rotor moves a base
         dofs = np.concatenate([np.arange(BASE) + model.jnt_dofadr[first], dofs])
 
     def terms(q: Array, v: Array) -> tuple[Array, Array]:
@@ -226,13 +236,15 @@ def _mujoco(robot: RobotDescription, imported: Imported, path: Path) -> Terms:
     return terms
 
 
-def _model(imported: Imported, path: Path) -> mujoco.MjModel:
+def _model(imported: Imported, file: RobotFile) -> mujoco.MjModel:
     """Return MuJoCo's model of a file, its base free where the robot floats."""
     if imported.kind == "URDF":
-        spec = mujoco.MjSpec.from_string(_plain(read_root(path), imported))
+        if _has_quaternions(file.root):
+            raise DataError("it takes no notice of quat_xyzw")
+        spec = mujoco.MjSpec.from_string(_plain(file.root, imported))
         spec.compiler.fusestatic = False
     else:
-        spec = spec_of(path)
+        spec = spec_of(file)
     if imported.floating:
         link = imported.tree.links[imported.robot.base]
         if imported.kind == "URDF":

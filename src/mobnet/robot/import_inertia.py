@@ -7,7 +7,7 @@ import numpy as np
 
 from mobnet.core.arrays import Array
 from mobnet.robot.import_tree import Link, Part, RigidBody
-from mobnet.settings.parts import GYRATION_M, is_possible
+from mobnet.settings.parts import GYRATION_M, MOST_KG, is_possible
 
 # Of a body without mass between joints, [kg] and [kg m^2]: it changes no torque by a digit that counts, and MuJoCo
 # simulates it.
@@ -74,7 +74,36 @@ def fused(parts: Sequence[Part]) -> tuple[float, Array, Array]:
 def is_rigid(mass: float, inertia: Array) -> bool:
     """Return whether a table takes an inertia of a mass."""
     low, high = GYRATION_M
-    return mass > 0.0 and is_possible(six(inertia)) and low <= np.sqrt(np.diag(inertia).max() / mass) <= high
+    return mass > 0.0 and is_possible(six(inertia)) and low <= _radius(mass, inertia) <= high
+
+
+def faults_of(body: RigidBody, whole: Mass, links: Sequence[Link]) -> Iterator[str]:
+    """Yield why a table does not take the mass of a body, by the names of the links that it comes from."""
+    low, high = GYRATION_M
+    if whole.mass > MOST_KG:
+        heavy = [part for part in body.parts if part.mass > MOST_KG] or body.parts
+        mass = sum(part.mass for part in heavy)
+        yield f"{_links_text(heavy, links)}: mass {mass:g} kg is not accepted; accepted: above 0 to {MOST_KG:g} kg"
+    if _radius(whole.mass, whole.inertia) > high:  # what is below the lower bound was raised to it
+        wide = [part for part in body.parts if _radius(part.mass, part.inertia) > high] or body.parts
+        mass, _, inertia = fused(wide)
+        text = f"{_links_text(wide, links)}: {_mass_text(mass, inertia)}"
+        radius = f"a radius of gyration of {_radius(mass, inertia):.3g} m"
+        yield f"{text}, {radius} is not accepted; accepted: {low} to {high} m, of [kg] and [kg m^2]"
+
+
+def _radius(mass: float, inertia: Array) -> float:
+    """Return the largest radius of gyration [m]."""
+    moment = float(np.diag(inertia).max())
+    if moment <= 0.0:
+        return 0.0
+    return float(np.sqrt(moment / mass)) if mass else np.inf
+
+
+def _links_text(parts: Sequence[Part], links: Sequence[Link]) -> str:
+    """Return the names of the links of a body that have a mass."""
+    names = [links[part.link].name for part in parts if part.mass or part.inertia.any()]
+    return f"link{'s' if len(names) > 1 else ''} {', '.join(names)}"
 
 
 def six(inertia: Array) -> tuple[float, float, float, float, float, float]:
@@ -101,7 +130,7 @@ def balanced(mass: float, inertia: Array) -> tuple[float, Array]:
 
 def _large(name: str, whole: Mass) -> Iterator[str]:
     """Yield that a radius of gyration is larger than that of links of robots."""
-    radius = float(np.sqrt(np.diag(whole.inertia).max() / whole.mass))
+    radius = _radius(whole.mass, whole.inertia)
     if radius > LARGE_M:
         text = _mass_text(whole.mass, whole.inertia)
         yield f"{name}: {text}, a radius of gyration of {radius:.3g} m, as the file has it"

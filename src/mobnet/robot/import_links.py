@@ -6,14 +6,16 @@ hold and what is changed is told line by line.
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
+from itertools import chain
 from typing import Any
 
 import numpy as np
 
-from mobnet.core.errors import DataError
+from mobnet.core.errors import DataError, refuse_lines
 from mobnet.core.joints import N_VIRTUAL
 from mobnet.robot.import_base import RobotSelection, robot_of
-from mobnet.robot.import_inertia import TOKEN_MASS, Mass, mass_of
+from mobnet.robot.import_file import RobotFile
+from mobnet.robot.import_inertia import TOKEN_MASS, Mass, faults_of, mass_of
 from mobnet.robot.import_names import limbs, title_of
 from mobnet.robot.import_rows import body_rows, joint_rows
 from mobnet.robot.import_tree import Joint, LinkTree, RigidBody, bodies_of
@@ -21,6 +23,7 @@ from mobnet.robot.import_tree import Joint, LinkTree, RigidBody, bodies_of
 VIRTUAL = [f"V{k + 1}" for k in range(N_VIRTUAL)]
 BASE_LIMB = "V"
 MOST_LINKS = 2000  # of a file
+MOST_SHOWN = 5  # names of links in a line
 MOST_JOINTS = 250  # of a table; the library for robots takes 255
 # A base that stands still has no momentum: its mass only has to be some mass
 STANDING = Mass(1.0, np.zeros(3), 0.01 * np.eye(3))
@@ -35,6 +38,7 @@ class Imported:
         tree: the file, of the kind `kind`.
         robot: its links that the table holds.
         masses: those of each body, the base first.
+        file: where it was read from; None for a model that a program holds.
     """
 
     name: str
@@ -49,6 +53,7 @@ class Imported:
     masses: list[Mass]
     notes: list[str] = field(default_factory=list)
     imu: dict[str, Any] | None = None
+    file: RobotFile | None = None
 
     @property
     def hinges(self) -> list[Joint]:
@@ -102,7 +107,7 @@ def _with_bodies(tree: LinkTree, robot: RobotSelection, kind: str, otherwise: st
     parts = bodies_of(tree, robot.base, robot.kept, robot.held)
     hinges = [body.joint for body in parts if body.joint is not None]
     if not hinges:
-        raise DataError("no hinge that moves a mass; accepted: a robot whose joints turn")
+        raise DataError(_without_hinges(robot.idle))
     if len(hinges) > MOST_JOINTS:
         raise DataError(f"{len(hinges)} hinges are not accepted; accepted: at most {MOST_JOINTS}; --lock welds a joint")
     masses = [mass_of(body, tree.links) for body in parts]
@@ -110,6 +115,9 @@ def _with_bodies(tree: LinkTree, robot: RobotSelection, kind: str, otherwise: st
         raise DataError(f"a base that floats without mass, {parts[0].name}, is not accepted; accepted: --base fixed")
     if not robot.floating:
         masses[0] = STANDING
+    refuse_lines(
+        chain.from_iterable(faults_of(body, mass, tree.links) for body, mass in zip(parts, masses, strict=True))
+    )
     notes = [*tree.notes, *robot.notes, *_set_armature(hinges, armature)]
     for mass in masses:
         notes += mass.notes
@@ -120,6 +128,16 @@ def _with_bodies(tree: LinkTree, robot: RobotSelection, kind: str, otherwise: st
     return Imported(
         title_of(tree.name, otherwise), bodies, [], {}, robot.floating, kind, tree, robot, parts, masses, notes
     )
+
+
+def _without_hinges(idle: Sequence[str]) -> str:
+    """Return why no joint of a robot turns; links whose hinges move no mass show that the file lacks masses."""
+    if not idle:
+        return "no hinge that moves a mass; accepted: a robot whose joints turn"
+    names = ", ".join(name or "one without a name" for name in idle[:MOST_SHOWN])
+    names += ", ..." if len(idle) > MOST_SHOWN else ""
+    what = f"no hinge that moves a mass: no <inertial> with a mass in any link that a hinge moves ({names})"
+    return f"{what}; accepted: mass and inertia of each link, from the robot's maker or its CAD model"
 
 
 def _set_armature(joints: Sequence[Joint], armature: float) -> Iterator[str]:
@@ -134,7 +152,11 @@ def _set_armature(joints: Sequence[Joint], armature: float) -> Iterator[str]:
 
 def left_out(joints: Sequence[Joint], chains: int, *, has_imu: bool) -> Iterator[str]:
     """Yield what the file has and a table does not hold."""
-    lost = {"damping": any(joint.damping for joint in joints), "dry friction": any(joint.friction for joint in joints)}
+    lost = {
+        "damping": any(joint.damping for joint in joints),
+        "dry friction": any(joint.friction for joint in joints),
+        "springs (stiffness)": any(joint.stiffness for joint in joints),
+    }
     for name, is_there in lost.items():
         if is_there:
             yield f"{name} of joints: not taken over; networks learn it"

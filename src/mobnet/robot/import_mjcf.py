@@ -10,6 +10,7 @@ import numpy as np
 
 from mobnet.core.arrays import Array
 from mobnet.core.errors import DataError
+from mobnet.robot.import_file import RobotFile
 from mobnet.robot.import_tree import BALL, FREE, HINGE, SLIDE, WORLD, Follows, Joint, Link, LinkTree, Site
 
 KINDS = {  # an enumerator of MuJoCo equals no integer of numpy that is on its right
@@ -31,13 +32,13 @@ SMALL_TEXTURE, CUBE_SIDES = 8, 6  # [pixels]
 Made = TypeVar("Made")
 
 
-def read_mjcf(path: Path) -> LinkTree:
+def read_mjcf(file: RobotFile) -> LinkTree:
     """Return the bodies of a MJCF file as links.
 
     Raises:
         DataError: MuJoCo does not read it.
     """
-    spec = spec_of(path)
+    spec = spec_of(file)
     model = compiled(spec)
     couplings = _couplings(model)
     tree = LinkTree(spec.modelname, [_link(model, b, couplings) for b in range(1, model.nbody)])
@@ -50,15 +51,19 @@ def read_mjcf(path: Path) -> LinkTree:
             )
     tree.chains = int(model.neq) - len(couplings)
     tree.notes += _gravity(model)
+    tree.notes += _not_modelled(model)
     return tree
 
 
-def spec_of(path: Path) -> mujoco.MjSpec:
+def spec_of(file: RobotFile) -> mujoco.MjSpec:
     """Return the specification of a file without what says nothing about its masses: pictures, heights, keyframes.
 
     A mesh that no mass follows from is a tetrahedron, so that its file may be missing.
     """
-    spec = _or_one_line(lambda: mujoco.MjSpec.from_file(str(path)))
+    if file.is_stored:
+        spec = _or_one_line(lambda: mujoco.MjSpec.from_file(str(file.path)))
+    else:
+        spec = _or_one_line(lambda: mujoco.MjSpec.from_string(file.text))
     spec.memory = -1  # as much as it takes
     spec.compiler.fusestatic = False
     spec.compiler.boundmass = max(spec.compiler.boundmass, BOUND_MASS)
@@ -181,6 +186,7 @@ def _joint(model: mujoco.MjModel, k: int, couplings: Mapping[int, Follows]) -> J
         armature=float(model.dof_armature[dof]),
         damping=float(np.ravel(model.dof_damping[dof])[0]),
         friction=float(model.dof_frictionloss[dof]),
+        stiffness=float(np.ravel(model.jnt_stiffness[k])[0]),
         has_motor=bool(actuators) or not model.nu,
         follows=None if actuators else couplings.get(k),
     )
@@ -229,3 +235,15 @@ def _gravity(model: mujoco.MjModel) -> Iterator[str]:
     if np.abs(model.opt.gravity - GRAVITY).max() > NEAR:
         numbers = ", ".join(f"{value:g}" for value in model.opt.gravity)
         yield f"gravity of the file, [{numbers}] m/s^2, is not taken over; a table's z is up, with 9.81 m/s^2 down"
+
+
+def _not_modelled(model: mujoco.MjModel) -> Iterator[str]:
+    """Yield forces of the file that a table does not hold, those of single joints left aside."""
+    carried = [model.body(b).name or f"body {b}" for b in range(1, model.nbody) if model.body_gravcomp[b]]
+    if carried:
+        yield f"gravcomp of {', '.join(carried)}: not taken over; bodies of a table have all of their weight"
+    if model.opt.density or model.opt.viscosity:
+        numbers = f"density {model.opt.density:g} kg/m^3, viscosity {model.opt.viscosity:g} Pa s"
+        yield f"fluid, {numbers}: not taken over; networks learn its drag"
+    if np.any(model.tendon_stiffness):
+        yield "springs of tendons: not taken over; networks learn them"

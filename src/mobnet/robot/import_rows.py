@@ -77,12 +77,14 @@ def joint_rows(
     words = words_of(names, "joint", taken)
     notes += renamed(names, words, "joints")
     torque_limit, speed_limit = limits
+    turned = list[str]()
     unlimited: dict[str, list[str]] = {"range": [], "torque": [], "speed": []}
     for joint, word, body in zip(hinges, words, bodies, strict=True):
         low, high = _range(joint)
         torque = _within(joint.torque, TORQUE_NM)
         speed = _within(joint.speed, SPEED_RAD_S)
-        unlimited["range"] += [word] if (low, high) != joint.range else []
+        turned += [word] if joint.range and joint.range[0] > joint.range[1] else []
+        unlimited["range"] += [word] if joint.range is None or (low, high) != _ends(joint.range) else []
         unlimited["torque"] += [] if torque else [word]
         unlimited["speed"] += [] if speed else [word]
         yield {
@@ -95,6 +97,8 @@ def joint_rows(
             "armature": joint.armature,
             "velocity_limit": speed or speed_limit,
         }
+    if turned:
+        notes.append(f"range of {', '.join(turned)}: the lower end is above the upper one; they change places")
     defaults = {"range": f"{MOST_RAD} rad", "torque": f"{torque_limit:g} N m", "speed": f"{speed_limit:g} rad/s"}
     for kind, without in unlimited.items():
         if without:
@@ -106,9 +110,15 @@ def _range(joint: Joint) -> tuple[float, float]:
     """Return the range of a joint [rad] as a table takes it, two turns to each side where there is none."""
     if joint.range is None:
         return -MOST_RAD, MOST_RAD
-    low = max(joint.range[0], -MOST_RAD)
-    high = min(joint.range[1], MOST_RAD)
+    low, high = _ends(joint.range)
+    low = max(low, -MOST_RAD)
+    high = min(high, MOST_RAD)
     return (low, high) if low < high else (-MOST_RAD, MOST_RAD)
+
+
+def _ends(ends: tuple[float, float]) -> tuple[float, float]:
+    """Return the ends of a range, the lower one first."""
+    return min(ends), max(ends)
 
 
 def _within(value: float | None, bounds: tuple[float, float]) -> float | None:
@@ -119,7 +129,7 @@ def _within(value: float | None, bounds: tuple[float, float]) -> float | None:
 def _beyond(kind: str, joints: Sequence[Joint]) -> str:
     """Return what is said where some joint has a limit, but none that a table takes."""
     if kind == "range":
-        beyond = [joint.range for joint in joints if joint.range not in (None, _range(joint))]
+        beyond = [joint for joint in joints if joint.range and _ends(joint.range) != _range(joint)]
         return f" or wider than {MOST_RAD} rad" if beyond else ""
     values = [joint.torque if kind == "torque" else joint.speed for joint in joints]
     low, high = TORQUE_NM if kind == "torque" else SPEED_RAD_S

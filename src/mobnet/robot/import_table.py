@@ -18,6 +18,7 @@ from mobnet.core.printed import printed
 from mobnet.core.word_checks import check_robot, floats, imported_table
 from mobnet.robot.description import RobotDescription, describe
 from mobnet.robot.import_checks import differences
+from mobnet.robot.import_file import content_of
 from mobnet.robot.import_links import Imported, values_of
 from mobnet.robot.importing import import_robot
 from mobnet.robot.limit_words import check_limits
@@ -55,8 +56,18 @@ def _line(text: str) -> str:
     return " ".join(text.split())
 
 
-def robot_of_text(text: str, source: Path) -> RobotDescription:
-    """Return the robot of a table's text, which is written nowhere before it is right.
+def robot_of_text(text: str, source: Path, imported: Imported | None = None) -> RobotDescription:
+    """Return the robot of a table's text as `table_of_text` does its table."""
+    return describe(table_of_text(text, source, imported))
+
+
+def table_of_text(text: str, source: Path, imported: Imported | None = None) -> RobotTable:
+    """Return the table of a text, which is written nowhere before it is right.
+
+    Args:
+        text: YAML.
+        source: the file that it was made of.
+        imported: what was read of it; its rows are then named as there.
 
     Raises:
         DataError: the table is not accepted; the lines name the file that it was made of.
@@ -65,14 +76,26 @@ def robot_of_text(text: str, source: Path) -> RobotDescription:
         path = Path(folder) / "table.yaml"
         path.write_text(text, encoding="utf-8")
         try:
-            return describe(load_section(path, RobotTable))
+            return load_section(path, RobotTable)
         except ConfigError as error:
-            raise refusal(source, (_without(line, path) for line in str(error).splitlines())) from None
+            lines = [_without(line, path) for line in str(error).splitlines()]
+            raise refusal(source, (_named(line, imported) for line in lines)) from None
 
 
 def _without(line: str, path: Path) -> str:
     """Return a fault without the name of a file that is gone."""
     return re.sub(rf"^{re.escape(str(path))}(:\d+)?: ", "", line)
+
+
+def _named(line: str, imported: Imported | None) -> str:
+    """Return a fault with the name of the link or the joint in place of its number."""
+    row = re.match(r"(bodies|joints)\.(\d+)\.", line)
+    if row is None or imported is None:
+        return line
+    rows = imported.bodies if row[1] == "bodies" else imported.joints
+    names = rows[int(row[2])]
+    kind, name = ("link", names["name"]) if row[1] == "bodies" else ("joint", names["id"])
+    return f"{kind} {name}: {line[row.end() :]}"
 
 
 def made(options: Namespace) -> tuple[str, list[str]]:
@@ -84,7 +107,7 @@ def made(options: Namespace) -> tuple[str, list[str]]:
     taken = options.torque_limit, options.speed_limit, options.armature, options.lock
     imported = import_robot(options.file, floats(options.base), *taken)
     text = table_text(imported, options.file.name)
-    return text, list(report_lines(robot_of_text(text, options.file), imported, options.file))
+    return text, list(report_lines(robot_of_text(text, options.file, imported), imported, options.file))
 
 
 def read_robot(path: Path) -> RobotDescription:
@@ -93,10 +116,22 @@ def read_robot(path: Path) -> RobotDescription:
     Raises:
         DataError: the file is no robot, a table cannot hold it, or the table differs from another reading of the file.
     """
-    options = import_parser().parse_args([str(path)])
-    text, lines = in_child(lambda: made(options), SECONDS, str(path))
+    table, notes = read_table(path)
+    return replace(describe(table), notes=notes)
+
+
+def read_table(path: Path) -> tuple[RobotTable, tuple[str, ...]]:
+    """Return the table of a URDF or MJCF file, and what is changed, missing or not held by it, as `read_robot` does."""
+    options = import_parser().parse_args(["--", str(path)])
+    text, lines = _made_in_child(options)
     notes = tuple(line.removeprefix(NOTE) for line in lines if line.startswith(NOTE))
-    return replace(robot_of_text(text, path), notes=notes)
+    return table_of_text(text, path), notes
+
+
+def _made_in_child(options: Namespace) -> tuple[str, list[str]]:
+    """Return what `made` does, from a process of its own."""
+    content_of(options.file)  # here, as this process looks at a pipe again, and what a child keeps of it is lost
+    return in_child(lambda: made(options), SECONDS, str(options.file))
 
 
 def run(options: Namespace) -> Iterator[str]:
@@ -104,7 +139,7 @@ def run(options: Namespace) -> Iterator[str]:
     check_robot(options)
     check_limits(options)
     out = imported_table(options)
-    text, lines = in_child(lambda: made(options), SECONDS, str(options.file))
+    text, lines = _made_in_child(options)
     write_text(out, text)
     yield from lines
     yield f"written: {out}"
@@ -124,7 +159,7 @@ def report_lines(robot: RobotDescription, imported: Imported, path: Path) -> Ite
     """
     kind = "floating" if robot.floating else "fixed"
     notes = list[str]()
-    compared = list(differences(robot, imported, path, notes))
+    compared = list(differences(robot, imported, notes))
     for reading, *apart in compared:
         if not max(apart) <= EQUAL:
             text = f"the table differs from {reading}'s own reading by {max(apart):.1e} of the largest entries"

@@ -22,11 +22,15 @@ PLANAR = "planar"
 
 @dataclass(frozen=True)
 class Follows:
-    """What a coupled joint does: factor times the coordinate of a leader, by its index, and an offset."""
+    """What a coupled joint does: factor times the coordinate of a leader, by its index, and an offset.
+
+    Without a leader the name is that of one which the file does not have, or empty.
+    """
 
     leader: int | None
     factor: float
     offset: float
+    name: str = ""
 
 
 @dataclass
@@ -39,7 +43,7 @@ class Joint:
         axis: unit vector in the link's axes (3,).
         pos: a point of the axis in the link's frame (3,).
         at: its coordinate where the link stands as the file places it.
-        range: lower and upper end; None where the file has none.
+        range: lower and upper end as the file has them; None where it has none.
         torque: the largest one [N m]; None where the file has none.
         speed: the largest one [rad/s]; None where the file has none.
         follows: the joint that it is coupled to.
@@ -58,6 +62,7 @@ class Joint:
     armature: float = 0.0
     damping: float = 0.0
     friction: float = 0.0
+    stiffness: float = 0.0
     has_motor: bool = True
     follows: Follows | None = None
 

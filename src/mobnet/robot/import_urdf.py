@@ -2,7 +2,6 @@
 
 import math
 import re
-import shlex
 import xml.etree.ElementTree as ET
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
@@ -12,6 +11,7 @@ import pinocchio as pin
 
 from mobnet.core.arrays import Array
 from mobnet.core.errors import DataError, not_accepted
+from mobnet.robot.import_file import expanding
 from mobnet.robot.import_tree import FREE, HINGE, PLANAR, SLIDE, WORLD, Follows, Joint, Link, LinkTree
 
 KINDS = {"revolute": HINGE, "continuous": HINGE, "prismatic": SLIDE, "floating": FREE, "planar": PLANAR, "fixed": None}
@@ -19,7 +19,10 @@ MOMENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 UNREAD = ("visual", "collision", "gazebo", "transmission")  # parts that say nothing about the dynamics
 MACRO = re.compile(r"\$[{(]")  # how a value of xacro begins
 KEYWORDS = {"arg", "call", "element", "if", "include", "insert_block", "macro", "property", "unless"}  # of xacro itself
-TURN = 0.01  # length below which an axis has no direction
+TURN = 0.01  # length below which an axis or a quaternion has no direction
+NO_LIMIT = -1.0  # as SDF writes it; so do 0 and infinity
+QUATERNION = 4  # numbers
+WITHOUT_QUATERNIONS = ("", "1.0")  # versions of URDF in which an origin has none
 
 
 def read_urdf(root: ET.Element, path: Path) -> LinkTree:
@@ -29,6 +32,7 @@ def read_urdf(root: ET.Element, path: Path) -> LinkTree:
         DataError: it is no robot, holds xacro, or its links are no tree.
     """
     notes = list(_check_expanded(root, path))
+    _check_version(root)
     links = {_named(link): link for link in _once("link", root.findall("link"))}
     rows = _once("joint", root.findall("joint"))
     if not links:
@@ -73,9 +77,14 @@ def _check_expanded(root: ET.Element, path: Path) -> Iterator[str]:
         for kind in UNREAD:
             for part in parent.findall(kind):
                 parent.remove(part)
-    macros = [part.tag.rpartition("}")[2] for part in root.iter() if "xacro" in part.tag]
+    prefixes = ["xacro"]
+    for part in root.iter():
+        prefixes += [key.removeprefix("xmlns:") for key, value in part.attrib.items() if _is_xacro(key, value)]
+    macros = list[str]()
     words = list[str]()
     for part in root.iter():
+        prefix, _, name = part.tag.rpartition(":")
+        macros += [name] if prefix in prefixes else []
         words += [repr(value) for value in part.attrib.values() if MACRO.search(value)]
     words += [f"xacro:{name}" for name in macros if name in KEYWORDS]
     if words:
@@ -84,11 +93,18 @@ def _check_expanded(root: ET.Element, path: Path) -> Iterator[str]:
         yield f"macros of xacro that are not expanded are left out: {', '.join(dict.fromkeys(macros))}"
 
 
-def expanding(path: Path) -> str:
-    """Return the command that makes a URDF from xacro."""
-    plain = path.name.removesuffix(".xacro").removesuffix(".urdf")
-    made = plain if path.suffix == ".xacro" else f"{plain}_expanded"
-    return f"xacro {shlex.quote(str(path))} > {shlex.quote(made)}.urdf"
+def _is_xacro(key: str, value: str) -> bool:
+    """Return whether an attribute binds a prefix to xacro."""
+    return key.startswith("xmlns:") and "xacro" in value
+
+
+def _check_version(root: ET.Element) -> None:
+    """Raise a DataError for quaternions in a version of URDF whose readers take no notice of them."""
+    version = root.get("version", "")
+    for part in root.iter("origin"):
+        if "quat_xyzw" in part.attrib and version in WITHOUT_QUATERNIONS:
+            what = f"quat_xyzw {part.attrib['quat_xyzw']!r} in a URDF of version {version or '1.0'}"
+            raise DataError(f'{what} is not accepted; accepted: rpy, or version="1.1" of the robot')
 
 
 def _named(row: ET.Element) -> str:
@@ -173,11 +189,10 @@ def _joint(row: _Row, kind: str, numbers: Mapping[str, int]) -> Joint:
         number(limits.get(key, "0"), f"{where}: {key}", finite=False)
         for key in ("lower", "upper", "effort", "velocity")
     )
-    if high < low:
-        raise DataError(f"{where}: range {low:g} to {high:g} is not accepted; accepted: the lower end first")
     for key, value, unit in (("effort", torque, "N m"), ("velocity", speed, "rad/s")):
-        if value < 0.0:
-            raise DataError(f"{where}: {key} {value:g} {unit} is not accepted; accepted: above 0; 0 stands for none")
+        if value < 0.0 and value != NO_LIMIT:
+            refused = f"{where}: {key} {value:g} {unit} is not accepted"
+            raise DataError(f"{refused}; accepted: above 0; 0, -1 and inf stand for none")
     damping, friction = (number(damped.get(key, "0"), f"{where}: {key}") for key in ("damping", "friction"))
     coupling = row.row.find("mimic")
     follows = None if coupling is None else _coupling(coupling, where, numbers)
@@ -186,10 +201,10 @@ def _joint(row: _Row, kind: str, numbers: Mapping[str, int]) -> Joint:
         kind=kind,
         axis=axis / (length or 1.0),
         index=row.index,
-        torque=torque,
-        speed=speed,
+        torque=max(torque, 0.0),
+        speed=max(speed, 0.0),
         damping=damping,
-        range=None if row.is_endless or not low < high else (low, high),
+        range=None if row.is_endless or low == high else (low, high),
         friction=friction,
         follows=follows,
     )
@@ -198,8 +213,9 @@ def _joint(row: _Row, kind: str, numbers: Mapping[str, int]) -> Joint:
 def _coupling(row: ET.Element, where: str, numbers: Mapping[str, int]) -> Follows:
     factor = row.get("multiplier", "1")
     offset = row.get("offset", "0")
-    leader = numbers.get(row.get("joint", ""))
-    return Follows(leader, number(factor, f"{where}: multiplier"), number(offset, f"{where}: offset of mimic"))
+    name = row.get("joint", "")
+    numbers_read = number(factor, f"{where}: multiplier"), number(offset, f"{where}: offset of mimic")
+    return Follows(numbers.get(name), *numbers_read, name)
 
 
 def _origin(row: ET.Element | None, where: str) -> tuple[Array, Array]:
@@ -207,14 +223,23 @@ def _origin(row: ET.Element | None, where: str) -> tuple[Array, Array]:
     element = None if row is None else row.find("origin")
     if element is None:
         return np.zeros(3), np.eye(3)
-    angles = _vector(element.get("rpy", "0 0 0"), f"{where}: rpy")
-    return _vector(element.get("xyz", "0 0 0"), f"{where}: xyz"), pin.rpy.rpyToMatrix(angles)
+    pos = _vector(element.get("xyz", "0 0 0"), f"{where}: xyz")
+    if "quat_xyzw" not in element.attrib:
+        return pos, pin.rpy.rpyToMatrix(_vector(element.get("rpy", "0 0 0"), f"{where}: rpy"))
+    if "rpy" in element.attrib:
+        raise DataError(f"{where}: an origin with rpy and quat_xyzw is not accepted; accepted: one of them")
+    text = element.attrib["quat_xyzw"]
+    quaternion = pin.Quaternion(_vector(text, f"{where}: quat_xyzw", QUATERNION))
+    if quaternion.norm() < TURN:
+        raise DataError(f"{where}: quat_xyzw {text!r} is not accepted; accepted: a direction")
+    return pos, quaternion.normalized().toRotationMatrix()
 
 
-def _vector(text: str, where: str) -> Array:
+def _vector(text: str, where: str, size: int = 3) -> Array:
     words = text.split()
-    if len(words) != 3:
-        raise DataError(f"{where} {text!r} is not accepted; accepted: three numbers")
+    if len(words) != size:
+        accepted = "three numbers" if size == 3 else f"{size} numbers"
+        raise DataError(f"{where} {text!r} is not accepted; accepted: {accepted}")
     return np.array([number(word, where) for word in words])
 
 

@@ -15,9 +15,10 @@ INERTIA_TOLERANCE = 1e-3  # share by which rounded figures may miss the triangle
 TORQUE_NM = (0.001, 5000)  # largest torque of a joint
 SPEED_RAD_S = (0.1, 100)  # largest speed of a joint
 ARMATURE = (0, 1000)  # of a joint [kg m^2]
+MOST_KG = 2000.0  # of a body; links of public files reach 1386 kg, in a robot that lifts 210 kg
 # Radius of gyration of a body: what is outside has its mass or inertia in another unit. Links of public files whose
-# figures were not measured reach 3.2 m.
-GYRATION_M = (0.001, 4.0)
+# figures were not measured reach 4.5 m, with 1 kg m^2 for 50 g.
+GYRATION_M = (0.001, 5.0)
 SIZES = {"box": 3, "ellipsoid": 3, "sphere": 1, "capsule": 2, "cylinder": 2}  # of a shape that stands at a point
 
 Side = Literal["left", "right"]
@@ -72,7 +73,7 @@ class BodyRow(Section):
     parent: base.Text
     pos: base.Vector3
     quat: UnitQuaternion
-    mass: base.Positive = Field(le=500)
+    mass: base.Positive = Field(le=MOST_KG)
     com: base.Vector3
     inertia: Inertia
 

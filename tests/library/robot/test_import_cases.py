@@ -112,7 +112,7 @@ def test_every_case_is_here():
 @pytest.mark.parametrize(("name", "base"), NOTES, ids=lambda word: str(word).partition("_")[0])
 def test_a_quirk_is_read_as_the_file_s_own_library_reads_it_and_told(name, base):
     found, robot = found_of(name, base)
-    compared = list(differences(robot, found, CASES / name))
+    compared = list(differences(robot, found))
     assert ("Pinocchio" if name.startswith("r") else "MuJoCo") in [reading for reading, *_ in compared]
     assert np.max([apart for _, *apart in compared]) < EQUAL
     told = "\n".join(found.notes)
@@ -167,7 +167,7 @@ def test_a_locked_joint_and_what_follows_it_are_welded_at_its_angle():
     assert robot.layout.actuated == ("shoulder", "elbow")
     assert "finger_joint: welded at 0.3 rad, as --lock asks for" in found.notes
     assert any(note.startswith("finger_mimic: follows finger_joint; it is welded at -0.3 rad") for note in found.notes)
-    assert np.max([apart for _, *apart in differences(robot, found, CASES / "r14_gripper_mimic.urdf")]) < EQUAL
+    assert np.max([apart for _, *apart in differences(robot, found)]) < EQUAL
     other, _ = found_of("r14_gripper_mimic.urdf", locked=["finger_joint"])
     assert other.robot.held != found.robot.held  # at zero
     assert other.bodies[-1]["com"] != found.bodies[-1]["com"]
@@ -178,7 +178,7 @@ def test_a_slide_may_be_locked_away_from_zero():
     found, robot = found_of(name, locked=["lift=0.5", "elbow=-1"])
     assert robot.layout.actuated == ("shoulder",)
     assert robot.bodies[1].pos == pytest.approx((0.0, 0.0, 0.8))
-    assert np.max([apart for _, *apart in differences(robot, found, CASES / name)]) < EQUAL
+    assert np.max([apart for _, *apart in differences(robot, found)]) < EQUAL
 
 
 @pytest.mark.parametrize("word", ["finger=1", "finger_joint=wide", "finger_joint=inf", "=1", "shoulder=0.1=0.2"])
