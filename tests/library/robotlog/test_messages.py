@@ -35,6 +35,14 @@ float64 q
 float64 dq
 float64 tau_est
 """
+DYNAMIC = "control_msgs/msg/DynamicJointState"
+DYNAMIC_DEFINITIONS = (
+    ("control_msgs/msg/InterfaceValue", "string[] interface_names\nfloat64[] values\n"),
+    (
+        DYNAMIC,
+        "std_msgs/Header header\nstring[] joint_names\ncontrol_msgs/InterfaceValue[] interface_values\n",
+    ),
+)
 OWN_FIELDS = {"q": "q", "v": "dq", "tau_motor": "tau_est"}
 OWN_MAP = {name: {"columns": [f"/low.motors.*.{field}"]} for name, field in OWN_FIELDS.items()}
 APART_MAP = {
@@ -227,6 +235,42 @@ def test_objects_in_a_list_are_found_by_their_own_names_in_any_order_that_may_ch
         np.testing.assert_allclose(sensed.tau_motor[:50, k], clean[f"tau_motor.{joint}"][:50], atol=1e-6)
     names = {"columns": [f"/low.joints.{joint}.q" for joint in JOINTS]}
     assert len(read(path, {**mapping, "q": names}).recording.sensed) == 200
+
+
+def dynamic_states(table):
+    """Return the DynamicJointStates of ros2_control, with joints and interfaces in an order that changes."""
+    interfaces = {"position": "q", "velocity": "v", "effort": "tau_motor"}
+    samples = []
+    for k, row in enumerate(table.to_dict("records")):
+        joints = JOINTS[::-1] if k % 3 else JOINTS
+        kinds = [*interfaces][:: -1 if k % 4 else 1]
+        values = [
+            {"interface_names": kinds, "values": [row[f"{interfaces[kind]}.{j}"] for kind in kinds]} for j in joints
+        ]
+        fields = {"joint_names": list(joints), "interface_values": values}
+        samples.append(Sample("/dynamic_joint_states", DYNAMIC, k * 10**6, k * 10**6, fields))
+    return samples
+
+
+@pytest.mark.parametrize("joints", [JOINTS, ("shoulder", "elbow")])
+def test_objects_in_a_list_are_found_by_the_names_beside_it(joints, clean, read, tmp_path):
+    samples = dynamic_states(clean[:200])
+    for sample in samples:
+        sample.fields["joint_names"] = [joints[JOINTS.index(name)] for name in sample.fields["joint_names"]]
+    path = bag2(samples, tmp_path / "bag", "MCAP", DYNAMIC_DEFINITIONS)
+    mapping = {
+        signal: {"columns": [f"/dynamic_joint_states.interface_values.*.values.{field}"]}
+        for signal, field in (("q", "position"), ("v", "velocity"), ("tau_motor", "effort"))
+    }
+    if joints != JOINTS:
+        # By number, which is how the list would be read without its names, joints would be exchanged.
+        with pytest.raises(DataError, match=r"column: .* is not accepted; accepted: .*interface_values\.elbow\.values"):
+            read(path, mapping)
+        mapping["joints"] = list(joints)
+    sensed = read(path, mapping).recording.sensed
+    for k, joint in enumerate(JOINTS):
+        np.testing.assert_allclose(sensed.q[:, k], clean[f"q.{joint}"][:200], atol=1e-12)
+        np.testing.assert_allclose(sensed.tau_motor[:, k], clean[f"tau_motor.{joint}"][:200], atol=1e-12)
 
 
 def as_json(contents, path):
