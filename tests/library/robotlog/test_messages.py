@@ -164,6 +164,48 @@ def test_clocks_that_are_apart_or_drift_are_named(clean, read, tmp_path):
     assert "against the recording they drift by -0.03" in hint
 
 
+def test_stamps_that_begin_anew_end_a_segment_as_times_of_a_table_do(clean, read, tmp_path):
+    """A simulation that was reset, to a time at which no sample was taken before."""
+    table = clean[:ROWS]
+    samples = states(table, stamp=lambda ns: ns if ns < 10**9 else ns - 700_300_000)
+    found = read(bag2(samples, tmp_path / "bag"))
+    assert found.recording.segments == ((0, 1000), (1000, ROWS))
+    np.testing.assert_allclose(found.recording.sensed.q[:, 1], table["q.J2"], atol=1e-12)
+    (hint,) = found.hints
+    assert hint.startswith(
+        f"stamps of {TOPIC}: begin anew in message 1000, as in a simulation that was reset: they count"
+    )
+    columns = {"tau_motor": {"columns": [f"{TOPIC}.effort"]}, **JOINT_MAP}
+    recorded = read(tmp_path / "bag", {**columns, "clock": {"stamp": "recorded"}})
+    assert recorded.hints == ()
+    assert recorded.recording.segments == ((0, ROWS),)
+
+
+@pytest.mark.parametrize("restarted", [("/motion", "/torque"), ("/torque",)])
+def test_topics_stay_together_where_the_stamps_of_some_begin_anew(restarted, clean, read, tmp_path):
+    """A simulation that was reset twice, or a driver of the torques alone, whose messages are late by 2 to 6 ms."""
+    table = clean[:ROWS]
+    samples = states(table)
+    motion, effort = apart(samples, "/motion", ("position", "velocity")), apart(samples[::5], "/torque", ("effort",))
+    late = np.random.default_rng(0).integers(2_000_000, 6_000_000, len(effort)).tolist()
+    messages = [*motion, *(one._replace(recorded_ns=one.stamp_ns + add) for one, add in zip(effort, late, strict=True))]
+    for k, one in enumerate(messages):
+        back = sum(one.stamp_ns >= start for start in (700_000_000, 1_300_000_000)) if one.topic in restarted else 0
+        messages[k] = one._replace(stamp_ns=one.stamp_ns - 600_000_000 * back)
+    found = read(bag2(messages, tmp_path / "bag"), APART_MAP)
+    first = {"/motion": 700, "/torque": 140}
+    hints = [f"stamps of {topic}: begin anew in message {first[topic]} and 1 more" for topic in restarted]
+    assert [hint.partition(",")[0] for hint in found.hints] == hints
+    assert len(found.recording.segments) == 3
+    sensed = found.recording.sensed
+    for k, (start, end) in enumerate(found.recording.segments):
+        pauses = 0.05 * k  # ten intervals of the slower topic
+        rows = np.round(1e3 * (found.time_s[start:end] - pauses)).astype(int)
+        assert 560 <= len(rows) <= 705
+        np.testing.assert_allclose(sensed.q[start:end, 0], table["q.J1"][rows], atol=1e-3)
+        np.testing.assert_allclose(sensed.tau_motor[start:end, 0], table["tau_motor.J1"][rows], atol=0.3)
+
+
 def test_clocks_that_never_meet_are_one_line(clean, read, tmp_path):
     """Headers of one topic count from the start of a computer, those of the other since 1970."""
     samples = states(clean[:100])
