@@ -152,8 +152,9 @@ def csv_columns(path: Path, wanted: Collection[str]) -> dict[str, LogColumn]:
         if name not in wanted:
             continue
         if len(columns) > 1:
-            text = f"column {name!r} stands {len(columns)} times in the header"
-            raise DataError(f"{path}: {text}; accepted: one of that name; give the others other names")
+            times = "twice" if len(columns) == 2 else f"{len(columns)} times"
+            accepted = "one column of that name; give the others other names"
+            raise DataError(f"{path}: column {name!r} stands {times} in the header; accepted: {accepted}")
         places[name] = columns[0]
     most = _most_rows(path)
     check_memory(path, most, len(places))
@@ -400,7 +401,7 @@ def _spaced(path: Path, layout: Layout, places: Mapping[str, int]) -> dict[int, 
     frame = frame.iloc[:-1] if is_cut else frame
     hint = " ".join(_left_out([len(last)] if is_cut else [], layout.fields))
     columns = dict[int, LogColumn]()
-    for place in frame.columns:
+    for place in sorted(set(places.values())):
         kind = frame[place].dtype.kind
         is_text = kind not in "fiub"
         values = np.empty(0) if is_text else frame[place].to_numpy(np.float64)

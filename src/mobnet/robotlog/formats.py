@@ -99,7 +99,7 @@ def _asked(path: Path, ask: Callable[[Format], Found]) -> Found:
         accepted = f"a text packed as .csv{PACKED}; unpack other formats first"
         raise DataError(f"{path}: its name does not say which format is packed; accepted: {accepted}")
     if kind not in FORMATS:
-        raise DataError(not_accepted(f"{path}: format", kind or path.name, ACCEPTED))
+        raise DataError(not_accepted(f"{path}: format", kind or path.name, [", ".join(ACCEPTED)]))
     try:
         return ask(FORMATS[kind])
     except (DataError, MemoryError):

@@ -166,7 +166,9 @@ def test_a_name_that_stands_twice_is_refused_where_a_map_uses_it_alone(between, 
     assert column_names(tmp_path / "log.csv") == ["t", "a", "q_d", "b"]
     columns = read_log(tmp_path / "log.csv", ["b", "t", "a"])
     assert [[*columns[name].values] for name in "bta"] == [[4, 5], [0, 1], [1, 2]]
-    with pytest.raises(DataError, match=r"column 'q_d' stands 2 times in the header; accepted: one of that name; give"):
+    with pytest.raises(
+        DataError, match=r"column 'q_d' stands twice in the header; accepted: one column of that name; give"
+    ):
         read_log(tmp_path / "log.csv", ["a", "q_d"])
 
 
