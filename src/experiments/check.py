@@ -40,7 +40,7 @@ from mobnet.learning.deployed.limbs import LimbNetworks, check_limb
 from mobnet.learning.deployed.loading import deployed
 from mobnet.learning.deployed.weights import read_weights
 from mobnet.robot.given import given_table
-from mobnet.robotlog.formats import FORMATS
+from mobnet.robotlog.formats import FORMATS, format_of
 from mobnet.robotlog.wrenches import WRENCH_SIGNALS, wrench_columns
 from mobnet.settings.lab import Lab, load_lab, load_section
 from mobnet.settings.limb_thresholds import LimbThresholds
@@ -105,7 +105,7 @@ def check(path: Path, against: Against) -> str:
     check_regular(path)
     is_array = path.suffix == NOTE and path.with_suffix(ARRAY).exists()
     reader = READERS.get(ARRAY if is_array else path.suffix)
-    if reader is None and path.exists() and path.suffix in FORMATS:
+    if reader is None and path.exists() and format_of(path) in FORMATS:
         raise LogError(path)
     if reader is None:
         raise UnknownKindError(path, "file" if path.exists() else "missing file", path.name)

@@ -72,10 +72,7 @@ def rising(path: Path, time_s: Array, bounds: RobotLog) -> Rising:
         return Rising(times, rows if hints else None, len(time_s), tuple(hints))
     # Episodes do not follow from each other: a pause that is longer than a gap ends a segment between them.
     pause = 2.0 * bounds.gap_intervals * float(np.median(steps[steps > 0.0]))
-    anew = np.flatnonzero(steps < -pause) + 1
-    few = anew[:, None] + np.arange(1, 1 + math.ceil(bounds.gap_intervals))
-    is_late = (times[np.minimum(few, len(times) - 1)] > times[anew - 1, None]).any(axis=1)  # one row, and others go on
-    anew = anew[~is_late]
+    anew = rows_anew(times, pause, bounds)
     forward = np.zeros(len(times))
     forward[anew] = times[anew - 1] - times[anew] + pause
     times = times + np.cumsum(forward)
@@ -88,6 +85,14 @@ def rising(path: Path, time_s: Array, bounds: RobotLog) -> Rising:
         hints.append(f"clock: {back} of {len(times)} times are not after the one before: {text}")
     kept = np.unique(times, return_index=True)[1]
     return Rising(times[kept], rows[kept], len(time_s), tuple(hints))
+
+
+def rows_anew(time_s: Array, pause: float, bounds: RobotLog) -> NDArray[np.intp]:
+    """Return the rows of a clock (T,) [s] in which it begins anew: by more than a pause [s], and not for a late row."""
+    anew = np.flatnonzero(np.diff(time_s) < -pause) + 1
+    few = anew[:, None] + np.arange(1, 1 + math.ceil(bounds.gap_intervals))
+    is_late = (time_s[np.minimum(few, len(time_s) - 1)] > time_s[anew - 1, None]).any(axis=1)
+    return anew[~is_late]
 
 
 def covered(clock: Array, times: Array, gap_intervals: float) -> NDArray[np.bool_]:

@@ -22,6 +22,7 @@ from mobnet.robotlog.columns import Columns, LogColumn
 from mobnet.robotlog.hints.columns import listed
 from mobnet.robotlog.meaning import given_signals, is_truth, resolved
 from mobnet.robotlog.pieces import pieces
+from mobnet.robotlog.restarts import counted_on
 from mobnet.settings.robotlog import LogMap, RobotLog, Signal, Tool
 
 SI = {  # unit -> in SI units
@@ -71,9 +72,12 @@ def convert(path: Path, columns: Columns, meaning: LogMap, layout: JointLayout, 
     meaning = resolved(path, meaning, columns, layout)
     given = given_signals(meaning)
     clock = _table_clock(path, columns, meaning, bounds)
+    restarts: tuple[str, ...] = ()
+    if meaning.clock.stamp == "header":
+        columns, restarts = counted_on(columns, bounds)
     known = {name: _own(path, name, column, meaning, clock) for name, column in columns.items() if is_truth(name)}
     names = dict.fromkeys(chain.from_iterable(signal.columns for signal in given.values()))
-    hints = [*_reading_hints(columns, names), *clock.hints]
+    hints = [*_reading_hints(columns, names), *clock.hints, *restarts]
     if meaning.clock.stamp == "header":
         hints += stamp_hints((columns[signal.columns[0]] for signal in given.values()), bounds)
     free = {"q": layout.nq - layout.nu, "v": layout.nv - layout.nu}  # for the base: one copy of a long signal less

@@ -2,13 +2,13 @@
 
 import codecs
 import csv
+import gzip
 import re
-from collections import Counter
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import chain
 from pathlib import Path
-from typing import Any
+from typing import IO, Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,6 +25,42 @@ SPACES = ""  # in place of a separator: any number of spaces
 SEPARATORS = (";", "\t", ",", SPACES)  # in the order tried: a comma may stand in numbers, a space in names
 COMMENTS = ("#", "%", "//", "sep=")  # first characters of lines that are no rows
 ENCODINGS = {codecs.BOM_UTF8: "utf-8-sig", codecs.BOM_UTF16_LE: "utf-16", codecs.BOM_UTF16_BE: "utf-16"}
+PACKED = ".gz"  # last ending of a text that gzip has packed
+LABVIEW = "LabVIEW Measurement"  # first words of a text of LabVIEW, whose
+LABVIEW_HEADERS, END_OF_HEADER = 2, "***End_of_Header***"  # headers, that of the file and that of the rows, end so
+LABVIEW_COMMENT = "Comment"  # the last name there, of fields that most rows do not have
+# What programs write in a cell that has no number, without regard to case; some of them are of Excel, pandas, Python or
+# Microsoft's C.
+MISSING = (
+    *(
+        "",
+        "n/a",
+        "na",
+        "#n/a",
+        "#n/a n/a",
+        "#na",
+        "<na>",
+        "none",
+        "null",
+        "nil",
+        "nan",
+        "-nan",
+        "nan(ind)",
+        "-nan(ind)",
+    ),
+    *(
+        "nan(snan)",
+        "-nan(snan)",
+        "1.#ind",
+        "-1.#ind",
+        "1.#qnan",
+        "-1.#qnan",
+        "1.#snan",
+        "-1.#snan",
+        "1.#inf",
+        "-1.#inf",
+    ),
+)
 DECIMAL_COMMA = re.compile(r"[+-]?\d*,\d+([eE][+-]?\d+)?")
 
 
@@ -67,26 +103,26 @@ class Layout:
     """How a text is laid out.
 
     Attributes:
-        names: of its columns; their numbers, from 0, where it has no header.
+        fields: number of fields in a row.
+        places: name -> the columns that have it in the header; where there is none, names are their numbers, from 0.
         separator: what stands between two fields, `SPACES` for any number of spaces.
         decimal: what stands before the fraction of a number, a point or a comma.
         encoding: of its characters.
         lead: lines before the first row.
-        row_bytes: length of a row [bytes].
     """
 
-    names: tuple[str, ...]
+    fields: int
+    places: Mapping[str, Sequence[int]]
     separator: str
     decimal: str
     encoding: str
     lead: int
-    row_bytes: int
 
 
 def csv_names(path: Path) -> list[str]:
     """Return the columns of a text with a separator: those in its header, or their numbers where it has none."""
     layout = _layout(path)
-    return [name for name in layout.names if name] if layout else []
+    return list(layout.places) if layout else []
 
 
 def has_header(names: Collection[str]) -> bool:
@@ -103,25 +139,40 @@ def refuse_without_header(path: Path, names: Collection[str]) -> None:
 
 
 def csv_columns(path: Path, wanted: Collection[str]) -> dict[str, LogColumn]:
-    """Read columns of a text with a separator; a field without a number is NaN."""
+    """Read columns of a text with a separator; a field without a number is NaN.
+
+    Raises:
+        DataError: several columns have a name that is wanted.
+    """
     layout = _layout(path)
     if layout is None:
         return {}
-    asked = [name for name in layout.names if name in set(wanted)]
-    check_memory(path, path.stat().st_size // layout.row_bytes, len(asked))
-    return _spaced(path, layout, asked) if layout.separator == SPACES else _separated(path, layout, asked)
+    places = dict[str, int]()
+    for name, columns in layout.places.items():
+        if name not in wanted:
+            continue
+        if len(columns) > 1:
+            times = "twice" if len(columns) == 2 else f"{len(columns)} times"
+            accepted = "one column of that name; give the others other names"
+            raise DataError(f"{path}: column {name!r} stands {times} in the header; accepted: {accepted}")
+        places[name] = columns[0]
+    most = _most_rows(path)
+    check_memory(path, most, len(places))
+    read = _spaced(path, layout, places) if layout.separator == SPACES else _separated(path, layout, places, most)
+    return {name: read[place] for name, place in places.items()}
 
 
 def _layout(path: Path) -> Layout | None:
     """Return how a text is laid out, None if no line has numbers.
 
     Raises:
-        DataError: it is empty or no text, has a header alone, or a name stands twice in the header.
+        DataError: it is empty or no text, or has a header alone.
     """
     encoding, lines = _first_lines(path)
+    top = _end_of_labview(lines)
     for separator in SEPARATORS:
         rows = [_fields(line, separator) for line in lines]
-        first = next((k for k in range(len(lines)) if _begins(lines, rows, k)), None)
+        first = next((k for k in range(top, len(lines)) if _begins(lines, rows, k)), None)
         if first is not None:
             break
     else:
@@ -129,20 +180,52 @@ def _layout(path: Path) -> Layout | None:
             looked = f" in its first {LOOKED_BYTES} bytes" if path.stat().st_size > LOOKED_BYTES else ""
             raise DataError(f"{path}: has no row below its header{looked}; accepted: a log with two samples or more")
         return None
-    above = [_named(rows[k] or _fields(lines[k].lstrip("#%/ "), separator), rows[first]) for k in range(first)]
-    names = next((row for row in above if row), [str(k) for k in range(len(rows[first]))])
-    if twice := [name for name, count in Counter(names).items() if name and count > 1]:
-        raise DataError(f"{path}: column {twice[0]!r} stands twice in the header; accepted: each name once")
+    places = _header(lines[top:first], rows[top:first], rows[first], separator)
     looked = list(chain.from_iterable(rows[first : first + LOOKED_ROWS]))
     # A comma is a decimal sign only where it separates no fields, and where no number has a point.
     has_comma = separator != "," and any(DECIMAL_COMMA.fullmatch(field) for field in looked)
     decimal = "," if has_comma and not any("." in field for field in looked) else "."
-    return Layout(tuple(names), separator, decimal, encoding, first, len(lines[first].encode(encoding)) + 1)
+    return Layout(len(rows[first]), places, separator, decimal, encoding, first)
+
+
+def _end_of_labview(lines: Sequence[str]) -> int:
+    """Return the number of the lines that are headers of LabVIEW; they hold numbers, such as those of the samples."""
+    if not lines[0].startswith(LABVIEW):
+        return 0
+    ends = [k + 1 for k, line in enumerate(lines) if line.startswith(END_OF_HEADER)]
+    return ends[:LABVIEW_HEADERS][-1] if ends else 0
+
+
+def _header(
+    lines: Sequence[str], rows: Sequence[Sequence[str]], first: Sequence[str], separator: str
+) -> dict[str, list[int]]:
+    """Return the columns of each name in the header above the first row; their numbers without one.
+
+    A header may be a comment: its first name then counts with the sign before it, too, as `%time` of rostopic.
+    """
+    for line, row in zip(lines, rows, strict=True):
+        names = _named(row or _fields(line.lstrip("#%/ "), separator), first)
+        if not names:
+            continue
+        places = dict[str, list[int]]()
+        for k, name in enumerate(names):
+            if name:
+                places.setdefault(name, []).append(k)
+        if not row:
+            with_sign = line.split(separator or None)[0].strip()
+            places.setdefault(with_sign, [0])
+        return places
+    return {str(k): [k] for k in range(len(first))}
+
+
+def opened_text(path: Path) -> IO[bytes]:
+    """Open a text for its bytes, one that is packed for those that it had before."""
+    return cast(IO[bytes], gzip.open(path)) if path.suffix.lower() == PACKED else path.open("rb")
 
 
 def _first_lines(path: Path) -> tuple[str, list[str]]:
     """Return the encoding of a text, and its first lines."""
-    with path.open("rb") as file:
+    with opened_text(path) as file:
         start = file.read(LOOKED_BYTES)
     encoding = next((name for mark, name in ENCODINGS.items() if start.startswith(mark)), "utf-8")
     # In UTF-16 every second byte of plain letters is zero; elsewhere a zero byte says that the file is no text.
@@ -189,7 +272,9 @@ def _begins(lines: Sequence[str], rows: Sequence[Sequence[str]], first: int) -> 
 
 
 def _is_number(field: str) -> bool:
-    """Return whether a field is a number, with a point or a comma."""
+    """Return whether a field is a number, with a point or a comma, or stands for one that is missing."""
+    if field.lower() in MISSING:
+        return True
     try:
         float(field.replace(",", "."))
     except ValueError:
@@ -200,10 +285,10 @@ def _is_number(field: str) -> bool:
 def _named(fields: Sequence[str], row: Sequence[str]) -> list[str]:
     """Return the names of columns that a line above a row gives, none if it is no header.
 
-    A separator at the end of the header or of the row stands before nothing.
+    A separator at the end of the header or of the row stands before nothing, and so does LabVIEW's name of comments.
     """
     names = list(fields)
-    if len(names) == len(row) + 1 and not names[-1]:
+    if len(names) == len(row) + 1 and names[-1] in ("", LABVIEW_COMMENT):
         names.pop()
     if len(names) == len(row) - 1 and not row[-1]:
         names.append("")
@@ -211,8 +296,8 @@ def _named(fields: Sequence[str], row: Sequence[str]) -> list[str]:
     return names if is_header else []
 
 
-def _separated(path: Path, layout: Layout, asked: Sequence[str]) -> dict[str, LogColumn]:
-    """Read columns by Arrow; rows with another number of fields are left out."""
+def _separated(path: Path, layout: Layout, places: Mapping[str, int], most: int) -> dict[int, LogColumn]:
+    """Read columns of a text of at most so many rows by Arrow; rows with another number of fields are left out."""
     import pyarrow as pa
     from pyarrow import csv as arrow
 
@@ -224,14 +309,14 @@ def _separated(path: Path, layout: Layout, asked: Sequence[str]) -> dict[str, Lo
 
     parse = arrow.ParseOptions(delimiter=layout.separator, invalid_row_handler=leave_out)
     read = arrow.ReadOptions(
-        column_names=list(layout.names),
+        column_names=[str(k) for k in range(layout.fields)],  # those in the header may stand there twice
         skip_rows=layout.lead,
         block_size=FIRST_BYTES,
         encoding=layout.encoding,
         use_threads=False,
     )
-    empty = [*arrow.ConvertOptions().null_values, " "]
-    kept = {"include_columns": asked, "null_values": empty, "decimal_point": layout.decimal}
+    asked = [str(place) for place in sorted(set(places.values()))]
+    kept = {"include_columns": asked, "null_values": _missing_words(), "decimal_point": layout.decimal}
     with arrow.open_csv(path, read, parse, arrow.ConvertOptions(**kept)) as file:
         first = file.schema  # of the first block: what looks whole there, or empty, may be a fraction further down
     # Columns of a stated type are read in two thirds of the time of those whose type Arrow looks for.
@@ -242,23 +327,26 @@ def _separated(path: Path, layout: Layout, asked: Sequence[str]) -> dict[str, Lo
     with arrow.open_csv(path, read, parse, arrow.ConvertOptions(**kept, column_types=kinds)) as file:
         numeric = [k for k, kind in enumerate(file.schema.types) if is_numeric(kind)]
         texts = [k for k in range(len(file.schema)) if k not in numeric]
-        names = [file.schema.names[k] for k in numeric]
-        most = _most_rows(path)
         values = [np.empty(most) for _ in numeric]
-        others = dict[str, str]()
+        others = dict[int, str]()
         rows = 0
         for batch in file:
             # Whole columns of Arrow's own reader would take twice the memory.
             for column, k in zip(values, numeric, strict=True):
                 column[rows : rows + len(batch)] = numbers(batch.column(k))
             rows += len(batch)
-            others = others or {file.schema.names[k]: _such_as(batch.column(k).to_pylist()) for k in texts}
-    hint = " ".join(_left_out(wrong, len(layout.names)))
-    columns = {
-        name: LogColumn(values_of_column[:rows], hint=hint)
-        for name, values_of_column in zip(names, values, strict=True)
-    }
-    return columns | {name: LogColumn(np.empty(0), found=text) for name, text in others.items()}
+            others = others or {int(asked[k]): _such_as(batch.column(k).to_pylist()) for k in texts}
+    hint = " ".join(_left_out(wrong, layout.fields))
+    columns = dict[int, LogColumn]()
+    for values_of_column, k in zip(values, numeric, strict=True):
+        columns[int(asked[k])] = LogColumn(values_of_column[:rows], hint=hint)
+    return columns | {place: LogColumn(np.empty(0), found=text) for place, text in others.items()}
+
+
+def _missing_words() -> list[str]:
+    """Return all that stands for a missing number, as Arrow wants it: in each case, and with a space beside it."""
+    cased = dict.fromkeys([*MISSING, *map(str.upper, MISSING), *map(str.capitalize, MISSING), "NaN", "-NaN"])
+    return [*cased, *(f" {word}" for word in cased), *(f"{word} " for word in cased if word)]
 
 
 def _is_loose(kind: Any) -> bool:
@@ -271,7 +359,7 @@ def _is_loose(kind: Any) -> bool:
 def _most_rows(path: Path) -> int:
     """Return how many rows a text has at most: a column has that much room, of which the system gives what is used."""
     most = 1
-    with path.open("rb") as file:
+    with opened_text(path) as file:
         while block := file.read(BLOCK_BYTES):
             most += block.count(b"\n") + block.count(b"\r") - block.count(b"\r\n")
     return most
@@ -291,7 +379,7 @@ def _such_as(values: Sequence[Any]) -> str:
     return f"text, {str(value)!r} in row {row}"
 
 
-def _spaced(path: Path, layout: Layout, asked: Sequence[str]) -> dict[str, LogColumn]:
+def _spaced(path: Path, layout: Layout, places: Mapping[str, int]) -> dict[int, LogColumn]:
     """Read columns with any number of spaces between them, which Arrow cannot."""
     import pandas as pd
 
@@ -299,30 +387,32 @@ def _spaced(path: Path, layout: Layout, asked: Sequence[str]) -> dict[str, LogCo
         path,
         sep=r"\s+",
         header=None,
-        names=list(layout.names),
-        usecols=list(asked),
+        names=list(range(layout.fields)),
+        usecols=sorted(set(places.values())),
         skiprows=layout.lead,
         decimal=layout.decimal,
         encoding=layout.encoding,
+        na_values=_missing_words(),
         on_bad_lines="skip",
     )
     # A log that ends early may end in a short row, which pandas would fill with NaN.
     last = _fields(_last_line(path, layout.encoding), SPACES)
-    is_cut = len(last) != len(layout.names)
+    is_cut = len(last) != layout.fields
     frame = frame.iloc[:-1] if is_cut else frame
-    hint = " ".join(_left_out([len(last)] if is_cut else [], len(layout.names)))
-    columns = dict[str, LogColumn]()
-    for name in asked:
-        kind = frame[name].dtype.kind
+    hint = " ".join(_left_out([len(last)] if is_cut else [], layout.fields))
+    columns = dict[int, LogColumn]()
+    for place in sorted(set(places.values())):
+        kind = frame[place].dtype.kind
         is_text = kind not in "fiub"
-        values = np.empty(0) if is_text else frame[name].to_numpy(np.float64)
-        columns[name] = LogColumn(values, hint=hint, found=_such_as(list(frame[name])) if is_text else "")
+        values = np.empty(0) if is_text else frame[place].to_numpy(np.float64)
+        columns[place] = LogColumn(values, hint=hint, found=_such_as(list(frame[place])) if is_text else "")
     return columns
 
 
 def _last_line(path: Path, encoding: str) -> str:
     """Return the last line of a text."""
-    with path.open("rb") as file:
-        file.seek(max(0, path.stat().st_size - LOOKED_BYTES // 2))
-        end = file.read().decode(encoding.removesuffix("-sig"), errors="replace")
-    return end.rstrip().splitlines()[-1]
+    with opened_text(path) as file:
+        end = b""
+        while block := file.read(LOOKED_BYTES // 2):
+            end = end[-LOOKED_BYTES // 2 :] + block
+    return end.decode(encoding.removesuffix("-sig"), errors="replace").rstrip().splitlines()[-1]

@@ -17,6 +17,7 @@ from mobnet.robot.nominal import NominalModel
 from mobnet.robotlog.detected import LogDetection, detect_log
 from mobnet.robotlog.flags import COLUMNS, pushed_rows
 from mobnet.robotlog.flags_mcap import write_mcap
+from mobnet.robotlog.formats import stem_of
 from mobnet.robotlog.plot import plot_flags
 from mobnet.robotlog.wrenches import place_of, wrench_lines, wrenches_of, write_wrenches
 from mobnet.settings.lab import Lab, load_section
@@ -73,7 +74,7 @@ def detect(options: Namespace, settings: Lab) -> Iterator[str]:
         check_sampling(options.thresholds, sampling_of(thresholds), network.sampling, network.folder)
     nominal = NominalModel(robot)
     places = [place_of(nominal, name, thresholds.joints) for name in dict.fromkeys(options.wrench)]
-    out = options.out or Path(f"{options.log.stem}_detected")
+    out = options.out or Path(f"{stem_of(options.log)}_detected")
     is_mcap = out.suffix == MCAP
     check_place(out.parent if is_mcap else out)
     sweep(out.parent if is_mcap else out)

@@ -11,7 +11,7 @@ from typing import NamedTuple, TypeVar
 from mobnet.core.errors import DataError, not_accepted
 from mobnet.core.files import check_regular
 from mobnet.robotlog.columns import Columns, LogColumn
-from mobnet.robotlog.delimited import csv_columns, csv_names
+from mobnet.robotlog.delimited import PACKED, csv_columns, csv_names
 from mobnet.robotlog.messages import message_columns, message_names
 from mobnet.robotlog.sources import FILES, METADATA
 from mobnet.robotlog.tables import array_columns, array_names, parquet_columns, parquet_names
@@ -27,12 +27,30 @@ class Format(NamedTuple):
     read: Callable[[Path, Collection[str]], dict[str, LogColumn]]
 
 
-TEXTS = dict.fromkeys((".csv", ".tsv", ".txt", ".dat"), Format(csv_names, csv_columns))
+TEXTS = dict.fromkeys((".csv", ".tsv", ".txt", ".dat", ".log", ".lvm"), Format(csv_names, csv_columns))
 TABLES = {**TEXTS, ".parquet": Format(parquet_names, parquet_columns)}
 ARRAYS = dict.fromkeys((".h5", ".hdf5", ".mat", ".npz"), Format(array_names, array_columns))
 BAGS = dict.fromkeys((".mcap", ".bag", ".db3", ".active", METADATA), Format(message_names, message_columns))
 FORMATS: Mapping[str, Format] = {**TABLES, **ARRAYS, **BAGS}
-ACCEPTED = (*(kind for kind in FORMATS if kind not in (METADATA, ".active")), "a folder of `ros2 bag`")
+ACCEPTED = (
+    *(kind for kind in FORMATS if kind not in (METADATA, ".active")),
+    f"texts packed as .csv{PACKED}",
+    "a folder of `ros2 bag`",
+)
+
+
+def format_of(path: Path) -> str:
+    """Return the ending in `FORMATS` that a log has; that of a text that is packed stands before the last one."""
+    if path.is_dir():
+        return METADATA
+    ending = path.suffix.lower()
+    inner = path.with_suffix("").suffix.lower()
+    return inner if ending == PACKED and inner in TEXTS else ending
+
+
+def stem_of(path: Path) -> str:
+    """Return the name of a log without its ending, or both endings of a text that is packed."""
+    return path.with_suffix("").stem if format_of(path) in TEXTS and path.suffix.lower() == PACKED else path.stem
 
 
 def column_names(path: Path) -> list[str]:
@@ -74,11 +92,14 @@ def _asked(path: Path, ask: Callable[[Format], Found]) -> Found:
         check_regular(path)
     if not path.exists():
         raise DataError(f"{path}: file is missing; accepted: a log, {', '.join(ACCEPTED)}")
-    kind = METADATA if path.is_dir() else path.suffix.lower()
+    kind = format_of(path)
     if path.is_dir() and not any(file.name == METADATA or file.suffix in FILES for file in path.iterdir()):
         raise DataError(f"{path}: a folder without {METADATA} is not accepted; accepted: {', '.join(ACCEPTED)}")
+    if kind == PACKED:
+        accepted = f"a text packed as .csv{PACKED}; unpack other formats first"
+        raise DataError(f"{path}: its name does not say which format is packed; accepted: {accepted}")
     if kind not in FORMATS:
-        raise DataError(not_accepted(f"{path}: format", kind or path.name, ACCEPTED))
+        raise DataError(not_accepted(f"{path}: format", kind or path.name, [", ".join(ACCEPTED)]))
     try:
         return ask(FORMATS[kind])
     except (DataError, MemoryError):
@@ -86,4 +107,5 @@ def _asked(path: Path, ask: Callable[[Format], Found]) -> Found:
     except Exception as error:  # five libraries, each with errors of its own for a damaged file
         text = " ".join(str(error).split()) or type(error).__name__
         accepted = f"a whole file{MENDED.get(kind, '')}"
-        raise DataError(f"{path}: cannot be read as {kind}: {text}; accepted: {accepted}") from error
+        packed = PACKED if path.suffix.lower() == PACKED else ""
+        raise DataError(f"{path}: cannot be read as {kind}{packed}: {text}; accepted: {accepted}") from error

@@ -2,7 +2,8 @@
 
 A column is TOPIC.FIELD, of an array TOPIC.FIELD.0 and so on. Where a message names the entries of its arrays, as a
 JointState does, a column has that name: TOPIC.FIELD.JOINT. Its numbers are found by it in every message, whatever the
-order there. So is an entry of a list of objects that have names themselves: TOPIC.FIELD.JOINT.position.
+order there. So is an entry of a list of objects, whose names stand in the objects themselves or, as those of a
+DynamicJointState, beside the list: TOPIC.FIELD.JOINT.position.
 """
 
 import logging
@@ -53,6 +54,28 @@ class Entry:
         return items[self.place]
 
 
+@dataclass
+class EntryBeside:
+    """The step from a message to the object of a name in a list beside which a list of the names stands.
+
+    `place` is where it was last, which is looked at first.
+    """
+
+    labels: tuple[Step, ...]
+    items: tuple[Step, ...]
+    name: str
+    place: int
+
+    def __call__(self, message: Any) -> Any:
+        """Return the object."""
+        names = _at(message, self.labels)
+        if self.place >= len(names) or names[self.place] != self.name:
+            if self.name not in names:
+                raise AbsentError(self.name)
+            self.place = names.index(self.name)
+        return _at(message, self.items)[self.place]
+
+
 class MessageField(NamedTuple):
     """A number or an array of numbers in the messages of a topic, and where the names of its entries stand."""
 
@@ -78,7 +101,7 @@ def message_names(path: Path) -> list[str]:
     with opened(path) as source:
         for topic in source.topics:
             for _, _, content in islice(source.messages([topic]), FIRST):
-                for part in _parts(content, topic):
+                for part in _parts(content, content, topic):
                     names += _in(part, content)
         if not names and source.hint:
             raise DataError(f"{path}: {source.hint}, which is before its first message; accepted: a log with messages")
@@ -111,37 +134,56 @@ def message_columns(path: Path, wanted: Collection[str]) -> dict[str, LogColumn]
 
 
 def _parts(
-    content: Any, name: str, steps: tuple[Step, ...] = (), labels: tuple[Step, ...] = ()
+    message: Any, content: Any, name: str, steps: tuple[Step, ...] = (), labels: tuple[Step, ...] = ()
 ) -> Iterator[MessageField]:
-    """Yield the numbers and arrays of numbers below a field, with the way to the names of their entries, if any.
+    """Yield the numbers and arrays of numbers below a field of a message, with the ways to names of their entries.
 
-    Headers and texts are left out.
+    Ways begin at the message. Headers and texts are left out.
     """
     if isinstance(content, (bool, int, float, np.number)):
         yield MessageField(name, steps, ())
     elif _holds(content, (bool, int, float, np.number)):
         yield MessageField(name, steps, labels)
     elif isinstance(content, (list, tuple)):
-        for (end, step), item in zip(_entry_steps(content[:MOST]), content, strict=False):
-            yield from _parts(item, f"{name}.{end}", (*steps, step))
+        for end, way, item in _objects(message, content[:MOST], steps, labels):
+            yield from _parts(message, item, f"{name}.{end}", way)
     elif not isinstance(content, (str, bytes, type(None), np.ndarray)):
         fields = {key: step for key, step in _fields(content) if key != "header"}
         named = next((key for key in NAMES if key in fields and _holds(fields[key](content), str)), None)
         labels = (*steps, fields[named]) if named else labels
         for key, step in fields.items():
-            yield from _parts(step(content), f"{name}.{key}", (*steps, step), labels)
+            yield from _parts(message, step(content), f"{name}.{key}", (*steps, step), labels)
 
 
-def _entry_steps(items: Sequence[Any]) -> list[tuple[str, Step]]:
-    """Return the names of objects in a list, with the steps to them: their own names if all differ, else numbers."""
+def _objects(
+    message: Any, items: Sequence[Any], steps: tuple[Step, ...], labels: tuple[Step, ...]
+) -> Iterator[tuple[str, tuple[Step, ...], Any]]:
+    """Yield name, way from the message, and content of each object in a list.
+
+    Names are those of the objects themselves, else those that stand beside the list, else numbers.
+    """
+    own_names = _own_names(items)
+    names = _at(message, labels) if labels else ()
+    for k, item in enumerate(items):
+        if own_names:
+            name, step = own_names[k]
+            yield name, (*steps, Entry(step, name, k)), item
+        elif len(names) == len(items) == len(set(names)):
+            yield names[k], (EntryBeside(labels, steps, names[k], k),), item
+        else:
+            yield str(k), (*steps, itemgetter(k)), item
+
+
+def _own_names(items: Sequence[Any]) -> list[tuple[str, Step]]:
+    """Return the names that objects in a list have themselves, with the steps to them; none unless all differ."""
     for key in OWN_NAMES:
         steps = list[Step]()
         for item in items:
             steps += [step for name, step in _fields(item) if name == key]
         names = [step(item) for step, item in zip(steps, items, strict=False)]
         if names and len(set(names)) == len(items) and all(isinstance(name, str) and name for name in names):
-            return [(name, Entry(step, name, k)) for k, (name, step) in enumerate(zip(names, steps, strict=True))]
-    return [(str(k), itemgetter(k)) for k in range(len(items))]
+            return list(zip(names, steps, strict=True))
+    return []
 
 
 def _fields(content: Any) -> Iterator[tuple[str, Step]]:
@@ -207,7 +249,7 @@ def _gathered(messages: Iterator[Message], wanted: Collection[str]) -> dict[str,
         if of_topic is None:
             of_topic = topics[topic] = Gathered(_stamp_of(content))
         if len(of_topic.recorded) < FIRST:  # several nodes may publish one topic, each its own joints
-            parts = (part for part in _parts(content, topic) if _is_wanted(part.name, wanted))
+            parts = (part for part in _parts(content, content, topic) if _is_wanted(part.name, wanted))
             of_topic.parts = {**{part.name: part for part in parts}, **of_topic.parts}
         of_topic.recorded.append(recorded_ns)
         of_topic.stamps.append(of_topic.stamp(content) if of_topic.stamp else 0)

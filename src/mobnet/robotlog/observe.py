@@ -35,7 +35,7 @@ from mobnet.robotlog.clocks import rate_of
 from mobnet.robotlog.convert import Converted, convert, with_tool
 from mobnet.robotlog.delimited import refuse_without_header
 from mobnet.robotlog.flags import pushed_rows
-from mobnet.robotlog.formats import column_names, read_log
+from mobnet.robotlog.formats import column_names, read_log, stem_of
 from mobnet.robotlog.hints.base import base_hints, weight_hints
 from mobnet.robotlog.hints.columns import (
     base_column_hints,
@@ -265,7 +265,7 @@ def run(options: Namespace) -> Iterator[str]:
     bounds = settings.robotlog
     gravity = settings.plant.gravity_m_s2
     places = [place_of(NominalModel(robot), name) for name in dict.fromkeys(options.wrench)]
-    out = options.out or Path(f"{options.log.stem}_observed")
+    out = options.out or Path(f"{stem_of(options.log)}_observed")
     check_place(out)
     sweep(out)
     observed = observe_log(options.log, robot, meaning, torque, gain_hz, gravity, bounds)

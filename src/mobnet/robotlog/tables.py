@@ -15,6 +15,9 @@ from mobnet.core.errors import DataError
 from mobnet.robotlog.columns import MOST, LogColumn, check_memory
 from mobnet.robotlog.delimited import is_numeric, numbers
 
+STRUCTURE = "log = struct('time', x.Time, 'q', x.Data)"  # which makes of an object of MATLAB what others can read
+REFERENCED = "#refs#/"  # where MATLAB keeps what arrays of structures and cells refer to
+
 
 class TableColumn(NamedTuple):
     """A column in a file: its array there, the field of a compound one, and its number in one of several columns."""
@@ -98,6 +101,9 @@ def _lists(path: Path, name: str, column: Any) -> NDArray[Any]:
 def array_names(path: Path) -> list[str]:
     """Return the columns of a file of arrays.
 
+    Elements of arrays of structures in MATLAB's files, as Simulink stores signals, are NAME/0/FIELD, NAME/1/FIELD and
+    so on, and those of cells NAME/0, NAME/1.
+
     An array of one axis is a column of its name, a path in HDF5; one of (samples, n), or (n, samples) as MATLAB stores
     it, is NAME.0 to NAME.n-1: its longest axis is that of the samples, and axes of one do not count. Fields of compound
     ones are NAME.FIELD.
@@ -139,29 +145,62 @@ def _arrays(path: Path) -> Iterator[Mapping[str, Any]]:
     import h5py
 
     if path.suffix.lower() == ".mat" and not h5py.is_hdf5(path):
-        from scipy.io import loadmat
-
-        yield dict(_flat(loadmat(path, simplify_cells=True)))
+        yield _matlab_arrays(path)
         return
     arrays = dict[str, Any]()
 
     def visit(name: str, item: Any) -> None:
-        if isinstance(item, h5py.Dataset):
-            if item.external or item.is_virtual:  # any file of this machine could become a column of the recording
-                raise DataError(f"{path}: {name!r} takes its numbers from other files; accepted: a file that holds all")
+        if name.startswith(REFERENCED) or not isinstance(item, h5py.Dataset):
+            return
+        if item.external or item.is_virtual:  # any file of this machine could become a column of the recording
+            raise DataError(f"{path}: {name!r} takes its numbers from other files; accepted: a file that holds all")
+        if h5py.check_ref_dtype(item.dtype) is not h5py.Reference:
             arrays[name] = item
+            return
+        structure, _, field = name.rpartition("/")
+        is_cell = item.attrs.get("MATLAB_class") == b"cell"
+        for k, reference in enumerate(item[()].ravel()[:MOST]):
+            element = f"{name}/{k}" if is_cell else f"{structure}/{k}/{field}"
+            if reference:
+                visit_element(element, file[reference])
+
+    def visit_element(name: str, item: Any) -> None:
+        if isinstance(item, h5py.Group):
+            item.visititems(lambda below, part: visit(f"{name}/{below}", part))
+        visit(name, item)
 
     with h5py.File(path, "r") as file:
         file.visititems(visit)
         yield arrays
 
 
+def _matlab_arrays(path: Path) -> dict[str, NDArray[Any]]:
+    """Return the arrays of a file of MATLAB of a version below 7.3.
+
+    Raises:
+        DataError: all that it holds are objects, such as a timeseries, of which MATLAB alone knows where numbers stand.
+    """
+    from scipy.io import loadmat
+    from scipy.io.matlab import MatlabOpaque
+
+    content = loadmat(path, simplify_cells=True)
+    objects = [name for name, item in content.items() if isinstance(item, MatlabOpaque)]
+    arrays = dict(_flat({name: content[name] for name in content if not name.startswith("__") and name not in objects}))
+    if objects and not arrays:
+        accepted = f"structures and arrays, such as `{STRUCTURE}`"
+        raise DataError(f"{path}: holds objects, which MATLAB alone can read; accepted: {accepted}")
+    return arrays
+
+
 def _flat(content: Mapping[str, Any], above: str = "") -> Iterator[tuple[str, NDArray[Any]]]:
-    """Yield the arrays of MATLAB's structures, by their names with those of the structures before them."""
+    """Yield the arrays of MATLAB's structures and cells, by their names with those of what holds them before them."""
     for name, item in content.items():
+        is_array = isinstance(item, np.ndarray)
         if isinstance(item, dict):
             yield from _flat(item, f"{above}{name}/")
-        elif isinstance(item, np.ndarray) and not name.startswith("__"):
+        elif isinstance(item, list) or (is_array and item.dtype == object):
+            yield from _flat({str(k): element for k, element in enumerate(item[:MOST])}, f"{above}{name}/")
+        elif is_array:
             yield above + name, item
 
 

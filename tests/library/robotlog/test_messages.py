@@ -35,6 +35,14 @@ float64 q
 float64 dq
 float64 tau_est
 """
+DYNAMIC = "control_msgs/msg/DynamicJointState"
+DYNAMIC_DEFINITIONS = (
+    ("control_msgs/msg/InterfaceValue", "string[] interface_names\nfloat64[] values\n"),
+    (
+        DYNAMIC,
+        "std_msgs/Header header\nstring[] joint_names\ncontrol_msgs/InterfaceValue[] interface_values\n",
+    ),
+)
 OWN_FIELDS = {"q": "q", "v": "dq", "tau_motor": "tau_est"}
 OWN_MAP = {name: {"columns": [f"/low.motors.*.{field}"]} for name, field in OWN_FIELDS.items()}
 APART_MAP = {
@@ -156,6 +164,48 @@ def test_clocks_that_are_apart_or_drift_are_named(clean, read, tmp_path):
     assert "against the recording they drift by -0.03" in hint
 
 
+def test_stamps_that_begin_anew_end_a_segment_as_times_of_a_table_do(clean, read, tmp_path):
+    """A simulation that was reset, to a time at which no sample was taken before."""
+    table = clean[:ROWS]
+    samples = states(table, stamp=lambda ns: ns if ns < 10**9 else ns - 700_300_000)
+    found = read(bag2(samples, tmp_path / "bag"))
+    assert found.recording.segments == ((0, 1000), (1000, ROWS))
+    np.testing.assert_allclose(found.recording.sensed.q[:, 1], table["q.J2"], atol=1e-12)
+    (hint,) = found.hints
+    assert hint.startswith(
+        f"stamps of {TOPIC}: begin anew in message 1000, as in a simulation that was reset: they count"
+    )
+    columns = {"tau_motor": {"columns": [f"{TOPIC}.effort"]}, **JOINT_MAP}
+    recorded = read(tmp_path / "bag", {**columns, "clock": {"stamp": "recorded"}})
+    assert recorded.hints == ()
+    assert recorded.recording.segments == ((0, ROWS),)
+
+
+@pytest.mark.parametrize("restarted", [("/motion", "/torque"), ("/torque",)])
+def test_topics_stay_together_where_the_stamps_of_some_begin_anew(restarted, clean, read, tmp_path):
+    """A simulation that was reset twice, or a driver of the torques alone, whose messages are late by 2 to 6 ms."""
+    table = clean[:ROWS]
+    samples = states(table)
+    motion, effort = apart(samples, "/motion", ("position", "velocity")), apart(samples[::5], "/torque", ("effort",))
+    late = np.random.default_rng(0).integers(2_000_000, 6_000_000, len(effort)).tolist()
+    messages = [*motion, *(one._replace(recorded_ns=one.stamp_ns + add) for one, add in zip(effort, late, strict=True))]
+    for k, one in enumerate(messages):
+        back = sum(one.stamp_ns >= start for start in (700_000_000, 1_300_000_000)) if one.topic in restarted else 0
+        messages[k] = one._replace(stamp_ns=one.stamp_ns - 600_000_000 * back)
+    found = read(bag2(messages, tmp_path / "bag"), APART_MAP)
+    first = {"/motion": 700, "/torque": 140}
+    hints = [f"stamps of {topic}: begin anew in message {first[topic]} and 1 more" for topic in restarted]
+    assert [hint.partition(",")[0] for hint in found.hints] == hints
+    assert len(found.recording.segments) == 3
+    sensed = found.recording.sensed
+    for k, (start, end) in enumerate(found.recording.segments):
+        pauses = 0.05 * k  # ten intervals of the slower topic
+        rows = np.round(1e3 * (found.time_s[start:end] - pauses)).astype(int)
+        assert 560 <= len(rows) <= 705
+        np.testing.assert_allclose(sensed.q[start:end, 0], table["q.J1"][rows], atol=1e-3)
+        np.testing.assert_allclose(sensed.tau_motor[start:end, 0], table["tau_motor.J1"][rows], atol=0.3)
+
+
 def test_clocks_that_never_meet_are_one_line(clean, read, tmp_path):
     """Headers of one topic count from the start of a computer, those of the other since 1970."""
     samples = states(clean[:100])
@@ -227,6 +277,42 @@ def test_objects_in_a_list_are_found_by_their_own_names_in_any_order_that_may_ch
         np.testing.assert_allclose(sensed.tau_motor[:50, k], clean[f"tau_motor.{joint}"][:50], atol=1e-6)
     names = {"columns": [f"/low.joints.{joint}.q" for joint in JOINTS]}
     assert len(read(path, {**mapping, "q": names}).recording.sensed) == 200
+
+
+def dynamic_states(table):
+    """Return the DynamicJointStates of ros2_control, with joints and interfaces in an order that changes."""
+    interfaces = {"position": "q", "velocity": "v", "effort": "tau_motor"}
+    samples = []
+    for k, row in enumerate(table.to_dict("records")):
+        joints = JOINTS[::-1] if k % 3 else JOINTS
+        kinds = [*interfaces][:: -1 if k % 4 else 1]
+        values = [
+            {"interface_names": kinds, "values": [row[f"{interfaces[kind]}.{j}"] for kind in kinds]} for j in joints
+        ]
+        fields = {"joint_names": list(joints), "interface_values": values}
+        samples.append(Sample("/dynamic_joint_states", DYNAMIC, k * 10**6, k * 10**6, fields))
+    return samples
+
+
+@pytest.mark.parametrize("joints", [JOINTS, ("shoulder", "elbow")])
+def test_objects_in_a_list_are_found_by_the_names_beside_it(joints, clean, read, tmp_path):
+    samples = dynamic_states(clean[:200])
+    for sample in samples:
+        sample.fields["joint_names"] = [joints[JOINTS.index(name)] for name in sample.fields["joint_names"]]
+    path = bag2(samples, tmp_path / "bag", "MCAP", DYNAMIC_DEFINITIONS)
+    mapping = {
+        signal: {"columns": [f"/dynamic_joint_states.interface_values.*.values.{field}"]}
+        for signal, field in (("q", "position"), ("v", "velocity"), ("tau_motor", "effort"))
+    }
+    if joints != JOINTS:
+        # By number, which is how the list would be read without its names, joints would be exchanged.
+        with pytest.raises(DataError, match=r"column: .* is not accepted; accepted: .*interface_values\.elbow\.values"):
+            read(path, mapping)
+        mapping["joints"] = list(joints)
+    sensed = read(path, mapping).recording.sensed
+    for k, joint in enumerate(JOINTS):
+        np.testing.assert_allclose(sensed.q[:, k], clean[f"q.{joint}"][:200], atol=1e-12)
+        np.testing.assert_allclose(sensed.tau_motor[:, k], clean[f"tau_motor.{joint}"][:200], atol=1e-12)
 
 
 def as_json(contents, path):

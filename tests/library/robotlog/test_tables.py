@@ -8,6 +8,7 @@ import pyarrow as pa
 import pytest
 from pyarrow import parquet
 from scipy.io import savemat
+from scipy.io.matlab import MatlabOpaque
 
 from mobnet.core.errors import DataError
 from mobnet.robotlog.clocks import common_ticks
@@ -45,25 +46,63 @@ def as_matlab(path):
     return path
 
 
+def as_simulink(path):
+    """A structure with time, as a scope of Simulink stores it: an array of structures, one for each signal."""
+    signals = np.zeros(3, dtype=[("values", "O"), ("label", "O")])
+    for k, values in enumerate((Q, 2 * Q, 3 * Q)):
+        signals[k] = (values, "abc"[k])
+    scope = np.zeros(1, dtype=[("time", "O"), ("signals", "O")])
+    scope[0] = (T[:, None], signals)
+    savemat(path, {"ScopeData": scope})
+    return path
+
+
+def as_simulink_73(path):
+    """The same as version 7.3 stores it: elements lie apart, and the array has references to them."""
+    with h5py.File(path, "w") as file:
+        file["out/logs/time"] = T[None, :]
+        for k in range(3):
+            file[f"#refs#/{k}"] = (k + 1) * Q.T
+        values = np.array([[file[f"#refs#/{k}"].ref] for k in range(3)], dtype=h5py.ref_dtype)
+        file.create_dataset("out/logs/signals/values", data=values)
+    return path
+
+
+SIMULINK = {"q": "signals/0/values", "v": "signals/1/values", "tau_motor": "signals/2/values", "t": "time"}
 WRITERS = {
     "column vectors": lambda folder: as_hdf5(folder / "log.h5", ARRAYS | {"t": T[:, None]}),
     "an axis of one": lambda folder: as_hdf5(folder / "log.h5", ARRAYS | {"q": Q[:, None, :]}),
     "compound": lambda folder: as_compound(folder / "log.h5"),
     "MATLAB 7.3": lambda folder: as_hdf5(folder / "log.mat", {k: np.atleast_2d(own.T) for k, own in ARRAYS.items()}),
     "MATLAB 5": lambda folder: as_matlab(folder / "log.mat"),
+    "Simulink": lambda folder: as_simulink(folder / "log.mat"),
+    "Simulink 7.3": lambda folder: as_simulink_73(folder / "log.mat"),
     "NumPy": lambda folder: as_npz(folder / "log.npz"),
 }
-ABOVE = {"compound": "log.", "MATLAB 5": "log/"}  # before the names of the arrays
+# Before the names of the arrays.
+ABOVE = {"compound": "log.", "MATLAB 5": "log/", "Simulink": "ScopeData/", "Simulink 7.3": "out/logs/"}
 
 
 @pytest.mark.parametrize("kind", WRITERS)
 def test_arrays_are_columns_however_they_lie(kind, arm, settings, tmp_path):
     path, above = WRITERS[kind](tmp_path), ABOVE.get(kind, "")
-    mapping: dict = {key: {"columns": (above + name,)} for key, name in (("q", "q"), ("v", "v"), ("tau_motor", "tau"))}
-    mapping["clock"] = {"column": f"{above}t"}
+    names = SIMULINK if kind.startswith("Simulink") else {"q": "q", "v": "v", "tau_motor": "tau", "t": "t"}
+    mapping: dict = {key: {"columns": (above + names[key],)} for key in ("q", "v", "tau_motor")}
+    mapping["clock"] = {"column": above + names["t"]}
     sensed = converted_log(path, arm.layout, LogMap.model_validate(mapping), settings.robotlog).recording.sensed
     np.testing.assert_allclose(sensed.q, Q, atol=1e-12)
     np.testing.assert_allclose(sensed.tau_motor, 3 * Q, atol=1e-12)
+
+
+def test_cells_are_columns_by_number_and_objects_of_matlab_alone_are_one_line(tmp_path, monkeypatch):
+    cells = np.zeros(2, dtype=object)
+    cells[:] = [T, 2 * T]
+    savemat(tmp_path / "log.mat", {"log": {"parts": cells}})
+    assert column_names(tmp_path / "log.mat") == ["log/parts/0", "log/parts/1"]
+    unknown = MatlabOpaque(np.zeros(1, dtype=[("s0", "O"), ("s1", "O"), ("s2", "O"), ("arr", "O")]))
+    monkeypatch.setattr("scipy.io.loadmat", lambda *_, **__: {"__header__": b"", "None": unknown})
+    with pytest.raises(DataError, match=r"holds objects, which MATLAB alone can read; accepted: structures and arrays"):
+        column_names(tmp_path / "log.mat")
 
 
 def test_arrays_of_different_lengths_are_one_line(arm, settings, tmp_path):
