@@ -104,7 +104,9 @@ def pushed_rows(log: Converted, joints: Sequence[str]) -> NDArray[np.bool_] | No
     names = [f"{EXTERNAL}.{joint}" for joint in joints]
     torques = [log.truth[name] for name in names if name in log.truth]
     if torques:
-        felt = np.any(torques, axis=0)
+        felt = np.zeros(len(log.time_s), dtype=bool)
+        for torque in torques:
+            felt |= torque != 0.0
         rows = felt if rows is None else rows & felt
     return rows
 

@@ -23,7 +23,7 @@ from mobnet.core.notes import read_array_note
 from mobnet.core.options import observe_parser
 from mobnet.core.printed import printed
 from mobnet.core.recording import Recording
-from mobnet.core.store import NOTE, array_writer, file_of, write_array
+from mobnet.core.store import NOTE, array_writer, file_of
 from mobnet.core.word_checks import check_observe
 from mobnet.estimation import observer
 from mobnet.estimation.own import DRIVES, ESTIMATE, OBSERVER, RECORDING
@@ -49,6 +49,7 @@ from mobnet.robotlog.hints.motion import jump_hints, motion_hints
 from mobnet.robotlog.hints.payload import explanation
 from mobnet.robotlog.hints.torque import torque_hints
 from mobnet.robotlog.hints.windows import known_joints, windows_of
+from mobnet.robotlog.long_arrays import long_array
 from mobnet.robotlog.meaning import default_map, resolved, wanted_columns
 from mobnet.robotlog.pieces import pieces, root_mean_square
 from mobnet.robotlog.plot import plot_residual
@@ -59,6 +60,7 @@ from mobnet.settings.robotlog import LogMap, RobotLog
 log = logging.getLogger(__name__)
 PLOT = "residual"  # beside the arrays of a log
 MANY = 100_000  # samples above which progress is told
+OBSERVED_ROWS = 100_000  # samples of a piece, from which the observer's state is carried to the next one
 
 
 @dataclass(frozen=True)
@@ -82,17 +84,18 @@ def observe_log(
     gain_hz: float,
     gravity_m_s2: float,
     bounds: RobotLog,
+    folder: Path | None = None,
 ) -> ObservedLog:
     """Read a log, run the momentum observer on it, and look for what is wrong with it.
 
     Without a map, columns have the names of a recording. `torque` says what torques are, whatever the map says; the
-    gain is K_0 of (7) [1/s].
+    gain is K_0 of (7) [1/s]. The arrays of a long log lie in files in a folder, where one is given.
 
     Raises:
         DataError: the log cannot be read, or a column is missing or not accepted.
         ConfigError: the map does not fit the robot.
     """
-    converted = converted_log(path, robot.layout, meaning, bounds)
+    converted = converted_log(path, robot.layout, meaning, bounds, folder)
     nominal = NominalModel(robot, gravity_m_s2=gravity_m_s2)
     if meaning and meaning.tool:
         converted = with_tool(converted, nominal, meaning.tool)
@@ -100,9 +103,11 @@ def observe_log(
     mob = observer.RobotObserver(nominal, gain_hz, read.rate_hz, torque)
     rows = len(read.sensed)
     _progress(rows, f"{rows} samples read")
-    residual = np.empty(read.sensed.v.shape)
+    residual = long_array(read.sensed.v.shape, folder)
     for span in read.spans():
-        mob.residual(read.sensed[span], residual[span])
+        state = mob.init()
+        for piece in pieces(span.start, span.stop, OBSERVED_ROWS):
+            state = mob.follow(state, read.sensed[piece], residual[piece])
     _progress(rows, "residual computed; looking for what is wrong with the log")
     hints, explained = looked_at(converted, nominal, torque, gravity_m_s2, bounds)
     return ObservedLog(converted, residual, tuple(hints), tuple(explained))
@@ -114,8 +119,12 @@ def _progress(rows: int, text: str) -> None:
         log.info("%s", text)
 
 
-def converted_log(path: Path, layout: JointLayout, meaning: LogMap | None, bounds: RobotLog) -> Converted:
+def converted_log(
+    path: Path, layout: JointLayout, meaning: LogMap | None, bounds: RobotLog, folder: Path | None = None
+) -> Converted:
     """Return the recording of a log, of which only what the map names is read.
+
+    The arrays of a long log lie in files in a folder, where one is given.
 
     Raises:
         DataError: the log cannot be read, or a column is missing or not accepted.
@@ -125,7 +134,7 @@ def converted_log(path: Path, layout: JointLayout, meaning: LogMap | None, bound
     if meaning is None:
         refuse_without_header(path, names)
     meaning = resolved(path, meaning or default_map(path, names, layout), names, layout)
-    return convert(path, read_log(path, wanted_columns(meaning, names)), meaning, layout, bounds)
+    return convert(path, read_log(path, wanted_columns(meaning, names)), meaning, layout, bounds, folder)
 
 
 def looked_at(
@@ -203,7 +212,10 @@ def write_observed(observed: ObservedLog, robot: RobotDescription, gain_hz: floa
     columns = torque_columns(robot.layout, [EXTERNAL], robot.layout.names)
     recorded = read_array_note(file_of(out / RECORDING, NOTE))["footer"]
     note = {"rate_hz": read.rate_hz, **meta, "method": OBSERVER, "recording": recorded}
-    write_array(out / ESTIMATE, observed.residual, columns, note, read.segments)
+    with array_writer(out / ESTIMATE, columns) as writer:
+        for rows in pieces(0, len(observed.residual)):
+            writer.append(observed.residual[rows])
+        writer.close(note, read.segments)
     pushed = pushed_rows(observed.converted, robot.layout.actuated)
     plot_residual(read, observed.residual, pushed, robot.layout, out / PLOT)
 
@@ -268,7 +280,7 @@ def run(options: Namespace) -> Iterator[str]:
     out = options.out or Path(f"{options.log.stem}_observed")
     check_place(out)
     sweep(out)
-    observed = observe_log(options.log, robot, meaning, torque, gain_hz, gravity, bounds)
+    observed = observe_log(options.log, robot, meaning, torque, gain_hz, gravity, bounds, out)
     wrenches = [_wrench(observed, robot, place, bounds) for place in places]
     write_observed(observed, robot, gain_hz, torque, out)
     write_wrenches(wrenches, observed.converted.recording, OBSERVER, out)

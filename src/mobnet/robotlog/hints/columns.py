@@ -106,7 +106,12 @@ def listed(joints: Sequence[str], which: Iterable[bool] = repeat(True)) -> str:
 
 def _same(values: NDArray[np.floating], i: int, j: int) -> bool:
     """Return whether two columns hold the same numbers."""
-    return bool(np.abs(values[:, i] - values[:, j]).max() <= SAME * np.abs(values[:, i]).max())
+    apart = 0.0
+    largest = 0.0
+    for rows in pieces(0, len(values)):
+        apart = max(apart, float(np.abs(values[rows, i] - values[rows, j]).max()))
+        largest = max(largest, float(np.abs(values[rows, i]).max()))
+    return apart <= SAME * largest
 
 
 def _repeats(share: float) -> str:
