@@ -1,6 +1,6 @@
 """From the columns of a log to the recording that the observer takes: units, order, one clock, gaps."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import chain
 from pathlib import Path
@@ -91,7 +91,7 @@ def convert(
     blank = dict[str, tuple[int, int]]()
     while waiting:
         name = waiting.pop(0)
-        numbers = {column: replace(left[column], values=left[column].numbers()) for column in given[name].columns}
+        numbers = _read(left, given[name].columns, folder)
         blank |= _blank_cells(numbers)
         signals[name] = _timed(path, numbers, given[name], meaning, clock, bounds, free.get(name, 0), folder)
         del numbers
@@ -110,12 +110,26 @@ def convert(
     truth = dict(zip(known, long_array((len(known), len(ticks.time_s)), folder), strict=True))
     for name, column in known.items():
         truth[name][:] = np.interp(ticks.time_s, *_own(path, name, column, meaning, clock))
-    give_back()
+        give_back()
     recording, absent = _recording(values, layout, ticks.segments, rate_hz)
     hints = (*left_out, *_blank_hints(blank), *clock.hints, *stamps)
     return Converted(
         recording, wrenches, absent, clocks, ticks.interpolated, hints, ticks.time_s, values.get("tool"), truth
     )
+
+
+def _read(columns: Columns, names: Sequence[str], folder: Path | None) -> dict[str, LogColumn]:
+    """Return some columns with their numbers; those that are read only now lie in one array, as long as a signal."""
+    read = {name: columns[name] for name in names}
+    waiting = [name for name, column in read.items() if callable(column.values)]
+    stored: Array | None = None
+    for k, name in enumerate(waiting):
+        numbers = read[name].numbers()
+        stored = long_array((len(waiting), len(numbers)), folder) if stored is None else stored
+        stored[k] = numbers
+        read[name] = replace(read[name], values=stored[k])
+        give_back()
+    return read
 
 
 def _blank_cells(columns: Columns) -> dict[str, tuple[int, int]]:

@@ -14,6 +14,7 @@ from mobnet.detection.detector import ALARM_RATIO, DetectorOutput
 from mobnet.detection.points import EstimatedPush, felt_push
 from mobnet.robot.nominal import NominalModel
 from mobnet.robotlog.convert import Converted
+from mobnet.robotlog.long_arrays import give_back
 from mobnet.settings.limb_thresholds import LimbThresholds
 from mobnet.settings.robotlog import RobotLog
 
@@ -107,6 +108,7 @@ def pushed_rows(log: Converted, joints: Sequence[str]) -> NDArray[np.bool_] | No
         felt = np.zeros(len(log.time_s), dtype=bool)
         for torque in torques:
             felt |= torque != 0.0
+            give_back()
         rows = felt if rows is None else rows & felt
     return rows
 

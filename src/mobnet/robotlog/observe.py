@@ -22,10 +22,11 @@ from mobnet.core.joints import JointLayout
 from mobnet.core.notes import read_array_note
 from mobnet.core.options import observe_parser
 from mobnet.core.printed import printed
-from mobnet.core.recording import Recording
+from mobnet.core.recording import Recording, SensedRecording
 from mobnet.core.store import NOTE, array_writer, file_of
 from mobnet.core.word_checks import check_observe
 from mobnet.estimation import observer
+from mobnet.estimation.observer import drives_of
 from mobnet.estimation.own import DRIVES, ESTIMATE, OBSERVER, RECORDING
 from mobnet.kernel.drive import TorqueKind
 from mobnet.robot.description import RobotDescription
@@ -45,8 +46,8 @@ from mobnet.robotlog.hints.columns import (
     unit_hints,
 )
 from mobnet.robotlog.hints.delay import speed_delay_hints, torque_delay
+from mobnet.robotlog.hints.explained import explanation
 from mobnet.robotlog.hints.motion import jump_hints, motion_hints
-from mobnet.robotlog.hints.payload import explanation
 from mobnet.robotlog.hints.torque import torque_hints
 from mobnet.robotlog.hints.windows import known_joints, windows_of
 from mobnet.robotlog.long_arrays import long_array
@@ -173,20 +174,33 @@ def looked_at(
     # Of feet that do not carry the weight the wrenches are wrong, and would make torques of the legs look wrong.
     heavy = list(weight_hints(nominal, sensed, converted.wrenches, gravity_m_s2, bounds))
     wrenches = {} if heavy else converted.wrenches
-    torques, explained = _torques_looked_at(converted, nominal, torque, wrenches, bool(late), bounds)
+    torques, explained = torques_looked_at(read, nominal, torque, wrenches, bool(late), bounds)
     return hints + heavy + torques, explained
 
 
-def _torques_looked_at(
-    converted: Converted,
+def torques_looked_at(
+    read: SensedRecording,
     nominal: NominalModel,
     torque: TorqueKind,
     wrenches: Mapping[str, Array],
     late: bool,
     bounds: RobotLog,
+    with_friction: bool = True,
 ) -> tuple[list[str], list[str]]:
-    """Return what looks wrong with torques, or else what explains the residual; speeds may be known to be late."""
-    read = converted.recording
+    """Return what looks wrong with torques of a kind, or else what explains the residual.
+
+    Args:
+        read: the log as a recording.
+        nominal: the model of the robot.
+        torque: whether torques are samples at the ticks or means over the intervals before them.
+        wrenches: what the feet's sensors read, side -> (T, 6) [N], [N m].
+        late: whether speeds are known to be late.
+        bounds: when a hint is given.
+        with_friction: whether friction is among what explains the residual.
+
+    Returns:
+        Hints, each as one line with numbers, and what explains the residual where there are none.
+    """
     log_of = read.sensed, read.spans(), read.rate_hz, wrenches
     windows = windows_of(*log_of, torque, 0.0, bounds)
     if windows is None:
@@ -198,10 +212,13 @@ def _torques_looked_at(
     delay = torque_delay(nominal, *log_of, known, torque, bounds) if is_known else None
     if delay:
         windows = windows_of(*log_of, torque, delay.samples, bounds) or windows
+    # What the table says of the errors of torques is no mistake of the log.
+    if drives := drives_of(nominal.robot.friction, nominal.robot.layout.actuated):
+        windows = replace(windows, torque=drives.scale * windows.torque - drives.offset)
     hints = list(torque_hints(nominal, windows, bounds))
     if delay:
         return [delay.text, *hints], []
-    return hints, [] if hints or late else list(explanation(nominal, windows, bounds))
+    return hints, [] if hints or late else list(explanation(nominal, windows, bounds, with_friction))
 
 
 def write_observed(observed: ObservedLog, robot: RobotDescription, gain_hz: float, torque: str, out: Path) -> None:
