@@ -2,7 +2,7 @@
 
 import os
 import resource
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -21,7 +21,8 @@ class LogColumn:
     """One column of a log.
 
     Attributes:
-        values: numbers (T,) in the log's own unit.
+        values: numbers (T,) in the log's own unit, or a function that reads them: all columns of a file may be larger
+            than the memory.
         time_s: in logs of messages, the time of each (T,) [s] since the log began: the stamp of its header, or, where
             it has none or all are zero, that at which it was recorded.
         recorded_s: in logs of messages, the times at which they were recorded (T,) [s] since the log began.
@@ -31,13 +32,17 @@ class LogColumn:
         found: what it holds where that is no numbers.
     """
 
-    values: NDArray[Any]
+    values: NDArray[Any] | Callable[[], NDArray[Any]]
     time_s: Array | None = None
     recorded_s: Array | None = None
     topic: str = ""
     is_stamped: bool | None = None
     hint: str = ""
     found: str = ""
+
+    def numbers(self) -> NDArray[Any]:
+        """Return the numbers (T,) in the log's own unit, read anew each time where `values` is a function."""
+        return self.values() if callable(self.values) else self.values
 
 
 Columns = Mapping[str, LogColumn]

@@ -1,6 +1,6 @@
 """From the columns of a log to the recording that the observer takes: units, order, one clock, gaps."""
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import chain
 from pathlib import Path
@@ -20,6 +20,7 @@ from mobnet.robot.wrench import point_torque
 from mobnet.robotlog.clocks import Rising, Segments, Timed, at, common_ticks, covered, rate_of, rising, stamp_hints
 from mobnet.robotlog.columns import Columns, LogColumn
 from mobnet.robotlog.hints.columns import listed
+from mobnet.robotlog.long_arrays import give_back, long_array
 from mobnet.robotlog.meaning import given_signals, is_truth, resolved
 from mobnet.robotlog.pieces import pieces
 from mobnet.robotlog.restarts import counted_on
@@ -62,8 +63,10 @@ class Converted:
     truth: Mapping[str, Array]
 
 
-def convert(path: Path, columns: Columns, meaning: LogMap, layout: JointLayout, bounds: RobotLog) -> Converted:
-    """Make a recording of a log.
+def convert(
+    path: Path, columns: Columns, meaning: LogMap, layout: JointLayout, bounds: RobotLog, folder: Path | None = None
+) -> Converted:
+    """Make a recording of a log, whose long arrays lie in files in a folder, where one is given.
 
     Raises:
         DataError: a column is missing, a number is not finite, a clock does not rise, or signals do not overlap.
@@ -75,11 +78,12 @@ def convert(path: Path, columns: Columns, meaning: LogMap, layout: JointLayout, 
     restarts: tuple[str, ...] = ()
     if meaning.clock.stamp == "header":
         columns, restarts = counted_on(columns, bounds)
-    known = {name: _own(path, name, column, meaning, clock) for name, column in columns.items() if is_truth(name)}
-    names = dict.fromkeys(chain.from_iterable(signal.columns for signal in given.values()))
-    hints = [*_reading_hints(columns, names), *clock.hints, *restarts]
+    known = {name: column for name, column in columns.items() if is_truth(name)}
+    of_signals = dict.fromkeys(chain.from_iterable(signal.columns for signal in given.values()))
+    left_out = dict.fromkeys(columns[name].hint for name in of_signals if columns[name].hint)
+    stamps = list[str]()
     if meaning.clock.stamp == "header":
-        hints += stamp_hints((columns[signal.columns[0]] for signal in given.values()), bounds)
+        stamps += stamp_hints((columns[signal.columns[0]] for signal in given.values()), bounds)
     free = {"q": layout.nq - layout.nu, "v": layout.nv - layout.nu}  # for the base: one copy of a long signal less
     # A log may be as large as the memory: each column goes with the last signal that it is part of, and each signal as
     # soon as it has its values.
@@ -87,11 +91,15 @@ def convert(path: Path, columns: Columns, meaning: LogMap, layout: JointLayout, 
     del columns
     waiting = list(given)
     signals = dict[str, Timed]()
+    blank = dict[str, tuple[int, int]]()
     while waiting:
         name = waiting.pop(0)
-        signals[name] = _timed(path, left, given[name], meaning, clock, bounds, free.get(name, 0))
+        numbers = _read(left, given[name].columns, folder)
+        blank |= _blank_cells(numbers)
+        signals[name] = _timed(path, numbers, given[name], meaning, clock, bounds, free.get(name, 0), folder)
+        del numbers
         needed = set(chain.from_iterable(given[other].columns for other in waiting))
-        left = {column: numbers for column, numbers in left.items() if column in needed}
+        left = {name: column for name, column in left.items() if name in needed}
     _turn_base(path, signals, given)
     rate_hz = meaning.rate_hz or rate_of(signals["q"].time_s)
     clocks = {name: signal.time_s for name, signal in signals.items()}
@@ -99,31 +107,71 @@ def convert(path: Path, columns: Columns, meaning: LogMap, layout: JointLayout, 
     values = {}
     while signals:
         name, last_signal = signals.popitem()
-        values[name] = at(last_signal, ticks.time_s) if ticks.interpolated else last_signal.values
+        values[name] = _at_ticks(last_signal, ticks.time_s, folder) if ticks.interpolated else last_signal.values
         del last_signal
     wrenches = {foot.removesuffix("_foot"): values[foot] for foot in FEET if foot in values}
-    truth = {name: np.interp(ticks.time_s, *numbers) for name, numbers in known.items()}
+    truth = dict(zip(known, long_array((len(known), len(ticks.time_s)), folder), strict=True))
+    for name, column in known.items():
+        truth[name][:] = np.interp(ticks.time_s, *_own(path, name, column, meaning, clock))
+        give_back()
     recording, absent = _recording(values, layout, ticks.segments, rate_hz)
+    hints = (*left_out, *_blank_hints(blank), *clock.hints, *restarts, *stamps)
     return Converted(
-        recording, wrenches, absent, clocks, ticks.interpolated, tuple(hints), ticks.time_s, values.get("tool"), truth
+        recording, wrenches, absent, clocks, ticks.interpolated, hints, ticks.time_s, values.get("tool"), truth
     )
 
 
-def _reading_hints(columns: Columns, names: Iterable[str]) -> Iterator[str]:
-    """Yield what readers left out of a log, and how many rows of some of its columns have no number."""
-    used = {name: columns[name] for name in names}
-    yield from dict.fromkeys(column.hint for column in used.values() if column.hint)
-    blank: dict[tuple[int, int], list[str]] = {}
-    for name, column in used.items():
-        if count := int((~np.isfinite(column.values)).sum()):
-            blank.setdefault((count, len(column.values)), []).append(name)
-    for (count, rows), blank_names in blank.items():
+def _read(columns: Columns, names: Sequence[str], folder: Path | None) -> dict[str, LogColumn]:
+    """Return some columns with their numbers; those that are read only now lie in one array, as long as a signal."""
+    read = {name: columns[name] for name in names}
+    waiting = [name for name, column in read.items() if callable(column.values)]
+    stored: Array | None = None
+    for k, name in enumerate(waiting):
+        numbers = read[name].numbers()
+        stored = long_array((len(waiting), len(numbers)), folder) if stored is None else stored
+        stored[k] = numbers
+        read[name] = replace(read[name], values=stored[k])
+        give_back()
+    return read
+
+
+def _blank_cells(columns: Columns) -> dict[str, tuple[int, int]]:
+    """Return in how many of its rows a column has no number, and the rows, of the columns that lack some."""
+    blank = dict[str, tuple[int, int]]()
+    for name, column in columns.items():
+        numbers = column.numbers()
+        if count := int((~np.isfinite(numbers)).sum()):
+            blank[name] = count, len(numbers)
+    return blank
+
+
+def _blank_hints(blank: Mapping[str, tuple[int, int]]) -> Iterator[str]:
+    """Yield how many rows of columns have no number; columns of the same rows are one hint."""
+    names_by_count = dict[tuple[int, int], list[str]]()
+    for name, counted in blank.items():
+        names_by_count.setdefault(counted, []).append(name)
+    for (count, rows), names in names_by_count.items():
         text = "each signal is taken on the rows that it has"
-        yield f"no number in {count} of {rows} rows of {listed(blank_names)}: {text}"
+        yield f"no number in {count} of {rows} rows of {listed(names)}: {text}"
+
+
+def _at_ticks(signal: Timed, ticks: Array, folder: Path | None) -> Array:
+    """Return a signal at other times (T, n), by linear interpolation; a long one lies in a file in a folder."""
+    values = long_array((len(ticks), signal.values.shape[1]), folder)
+    for rows in pieces(0, len(ticks)):
+        values[rows] = at(signal, ticks[rows])
+    return values
 
 
 def _timed(
-    path: Path, columns: Columns, signal: Signal, meaning: LogMap, clock: Rising, bounds: RobotLog, free: int = 0
+    path: Path,
+    columns: Columns,
+    signal: Signal,
+    meaning: LogMap,
+    clock: Rising,
+    bounds: RobotLog,
+    free: int,
+    folder: Path | None,
 ) -> Timed:
     """Return a signal in SI units with its clock: the times of the column with most numbers that the others cover.
 
@@ -142,8 +190,7 @@ def _timed(
     ]
     scale, sign, offset = (np.asarray(part) for part in (signal.scale, signal.sign, signal.offset))
     factor = scale * SI.get(signal.unit or "-", 1.0)
-    whole = np.empty((len(time_s), free + len(parts)))
-    whole[:, :free] = 0.0
+    whole = long_array((len(time_s), free + len(parts)), folder)
     values = whole[:, free:]
     largest = 0.0
     # In pieces, as a temporary array as long as the log would cost more time than what is computed in it.
@@ -154,6 +201,7 @@ def _timed(
         parts_of_signal *= sign
         largest = max(largest, float(parts_of_signal.max()), -float(parts_of_signal.min()))
         values[rows] = parts_of_signal
+        whole[rows, :free] = 0.0
     # The residual, which has squares of speeds, would leave the range of single precision.
     if largest > LARGEST:
         row, k = np.unravel_index(int(np.abs(values).argmax()), values.shape)
@@ -165,7 +213,8 @@ def _timed(
 def _own(path: Path, name: str, column: LogColumn, meaning: LogMap, clock: Rising) -> tuple[Array, NDArray[Any]]:
     """Return the times of a column, which rise, and its numbers there."""
     time_s = column.recorded_s if meaning.clock.stamp == "recorded" else column.time_s
-    values = column.values
+    values = column.numbers()
+    rows_of_column = len(values)
     if time_s is None:
         if len(values) != clock.length:
             text = f"column {name!r} has {len(values)} rows, and the clock {clock.length}"
@@ -182,7 +231,7 @@ def _own(path: Path, name: str, column: LogColumn, meaning: LogMap, clock: Risin
         time_s = time_s[is_number]
         values = values[is_number]
     if len(time_s) < 2:
-        what = f"column {name!r}: {len(time_s)} of {len(column.values)} rows have a number"
+        what = f"column {name!r}: {len(time_s)} of {rows_of_column} rows have a number"
         what = f"{column.topic}: {len(time_s)} message with {name}" if column.topic else what
         raise DataError(f"{path}: {what}; accepted: two or more")
     return time_s, values
@@ -197,14 +246,14 @@ def _table_clock(path: Path, columns: Columns, meaning: LogMap, bounds: RobotLog
     clock = meaning.clock.column
     unit = SI.get(meaning.clock.unit, 1.0)
     if clock in columns and columns[clock].time_s is None:
-        return rising(path, columns[clock].values * unit, bounds)
+        return rising(path, columns[clock].numbers() * unit, bounds)
     first = next(column for name, column in columns.items() if name != clock)
     # Each column of messages has the times of its topic, and needs no clock of a table.
     if first.time_s is not None:
         return Rising(np.empty(0))
     if not meaning.rate_hz:
         raise DataError(f"{path}: {_no_clock(columns, meaning)}")
-    return rising(path, np.arange(len(first.values)) / meaning.rate_hz, bounds)
+    return rising(path, np.arange(len(first.numbers())) / meaning.rate_hz, bounds)
 
 
 def _no_clock(columns: Columns, meaning: LogMap) -> str:
@@ -265,9 +314,12 @@ def _recording(
     q = values["q"]
     v = values["v"]
     if layout.virtual:
-        q[:, :3] = place
-        q[:, 3:7] = values["quaternion"] / np.linalg.norm(values["quaternion"], axis=1)[:, None]
-        v[:, :3], v[:, 3:6] = values["velocity"], values["omega"]
+        quaternion = values["quaternion"]
+        for piece in pieces(0, rows):
+            q[piece, :3] = place[piece]
+            q[piece, 3:7] = quaternion[piece] / np.linalg.norm(quaternion[piece], axis=1)[:, None]
+            v[piece, :3] = values["velocity"][piece]
+            v[piece, 3:6] = values["omega"][piece]
     motor = values["tau_motor"]
     sensed = Sensed(
         q=q,

@@ -14,6 +14,7 @@ from mobnet.detection.detector import ALARM_RATIO, DetectorOutput
 from mobnet.detection.points import EstimatedPush, felt_push
 from mobnet.robot.nominal import NominalModel
 from mobnet.robotlog.convert import Converted
+from mobnet.robotlog.long_arrays import give_back
 from mobnet.settings.limb_thresholds import LimbThresholds
 from mobnet.settings.robotlog import RobotLog
 
@@ -104,7 +105,10 @@ def pushed_rows(log: Converted, joints: Sequence[str]) -> NDArray[np.bool_] | No
     names = [f"{EXTERNAL}.{joint}" for joint in joints]
     torques = [log.truth[name] for name in names if name in log.truth]
     if torques:
-        felt = np.any(torques, axis=0)
+        felt = np.zeros(len(log.time_s), dtype=bool)
+        for torque in torques:
+            felt |= torque != 0.0
+            give_back()
         rows = felt if rows is None else rows & felt
     return rows
 

@@ -5,8 +5,12 @@ are wanted.
 """
 
 from collections.abc import Callable, Collection, Mapping
+from dataclasses import replace
+from functools import partial
 from pathlib import Path
-from typing import NamedTuple, TypeVar
+from typing import Any, NamedTuple, TypeVar
+
+from numpy.typing import NDArray
 
 from mobnet.core.errors import DataError, not_accepted
 from mobnet.core.files import check_regular
@@ -83,7 +87,15 @@ def read_log(path: Path, wanted: Collection[str] | None = None) -> Columns:
     columns = {name: column for name, column in columns.items() if not column.found}
     if not columns:
         raise DataError(f"{path}: holds no column of numbers; accepted: at least positions, velocities and torques")
+    for name, column in columns.items():
+        if callable(column.values):
+            columns[name] = replace(column, values=partial(_numbers, path, column))
     return columns
+
+
+def _numbers(path: Path, column: LogColumn) -> NDArray[Any]:
+    """Read the numbers of a column; whatever goes wrong is one line."""
+    return _asked(path, lambda _: column.numbers())
 
 
 def _asked(path: Path, ask: Callable[[Format], Found]) -> Found:

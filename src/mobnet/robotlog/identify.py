@@ -23,12 +23,14 @@ from mobnet.estimation.own import read_log_folder
 from mobnet.kernel.drive import TorqueKind
 from mobnet.robot.description import RobotDescription, describe
 from mobnet.robot.given import given_table
+from mobnet.robot.nominal import NominalModel
 from mobnet.robot.table_file import head_of, write_table
 from mobnet.robot.word_checks import carrier_named
+from mobnet.robotlog.hints.motion import motion_hints
 from mobnet.robotlog.identifying.fit import JointFit, fit_joints
 from mobnet.robotlog.identifying.payload import Payload
 from mobnet.robotlog.identifying.regressors import RegressorWindows, columns_of, moved, together, windows_of
-from mobnet.robotlog.observe import converted_log
+from mobnet.robotlog.observe import converted_log, torques_looked_at
 from mobnet.settings.lab import Lab, load_lab, load_section
 from mobnet.settings.parts import BodyRow, FrictionRow
 from mobnet.settings.robot import RobotTable
@@ -91,6 +93,28 @@ def identify(
         if speed >= numbers.least_speed_rad_s
     }
     return fits_of_moving, carried
+
+
+def suspicions(robot: RobotDescription, logs: Sequence[FreeLog], settings: Lab) -> list[str]:
+    """Return what `./reproduce observe` says of motion and torques of logs but for friction, each behind a log's name.
+
+    Where something is wrong with a log, the numbers that are identified in it are, too.
+    """
+    nominal = NominalModel(robot, gravity_m_s2=settings.plant.gravity_m_s2)
+    bounds = settings.robotlog
+    lines = list[str]()
+    for log in logs:
+        read = log.recording
+        q, v = (values[:, -robot.layout.nu :] for values in (read.sensed.q, read.sensed.v))
+        hints = list(motion_hints(q, v, read.spans(), read.rate_hz, robot.layout.actuated, bounds))
+        # Torques that a wrong motion would need say nothing.
+        if not hints:
+            hints_and_explained = torques_looked_at(
+                read, nominal, log.torque, {}, late=False, bounds=bounds, with_friction=False
+            )
+            hints = [*chain.from_iterable(hints_and_explained)]
+        lines += [f"{log.path.name}: {hint}" for hint in hints]
+    return lines
 
 
 def split(windows: Sequence[RegressorWindows], numbers: Identification) -> tuple[RegressorWindows, RegressorWindows]:
@@ -206,12 +230,16 @@ def run(options: Namespace) -> Iterator[str]:
     terms = (*TERMS, *(term for term in FURTHER if getattr(options, term)))
     fits, carried = identify(robot, logs, terms, settings, options.payload)
     head = head_of(options.robot) if options.robot else []
+    suspected = suspicions(robot, logs, settings)
     made = f"friction and armature: from {', '.join(path.name for path in options.logs)}, by {command('identify')}."
     made_table = with_numbers(table, fits)
     made_table = with_payload(made_table, options.payload, carried) if carried else made_table
-    write_table(out, made_table, [*head, made])
+    write_table(out, made_table, [*head, made, *(f"observe says of {line}" for line in suspected)])
     load_section(out, RobotTable)
     yield from report_lines(fits, robot, settings.robotlog.identify.held_out)
+    if suspected:
+        yield "observe says of these logs:"
+    yield from (f"  {line}" for line in suspected)
     if carried:
         place = ", ".join(f"{x:.3f} ± {half:.2g}" for x, half in zip(carried.com, carried.com_half, strict=True))
         mass = f"{carried.mass:.4g} ± {carried.mass_half:.2g} kg"

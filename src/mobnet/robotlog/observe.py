@@ -22,10 +22,11 @@ from mobnet.core.joints import JointLayout
 from mobnet.core.notes import read_array_note
 from mobnet.core.options import observe_parser
 from mobnet.core.printed import printed
-from mobnet.core.recording import Recording
-from mobnet.core.store import NOTE, array_writer, file_of, write_array
+from mobnet.core.recording import Recording, SensedRecording
+from mobnet.core.store import NOTE, array_writer, file_of
 from mobnet.core.word_checks import check_observe
 from mobnet.estimation import observer
+from mobnet.estimation.observer import drives_of
 from mobnet.estimation.own import DRIVES, ESTIMATE, OBSERVER, RECORDING
 from mobnet.kernel.drive import TorqueKind
 from mobnet.robot.description import RobotDescription
@@ -45,10 +46,11 @@ from mobnet.robotlog.hints.columns import (
     unit_hints,
 )
 from mobnet.robotlog.hints.delay import speed_delay_hints, torque_delay
+from mobnet.robotlog.hints.explained import explanation
 from mobnet.robotlog.hints.motion import jump_hints, motion_hints
-from mobnet.robotlog.hints.payload import explanation
 from mobnet.robotlog.hints.torque import torque_hints
 from mobnet.robotlog.hints.windows import known_joints, windows_of
+from mobnet.robotlog.long_arrays import long_array
 from mobnet.robotlog.meaning import default_map, resolved, wanted_columns
 from mobnet.robotlog.pieces import pieces, root_mean_square
 from mobnet.robotlog.plot import plot_residual
@@ -59,6 +61,7 @@ from mobnet.settings.robotlog import LogMap, RobotLog
 log = logging.getLogger(__name__)
 PLOT = "residual"  # beside the arrays of a log
 MANY = 100_000  # samples above which progress is told
+OBSERVED_ROWS = 100_000  # samples of a piece, from which the observer's state is carried to the next one
 
 
 @dataclass(frozen=True)
@@ -82,17 +85,18 @@ def observe_log(
     gain_hz: float,
     gravity_m_s2: float,
     bounds: RobotLog,
+    folder: Path | None = None,
 ) -> ObservedLog:
     """Read a log, run the momentum observer on it, and look for what is wrong with it.
 
     Without a map, columns have the names of a recording. `torque` says what torques are, whatever the map says; the
-    gain is K_0 of (7) [1/s].
+    gain is K_0 of (7) [1/s]. The arrays of a long log lie in files in a folder, where one is given.
 
     Raises:
         DataError: the log cannot be read, or a column is missing or not accepted.
         ConfigError: the map does not fit the robot.
     """
-    converted = converted_log(path, robot.layout, meaning, bounds)
+    converted = converted_log(path, robot.layout, meaning, bounds, folder)
     nominal = NominalModel(robot, gravity_m_s2=gravity_m_s2)
     if meaning and meaning.tool:
         converted = with_tool(converted, nominal, meaning.tool)
@@ -100,9 +104,11 @@ def observe_log(
     mob = observer.RobotObserver(nominal, gain_hz, read.rate_hz, torque)
     rows = len(read.sensed)
     _progress(rows, f"{rows} samples read")
-    residual = np.empty(read.sensed.v.shape)
+    residual = long_array(read.sensed.v.shape, folder)
     for span in read.spans():
-        mob.residual(read.sensed[span], residual[span])
+        state = mob.init()
+        for piece in pieces(span.start, span.stop, OBSERVED_ROWS):
+            state = mob.follow(state, read.sensed[piece], residual[piece])
     _progress(rows, "residual computed; looking for what is wrong with the log")
     hints, explained = looked_at(converted, nominal, torque, gravity_m_s2, bounds)
     return ObservedLog(converted, residual, tuple(hints), tuple(explained))
@@ -114,8 +120,12 @@ def _progress(rows: int, text: str) -> None:
         log.info("%s", text)
 
 
-def converted_log(path: Path, layout: JointLayout, meaning: LogMap | None, bounds: RobotLog) -> Converted:
+def converted_log(
+    path: Path, layout: JointLayout, meaning: LogMap | None, bounds: RobotLog, folder: Path | None = None
+) -> Converted:
     """Return the recording of a log, of which only what the map names is read.
+
+    The arrays of a long log lie in files in a folder, where one is given.
 
     Raises:
         DataError: the log cannot be read, or a column is missing or not accepted.
@@ -125,7 +135,7 @@ def converted_log(path: Path, layout: JointLayout, meaning: LogMap | None, bound
     if meaning is None:
         refuse_without_header(path, names)
     meaning = resolved(path, meaning or default_map(path, names, layout), names, layout)
-    return convert(path, read_log(path, wanted_columns(meaning, names)), meaning, layout, bounds)
+    return convert(path, read_log(path, wanted_columns(meaning, names)), meaning, layout, bounds, folder)
 
 
 def looked_at(
@@ -164,20 +174,33 @@ def looked_at(
     # Of feet that do not carry the weight the wrenches are wrong, and would make torques of the legs look wrong.
     heavy = list(weight_hints(nominal, sensed, converted.wrenches, gravity_m_s2, bounds))
     wrenches = {} if heavy else converted.wrenches
-    torques, explained = _torques_looked_at(converted, nominal, torque, wrenches, bool(late), bounds)
+    torques, explained = torques_looked_at(read, nominal, torque, wrenches, bool(late), bounds)
     return hints + heavy + torques, explained
 
 
-def _torques_looked_at(
-    converted: Converted,
+def torques_looked_at(
+    read: SensedRecording,
     nominal: NominalModel,
     torque: TorqueKind,
     wrenches: Mapping[str, Array],
     late: bool,
     bounds: RobotLog,
+    with_friction: bool = True,
 ) -> tuple[list[str], list[str]]:
-    """Return what looks wrong with torques, or else what explains the residual; speeds may be known to be late."""
-    read = converted.recording
+    """Return what looks wrong with torques of a kind, or else what explains the residual.
+
+    Args:
+        read: the log as a recording.
+        nominal: the model of the robot.
+        torque: whether torques are samples at the ticks or means over the intervals before them.
+        wrenches: what the feet's sensors read, side -> (T, 6) [N], [N m].
+        late: whether speeds are known to be late.
+        bounds: when a hint is given.
+        with_friction: whether friction is among what explains the residual.
+
+    Returns:
+        Hints, each as one line with numbers, and what explains the residual where there are none.
+    """
     log_of = read.sensed, read.spans(), read.rate_hz, wrenches
     windows = windows_of(*log_of, torque, 0.0, bounds)
     if windows is None:
@@ -189,10 +212,13 @@ def _torques_looked_at(
     delay = torque_delay(nominal, *log_of, known, torque, bounds) if is_known else None
     if delay:
         windows = windows_of(*log_of, torque, delay.samples, bounds) or windows
+    # What the table says of the errors of torques is no mistake of the log.
+    if drives := drives_of(nominal.robot.friction, nominal.robot.layout.actuated):
+        windows = replace(windows, torque=drives.scale * windows.torque - drives.offset)
     hints = list(torque_hints(nominal, windows, bounds))
     if delay:
         return [delay.text, *hints], []
-    return hints, [] if hints or late else list(explanation(nominal, windows, bounds))
+    return hints, [] if hints or late else list(explanation(nominal, windows, bounds, with_friction))
 
 
 def write_observed(observed: ObservedLog, robot: RobotDescription, gain_hz: float, torque: str, out: Path) -> None:
@@ -203,7 +229,10 @@ def write_observed(observed: ObservedLog, robot: RobotDescription, gain_hz: floa
     columns = torque_columns(robot.layout, [EXTERNAL], robot.layout.names)
     recorded = read_array_note(file_of(out / RECORDING, NOTE))["footer"]
     note = {"rate_hz": read.rate_hz, **meta, "method": OBSERVER, "recording": recorded}
-    write_array(out / ESTIMATE, observed.residual, columns, note, read.segments)
+    with array_writer(out / ESTIMATE, columns) as writer:
+        for rows in pieces(0, len(observed.residual)):
+            writer.append(observed.residual[rows])
+        writer.close(note, read.segments)
     pushed = pushed_rows(observed.converted, robot.layout.actuated)
     plot_residual(read, observed.residual, pushed, robot.layout, out / PLOT)
 
@@ -268,7 +297,7 @@ def run(options: Namespace) -> Iterator[str]:
     out = options.out or Path(f"{stem_of(options.log)}_observed")
     check_place(out)
     sweep(out)
-    observed = observe_log(options.log, robot, meaning, torque, gain_hz, gravity, bounds)
+    observed = observe_log(options.log, robot, meaning, torque, gain_hz, gravity, bounds, out)
     wrenches = [_wrench(observed, robot, place, bounds) for place in places]
     write_observed(observed, robot, gain_hz, torque, out)
     write_wrenches(wrenches, observed.converted.recording, OBSERVER, out)

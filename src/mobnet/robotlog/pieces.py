@@ -10,14 +10,22 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array
+from mobnet.robotlog.long_arrays import give_back
 
 PIECE_ROWS = 2048
+KEPT_ROWS = 2**18  # after which pages of long arrays are given back
 
 
 def pieces(start: int, stop: int, rows: int = PIECE_ROWS) -> Iterator[slice]:
     """Yield slices of so many rows, one after another, from a first row up to an end."""
+    kept = 0
     for first in range(start, stop, rows):
         yield slice(first, min(first + rows, stop))
+        kept += rows
+        if kept >= KEPT_ROWS:
+            give_back()
+            kept = 0
+    give_back()
 
 
 def ranges(values: NDArray[np.floating]) -> tuple[NDArray[np.floating], NDArray[np.floating]]:

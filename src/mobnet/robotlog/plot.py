@@ -12,6 +12,7 @@ from mobnet.core.joints import JointLayout
 from mobnet.core.recording import Recording
 from mobnet.core.style import PAGE_INCH, settle, styled
 from mobnet.robotlog.flags import Flag, stretches
+from mobnet.robotlog.long_arrays import give_back
 from mobnet.settings.limb_thresholds import LimbThresholds
 
 MOST_POINTS = 4000  # of a line, two for each stretch: more than a page shows
@@ -35,6 +36,7 @@ def plot_residual(
 
     step = max(1, 2 * len(residual) // MOST_POINTS)
     parts = [_peaks(np.arange(start, end) / read.rate_hz, residual[start:end], step) for start, end in read.segments]
+    give_back()
     gap = np.full((1, layout.nv), np.nan)
     times = np.concatenate([np.append(time_s, time_s[-1]) for time_s, _ in parts])
     shown = np.concatenate([np.concatenate([values, gap]) for _, values in parts])

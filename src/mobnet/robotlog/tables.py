@@ -5,6 +5,7 @@ Their packages start slowly and are imported where they are needed.
 
 import contextlib
 from collections.abc import Collection, Iterator, Mapping
+from functools import partial
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -36,7 +37,7 @@ def parquet_names(path: Path) -> list[str]:
 
 
 def parquet_columns(path: Path, wanted: Collection[str]) -> dict[str, LogColumn]:
-    """Read columns of a Parquet file.
+    """Return columns of a Parquet file; those of plain numbers are read when they are asked for.
 
     Raises:
         DataError: lists of a column differ in their lengths.
@@ -46,7 +47,9 @@ def parquet_columns(path: Path, wanted: Collection[str]) -> dict[str, LogColumn]
     with pq.ParquetFile(path) as file:
         parts = _parquet_parts(file)
         asked = {name: parts[name] for name in wanted if name in parts}
-        check_memory(path, file.metadata.num_rows, len(asked))
+        # Others are read one by one, when they are needed.
+        in_lists = [part for part in asked.values() if part.number is not None]
+        check_memory(path, file.metadata.num_rows, max(1, len(in_lists)))
         columns = dict[str, LogColumn]()
         lists = dict[str, NDArray[Any]]()
         kinds = {field.name: field.type for field in file.schema_arrow}
@@ -56,13 +59,20 @@ def parquet_columns(path: Path, wanted: Collection[str]) -> dict[str, LogColumn]
                     lists[part.array] = _lists(path, part.array, file.read([part.array]).column(part.array))
                 columns[name] = LogColumn(np.ascontiguousarray(lists[part.array][:, part.number]))
             elif is_numeric(kinds[part.array]):
-                # One at a time: a whole table of Arrow's would stay beside the columns. A copy: Arrow gives its memory
-                # to the next column, and not back to the system when a column is done with.
-                column = file.read([part.array], use_threads=False).column(part.array).combine_chunks()
-                columns[name] = LogColumn(numbers(column).copy())
+                columns[name] = LogColumn(partial(_numbers_of, path, part.array))
             else:
                 columns[name] = LogColumn(np.empty(0), found=str(kinds[part.array]))
         return columns
+
+
+def _numbers_of(path: Path, name: str) -> NDArray[Any]:
+    """Read the numbers of a column of a Parquet file (T,)."""
+    import pyarrow.parquet as pq
+
+    with pq.ParquetFile(path) as file:
+        column = file.read([name], use_threads=False).column(name).combine_chunks()
+    # A copy: Arrow gives its memory to the next column, and not back to the system when a column is done with.
+    return numbers(column).copy()
 
 
 def _parquet_parts(file: Any) -> dict[str, TableColumn]:

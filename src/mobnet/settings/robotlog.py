@@ -240,6 +240,7 @@ class RobotLog(Section):
         windows: how many of them.
         least_torque: a joint whose motor gives less than this share of its largest torque tells nothing of it.
         suspect: share of a joint's torque that the motion does not explain, as squares, from which it is looked at.
+        small: the same where only another side of gravity and a wrong torque constant are looked for.
         few: so many such joints are tried with each other, and so many tell of a delay.
         explained: one mistake is named if it takes this share of the square error away.
         good: after which the error is below this share of the torque, both as squares.
@@ -276,6 +277,7 @@ class RobotLog(Section):
     windows: Annotated[int, Field(ge=20, le=10_000)]
     least_torque: InnerShare
     suspect: InnerShare
+    small: InnerShare
     few: Count
     explained: InnerShare
     good: InnerShare
@@ -298,3 +300,7 @@ class RobotLog(Section):
     on_average: Flag
     settle_s: Seconds
     flag_gap_s: Seconds
+
+    def for_small_mistakes(self) -> "RobotLog":
+        """Return the bounds with which mistakes are looked for that leave most of the torque explained."""
+        return self.model_copy(update={"suspect": self.small, "floor": self.small})

@@ -101,9 +101,9 @@ def test_a_csv_may_have_other_separators_empty_fields_whole_numbers_and_dates(tm
     rows = "".join(f"2026-01-02T03:04:05.{k:03d}; {k}; {k if k % 2 else ''}\n" for k in range(1000))
     path.write_text("\ufeff" + "t; whole; sparse\n" + rows + "2026-01-02T03:04:06.000;0.5;1\n")
     read = read_log(path)
-    np.testing.assert_allclose(np.diff(read["t"].values), 1e-3, atol=1e-6)
-    assert read["whole"].values[-1] == 0.5
-    assert np.isnan(read["sparse"].values).sum() == 500
+    np.testing.assert_allclose(np.diff(read["t"].numbers()), 1e-3, atol=1e-6)
+    assert read["whole"].numbers()[-1] == 0.5
+    assert np.isnan(read["sparse"].numbers()).sum() == 500
     path.write_text("a,b,a\n1,2,3\n")
     with pytest.raises(DataError, match="column 'a' stands twice in the header"):
         read_log(path)

@@ -13,6 +13,7 @@ from mobnet.robot.nominal import NominalModel
 from mobnet.robotlog.hints.base import _turning
 from mobnet.robotlog.hints.changes import _improves
 from mobnet.robotlog.hints.delay import EXACT, _unexplained
+from mobnet.robotlog.hints.explained import _in_words
 from mobnet.robotlog.hints.fits import positive_fit
 from mobnet.robotlog.hints.motion import jump_hints
 from mobnet.robotlog.observe import observe_log
@@ -133,6 +134,14 @@ MISTAKES = {  # name -> what a lab does to its log, and the hint
         lambda t: changed(t, ["J2"], ["q"], lambda x: x + np.pi / 2),
         r"J2: q reads \+1\.\d+ rad \(\+9\d degrees\) too much",
     ),
+    "a full turn too much": (
+        lambda t: changed(t, ["J2"], ["q"], lambda x: x + 2 * np.pi),
+        r"q of J2: beyond the robot's table by a full turn too much: it reaches .*; give offset: 6\.283185",
+    ),
+    "two full turns too little": (
+        lambda t: changed(t, ["J2"], ["q"], lambda x: x - 4 * np.pi),
+        r"q of J2: beyond the robot's table by 2 full turns too little: it reaches .*; give offset: -12\.56637",
+    ),
     "late speed": (lambda t: changed(t, BOTH, ["v"], late), f"v of J1, J2: {TWELVE} ms late against q"),
     "held torque": (lambda t: changed(t, BOTH, ["tau_motor"], held), "tau_motor of J1, J2: 90% of the samples repeat"),
     "torque without gravity": (without_gravity, "J1 and J2: tau_motor lacks the torque of gravity"),
@@ -177,6 +186,11 @@ def test_each_mistake_has_a_hint_that_names_it(name, clean, hints):
     assert matching, found
     named = [hint for hint in found if hint not in matching]
     assert all("beyond" in hint for hint in named), named  # and it names nothing else but values beyond limits
+
+
+@pytest.mark.parametrize(("offset", "words"), [(2.0, "2"), (3.0, "at least 3"), (-3.0, "-3 or less")])
+def test_an_offset_at_the_bound_of_its_fit_may_be_larger(offset, words):
+    assert _in_words(offset, 3.0) == words
 
 
 @pytest.mark.parametrize("size", [0.0, 1e-300, 1e-150, 1e12])

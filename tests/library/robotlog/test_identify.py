@@ -1,6 +1,7 @@
 """Friction and rotor inertia that are in a log are found, with intervals, and the observer then knows them."""
 
 import logging
+import re
 from dataclasses import replace
 from pathlib import Path
 
@@ -17,7 +18,7 @@ from mobnet.robot.description import describe
 from mobnet.robot.nominal import NominalModel
 from mobnet.robot.table_file import head_of, write_table
 from mobnet.robotlog.detect import main as detect
-from mobnet.robotlog.identify import TERMS, FreeLog, identify, main, with_payload
+from mobnet.robotlog.identify import TERMS, FreeLog, identify, main, suspicions, with_payload
 from mobnet.robotlog.identifying.payload import LEAST_KG, parameters
 from mobnet.robotlog.observe import main as observe
 from mobnet.settings.checks.robot import robot_problems
@@ -123,6 +124,18 @@ def test_a_wrong_torque_constant_is_found_where_asked(bare, moved, settings):
     found, _ = identify(bare, [recorded(weak)], (*TERMS, "scale"), settings)
     for fit in found.values():
         assert 1 + fit.factors["scale"] == pytest.approx(1.2, rel=WITHIN)
+
+
+def test_what_looks_wrong_with_a_log_is_told_as_observe_tells_it(bare, moved, settings):
+    sensed = moved(2)
+    assert suspicions(bare, [recorded(sensed)], settings) == []
+    weak = replace(sensed, tau_motor=sensed.tau_motor / [1.0, 1.5])
+    (line,) = suspicions(bare, [recorded(weak)], settings)
+    assert re.match(r"log: J2: tau_motor is 0\.\d+ times .*: a wrong torque constant\? .* identify with --scale", line)
+    row = SMOOTH["J2"].model_copy(update={"scale": 1.5, "offset_nm": 0.0})
+    assert suspicions(replace(bare, friction={"J2": row}), [recorded(weak)], settings) == []  # the table knows it
+    (line,) = suspicions(bare, [recorded(replace(sensed, v=-sensed.v))], settings)
+    assert line.startswith("log: q of J1, J2: changes by -")
 
 
 def test_the_observer_steps_as_it_runs(bare, moved):

@@ -5,6 +5,7 @@ friction and rotor inertia that the table lacks. A UR10e's own log is tried wher
 """
 
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -21,6 +22,7 @@ from mobnet.settings.lab import load_section
 from mobnet.settings.robot import RobotTable
 
 RATE_HZ, SECONDS, WAVES = 100.0, 40.0, 6
+G = 9.81
 HEAVIER = 1.1  # links than in the table
 DRY, VISCOUS, ROTOR = 0.06, 0.05, 0.01  # shares of a motor's largest torque: [N m], [N m s/rad], [N m s^2/rad]
 NOISE = {"q": 1e-5, "v": 2e-3, "torque": 2e-3}  # [rad], [rad/s], share of a motor's largest torque
@@ -35,16 +37,20 @@ def panda():
     return describe(load_section(Path("configs/robots/panda.yaml"), RobotTable))
 
 
-def arm_log(robot, friction, carried_kg=0.0):
-    """Return a log of the stand-in that carries a mass beyond its last link, and may have friction."""
+def arm_log(robot, friction, carried_kg=0.0, down=(0.0, 0.0, -1.0), slower=1.0):
+    """Return a log of the stand-in, which may have friction and carry a mass beyond its last link.
+
+    Gravity acts along a direction in the axes of its table; motion may be so many times slower.
+    """
     rng, t = np.random.default_rng(5), np.arange(0, SECONDS, 1 / RATE_HZ)
     joints, limits = robot.layout.nu, robot.torque_limits
-    rate, phase = 2 * np.pi * rng.uniform(0.05, 0.5, (WAVES, joints)), rng.uniform(0, 6, (WAVES, joints))
+    rate, phase = 2 * np.pi * rng.uniform(0.05, 0.5, (WAVES, joints)) / slower, rng.uniform(0, 6, (WAVES, joints))
     size, angle = rng.uniform(0.08, 0.2, (WAVES, joints)), rate * t[:, None, None] + phase
     q = MIDDLE + (size * np.sin(angle)).sum(axis=1)
     v = (size * rate * np.cos(angle)).sum(axis=1)
     a = -(size * rate**2 * np.sin(angle)).sum(axis=1)
     heavier = NominalModel(robot, mass_ratio=HEAVIER)
+    heavier.model.gravity.linear = G * np.array(down)
     if carried_kg:
         load = pin.Inertia(carried_kg, np.array(CARRIED_M), np.zeros((3, 3)))
         heavier.model.appendBodyToJoint(joints, load, pin.SE3.Identity())
@@ -66,9 +72,9 @@ def arm_logs(panda):
 def observed(panda, settings, tmp_path):
     """Return a function of a log that observes it."""
 
-    def observe(log):
+    def observe(log, robot=panda):
         log.table(panda.layout.actuated).to_parquet(tmp_path / "log.parquet")
-        return observe_log(tmp_path / "log.parquet", panda, None, "sample", 100.0, 9.81, settings.robotlog)
+        return observe_log(tmp_path / "log.parquet", robot, None, "sample", 100.0, 9.81, settings.robotlog)
 
     return observe
 
@@ -100,6 +106,51 @@ def test_a_planted_mistake_is_named_and_nothing_else(kind, name, arm_logs, panda
     log = arm_logs[kind]
     hints = observed(PLANTED[name].spoil(log)).hints
     assert fault_of(name, log, panda.layout.actuated, hints) == ""
+
+
+@pytest.mark.parametrize(
+    ("place", "down"),
+    [
+        ("on a wall", (0.0, 1.0, 0.0)),
+        ("from a ceiling", (0.0, 0.0, 1.0)),
+        ("on a slope", (np.sin(0.35), 0.0, -np.cos(0.35))),
+    ],
+)
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_base_that_hangs_otherwise_is_named_and_what_the_hint_says_mends_it(kind, place, down, panda, observed):
+    log = arm_log(panda, friction=kind == KINDS[1], down=down)
+    (hint,) = observed(log).hints
+    assert f"gravity comes from another side than in the table: along ({', '.join(f'{x:.2f}' for x in down)})" in hint
+    assert f", as {place};" in hint
+    quat = tuple(map(float, re.search(r"`quat: \[(.*)\]`", hint)[1].split(", ")))
+    first = panda.bodies[0].model_copy(update={"quat": quat})
+    mended = replace(panda, bodies=(first, *panda.bodies[1:]))
+    assert observed(log, mended).hints == ()
+
+
+@pytest.mark.parametrize("joint", ["shoulder", "elbow"])
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_wrong_torque_constant_is_named_and_no_missing_mass(kind, joint, arm_logs, panda, observed):
+    log = arm_logs[kind]
+    k = getattr(log, joint)
+    size = np.ones(panda.layout.nu)
+    size[k] = 1 / 0.7
+    found = observed(replace(log, torque=size * log.torque))
+    (line,) = [line for line in (*found.hints, *found.explained) if "friction of" not in line]
+    factor = re.match(rf"{panda.layout.actuated[k]}: tau_motor is ([\d.]+) times .*: a wrong torque constant\?", line)
+    assert float(factor[1]) == pytest.approx(HEAVIER / 0.7, rel=0.02)
+
+
+@pytest.mark.parametrize("joints", [None, (1, 3)])
+def test_all_torques_are_named_where_no_joint_speaks_against_it(joints, panda, observed):
+    """In slow motion without friction only the joints that carry the arm tell a sign."""
+    log = arm_log(panda, friction=False, slower=20.0)
+    sign = np.ones(panda.layout.nu)
+    sign[list(joints or range(panda.layout.nu))] = -1.0
+    (hint,) = observed(replace(log, torque=sign * log.torque)).hints
+    all_of_them = ", and so may be that of all joints: none speaks against it"
+    assert "tau_motor is of the wrong sign" in hint
+    assert (all_of_them in hint) == (joints is None)
 
 
 if UR10E is not None:

@@ -9,6 +9,7 @@ from mobnet.core.motion import turn, turned
 from mobnet.core.recording import Sensed
 from mobnet.robot.nominal import NominalModel
 from mobnet.robot.wrench import feet_torque
+from mobnet.robotlog.long_arrays import give_back
 from mobnet.robotlog.pieces import pieces
 from mobnet.settings.robotlog import RobotLog
 
@@ -19,7 +20,9 @@ UPRIGHT = 0.9  # cosine between the mean specific force in world axes and the ve
 
 def base_hints(sensed: Sensed, spans: Sequence[slice], rate_hz: float, bounds: RobotLog) -> Iterator[str]:
     """Yield hints on the inertial sensor and the orientation of a floating base."""
-    quat = sensed.q[:, 3:7].T
+    quat = np.ascontiguousarray(sensed.q[:, 3:7].T)  # copies: a view would keep all of a long log in the memory
+    omega = np.ascontiguousarray(sensed.v[:, 3:6].T)
+    give_back()
     acc = sensed.acc_base_in_base.T
     size = float(np.linalg.norm(acc.mean(axis=1)))  # of the mean: steps shake the base by half of gravity
     if abs(size / G - 1) > bounds.gravity:
@@ -34,7 +37,7 @@ def base_hints(sensed: Sensed, spans: Sequence[slice], rate_hz: float, bounds: R
         better = max(upward, key=lambda name: upward[name])
         meant = f"; as {better} by {upward[better]:.2f}" if upward[better] >= UPRIGHT else ""
         yield f"quaternion or acc: {text}{meant}"
-    slope = _turning(quat, sensed.v[:, 3:6].T, spans, rate_hz, bounds)
+    slope = _turning(quat, omega, spans, rate_hz, bounds)
     if slope is not None and not 1 - bounds.gravity < slope < 1 + bounds.gravity:
         yield f"omega: its integral is {slope:.3g} times the turn of the quaternion: unit, sign or axes"
 

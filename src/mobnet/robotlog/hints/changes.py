@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from mobnet.core.arrays import Array
 from mobnet.robot.nominal import NominalModel
 from mobnet.robotlog.hints.fits import TINY, friction_fit, unexplained
+from mobnet.robotlog.hints.mounting import mounting_of
 from mobnet.robotlog.hints.payload import payloads
 from mobnet.robotlog.hints.windows import MotionWindows, MotorDemand, repeated, size_of
 from mobnet.settings.robotlog import RobotLog
@@ -18,11 +19,15 @@ from mobnet.settings.robotlog import RobotLog
 ALIKE = 3.0  # factor that a wrong model may make of a torque
 ANY = np.array(np.inf)  # offset of a torque [N m]
 FACTORS = np.geomspace(1e-4, 1e4, 161)  # of torques that are tried, and how finely the best of them is sought again
+BOTH_SIGNS = np.concatenate([FACTORS, -FACTORS])
 FINER = np.geomspace(1 / 1.1, 1.1, 41)
+CONSTANTS = np.geomspace(1 / ALIKE, ALIKE, 45)  # of a single joint, by which a wrong constant may be off,
+LEAST_CONSTANT = 1.2  # and the factor below which masses of the table may be the cause
 UNITS = {"mN m": 1e-3, "kN m": 1e3}
 APART_RAD = np.radians(15.0)  # between zeros of a joint that are tried
 LEAST_RAD = np.radians(12.0)  # shift of a zero below which friction may be the cause
 WAVES = 5  # numbers that tell how the torque of a joint depends on its own angle
+LEAST_TOLD = 2  # joints of a wrong sign from which all may have it
 LEAST_CARRIED = 2  # joints that a mass at the end of an arm loads
 LEAST_ORDER = 3  # joints that stand in another order; two are exchanged
 
@@ -89,19 +94,27 @@ class Seen(NamedTuple):
 def sign_changes(seen: Seen) -> Iterator[Change]:
     """Yield the change of the signs of all torques that fit better with the other one."""
     torque = -seen.windows.torque
-    wrong = [k for k in seen.suspects if _improves(seen.with_torque(k, torque[:, [k]])[0], seen.left[k], seen.bounds)]
-    if wrong:
-        sign = np.ones(torque.shape[1])
-        sign[wrong] = -1.0
-        numbers = 1 if len(wrong) == len(seen.known) else len(wrong)
-        yield Change("tau_motor is of the wrong sign", tuple(sorted(wrong)), numbers, _times(sign))
+    nu = torque.shape[1]
+    other = [seen.with_torque(k, torque[:, [k]])[0] for k in range(nu)]
+    wrong = [k for k in seen.suspects if _improves(other[k], seen.left[k], seen.bounds)]
+    if not wrong:
+        return
+    right = [k for k in range(nu) if _improves(seen.left[k], other[k], seen.bounds)]
+    if len(wrong) >= LEAST_TOLD and len(wrong) < nu and not right:
+        text = "tau_motor is of the wrong sign, and so may be that of all joints: none speaks against it"
+        yield Change(text, tuple(sorted(wrong)), 1, _times(-np.ones(nu)))
+        return
+    sign = np.ones(nu)
+    sign[wrong] = -1.0
+    numbers = 1 if len(wrong) == len(seen.known) else len(wrong)
+    yield Change("tau_motor is of the wrong sign", tuple(sorted(wrong)), numbers, _times(sign))
 
 
 def factor_changes(seen: Seen) -> Iterator[Change]:
     """Yield factors of torques: of a single joint, or of all that are not explained, one or for each its own."""
     # A joint whose motion needs next to nothing has no factor to tell.
     large = size_of(seen.asked.needed) > seen.bounds.least_torque * seen.nominal.robot.torque_limits
-    factors = {k: _best_factor(seen, [k]) for k in sorted(seen.suspects) if large[k]}
+    factors = {k: _best_factor(seen, [k], BOTH_SIGNS) for k in sorted(seen.suspects) if large[k]}
     factors = {
         k: factor
         for k, factor in factors.items()
@@ -110,7 +123,7 @@ def factor_changes(seen: Seen) -> Iterator[Change]:
     for k, factor in factors.items():
         yield from _factor_change(seen, {k: factor}, 1)
     if len(factors) > 1:
-        common = _best_factor(seen, list(factors))
+        common = _best_factor(seen, list(factors), BOTH_SIGNS)
         same = dict.fromkeys(factors, common)
         # A joint that its own factor does not explain either has none to tell.
         is_sure = {k: float(seen.with_factors(k, np.array([factors[k]]))[0]) < seen.bounds.suspect for k in factors}
@@ -119,9 +132,8 @@ def factor_changes(seen: Seen) -> Iterator[Change]:
         yield from _factor_change(seen, each if better else same, len(factors) if better else 1)
 
 
-def _best_factor(seen: Seen, joints: Sequence[int]) -> float:
-    """Return the factor on what the motion needs of some joints that explains their torques best."""
-    tried = np.concatenate([FACTORS, -FACTORS])
+def _best_factor(seen: Seen, joints: Sequence[int], tried: Array) -> float:
+    """Return the factor on what the motion needs of some joints that explains their torques best, near those tried."""
     coarse = float(tried[int(np.argmin(_log_left(seen, joints, tried)))])
     return coarse * float(FINER[int(np.argmin(_log_left(seen, joints, coarse * FINER)))])
 
@@ -188,6 +200,30 @@ def gravity_changes(seen: Seen) -> Iterator[Change]:
     joints = tuple(sorted(seen.suspects))
     yield Change("tau_motor lacks the torque of gravity, which the drive adds by itself", joints, 1, _beside(gravity))
     yield Change("tau_motor has the torque of gravity twice", joints, 1, _beside(-gravity))
+
+
+def mounting_changes(seen: Seen) -> Iterator[Change]:
+    """Yield another direction of gravity, which explains all joints of an arm at once."""
+    if not seen.suspects:
+        return
+    mounting = mounting_of(seen.nominal, seen.windows, seen.asked, seen.left, seen.known)
+    if mounting:
+        text = mounting.text(seen.nominal)
+        yield Change(text, tuple(sorted(seen.suspects)), 2, _beside(-mounting.torque))
+
+
+def constant_changes(seen: Seen) -> Iterator[Change]:
+    """Yield a factor of the torques of a single joint that is no unit and no sign: a wrong torque constant."""
+    for k in sorted(seen.suspects):
+        factor = _best_factor(seen, [k], CONSTANTS)
+        is_far = not 1 / LEAST_CONSTANT < factor < LEAST_CONSTANT
+        # Any offset is allowed, so that the torque of a joint that only holds its load has no factor to tell.
+        if is_far and _improves(*seen.with_factors(k, np.array([factor, 1.0]), ANY), seen.bounds):
+            size = np.ones(len(seen.left))
+            size[k] = 1 / factor
+            remedy = "give it as scale, or identify with --scale"
+            text = f"tau_motor is {factor:.3g} times what the motion needs: a wrong torque constant? {remedy}"
+            yield Change(text, (k,), 1, _times(size))
 
 
 def payload_changes(seen: Seen) -> Iterator[Change]:

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array
-from mobnet.core.contract import rule_of
+from mobnet.core.contract import Rule, rule_of
 from mobnet.core.joints import JointLayout
 from mobnet.core.recording import Sensed
 from mobnet.robotlog.pieces import pieces, ranges
@@ -64,15 +64,36 @@ def limit_hints(sensed: Sensed, layout: JointLayout) -> Iterator[str]:
     """Yield hints on joints whose position, speed or torque is beyond the wide bounds of `mobnet.core.contract`."""
     joints = layout.actuated
     for signal, values in (("q", sensed.q), ("v", sensed.v), ("tau_motor", sensed.tau_motor)):
-        largest = np.maximum(*map(np.abs, ranges(values[:, -len(joints) :])))
+        low, high = ranges(values[:, -len(joints) :])
+        largest = np.maximum(np.abs(low), np.abs(high))
         rules = [rule_of(f"{signal}.{joint}", layout) for joint in joints]
         most = np.array([max(abs(rule.low), abs(rule.high)) for rule in rules])
         far = largest > most
-        if far.any():
-            k = int(np.argmax(largest / most))
-            degrees = ": in degrees?" if signal == "q" and TURN < largest[k] <= np.degrees(most[k]) else ""
-            text = f"{joints[k]} reaches {largest[k]:.4g} {rules[k].places[0][0]}, accepted are {most[k]:.4g}"
-            yield f"{signal} of {listed(joints, far)}: beyond the robot's table: {text}{degrees}"
+        for k in np.flatnonzero(far).tolist() if signal == "q" else []:
+            if turns := _turns_beyond(float(low[k]), float(high[k]), rules[k]):
+                far[k] = False
+                text = f"it reaches {largest[k]:.4g} rad, accepted are {most[k]:.4g}"
+                remedy = f"give offset: {turns * TURN:.7g}"
+                yield f"q of {joints[k]}: beyond the robot's table by {_counted(turns)}: {text}; {remedy}"
+        if not far.any():
+            continue
+        k = int(np.argmax(np.where(far, largest / most, 0.0)))
+        degrees = ": in degrees?" if signal == "q" and TURN < largest[k] <= np.degrees(most[k]) else ""
+        text = f"{joints[k]} reaches {largest[k]:.4g} {rules[k].places[0][0]}, accepted are {most[k]:.4g}"
+        yield f"{signal} of {listed(joints, far)}: beyond the robot's table: {text}{degrees}"
+
+
+def _turns_beyond(low: float, high: float, rule: Rule) -> int:
+    """Return by how many full turns positions between two [rad] are above a range; 0 where turns do not help."""
+    turns = round(((low + high) / 2 - (rule.low + rule.high) / 2) / TURN)
+    fits = rule.low <= low - turns * TURN and high - turns * TURN <= rule.high
+    return turns if fits else 0
+
+
+def _counted(turns: int) -> str:
+    """Return a number of turns in words."""
+    way = "too much" if turns > 0 else "too little"
+    return f"a full turn {way}" if abs(turns) == 1 else f"{abs(turns)} full turns {way}"
 
 
 def unit_hints(clocks: Mapping[str, Array]) -> Iterator[str]:
@@ -106,7 +127,12 @@ def listed(joints: Sequence[str], which: Iterable[bool] = repeat(True)) -> str:
 
 def _same(values: NDArray[np.floating], i: int, j: int) -> bool:
     """Return whether two columns hold the same numbers."""
-    return bool(np.abs(values[:, i] - values[:, j]).max() <= SAME * np.abs(values[:, i]).max())
+    apart = 0.0
+    largest = 0.0
+    for rows in pieces(0, len(values)):
+        apart = max(apart, float(np.abs(values[rows, i] - values[rows, j]).max()))
+        largest = max(largest, float(np.abs(values[rows, i]).max()))
+    return apart <= SAME * largest
 
 
 def _repeats(share: float) -> str:

@@ -14,6 +14,7 @@ from mobnet.robot.nominal import NominalModel
 from mobnet.robot.wrench import feet_torque
 from mobnet.robotlog.hints.columns import held_share, listed
 from mobnet.robotlog.hints.fits import dissipation, positive_fit, quotient
+from mobnet.robotlog.long_arrays import give_back
 from mobnet.settings.robotlog import RobotLog
 
 LEAST = 0.75  # samples below which a delay is none
@@ -67,6 +68,7 @@ def torque_delay(
         near, far = (_swings(values[:, columns], smooth, swing) for values in (asked, torque))
         terms.append(near[most + middle])
         given.append(far[middle[:, None] + lags])
+        give_back()
     shares = _unexplained(np.concatenate(terms), np.concatenate(given))
     left = np.exp(np.log(shares).mean(axis=0))  # every joint counts alike, however well its model fits
     best = int(np.argmin(left))
@@ -101,6 +103,7 @@ def speed_delay_hints(
         middle = np.arange(most, len(turned) - most, max(1, round(APART_S * rate_hz)))
         left += np.square(turned[middle] - mean[middle + lags[:, None]]).sum(axis=1)
         size += np.square(turned[middle]).sum(axis=0)
+        give_back()
     moves &= size > MOVES_RAD_S**2 * len(kept) * STRETCH_S / APART_S
     shares = left[:, moves] / size[moves]
     best = np.argmin(shares, axis=0)

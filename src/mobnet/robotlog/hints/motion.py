@@ -10,6 +10,7 @@ from mobnet.core.contract import BEYOND_SPEED
 from mobnet.core.joints import JointLayout
 from mobnet.robotlog.hints.columns import listed
 from mobnet.robotlog.hints.fits import quotient
+from mobnet.robotlog.long_arrays import give_back
 from mobnet.robotlog.pieces import PIECE_ROWS, pieces
 from mobnet.settings.robotlog import RobotLog
 
@@ -91,6 +92,7 @@ def jump_hints(q: Array, spans: Sequence[slice], rate_hz: float, layout: JointLa
     before = np.concatenate([np.arange(span.start, span.stop - 1) for span in spans])
     looked = before[:: max(1, len(before) // LOOKED)]
     usual = np.quantile(np.abs(q[looked + 1] - q[looked]), 0.99, axis=0)
+    give_back()
     speeds = np.array([layout.limits[joint].speed for joint in layout.actuated])
     most = np.maximum(JUMP * usual, BEYOND_SPEED * speeds / rate_hz)
     counts = np.zeros(len(most), dtype=np.intp)

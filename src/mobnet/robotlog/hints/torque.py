@@ -6,7 +6,7 @@ for a change counts against it, so that the more general of two does not win by 
 than the best one is told beside it.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from itertools import chain
 from typing import NamedTuple
 
@@ -17,10 +17,12 @@ from mobnet.robot.nominal import NominalModel
 from mobnet.robotlog.hints.changes import (
     Change,
     Seen,
+    constant_changes,
     factor_changes,
     feet_changes,
     gravity_changes,
     motion_changes,
+    mounting_changes,
     offset_changes,
     order_changes,
     payload_changes,
@@ -49,9 +51,14 @@ class Mistake(NamedTuple):
 def torque_hints(nominal: NominalModel, windows: MotionWindows, bounds: RobotLog) -> Iterator[str]:
     """Yield what looks wrong with torques, or with joints as a whole, of those that tell of themselves."""
     asked = windows.asked(nominal)
+    small = bounds.for_small_mistakes()
     names_by_text = dict[str, list[str]]()
     for _ in range(MOST):
-        mistake = _best(_seen(nominal, windows, asked, bounds))
+        mistake = _best(seen_in(nominal, windows, asked, bounds))
+        if not mistake:
+            # No mass and no friction looks like gravity from another side, so that little of it is told, too.
+            barely = seen_in(nominal, windows, asked, small)
+            mistake = list(_of_torque(barely, mounting_changes(barely)))
         if not mistake:
             break
         # A mistake is undone before the next one is looked for (docs/notes/robot_logs.md).
@@ -64,7 +71,7 @@ def torque_hints(nominal: NominalModel, windows: MotionWindows, bounds: RobotLog
         yield f"{', '.join(joints)}: {text}"
 
 
-def _seen(nominal: NominalModel, windows: MotionWindows, asked: MotorDemand, bounds: RobotLog) -> Seen:
+def seen_in(nominal: NominalModel, windows: MotionWindows, asked: MotorDemand, bounds: RobotLog) -> Seen:
     """Return windows with what is not explained in them."""
     known = np.flatnonzero(known_joints(nominal, windows, asked, bounds)).tolist()
     left = left_of(asked, windows.torque, nominal, bounds, range(windows.torque.shape[1]))
@@ -83,21 +90,23 @@ def _best(seen: Seen) -> list[Mistake]:
     """Return the mistake that explains most, and one that explains hardly less; none where nothing is wrong."""
     if not seen.suspects:
         return []
-    mistakes = sorted(chain(_of_torque(seen), _of_motion(seen)), key=lambda mistake: mistake.score)
-    return [other for other in mistakes if other.score < mistakes[0].score + seen.bounds.close][:2]
-
-
-def _of_torque(seen: Seen) -> Iterator[Mistake]:
-    """Yield changes of torques alone that clear their joints."""
-    changes = (
+    of_torque = chain(
         sign_changes(seen),
         factor_changes(seen),
+        constant_changes(seen),
         order_changes(seen),
         offset_changes(seen),
         gravity_changes(seen),
+        mounting_changes(seen),
         payload_changes(seen),
     )
-    for change in chain(*changes):
+    mistakes = sorted(chain(_of_torque(seen, of_torque), _of_motion(seen)), key=lambda mistake: mistake.score)
+    return [other for other in mistakes if other.score < mistakes[0].score + seen.bounds.close][:2]
+
+
+def _of_torque(seen: Seen, changes: Iterable[Change]) -> Iterator[Mistake]:
+    """Yield changes of torques alone that clear their joints."""
+    for change in changes:
         windows = change.apply(seen.windows)
         asked = seen.asked._replace(needed=seen.asked.needed - (windows.beside - seen.windows.beside))
         yield from _cleared(change, windows, asked, seen)
@@ -128,12 +137,12 @@ def _cleared(change: Change, windows: MotionWindows, asked: MotorDemand, seen: S
     """Yield a change with its score, if it clears its joints and is better than none."""
     joints = list(change.joints)
     left = left_of(asked, windows.torque, seen.nominal, seen.bounds, range(len(seen.left)))
-    score = _score(left, seen) + seen.bounds.number * change.numbers
-    if _clears(left[joints], seen.left[joints], seen.bounds) and score < _score(seen.left, seen):
+    score = score_of(left, seen) + seen.bounds.number * change.numbers
+    if _clears(left[joints], seen.left[joints], seen.bounds) and score < score_of(seen.left, seen):
         yield Mistake(change, windows, asked, score)
 
 
-def _score(left: Array, seen: Seen) -> float:
+def score_of(left: Array, seen: Seen) -> float:
     """Return the sum of the logarithms of what the known joints leave, of which the smallest shares count alike."""
     return float(np.log(np.maximum(left[list(seen.known)], seen.bounds.floor)).sum())
 

@@ -18,6 +18,7 @@ from mobnet.robot.dynamics import momentum_and_beta
 from mobnet.robot.nominal import NominalModel
 from mobnet.robot.wrench import feet_torque
 from mobnet.robotlog.hints.fits import dry, unexplained
+from mobnet.robotlog.long_arrays import give_back
 from mobnet.settings.robotlog import RobotLog
 
 NODES = 11  # samples of a window at which beta is taken
@@ -103,8 +104,11 @@ def windows_of(
     starts = starts[np.linspace(0, len(starts) - 1, count).round().astype(np.intp)]
     nodes = starts[:, None] + np.linspace(0, steps, min(NODES, steps + 1)).round().astype(np.intp)
     q = sensed.q[nodes].astype(np.float64)
+    give_back()
     v = sensed.v[nodes].astype(np.float64)
+    give_back()
     torque = _mean_torque(sensed, starts[:, None] + np.arange(steps + 1), kind, late)
+    give_back()
     loads = {side: wrench[nodes] for side, wrench in wrenches.items()}
     return MotionWindows(q, v, torque, np.zeros(torque.shape), loads, steps / rate_hz)
 
