@@ -121,6 +121,7 @@ def pairs_of(reference: pd.DataFrame, tried: pd.DataFrame, statistics: Statistic
     """
     pairs = only_one(reference, tried)
     preferred = preferred_share(pairs, statistics)
+    discordant = int(pairs.to_numpy().sum())
     pairs.loc[ALL] = pairs.sum()
     place = dict(tried[["level", "detector", "leg", "kind"]].iloc[0])
     rows: list[dict[str, object]] = []
@@ -130,7 +131,6 @@ def pairs_of(reference: pd.DataFrame, tried: pd.DataFrame, statistics: Statistic
         for quantity, value in numbers.items():
             number = fields_of(Number(value))
             rows.append({**place, "cell": cell, "quantity": quantity, **number, "count": counts[quantity]})
-    discordant = int(pairs.loc[ALL].sum())
     rows.append({**place, "cell": ALL, "quantity": PREFERRED, **fields_of(preferred), "count": discordant})
     return pd.DataFrame(rows)
 
