@@ -6,7 +6,7 @@ import numpy as np
 
 from mobnet.core.arrays import Array
 from mobnet.robot.nominal import NominalModel
-from mobnet.robotlog.hints.changes import Change, Seen, constant_changes
+from mobnet.robotlog.hints.changes import LEAST_CONSTANT, Change, Seen, constant_changes
 from mobnet.robotlog.hints.fits import friction_fit, quotient
 from mobnet.robotlog.hints.payload import payloads
 from mobnet.robotlog.hints.torque import score_of, seen_in
@@ -31,7 +31,7 @@ def explanation(
         return
     if with_friction:
         yield from _frictions(seen, bounds.floor)
-    constants = list(constant_changes(seen))
+    constants = list(constant_changes(seen, LEAST_CONSTANT))
     masses = list(_masses(seen))
     by_constants = _score_of_constants(seen, constants)
     by_masses = min((score for _, score in masses), default=np.inf)

@@ -15,6 +15,7 @@ import numpy as np
 from mobnet.core.arrays import Array
 from mobnet.robot.nominal import NominalModel
 from mobnet.robotlog.hints.changes import (
+    SURE_CONSTANT,
     Change,
     Seen,
     constant_changes,
@@ -93,7 +94,7 @@ def _best(seen: Seen) -> list[Mistake]:
     of_torque = chain(
         sign_changes(seen),
         factor_changes(seen),
-        constant_changes(seen),
+        constant_changes(seen, SURE_CONSTANT),
         order_changes(seen),
         offset_changes(seen),
         gravity_changes(seen),
