@@ -15,7 +15,7 @@ import numpy as np
 
 from mobnet.core.arrays import Array
 from mobnet.core.errors import DataError
-from mobnet.core.files import refusal
+from mobnet.core.files import FULL, refusal
 
 LARGE_BYTES = 2**28  # of an array that lies in a file: smaller ones of a log fit into the memory together
 _maps = weakref.WeakSet[mmap.mmap]()
@@ -25,7 +25,7 @@ def long_array(shape: tuple[int, ...], folder: Path | None) -> Array:
     """Return an array to be filled; a large one lies in a file in a folder, where one is given, and goes with it.
 
     Raises:
-        DataError: the disk is full, or the folder cannot be written to.
+        DataError: the disk is full.
     """
     size = math.prod(shape) * np.dtype(np.float64).itemsize
     if folder is None or size < LARGE_BYTES:
@@ -37,7 +37,9 @@ def long_array(shape: tuple[int, ...], folder: Path | None) -> Array:
             os.posix_fallocate(file.fileno(), 0, size)
             pages = mmap.mmap(file.fileno(), size)
     except OSError as error:
-        raise DataError(refusal(error, folder, size=size)) from None
+        if error.errno in FULL:
+            raise DataError(refusal(error, folder, size=size)) from None
+        return np.empty(shape)  # some file systems of containers and networks map no files
     _maps.add(pages)
     return np.frombuffer(pages, dtype=np.float64).reshape(shape)
 

@@ -300,7 +300,3 @@ class RobotLog(Section):
     on_average: Flag
     settle_s: Seconds
     flag_gap_s: Seconds
-
-    def for_small_mistakes(self) -> "RobotLog":
-        """Return the bounds with which mistakes are looked for that leave most of the torque explained."""
-        return self.model_copy(update={"suspect": self.small, "floor": self.small})

@@ -131,7 +131,7 @@ def test_what_looks_wrong_with_a_log_is_told_as_observe_tells_it(bare, moved, se
     assert suspicions(bare, [recorded(sensed)], settings) == []
     weak = replace(sensed, tau_motor=sensed.tau_motor / [1.0, 1.5])
     (line,) = suspicions(bare, [recorded(weak)], settings)
-    assert re.match(r"log: J2: tau_motor is 0\.\d+ times .*: a wrong torque constant\? .* identify with --scale", line)
+    assert re.match(r"log: J2: tau_motor is 0\.\d+ times .*: a wrong torque constant\? .* identify --scale", line)
     row = SMOOTH["J2"].model_copy(update={"scale": 1.5, "offset_nm": 0.0})
     assert suspicions(replace(bare, friction={"J2": row}), [recorded(weak)], settings) == []  # the table knows it
     (line,) = suspicions(bare, [recorded(replace(sensed, v=-sensed.v))], settings)

@@ -78,11 +78,22 @@ def test_pages_that_were_given_back_keep_their_numbers(in_files):
     np.testing.assert_array_equal(values, np.arange(12.0).reshape(3, 4))
 
 
-def test_a_full_disk_is_one_line_before_anything_is_written(in_files, monkeypatch):
-    def full(*_):
-        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+def failing(number):
+    """Return a function that fails as the system does, with an error of a number."""
 
-    monkeypatch.setattr(os, "posix_fallocate", full)
+    def fail(*_):
+        raise OSError(number, os.strerror(number))
+
+    return fail
+
+
+def test_where_no_file_can_be_mapped_an_array_lies_in_the_memory(in_files, monkeypatch):
+    monkeypatch.setattr(long_arrays.mmap, "mmap", failing(errno.ENODEV))
+    assert long_array((3, 4), in_files).shape == (3, 4)
+
+
+def test_a_full_disk_is_one_line_before_anything_is_written(in_files, monkeypatch):
+    monkeypatch.setattr(os, "posix_fallocate", failing(errno.ENOSPC))
     with pytest.raises(DataError, match=r"files: cannot be written: No space left on device; needed: "):
         long_array((3, 4), in_files)
 

@@ -9,7 +9,6 @@ from mobnet.core.motion import turn, turned
 from mobnet.core.recording import Sensed
 from mobnet.robot.nominal import NominalModel
 from mobnet.robot.wrench import feet_torque
-from mobnet.robotlog.long_arrays import give_back
 from mobnet.robotlog.pieces import pieces
 from mobnet.settings.robotlog import RobotLog
 
@@ -20,9 +19,8 @@ UPRIGHT = 0.9  # cosine between the mean specific force in world axes and the ve
 
 def base_hints(sensed: Sensed, spans: Sequence[slice], rate_hz: float, bounds: RobotLog) -> Iterator[str]:
     """Yield hints on the inertial sensor and the orientation of a floating base."""
-    quat = np.ascontiguousarray(sensed.q[:, 3:7].T)  # copies: a view would keep all of a long log in the memory
-    omega = np.ascontiguousarray(sensed.v[:, 3:6].T)
-    give_back()
+    quat = _copied(sensed.q[:, 3:7])
+    omega = _copied(sensed.v[:, 3:6])
     acc = sensed.acc_base_in_base.T
     size = float(np.linalg.norm(acc.mean(axis=1)))  # of the mean: steps shake the base by half of gravity
     if abs(size / G - 1) > bounds.gravity:
@@ -40,6 +38,14 @@ def base_hints(sensed: Sensed, spans: Sequence[slice], rate_hz: float, bounds: R
     slope = _turning(quat, omega, spans, rate_hz, bounds)
     if slope is not None and not 1 - bounds.gravity < slope < 1 + bounds.gravity:
         yield f"omega: its integral is {slope:.3g} times the turn of the quaternion: unit, sign or axes"
+
+
+def _copied(values: Array) -> Array:
+    """Return values (T, n) as (n, T): a view of a few columns would keep all of a long log in the memory."""
+    copied = np.empty(values.shape[::-1])
+    for rows in pieces(0, len(values)):
+        copied[:, rows] = values[rows].T
+    return copied
 
 
 def _upward(quat: Array, acc: Array, size: float) -> float:

@@ -22,7 +22,8 @@ FACTORS = np.geomspace(1e-4, 1e4, 161)  # of torques that are tried, and how fin
 BOTH_SIGNS = np.concatenate([FACTORS, -FACTORS])
 FINER = np.geomspace(1 / 1.1, 1.1, 41)
 CONSTANTS = np.geomspace(1 / ALIKE, ALIKE, 45)  # of a single joint, by which a wrong constant may be off,
-LEAST_CONSTANT = 1.2  # and the factor below which masses of the table may be the cause
+LEAST_CONSTANT = 1.2  # factor from which it has a word among what explains the residual,
+SURE_CONSTANT = 1.5  # and from which it is a hint: masses of a table make smaller ones, too
 UNITS = {"mN m": 1e-3, "kN m": 1e3}
 APART_RAD = np.radians(15.0)  # between zeros of a joint that are tried
 LEAST_RAD = np.radians(12.0)  # shift of a zero below which friction may be the cause
@@ -212,16 +213,20 @@ def mounting_changes(seen: Seen) -> Iterator[Change]:
         yield Change(text, tuple(sorted(seen.suspects)), 2, _beside(-mounting.torque))
 
 
-def constant_changes(seen: Seen) -> Iterator[Change]:
-    """Yield a factor of the torques of a single joint that is no unit and no sign: a wrong torque constant."""
+def constant_changes(seen: Seen, least: float) -> Iterator[Change]:
+    """Yield a factor of the torques of a single joint that is no unit and no sign: a wrong torque constant.
+
+    A factor nearer to one than the least has no word.
+    """
     for k in sorted(seen.suspects):
         factor = _best_factor(seen, [k], CONSTANTS)
-        is_far = not 1 / LEAST_CONSTANT < factor < LEAST_CONSTANT
+        is_far = not 1 / least < factor < least
         # Any offset is allowed, so that the torque of a joint that only holds its load has no factor to tell.
-        if is_far and _improves(*seen.with_factors(k, np.array([factor, 1.0]), ANY), seen.bounds):
+        left, before = seen.with_factors(k, np.array([factor, 1.0]), ANY).tolist()
+        if is_far and _improves(left, before, seen.bounds):
             size = np.ones(len(seen.left))
             size[k] = 1 / factor
-            remedy = "give it as scale, or identify with --scale"
+            remedy = f"a scale of {1 / factor:.3g} undoes it, and identify --scale finds it"
             text = f"tau_motor is {factor:.3g} times what the motion needs: a wrong torque constant? {remedy}"
             yield Change(text, (k,), 1, _times(size))
 

@@ -6,10 +6,10 @@ import numpy as np
 
 from mobnet.core.arrays import Array
 from mobnet.robot.nominal import NominalModel
-from mobnet.robotlog.hints.changes import Change, Seen, constant_changes
+from mobnet.robotlog.hints.changes import LEAST_CONSTANT, Change, Seen, constant_changes
 from mobnet.robotlog.hints.fits import friction_fit, quotient
 from mobnet.robotlog.hints.payload import payloads
-from mobnet.robotlog.hints.torque import score_of, seen_in
+from mobnet.robotlog.hints.torque import for_small_mistakes, score_of, seen_in
 from mobnet.robotlog.hints.windows import MotionWindows, left_of, size_of
 from mobnet.settings.robotlog import RobotLog
 
@@ -26,12 +26,12 @@ def explanation(
     That is a torque constant of single joints, or a mass that several carry, whichever leaves less; a constant is one
     number, and a mass four.
     """
-    seen = seen_in(nominal, windows, windows.asked(nominal), bounds.for_small_mistakes())
+    seen = seen_in(nominal, windows, windows.asked(nominal), for_small_mistakes(bounds))
     if not seen.known:
         return
     if with_friction:
         yield from _frictions(seen, bounds.floor)
-    constants = list(constant_changes(seen))
+    constants = list(constant_changes(seen, LEAST_CONSTANT))
     masses = list(_masses(seen))
     by_constants = _score_of_constants(seen, constants)
     by_masses = min((score for _, score in masses), default=np.inf)

@@ -52,8 +52,8 @@ def turned_base(nominal: NominalModel, down: Array) -> Array:
     w, x, y, z = nominal.robot.bodies[0].quat
     turn = pin.Quaternion.FromTwoVectors(down, _down_of(nominal))
     turned = turn * pin.Quaternion(w, x, y, z)
-    quat = np.array([turned.w, turned.x, turned.y, turned.z])
-    quat = np.round(quat, 6) + 0.0  # no minus before zero
+    parts = (turned.w, turned.x, turned.y, turned.z)
+    quat = np.array([round(float(part), 6) + 0.0 for part in parts])  # no minus before zero
     return quat if quat[np.flatnonzero(quat)[0]] > 0.0 else -quat
 
 

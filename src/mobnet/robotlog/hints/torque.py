@@ -15,6 +15,7 @@ import numpy as np
 from mobnet.core.arrays import Array
 from mobnet.robot.nominal import NominalModel
 from mobnet.robotlog.hints.changes import (
+    SURE_CONSTANT,
     Change,
     Seen,
     constant_changes,
@@ -51,7 +52,7 @@ class Mistake(NamedTuple):
 def torque_hints(nominal: NominalModel, windows: MotionWindows, bounds: RobotLog) -> Iterator[str]:
     """Yield what looks wrong with torques, or with joints as a whole, of those that tell of themselves."""
     asked = windows.asked(nominal)
-    small = bounds.for_small_mistakes()
+    small = for_small_mistakes(bounds)
     names_by_text = dict[str, list[str]]()
     for _ in range(MOST):
         mistake = _best(seen_in(nominal, windows, asked, bounds))
@@ -69,6 +70,11 @@ def torque_hints(nominal: NominalModel, windows: MotionWindows, bounds: RobotLog
         names_by_text.setdefault(best.change.text + meant, []).append(_named(best.change, nominal))
     for text, joints in names_by_text.items():
         yield f"{', '.join(joints)}: {text}"
+
+
+def for_small_mistakes(bounds: RobotLog) -> RobotLog:
+    """Return the bounds with which mistakes are looked for that leave most of the torque explained."""
+    return bounds.model_copy(update={"suspect": bounds.small, "floor": bounds.small})
 
 
 def seen_in(nominal: NominalModel, windows: MotionWindows, asked: MotorDemand, bounds: RobotLog) -> Seen:
@@ -93,7 +99,7 @@ def _best(seen: Seen) -> list[Mistake]:
     of_torque = chain(
         sign_changes(seen),
         factor_changes(seen),
-        constant_changes(seen),
+        constant_changes(seen, SURE_CONSTANT),
         order_changes(seen),
         offset_changes(seen),
         gravity_changes(seen),
