@@ -77,7 +77,8 @@ def run(root: Path, words: Words) -> int:
         if words.command in LINED:
             signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
         if words.command in OUTSIDE:
-            return subprocess.run([python, "-P", "-m", *module], cwd=given, check=False).returncode
+            # With open files of the caller, such as those of a shell's <(...).
+            return subprocess.run([python, "-P", "-m", *module], cwd=given, close_fds=False, check=False).returncode
         return subprocess.run([python, "-m", *module], check=False).returncode
     asked = [*words.extra, *(REPORT if words.command == "report" else ())]
     if not only_looks(asked):
