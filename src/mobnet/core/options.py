@@ -32,7 +32,7 @@ def observe_parser() -> argparse.ArgumentParser:
         epilog="LOG is a text with a separator, .parquet, .h5, .mat, .npz, .mcap, .bag, .db3, or a folder that "
         "`ros2 bag` wrote (docs/log_formats.md).",
     )
-    parser.add_argument("log", type=Path, metavar="LOG", help="log of a robot")
+    parser.add_argument("log", type=log_path, metavar="LOG", help="log of a robot; - is standard input")
     add_robot(parser)
     parser.add_argument("--map", type=Path, help="what its columns mean (default: columns named as in docs/data.md)")
     parser.add_argument(
@@ -44,6 +44,11 @@ def observe_parser() -> argparse.ArgumentParser:
     add_wrench(parser)
     parser.add_argument("--out", type=Path, help="folder of what is made (default: LOG's name with _observed, here)")
     return parser
+
+
+def log_path(word: str) -> Path:
+    """Return the file of a log that a word names; `-` is standard input."""
+    return Path("/dev/stdin" if word == "-" else word)
 
 
 def add_robot(parser: argparse.ArgumentParser) -> None:
@@ -92,7 +97,7 @@ def detect_parser() -> argparse.ArgumentParser:
         description="Estimate the external torque of a limb in a log, and write when something pushes it: flags.csv, "
         "the estimate with its standard deviation, and a plot of torque, thresholds and flags.",
     )
-    parser.add_argument("log", type=Path, metavar="LOG", help=f"log of a robot, as `{command('observe')}` reads it")
+    parser.add_argument("log", type=log_path, metavar="LOG", help=f"log of a robot, as `{command('observe')}` reads it")
     add_robot(parser)
     parser.add_argument("--map", type=Path, help="what its columns mean (default: columns named as in docs/data.md)")
     parser.add_argument("--network", type=Path, metavar="NET", help="what `learn` wrote (default: the observer alone)")

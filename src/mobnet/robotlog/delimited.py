@@ -317,14 +317,16 @@ def _separated(path: Path, layout: Layout, places: Mapping[str, int], most: int)
     )
     asked = [str(place) for place in sorted(set(places.values()))]
     kept = {"include_columns": asked, "null_values": _missing_words(), "decimal_point": layout.decimal}
-    with arrow.open_csv(path, read, parse, arrow.ConvertOptions(**kept)) as file:
+    # Of an open file, as Arrow takes no name that is not UTF-8.
+    with opened_text(path) as text, arrow.open_csv(text, read, parse, arrow.ConvertOptions(**kept)) as file:
         first = file.schema  # of the first block: what looks whole there, or empty, may be a fraction further down
     # Columns of a stated type are read in two thirds of the time of those whose type Arrow looks for.
     kinds = {f.name: pa.float64() if _is_loose(f.type) else f.type for f in first}
     # The rows of the first block were counted already, and are read again.
     wrong.clear()
     read.block_size = BLOCK_BYTES
-    with arrow.open_csv(path, read, parse, arrow.ConvertOptions(**kept, column_types=kinds)) as file:
+    converted = arrow.ConvertOptions(**kept, column_types=kinds)
+    with opened_text(path) as text, arrow.open_csv(text, read, parse, converted) as file:
         numeric = [k for k, kind in enumerate(file.schema.types) if is_numeric(kind)]
         texts = [k for k in range(len(file.schema)) if k not in numeric]
         values = [np.empty(most) for _ in numeric]

@@ -17,6 +17,7 @@ from mobnet.core.files import check_regular
 from mobnet.robotlog.columns import Columns, LogColumn
 from mobnet.robotlog.delimited import PACKED, csv_columns, csv_names
 from mobnet.robotlog.messages import message_columns, message_names
+from mobnet.robotlog.piped import NAME, is_piped
 from mobnet.robotlog.sources import FILES, METADATA
 from mobnet.robotlog.tables import array_columns, array_names, parquet_columns, parquet_names
 
@@ -53,7 +54,9 @@ def format_of(path: Path) -> str:
 
 
 def stem_of(path: Path) -> str:
-    """Return the name of a log without its ending, or both endings of a text that is packed."""
+    """Return the name of a log without its ending, or both endings of a text that is packed; a pipe has none."""
+    if is_piped(path):
+        return NAME
     return path.with_suffix("").stem if format_of(path) in TEXTS and path.suffix.lower() == PACKED else path.stem
 
 

@@ -53,6 +53,7 @@ from mobnet.robotlog.hints.windows import known_joints, windows_of
 from mobnet.robotlog.long_arrays import long_array
 from mobnet.robotlog.meaning import default_map, resolved, wanted_columns
 from mobnet.robotlog.pieces import pieces, root_mean_square
+from mobnet.robotlog.piped import as_file
 from mobnet.robotlog.plot import plot_residual
 from mobnet.robotlog.wrenches import Wrenches, WrenchPoint, place_of, wrench_lines, wrenches_of, write_wrenches
 from mobnet.settings.lab import load_lab, load_section
@@ -131,11 +132,12 @@ def converted_log(
         DataError: the log cannot be read, or a column is missing or not accepted.
         ConfigError: the map does not fit the robot.
     """
-    names = column_names(path)
-    if meaning is None:
-        refuse_without_header(path, names)
-    meaning = resolved(path, meaning or default_map(path, names, layout), names, layout)
-    return convert(path, read_log(path, wanted_columns(meaning, names)), meaning, layout, bounds, folder)
+    with as_file(path) as file:
+        names = column_names(file)
+        if meaning is None:
+            refuse_without_header(file, names)
+        meaning = resolved(file, meaning or default_map(file, names, layout), names, layout)
+        return convert(file, read_log(file, wanted_columns(meaning, names)), meaning, layout, bounds, folder)
 
 
 def looked_at(

@@ -2,6 +2,7 @@
 
 import gzip
 import math
+import os
 import re
 
 import numpy as np
@@ -190,3 +191,10 @@ def test_what_only_ends_as_a_packed_text_is_one_line(tmp_path):
     (tmp_path / "log.gz").write_bytes(gzip.compress(b"t,a\n0,1\n1,2\n"))
     with pytest.raises(DataError, match="does not say which format is packed; accepted: a text packed as"):
         column_names(tmp_path / "log.gz")
+
+
+@pytest.mark.parametrize("between", [",", " "])
+def test_a_name_of_a_file_that_is_not_utf8_is_read(between, tmp_path):
+    path = tmp_path / os.fsdecode(b"l\xf6g.csv")
+    path.write_text("\n".join(PLAIN).replace(",", between))
+    np.testing.assert_allclose(read_log(path)["q.J2"].values, ROWS[:, 2], atol=1e-6)
