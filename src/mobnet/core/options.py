@@ -1,6 +1,7 @@
 """The words of the commands of a lab. Standard library only: help is printed before there is an environment."""
 
 import argparse
+from collections.abc import Iterator
 from pathlib import Path
 
 from mobnet.core.files import descriptor_of, files_like
@@ -273,22 +274,24 @@ def export_parser() -> argparse.ArgumentParser:
 
 def missing_input(options: argparse.Namespace) -> str | None:
     """Return a line about the first file or folder that a command gets and that is not there; None if all are."""
-    readers = list[str]()
-    for name, value in vars(options).items():
-        if name == "out":
-            continue
-        for path in value if isinstance(value, list) else [value]:
-            if not isinstance(path, Path):
-                continue
-            if descriptor_of(path) == 0:
-                readers.append(name)
-                if name in FROM_STDIN:
-                    continue
-            if not _is_there(path):
-                return f"{path}: no such file or folder{files_like(path)}"
+    given = list(_inputs(options))
+    readers = [name for name, path in given if descriptor_of(path) == 0]
     if len(readers) > 1:
         return f"{' and '.join(readers)}: standard input for both is not accepted; accepted: a file for one of them"
+    for name, path in given:
+        is_stdin = name in readers and name in FROM_STDIN
+        if not is_stdin and not _is_there(path):
+            return f"{path}: no such file or folder{files_like(path)}"
     return None
+
+
+def _inputs(options: argparse.Namespace) -> Iterator[tuple[str, Path]]:
+    """Yield the names of words with the paths that they give, but for what a command makes."""
+    for name, value in vars(options).items():
+        values = value if isinstance(value, list) else [value]
+        paths = [path for path in values if isinstance(path, Path)]
+        if name != "out":
+            yield from ((name, path) for path in paths)
 
 
 def _is_there(path: Path) -> bool:

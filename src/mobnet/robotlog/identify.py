@@ -22,7 +22,7 @@ from mobnet.estimation import observer
 from mobnet.estimation.own import read_log_folder
 from mobnet.kernel.drive import TorqueKind
 from mobnet.robot.description import RobotDescription, describe
-from mobnet.robot.given import given_table
+from mobnet.robot.given import given_robot, given_table, is_robot_file
 from mobnet.robot.nominal import NominalModel
 from mobnet.robot.table_file import head_of, write_table
 from mobnet.robot.word_checks import carrier_named
@@ -222,14 +222,15 @@ def run(options: Namespace) -> Iterator[str]:
     """Identify as the command's options say, and yield what is printed."""
     settings = load_lab()
     table = given_table(options.robot, settings)
-    robot = describe(table)
+    robot = given_robot(options.robot, settings)
     out = options.out or Path(f"{robot.name.replace(' ', '_')}_identified.yaml")
     check_new_file(out, force=options.force)
     meaning = load_section(options.map, LogMap) if options.map else None
     logs = [read_free_log(path, robot, meaning, settings) for path in options.logs]
     terms = (*TERMS, *(term for term in FURTHER if getattr(options, term)))
     fits, carried = identify(robot, logs, terms, settings, options.payload)
-    head = head_of(options.robot) if options.robot else []
+    is_table = options.robot is not None and not is_robot_file(options.robot)
+    head = head_of(options.robot) if is_table else list(robot.notes)
     suspected = suspicions(robot, logs, settings)
     made = f"friction and armature: from {', '.join(path.name for path in options.logs)}, by {command('identify')}."
     made_table = with_numbers(table, fits)

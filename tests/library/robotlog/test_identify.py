@@ -238,6 +238,17 @@ def test_a_folder_becomes_a_table_with_the_comments_of_the_first_one(chain):
 
 
 @pytest.mark.slow
+def test_a_urdf_becomes_a_table_with_notes_of_what_it_does_not_say(chain, tmp_path):
+    urdf = ARM.with_suffix(".urdf")
+    assert main([str(chain / "train"), "--robot", str(urdf), "--out", str(tmp_path / "known.yaml")]) == 0
+    table = load_section(tmp_path / "known.yaml", RobotTable)
+    assert table.friction.keys() == {"J1", "J2"}
+    head = head_of(tmp_path / "known.yaml")
+    assert "torque of J2: not in the file, 100 N m is taken" in head
+    assert head[-1].startswith("friction and armature: from train, by ")
+
+
+@pytest.mark.slow
 def test_pushes_are_told_from_friction_that_was_identified(chain):
     flags = {
         table: [int(start) for start in pd.read_csv(chain / f"new_{table}" / "flags.csv").start_s]
