@@ -13,6 +13,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from experiments.evaluation.tables.layout import tex_escape
+from experiments.plan.heads import FIELD, drawn
 from mobnet.core.errors import DataError
 from mobnet.core.files import read_text, write_text
 
@@ -26,7 +27,6 @@ ITEM = re.compile(
 THEIRS = re.compile(r"[Tt]he original's ((?:Table|Figure|section) \d+(?:\.\d+)*)")
 QUOTED = re.compile(r'"([^"]*)"')
 CITED = r"~of~\cite{lim2023mobnet}"
-FIELD = re.compile(r"\{(?P<macro>\w+):(?P<names>[^{}]+)\}")
 MARKUP = re.compile(rf"``(?P<code>.+?)``|\*\*(?P<bold>.+?)\*\*|\*(?P<italic>.+?)\*|(?P<field>{FIELD.pattern})")
 COMMANDS = {"code": "texttt", "bold": "textbf", "italic": "emph"}
 CALL = re.compile(r"\\(?P<macro>\w+)(?P<given>(?:\{[^{}]*\})+)")  # of a macro in TeX
@@ -85,13 +85,6 @@ def caption_tex(path: Path, values: Mapping[str, str]) -> str:
     if after.removesuffix(".").removeprefix("After ") in words:
         after = ""
     return rf"\textbf{{{inline_tex(bare[:1].upper() + bare[1:])}.}} {words} {after}".rstrip()
-
-
-def drawn(text: str) -> str:
-    """Return the paragraph of a caption that says what is drawn: the first without a field, or the first of all."""
-    paragraphs = [" ".join(part.split()) for part in text.strip().split("\n\n")]
-    plain = [part for part in paragraphs if not FIELD.search(part)]
-    return [*plain, *paragraphs][0]
 
 
 def cited(text: str, folder: Path) -> str:

@@ -21,7 +21,7 @@ from experiments.evaluation.report.numbers import texts_in
 from experiments.evaluation.report.pages import titled
 from experiments.evaluation.report.site.contents import README, menu, menus, sections
 from experiments.evaluation.report.site.reference import INTERNALS, PUBLIC, reference_pages
-from experiments.evaluation.report.site.results import ALL_CLAIMS, CLAIMS_PAGE, result_pages
+from experiments.evaluation.report.site.results import ALL_CLAIMS, CLAIMS_PAGE, result_pages, table_in
 from experiments.settings.claims import Claim
 from experiments.settings.runs import Statistics
 from mobnet.core.errors import DataError
@@ -133,7 +133,7 @@ def trial_pages() -> Iterator[tuple[str, str]]:
     """Yield the page of each trial, whose table stands alone in its file, and the page that lists them."""
     tables = sorted(TRIALS.glob("*.md"))
     for table in tables:
-        yield str(table), f"# {title_of(table)}\n\n`./reproduce {table.stem}` makes it.\n\n{read_text(table)}"
+        yield str(table), f"# {title_of(table)}\n\n`./reproduce {table.stem}` makes it.\n\n{table_in(read_text(table))}"
     listed = "".join(f"* [{title_of(table)}]({table.name})\n" for table in tables)
     hidden = "".join(f"{table.stem}\n" for table in tables)
     yield str(TRIALS / README), f"# Trials\n\n{listed}\n```{{toctree}}\n:hidden:\n\n{hidden}```\n"

@@ -11,7 +11,7 @@ from experiments.settings.claim_ranges import ANY, range_text, shown_range
 from experiments.settings.table_columns import CLAIMS
 from experiments.settings.verdicts import STAND_INS
 
-HEADER = ("Claim", "Printed in", "Paper", "Ours", "{:.0%}", "Claimed", "Size", "Sign", "Verdict")
+HEADER = ("Claim", "Printed in", "Original", "Ours", "{:.0%}", "Claimed", "Size", "Sign", "Verdict")
 # Columns of the Markdown table; in TeX they are lines below the claim.
 REMARK, OTHER = "Cause, or what would decide", "By the other reading"
 CAPTION = r"\claimscaption"  # the paper's

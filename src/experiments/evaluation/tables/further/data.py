@@ -65,7 +65,7 @@ def data(
             facts[name, quantity, part] = Number(value, unit=unit, published=printed)
     records = [(*of, fact.value, fact.unit, fact.published) for of, fact in facts.items()]
     columns = [name for name in sets if name in settings.shown]
-    header = ["", *(name.replace("_", " ") for name in columns), "Paper"]
+    header = ["", *(name.replace("_", " ") for name in columns), "Original"]
     joints = nominal.robot.layout.actuated
     shown = {of: fact for of, fact in facts.items() if of[0] in columns and of[2] not in joints}
     write_table(table_dir / "data", Table(DATA, records, header, fact_lines(shown, columns)))

@@ -53,7 +53,7 @@ def noise(
     found = factors(errors)
     rows = pd.concat([errors, found.assign(joint=found["limb"], metric=FACTOR)])
     rows = pd.concat([rows[rows["label"] == label] for label in readings["label"]])
-    header = ["Joint", "Unit", "Paper", *readings["label"]]
+    header = ["Joint", "Unit", "Original", *readings["label"]]
     lines = noise_lines(errors, found)
     write_table(table_dir / "noise", Table(ERRORS, records_of(rows, ERRORS), header, lines, left=2))
 

@@ -16,7 +16,7 @@ from mobnet.core.joints import JointLayout
 from mobnet.core.store import label_of, read_array
 from mobnet.settings.networks import NetworkRow
 
-PLANT = "section 5.1"  # head of the column of its plant
+PLANT = "plant"  # head of its column
 Record = tuple[str, str, str, float, str, float | None, float | None, str]  # a row of UNCERTAINTY
 
 
@@ -53,7 +53,7 @@ def uncertainty(
 def text_of(records: Sequence[Record], robots: Sequence[str]) -> tuple[list[str], list[Line]]:
     """Return head and lines of the text: a line is a joint, and each plant has its size [N m, N] and its ratio [-]."""
     owners = (PLANT, *robots)
-    header = ["Limb", "Joint", "Set", "Unit", "Paper"]
+    header = ["Limb", "Joint", "Set", "Unit", "Original"]
     for owner in owners:
         header += [owner.replace("_", " "), "ratio"]
     rows: dict[str, dict[str, Record]] = {}

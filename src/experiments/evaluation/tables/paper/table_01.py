@@ -14,7 +14,10 @@ from mobnet.learning.model import build_network, parameter_count
 from mobnet.settings.methods import Target
 from mobnet.settings.networks import Learning, Network
 
-HEADER = ["Network", "Input", "Numbers", "Target", "Architecture", "Parameters", "Paper", "Horizon", "Paper", "Data"]
+HEADER = [
+    *("Network", "Input", "Numbers", "Target", "Architecture"),
+    *("Parameters", "Original", "Horizon", "Original", "Data"),
+]
 SHOWN = (
     "limb",
     "inputs",
