@@ -92,6 +92,7 @@ def product(name):
     return {
         "function": lambda w: found(w).function,
         "given": lambda w: found(w).arguments,
+        "heads": lambda w: found(w).heads,
         "code": lambda w: found(w).code,
     }
 

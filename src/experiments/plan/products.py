@@ -10,6 +10,7 @@ from experiments.plan.call import Call, call_of, parameters
 from experiments.plan.demo import FOLDER, demo_needs, demo_outputs
 from experiments.plan.detection import all_detections
 from experiments.plan.files import Files, made_by_jobs
+from experiments.plan.heads import head_of
 from experiments.plan.needs import explore_needs, needs_of
 from experiments.plan.project import project_file
 from experiments.settings.claims import numbers_of
@@ -103,6 +104,16 @@ class Product:
     def code(self) -> str:
         """Hash of the code behind it."""
         return code_hash(SCRIPT, self.call.module, *self.modules)
+
+    @property
+    def heads(self) -> dict[str, str]:
+        """Table as Markdown -> what stands above its rows, of those that have a caption."""
+        heads: dict[str, str] = {}
+        for output in self.outputs:
+            caption = caption_of("tables", Path(output).stem)
+            if output.endswith(".md") and caption.is_file():
+                heads[output] = head_of(caption.read_text(encoding="utf-8"))
+        return heads
 
     @property
     def rule(self) -> str:

@@ -23,7 +23,7 @@ from experiments.settings.claims import Claim
 from experiments.settings.runs import Statistics
 from experiments.site.contents import README, menu, menus, sections
 from experiments.site.reference import INTERNALS, PUBLIC, reference_pages
-from experiments.site.results import ALL_CLAIMS, CLAIMS_PAGE, result_pages
+from experiments.site.results import ALL_CLAIMS, CLAIMS_PAGE, result_pages, table_in
 from mobnet.core.errors import DataError
 from mobnet.core.files import read_text, write_text
 from mobnet.core.heartbeat import last_line, telling
@@ -133,7 +133,7 @@ def trial_pages() -> Iterator[tuple[str, str]]:
     """Yield the page of each trial, whose table stands alone in its file, and the page that lists them."""
     tables = sorted(TRIALS.glob("*.md"))
     for table in tables:
-        yield str(table), f"# {title_of(table)}\n\n`./reproduce {table.stem}` makes it.\n\n{read_text(table)}"
+        yield str(table), f"# {title_of(table)}\n\n`./reproduce {table.stem}` makes it.\n\n{table_in(read_text(table))}"
     listed = "".join(f"* [{title_of(table)}]({table.name})\n" for table in tables)
     hidden = "".join(f"{table.stem}\n" for table in tables)
     yield str(TRIALS / README), f"# Trials\n\n{listed}\n```{{toctree}}\n:hidden:\n\n{hidden}```\n"

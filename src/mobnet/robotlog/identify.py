@@ -21,7 +21,7 @@ from mobnet.core.word_checks import RECORDING, check_new_file
 from mobnet.estimation import observer
 from mobnet.estimation.own import read_log_folder
 from mobnet.kernel.drive import TorqueKind
-from mobnet.robot.description import RobotDescription, describe
+from mobnet.robot.description import RobotDescription
 from mobnet.robot.given import given_robot, given_table, is_robot_file
 from mobnet.robot.nominal import NominalModel
 from mobnet.robot.table_file import head_of, write_table

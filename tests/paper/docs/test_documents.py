@@ -80,7 +80,7 @@ def made():
     """All files that the workflow makes at the scale of the documents."""
     with pytest.MonkeyPatch.context() as patch:
         patch.chdir(ROOT)
-        plan = make_plan(load_settings(overrides={"scale": "default"}), with_pdf=True)
+        plan = make_plan(load_settings(overrides={"scale": "default"}), with_pdf=True, with_mp4=True)
     products = (*plan.products, *plan.trials, *plan.films, *plan.docs)
     files: set[str] = set()
     for product in products:

@@ -25,6 +25,12 @@ log = logging.getLogger(__name__)
 LETTERS = "abcdefghijkl"
 # Of a name at a line, beside its place.
 NAME: Mapping[str, Any] = {"textcoords": "offset points", "va": "center_baseline", "fontsize": 7.0}
+# Code of a joint without its side -> its name, of the joints that figures show.
+JOINTS = {
+    "L1": "hip yaw", "L2": "hip roll", "L3": "hip pitch", "L4": "knee", "L5": "ankle pitch", "L6": "ankle roll",
+    "A2": "shoulder", "W1": "waist yaw", "W2": "waist pitch", "W3": "waist roll", "V3": "base, vertical",
+}  # fmt: skip
+JOINT = re.compile(r"^(?P<code>[LR]?(?P<place>[LAWV]\d))\b")
 CLIP = re.compile(r"(?:(?<=id=\")|(?<=url\(#))p[0-9a-f]{10}\b")  # name of an area that a drawing is cut to
 PATHS = re.compile(r' d="[^"]*"')
 DIGITS = re.compile(r"(\.\d\d)\d+")
@@ -131,6 +137,14 @@ def beside(count: int, height_inch: float, **shared: Any) -> tuple[Figure, list[
 def entitle(axis: Axes, k: int, title: str) -> None:
     """Put the k-th letter and a title above a panel."""
     axis.set_title(f"({LETTERS[k]}) {title}", loc="left", pad=3)
+
+
+def with_joint_name(text: str, between: str = " ") -> str:
+    """Return a text that begins with the code of a joint with its name before it: `hip pitch (LL3)`."""
+    joint = JOINT.match(text)
+    if joint is None or joint["place"] not in JOINTS:
+        return text
+    return f"{JOINTS[joint['place']]}{between}({joint['code']}){text[joint.end() :]}"
 
 
 def legend(figure: Figure, axes: Sequence[Axes], columns: int | None = None, last: str = "", **look: float) -> None:

@@ -17,6 +17,7 @@ from jinja2 import TemplateSyntaxError, UndefinedError
 
 from experiments.evaluation.report import html
 from experiments.evaluation.tables.layout import tex_escape
+from experiments.plan.heads import drawn
 from mobnet.core.errors import DataError
 from mobnet.core.files import read_text, write_text
 
@@ -30,7 +31,6 @@ ITEM = re.compile(
 THEIRS = re.compile(r"[Tt]he original's ((?:Table|Figure|section) \d+(?:\.\d+)*)")
 QUOTED = re.compile(r'"([^"]*)"')
 CITED = r"~of~\cite{lim2023mobnet}"
-FIELD = "{{"  # begins a field
 MARKUP = re.compile(r"``(?P<code>.+?)``|\*\*(?P<bold>.+?)\*\*|\*(?P<italic>.+?)\*")
 COMMANDS = {"code": "texttt", "bold": "textbf", "italic": "emph"}
 CALL = re.compile(r"\\(?P<macro>\w+)(?P<given>(?:\{[^{}]*\})+)")  # of a macro in TeX
@@ -81,25 +81,13 @@ def captions_tex(files: Sequence[Path]) -> str:
 def caption_tex(path: Path) -> str:
     """Return the caption of a file as TeX: title and what is drawn."""
     title, _, text = written(path).partition("\n")
-    words = cited(QUOTED.sub(r"``\1''", inline_tex(drawn(text, path))), path.parents[1])
+    words = cited(QUOTED.sub(r"``\1''", inline_tex(drawn(text))), path.parents[1])
     bare = ASIDE.sub("", PRINTED.sub("", title.strip()))
     printed = PRINTED.match(title)
     after = f"After {printed['kind']}~{printed['number']}{CITED}." if printed else ""
     if after.removesuffix(".").removeprefix("After ") in words:
         after = ""
     return rf"\textbf{{{inline_tex(bare[:1].upper() + bare[1:])}.}} {words} {after}".rstrip()
-
-
-def drawn(text: str, path: Path) -> str:
-    """Return the paragraph of a caption that says what is drawn: the first without a field.
-
-    Raises:
-        DataError: each has a field; `path` is the caption's file.
-    """
-    for paragraph in text.strip().split("\n\n"):
-        if FIELD not in paragraph:
-            return " ".join(paragraph.split())
-    raise DataError(f"{path}: every paragraph has a field; accepted: one without, which says what is drawn")
 
 
 def cited(text: str, folder: Path) -> str:

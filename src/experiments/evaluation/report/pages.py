@@ -10,6 +10,7 @@ from markdown_it import MarkdownIt
 from experiments.evaluation.report.claims_page import claims_page
 from experiments.evaluation.report.first_page import first_page
 from experiments.evaluation.report.html import rendered
+from experiments.evaluation.report.site.results import table_in
 from experiments.settings.runs import Statistics
 from mobnet.core.files import read_text, write_text
 
@@ -63,6 +64,6 @@ def titled(caption: str) -> Titled:
 
 
 def table_page(template: Path, table: str, title: str, text: str) -> str:
-    """Return the page of a table (Markdown) below its title and text (HTML)."""
-    html = MarkdownIt("js-default").render(table).strip()
+    """Return the page of a table (Markdown), without what stands above its rows, below its title and text (HTML)."""
+    html = MarkdownIt("js-default").render(table_in(table)).strip()
     return rendered(template, title=title, text=text, table=html)

@@ -153,10 +153,11 @@ def test_a_low_pass_smooths_all_curves_from_their_first_values_on() -> None:
     assert smooth.stds == {"MOB": None}
 
 
-def test_joints_of_two_units_name_them_in_their_titles_alone(panel: Panel) -> None:
+def test_joints_of_two_units_have_labels_of_their_own(panel: Panel) -> None:
     pairs = [compared(panel)] * 2
     figure = draw_columns(pairs, [bars_of(NUMBERS, {})] * 2, ["N m", "N"], ["MOB-Net"], "time [s]", "paper")
-    assert {axis.get_ylabel() for axis in figure.axes} == {"torque or force", "error", ""}
+    labels = [axis.get_ylabel() for axis in figure.axes]
+    assert labels == ["torque [N m]", "force [N]", "error [N m]", "error [N]", "", ""]
     assert [axis.get_xlabel() for axis in figure.axes[-2:]] == ["RMSE [N m]", "RMSE [N]"]
 
 

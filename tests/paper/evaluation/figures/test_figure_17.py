@@ -12,6 +12,7 @@ import pytest
 from csv_files import check_golden, read_table
 from paper_settings import STATISTICS
 
+from experiments.evaluation.figures.drawing.named_bars import MINUS
 from experiments.evaluation.figures.paper.figure_17 import draw_losses, figure_17
 from experiments.evaluation.measure.learning.losses import losses_of, runs_of
 from experiments.evaluation.measure.learning.trainings import read_trainings
@@ -82,7 +83,9 @@ def test_a_kind_has_one_row_in_all_panels_in_which_its_best_is_hollow_and_below(
     figure = draw_losses(losses, losses, kinds)
     assert [axis.get_xlabel() for axis in figure.axes] == ["loss [-]", "loss [-]", "RMSE [N m]"]
     for axis in figure.axes:
-        assert [text.get_text() for text in axis.texts] == ["-3.00", "-2.00", "-4.00", "-5.00"]
+        assert [text.get_text() for text in axis.texts] == [
+            f"{MINUS}{value}" for value in ("3.00", "2.00", "4.00", "5.00")
+        ]
         interval = axis.lines[0]
         np.testing.assert_array_equal(np.asarray(interval.get_xdata()), [-3.2, -2.8])
         marks = axis.lines[2::3]

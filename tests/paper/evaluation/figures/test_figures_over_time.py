@@ -133,6 +133,7 @@ def test_figure_09_has_every_method_on_every_joint_and_draws_some(tmp_path: Path
         assert [row[method] - row["truth"] for method in OFF] == pytest.approx(list(OFF.values()), rel=1e-3)
     assert {joint for _, _, joint in bars_of(tmp_path, "figure_09")} == {f"LL{i}" for i in range(1, 7)}
     svg = (tmp_path / "figure_09.svg").read_text()
-    assert [f"<!-- ({letter}) LL{k} -->" in svg for letter, k in zip("abc", (2, 3, 4), strict=True)] == [True] * 3
+    for title in ("(a) hip roll (LL2)", "(b) hip pitch (LL3)", "(c) knee (LL4)"):
+        assert f"<!-- {title} -->" in svg
     assert "LL5" not in svg
     check_golden(tmp_path / "figure_09.csv", tmp_path / "figure_09_bars.csv")

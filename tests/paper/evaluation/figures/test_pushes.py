@@ -54,7 +54,7 @@ def test_curves_share_a_scale_that_holds_them_all() -> None:
     ((_, top),) = {axis.get_ylim() for axis in curves}
     assert len(curves) == 3
     assert top >= 5.0
-    assert [axis.get_ylabel() for axis in curves] == ["LL3 [N m]", "", ""]
+    assert [axis.get_ylabel() for axis in curves] == ["hip pitch\n(LL3) [N m]", "", ""]
 
 
 def test_rows_of_methods_are_named_once_and_what_a_perfect_estimate_has_is_marked() -> None:
@@ -71,4 +71,4 @@ def test_rows_of_methods_are_named_once_and_what_a_perfect_estimate_has_is_marke
 def test_a_test_without_pushes_has_no_curves() -> None:
     figure = draw_hits(PushGroup([], "numbers", [], [], [], None), "LL3", "paper")
     assert len(figure.axes) == 4
-    assert [len(axis.lines) for axis in figure.axes if axis.get_ylabel() == "LL3 [N m]"] == [0]
+    assert [len(axis.lines) for axis in figure.axes if "LL3" in axis.get_ylabel()] == [0]

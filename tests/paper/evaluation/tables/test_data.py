@@ -53,7 +53,7 @@ def test_joints_are_left_to_the_csv(facts: Facts, tmp_path: Path) -> None:
     text = (tmp_path / "data.md").read_text()
     assert "LA1" not in text
     assert "joint range visited, limb LA" in text
-    assert text.splitlines()[0].startswith("|  | walk | motion | Paper |")
+    assert text.splitlines()[0].startswith("|  | walk | motion | Original |")
 
 
 def test_clearance_is_the_smallest_that_was_noted_and_overlaps_have_their_share_of_the_time(

@@ -48,7 +48,7 @@ def test_a_reading_that_is_too_quiet_is_as_far_off_as_one_that_is_too_loud(table
 
 def test_readers_see_the_paper_s_row_and_every_reading_joint_by_joint(table: Path) -> None:
     header, _, *lines = table.with_suffix(".md").read_text().splitlines()
-    assert header == "| Joint | Unit | Paper | standard deviations | two rows exchanged | variances |"
+    assert header == "| Joint | Unit | Original | standard deviations | two rows exchanged | variances |"
     assert lines[0] == "| LL1 | N m | 0.44 | 0.88 | 0.44 | 8.80 |"
     assert "| V1 | N | 3.98 | 1.99 | 3.98 | 39.80 |" in lines
     assert [line.split("|")[1].strip() for line in lines[-5:]] == [

@@ -71,7 +71,7 @@ def test_a_line_is_a_joint_with_a_size_and_a_marked_ratio_of_every_plant(
     robots = {"robot_1": {"walk": sets["walk"]}}
     table = make_table("uncertainty", settings=bounds, networks=networks, sets=sets, robots=robots)
     lines = table.with_suffix(".md").read_text().splitlines()
-    assert lines[0] == "| Limb | Joint | Set | Unit | Paper | section 5.1 | ratio | robot 1 | ratio |"
+    assert lines[0] == "| Limb | Joint | Set | Unit | Original | plant | ratio | robot 1 | ratio |"
     rows = {(row.joint, row.set): row for row in read_table(table)}
     one, robot = rows["LL1", "walk"], rows["LL1", "robot_1"]
     sizes = f"{one.value:.1f} | {one.ratio:.2f}{OUTSIDE} | {robot.value:.1f} | {robot.ratio:.2f}{OUTSIDE} |"

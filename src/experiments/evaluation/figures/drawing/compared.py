@@ -14,10 +14,10 @@ from numpy.typing import NDArray
 from experiments.evaluation.compare.curves import Compared, Panel, TorqueCurve
 from experiments.evaluation.figures.drawing.curves import FROM_LIFT_OFF, draw_panel, table_of
 from experiments.evaluation.figures.drawing.named_bars import BAR_INCH, LINE, NamedBar, draw_named_bars
-from experiments.evaluation.figures.style import entitle, legend, looks, save_figure
+from experiments.evaluation.figures.style import NAME, entitle, legend, looks, save_figure, with_joint_name
 from experiments.evaluation.number.frames import records_of
 from experiments.evaluation.number.laws import numbers_by
-from experiments.evaluation.number.number import Number
+from experiments.evaluation.number.number import Number, shown_name
 from experiments.evaluation.number.rows import write_csv
 from experiments.settings.table_columns import JOINT_ERRORS
 from mobnet.core.style import COLUMN_INCH, PAGE_INCH, styled
@@ -31,6 +31,8 @@ SIGMAS = {1: 0.3, 2: 0.15}  # multiples of the standard deviation that are drawn
 MARGIN = 0.2  # below and above the curves that the axis of torque holds [of their range]
 ABOVE = 6.0  # zorder of the axis below numbers on grounds
 CLEAR = {"facecolor": "white", "edgecolor": "none", "pad": 0.4}  # behind a number that lies on a line
+KINDS = {"N m": "torque", "N": "force"}  # unit -> what has it
+UNESTIMATED = "RMSE of no estimate"  # what the dashed line is
 ZERO_LINE = {"color": "black", "linewidth": 0.5, "zorder": 1.0}
 
 
@@ -61,6 +63,10 @@ def draw_error(axis: Axes, pair: Compared, methods: Sequence[str]) -> None:
             draw_sigma(axis, curve.label, pair.error.time, curve.std)
     axis.axhline(0.0, **ZERO_LINE)
     reach = REACH * float(np.abs(curves[-1].values).max()) or 1.0
+    beyond = [shown_name(curve.label) for curve in curves if np.median(np.abs(curve.values)) > reach]
+    if beyond:
+        at = {"xy": (1.0, 0.0), "xycoords": "axes fraction", "xytext": (-1.0, 5.0)}
+        axis.annotate(f"beyond: {', '.join(beyond)}", ha="right", **at, **NAME)
     axis.set(ylim=(-reach, reach), xlim=(pair.error.time[0], pair.error.time[-1]))
 
 
@@ -109,7 +115,7 @@ def draw_relative_columns(
     figure, grid = _columns(pairs, bars, units, methods, x_label)
     for axis, bars_of_joint, limb in zip(grid[-1], bars, limbs, strict=True):
         draw_named_bars(axis, bars_of_joint, "-")
-        axis.axvline(1.0, **LINE)
+        axis.axvline(1.0, label=UNESTIMATED, **LINE)
         for text in axis.texts:
             text.set_bbox(CLEAR)
         axis.spines["bottom"].set_zorder(ABOVE)
@@ -136,14 +142,14 @@ def _columns(
     for k, pair in enumerate(pairs):
         torque, error, _ = grid[:, k].tolist()
         draw_torque(torque, pair, methods)
-        entitle(torque, k, pair.torque.title)
+        entitle(torque, k, with_joint_name(pair.torque.title.removesuffix(f" [{units[k]}]")))
         torque.tick_params(labelbottom=False)
         draw_error(error, pair, methods)
         error.set_xlabel(x_label)
-    # Joints of one unit share its label; where units differ each title has its own.
-    unit_text = f" [{units[0]}]" if len(set(units)) == 1 else ""
-    grid[0, 0].set_ylabel(f"torque{unit_text}" if unit_text else "torque or force")
-    grid[1, 0].set_ylabel(f"error{unit_text}")
+        # Joints of one unit share its labels.
+        if k == 0 or len(set(units)) > 1:
+            torque.set_ylabel(f"{KINDS[units[k]]} [{units[k]}]")
+            error.set_ylabel(f"error [{units[k]}]")
     return figure, grid
 
 
@@ -166,7 +172,7 @@ def draw_leg(pairs: Sequence[Compared]) -> Figure:
         column = k % SIDE_BY_SIDE
         torque, error = grid[row : row + 2, column].tolist()
         draw_torque(torque, pair, ())
-        entitle(torque, k, pair.torque.title)
+        entitle(torque, k, with_joint_name(pair.torque.title))
         draw_error(error, pair, ())
         torque.tick_params(labelbottom=False)
         error.tick_params(labelbottom=k + SIDE_BY_SIDE >= len(pairs))

@@ -19,6 +19,8 @@ NOTE_POINTS = 6.5  # size of a note
 BAND_ALPHA = 0.25  # opacity of a constant's interval
 LEGEND: Mapping[str, Any] = {"columns": 3, "handlelength": 2.6, "columnspacing": 1.2, "handletextpad": 0.5}
 GUIDE: Mapping[str, Any] = {"color": "0.6", "linewidth": 0.6, "zorder": 0.5}
+FROM_ZERO = (0.0, None)  # ends of an axis that begins at zero and ends where its lines need it
+ROOM = 1.05  # such an axis is longer by this factor, so that marks of the highest line are whole
 ARROW_SHARE = 0.025  # distance of an arrow from the end of the axis [share of its length]
 
 
@@ -59,7 +61,7 @@ class LinePanel:
     guide: float | None = None
     upright: float | None = None
     upright_name: str = ""
-    ends: tuple[float | None, float | None] = (0.0, None)
+    ends: tuple[float | None, float | None] = FROM_ZERO
     note: str = ""
     scale: str = ""
     logarithmic: bool = True
@@ -83,8 +85,11 @@ def draw_lines(panels: Sequence[LinePanel], columns: int = 1, panel_inch: float 
         entitle(axis, k, panel.title)
         axis.set_xlabel("" if one_x else panel.x_label)
         axis.set_ylabel(panel.y_label if k % columns == 0 else "")
-    for axis, panel in zip(axes, panels, strict=True):  # once all axes that share a scale have their lines
+    tops = [axis.get_ylim()[1] for axis in axes]  # once all axes that share a scale have their lines
+    for axis, panel, top in zip(axes, panels, tops, strict=True):
         axis.set_ylim(*panel.ends)
+        if panel.ends == FROM_ZERO:
+            axis.set_ylim(top=ROOM * top)
     if one_x:
         figure.supxlabel(panels[0].x_label, fontsize=STYLE["axes.labelsize"])
     legend(figure, axes, **{**LEGEND, "columns": None if columns > 1 else LEGEND["columns"]})

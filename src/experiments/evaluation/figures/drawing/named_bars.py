@@ -75,12 +75,15 @@ def draw_named_bars(
     axis.set(ylim=(len(bars) - 0.4, -0.6), xlabel=f"RMSE [{unit}]")
 
 
-def draw_named_dots(axis: Axes, rows: Sequence[NamedBar], x_label: str, at: float | None) -> None:
-    """Draw numbers as dots with intervals below one another, each with its text, and a line at a number to compare."""
+def draw_named_dots(axis: Axes, rows: Sequence[NamedBar], x_label: str, at: float | None, compared: str = "") -> None:
+    """Draw numbers as dots with intervals below one another, each with its text, and a line at a number to compare.
+
+    The legend calls that number `compared`.
+    """
     styles = looks(row.method for row in rows)
     value, low, high, _ = ends_of(rows)
     if at is not None:
-        axis.axvline(at, **LINE)
+        axis.axvline(at, label=compared or None, **LINE)
     axis.set_yticks(range(len(rows)), [shown_name(row.name) for row in rows], fontsize=NUMBER_POINTS)
     axis.grid(axis="y", linewidth=0.3, color="0.85")
     axis.set_axisbelow(True)

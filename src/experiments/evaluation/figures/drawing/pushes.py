@@ -12,13 +12,14 @@ from matplotlib.figure import Figure
 from experiments.evaluation.compare.curves import Panel
 from experiments.evaluation.figures.drawing.curves import draw_panel
 from experiments.evaluation.figures.drawing.named_bars import BAR_INCH, NamedBar, draw_named_bars, draw_named_dots
-from experiments.evaluation.figures.style import entitle, legend
+from experiments.evaluation.figures.style import entitle, legend, with_joint_name
 from mobnet.core.style import COLUMN_INCH, PAGE_INCH, styled
 
 STEP_INCH, HIT_INCH = 1.0, 0.9  # height of curves in one column of the paper and in two
 STEP_REST_INCH, LABELS_INCH = 0.8, 1.35  # of legend, titles and labels in one column and in two
 FROM_PUSH = "time from push [s]"
 EACH = "RMSE of each push"
+COMPARED = "whole push; delay of an observer without errors"  # what the dashed lines are
 MARKED = ("push",)  # flags that are drawn where the title says the phase
 
 
@@ -83,8 +84,8 @@ def draw_hits(group: PushGroup, joint: str, source: str) -> Figure:
     entitle(curves[0], 0, curves[0].get_title(loc="left"))
     draw_named_bars(errors, group.errors, "N m", source=source, marked=EACH)
     entitle(errors, 1, group.title)
-    draw_named_dots(shares, group.shares, "share of the push shown [-]", 1.0)
-    draw_named_dots(delays, group.delays, "delay of the rise [ms]", group.observer_ms)
+    draw_named_dots(shares, group.shares, "share of the push shown [-]", 1.0, COMPARED)
+    draw_named_dots(delays, group.delays, "delay of the rise [ms]", group.observer_ms, COMPARED)
     # The rows of all three are the methods, which the first one names.
     for axis in (shares, delays):
         axis.tick_params(labelleft=False)
@@ -113,7 +114,7 @@ def _row(axes: Sequence[Axes], group: PushGroup, joint: str) -> None:
     for axis in axes:
         axis.set_ylim(min(ends), max(ends))
         axis.tick_params(labelleft=axis is axes[0])
-    axes[0].set_ylabel(f"{joint} [N m]")
+    axes[0].set_ylabel(with_joint_name(f"{joint} [N m]", "\n"))
 
 
 def _curves(axis: Axes, panel: Panel) -> None:

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 from matplotlib.axes import Axes
 
-from experiments.evaluation.figures.drawing.robot import draw_robot, lowest, place_of, projection
+from experiments.evaluation.figures.drawing.robot import draw_arrow, draw_robot, lowest, place_of, projection
 from experiments.evaluation.figures.style import beside, entitle, save_figure
 from experiments.evaluation.number.rows import read_detections
 from experiments.plan.detection import Detections
@@ -31,10 +31,11 @@ COLUMNS = (
     *(f"point_{a}_m" for a in "xyz"),
     *(f"force_{a}_n" for a in "xyz"),
 )
-HEIGHT_INCH = 3.4
-VIEW = 40.0, 10.0  # azimuth and elevation of the eye [deg], from ahead and the robot's left
+HEIGHT_INCH = 2.2
+VIEW = 55.0, 10.0  # azimuth and elevation of the eye [deg], from ahead and the robot's left
 ARROW_M_N = 0.0035  # length of an arrow for each newton
-ROOM_M = (-0.7, 0.7, -0.12, 1.75)  # of a panel: right of the robot's base, and above the ground
+ROOM_M = (-0.7, 0.7, -0.15, 0.95)  # of a panel, which shows the legs: right of the robot's base, above the ground
+GROUND_M = 0.6  # from the robot's base to each edge of the ground that is drawn
 
 
 @styled
@@ -86,9 +87,8 @@ def _draw(axis: Axes, robot: RobotDescription, hit: Collision, recordings: Seque
     view = projection(heading + VIEW[0], VIEW[1])
     draw_robot(axis, robot, q, view)
     (x, y, _), (from_x, from_y, _) = ((view @ place).tolist() for place in (point, point - ARROW_M_N * force))
-    arrow = {"arrowstyle": "-|>", "color": "#D55E00", "linewidth": 1.6}
-    axis.annotate("", (x, y), (from_x, from_y), zorder=5, arrowprops=arrow)
-    ground = (view @ np.zeros(3))[1]
-    axis.axhline(ground, color="0.6", linewidth=0.6, zorder=0)
-    axis.set(xlim=ROOM_M[:2], ylim=(ground + ROOM_M[2], ground + ROOM_M[3]))
+    draw_arrow(axis, (from_x, from_y), (x, y))
+    corners = GROUND_M * np.array([(-1.0, -1.0, 0.0), (-1.0, 1.0, 0.0), (1.0, 1.0, 0.0), (1.0, -1.0, 0.0)])
+    axis.fill(*(corners @ view.T)[:, :2].T, color="0.9", linewidth=0.0, zorder=0)
+    axis.set(xlim=ROOM_M[:2], ylim=ROOM_M[2:])
     return (row / rate, float(np.linalg.norm(force)), *point.tolist(), *force.tolist())

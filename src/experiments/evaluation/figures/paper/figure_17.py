@@ -13,6 +13,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
+from experiments.evaluation.figures.drawing.named_bars import MINUS
 from experiments.evaluation.figures.style import Look, entitle, looks, save_figure
 from experiments.evaluation.measure.learning.losses import ENDS, losses_of, runs_of
 from experiments.evaluation.measure.learning.trainings import kind_of_each, read_trainings
@@ -103,7 +104,7 @@ def _draw(axis: Axes, row: float, number: Number, runs: Sequence[float], look: L
     filling = "white" if hollow else look.colour
     axis.plot([value], [row], marker=look.marker, color=look.colour, markerfacecolor=filling, **MARK)
     axis.annotate(
-        number.text(),
+        number.text().replace("-", MINUS),
         (max(high, *runs), row),
         (6.0, 0.0),
         textcoords="offset points",

@@ -17,7 +17,7 @@ from experiments.evaluation.tables.look import Row
 from experiments.intervals.bounds import range_text
 from experiments.settings.table_columns import CLAIMS
 
-HEADER = ("Claim", "Printed in", "Paper", "Ours", "{:.0%}", "Claimed", "Size", "Sign", "Verdict")
+HEADER = ("Claim", "Printed in", "Original", "Ours", "{:.0%}", "Claimed", "Size", "Sign", "Verdict")
 # Columns of the Markdown table; in TeX they are lines below the claim.
 REMARK, OTHER = "Cause, or what would decide", "By the other reading"
 CAPTION = r"\claimscaption"  # the paper's

@@ -84,7 +84,7 @@ def with_labels(facts: pd.DataFrame) -> pd.DataFrame:
 def look_at(sets: Sequence[str]) -> TableLook:
     """Return what a reader sees: a quantity a line, a set a column, the paper's number last."""
     shown = [ShownColumn(name.replace("_", " "), {"set": name}, text=_text("value")) for name in sets]
-    return TableLook({"label": ""}, [*shown, ShownColumn("Paper", text=_text("paper"))])
+    return TableLook({"label": ""}, [*shown, ShownColumn("Original", text=_text("paper"))])
 
 
 def _label(row: Row) -> str:

@@ -22,10 +22,10 @@ from experiments.settings.tables import Kinds
 ORDERED_BY = "validation loss"
 HEADER = [
     "Order",
-    "Paper",
+    "Original",
     "Network",
     "Parameters",
-    "Paper",
+    "Original",
     "Runs",
     "Val. loss",
     "RMSE [N m]",

@@ -53,7 +53,7 @@ def noise(
     by_reading = factors(errors)
     rows = pd.concat([errors, by_reading.assign(joint=by_reading["limb"], metric=FACTOR)])
     rows = pd.concat([rows[rows["label"] == label] for label in readings["label"]])
-    header = ["Joint", "Unit", "Paper", *readings["label"]]
+    header = ["Joint", "Unit", "Original", *readings["label"]]
     lines = noise_lines(errors, by_reading)
     write_table(table_dir / "noise", Table(ERRORS, records_of(rows, ERRORS), header, lines, left=2))
 

@@ -21,7 +21,7 @@ from mobnet.core.joints import JointLayout
 from mobnet.core.store import label_of, read_array
 from mobnet.settings.networks import NetworkRow
 
-PLANT = "section 5.1"  # head of the column of its plant
+PLANT = "plant"  # head of the column of its plant
 
 
 def uncertainty(
@@ -58,7 +58,7 @@ def uncertainty(
 
 def look_at(plants: Sequence[str], note: str) -> TableLook:
     """Return what a reader sees: a line is a joint, and each plant has its size [N m, N] and its ratio [-]."""
-    shown = [ShownColumn("Paper", {"plant": PLANT}, text=lambda row: number_text(row["published"], 1))]
+    shown = [ShownColumn("Original", {"plant": PLANT}, text=lambda row: number_text(row["published"], 1))]
     for plant in plants:
         shown.append(ShownColumn(plant.replace("_", " "), {"plant": plant}, digits=1))
         shown.append(ShownColumn("ratio", {"plant": plant}, text=_ratio_text))

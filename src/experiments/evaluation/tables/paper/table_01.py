@@ -27,9 +27,9 @@ SHOWN = {  # column that a reader sees -> its head
     "target": "Target",
     "architecture": "Architecture",
     "parameters": "Parameters",
-    "parameters_published": "Paper",
+    "parameters_published": "Original",
     "horizon_steps": "Horizon",
-    "horizon_published": "Paper",
+    "horizon_published": "Original",
     "data": "Data",
 }
 SYMBOLS = ("inputs", "target")  # of these columns, set as symbols

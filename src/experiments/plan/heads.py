@@ -1,0 +1,35 @@
+"""What stands above the rows of a table as Markdown: its title, and what it shows in which unit, from its caption."""
+
+import textwrap
+from pathlib import Path
+
+from mobnet.core.files import read_text, write_text
+
+FIELD = "{{"  # begins a field of a caption, a number of the results
+WIDTH = 120  # characters of a line
+
+
+def drawn(text: str) -> str:
+    """Return the paragraph of a caption that says what is drawn: the first without a field, or the first of all.
+
+    Args:
+        text: what stands below the title.
+    """
+    paragraphs = [" ".join(part.split()) for part in text.strip().split("\n\n")]
+    plain = [part for part in paragraphs if FIELD not in part]
+    return [*plain, *paragraphs][0]
+
+
+def head_of(caption: str) -> str:
+    """Return the head of a table as Markdown, from its caption: a title, an empty line, and paragraphs."""
+    title, _, text = caption.partition("\n")
+    return f"# {title}\n\n{textwrap.fill(drawn(text), WIDTH)}\n\n"
+
+
+def put_head(table: Path, head: str) -> None:
+    """Write a head above the rows of a table (Markdown) that has none.
+
+    Raises:
+        DataError: there is no such table.
+    """
+    write_text(table, head + read_text(table))
