@@ -35,9 +35,11 @@ def curves(*places: tuple[str, str, str], after: tuple[float, ...] = ()) -> pd.D
     return pd.concat(parts, ignore_index=True)
 
 
-def coverage(scenario: str, limb: str, pushed: str = "", method: str = "MOB-Net") -> list[dict[str, Any]]:
+def coverage(
+    scenario: str, limb: str, pushed: str = "", method: str = "MOB-Net", unit: str = "N m"
+) -> list[dict[str, Any]]:
     """Made-up measures of three nominal points and a level of the table that is none of them."""
-    place = {"scenario": scenario, "level": "robots", "pushed": pushed, "method": method, "limb": limb, "unit": "N m"}
+    place = {"scenario": scenario, "level": "robots", "pushed": pushed, "method": method, "limb": limb, "unit": unit}
     rows: list[dict[str, Any]] = []
     for stage in ("before", "after"):
         of = {**place, "joint": "avg", "network_seed": 0, "test_seed": 1, "stage": stage}
@@ -102,3 +104,9 @@ def test_limbs_are_drawn_with_the_name_of_their_case_and_the_neck_is_not(setting
     (hit,) = [row for row in rows if row.limb == "RA" and row.nominal == 0.5]
     assert (hit.case, hit.method) == (section.names["hand_wrench"], "MOB-Net")
     assert (hit.before, hit.after) == (0.5, 0.5)
+
+
+def test_the_two_units_of_the_base_stay_in_the_order_in_which_they_were_measured(settings: Settings) -> None:
+    rows = [*coverage("walk_test", "V", unit="N"), *coverage("walk_test", "V", unit="N m")]
+    made = curves_of(typed(rows, TRUSTED), settings.evaluation.calibration, NOMINAL.tolist())
+    assert made["name"].unique().tolist() == ["V [N]", "V [N m]"]

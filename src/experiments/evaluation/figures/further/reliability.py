@@ -57,13 +57,13 @@ def curves_of(measures: pd.DataFrame, settings: CalibrationTable, points: Sequen
     """
     coverage = rows_of(measures, metric=COVERAGE)
     coverage = coverage[coverage["share"].isin(points)]
-    observed = coverage.groupby([*CASE, "share", "stage"], sort=False)["value"].mean().unstack("stage").reset_index()
     curves: list[pd.DataFrame] = []
-    for keys, curve in observed.groupby(CASE, sort=False):
+    for keys, runs in coverage.groupby(CASE, sort=False):
         scenario, level, pushed, method, limb, unit = map(str, keys)
         case = settings.names.get(scenario, case_of(scenario, level, pushed)) if pushed else IN_DISTRIBUTION
         name = limb + (f" [{unit}]" if limb == "V" else "")
-        curve = curve.sort_values("share").rename(columns={"share": "nominal"})
+        curve = runs.pivot_table("value", "share", "stage").rename_axis("nominal").reset_index()
+        curve = curve.assign(method=method, limb=limb)
         curves.append(curve.assign(case=case, name=name, rank=settings.methods.index(method), is_pushed=bool(pushed)))
     ranked = sorted(curves, key=lambda curve: (curve["rank"].iloc[0], curve["is_pushed"].iloc[0]))
     numbered = [curve.assign(curve=number) for number, curve in enumerate(ranked)]
