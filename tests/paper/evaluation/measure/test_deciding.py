@@ -21,7 +21,15 @@ from experiments.intervals.independent import wilson
 from experiments.settings.claims import Claim, MadeNumber
 from experiments.settings.counts import HOURS, TRIALS
 from experiments.settings.settings import Settings
-from experiments.settings.verdicts import NOT_MEASURED, NOT_REPRODUCED, OPEN, OURS, SIGN_AT_LEAST, SIGN_ONLY
+from experiments.settings.verdicts import (
+    DESCRIPTION,
+    NOT_MEASURED,
+    NOT_REPRODUCED,
+    OPEN,
+    OURS,
+    SIGN_AT_LEAST,
+    SIGN_ONLY,
+)
 
 CONFIDENCE = STATISTICS
 SHARES = next(iter(TRIALS))  # a table of shares
@@ -153,6 +161,8 @@ def check_remark(claim: dict[str, Any]) -> None:
         assert claim["remark"] == NO_CAUSE or claim["remark"].startswith("Cause: ")
     elif claim["verdict"] == NOT_MEASURED:
         assert claim["remark"] == TO_MEASURE
+    elif claim["remark"].startswith("Described, not judged: "):
+        assert claim["verdict"] == DESCRIPTION
     else:
         assert claim["remark"].startswith("Open: ") == (OPEN in (claim["size"], claim["sign"])), claim["claim"]
         assert OPEN not in (claim["size"], claim["sign"]) or "decide" in claim["remark"]

@@ -106,7 +106,7 @@ def judge(
         write_csv(tables["hourly"], HOURLY, [(FLAG, ALL, "MOB-Net", 4.0, 2, 0.5, 0.06, 1.8, "1/h")])
         tables |= {name: GOLDEN / f"{name}.csv" for name in ("safety", "sensorless")}
         detections = write_detections(tmp_path / "detection")
-        for name in ("table_09", "found_by_rate"):
+        for name in ("table_09", "found_by_rate", "false_alarms"):
             tables[name] = make_table(name, tmp_path, detections=detections)
         table = make_table("claims", claims=some, scores=[scores], folders=folders, tables=tables)
         return {row.claim: row for row in read_table(table)}
