@@ -3,10 +3,17 @@
 import textwrap
 from pathlib import Path
 
+from experiments.plan.project import project_file
 from mobnet.core.files import read_text, write_text
 
+CAPTIONS = Path("workflow/report")
 FIELD = "{{"  # begins a field of a caption, a number of the results
 WIDTH = 120  # characters of a line
+
+
+def caption_of(kind: str, name: str) -> Path:
+    """Return the file of a caption of the project, whether or not it is there."""
+    return project_file(CAPTIONS / kind / f"{name}.rst")
 
 
 def drawn(text: str) -> str:

@@ -11,11 +11,13 @@ from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
-from experiments.plan.call import Call
 from experiments.plan.detection import level_of_detectors
 from experiments.plan.files import PLANT, SETS, Files, made_by_jobs
+from experiments.plan.heads import CAPTIONS, caption_of
+from experiments.plan.items import texts
 from experiments.plan.jobs import Jobs
-from experiments.plan.products import CAPTIONS, Folders, Product, Products, caption_of, templates
+from experiments.plan.product import Call, Context, Folders, Product
+from experiments.plan.products import Products, templates
 from experiments.plan.reactions import courses_of, is_pushed
 from experiments.plan.sets import sets_left
 from experiments.plan.trials import trial_products
@@ -58,7 +60,7 @@ def film_products(files: Files, *, with_mp4: bool) -> Iterator[Product]:
         "settings": section, "robot": settings.robot, "looks": settings.robot.looks, "obstacles": settings.obstacles,
         "courses": courses, "outs": outs,
     }  # fmt: skip
-    call = Call("experiments.evaluation.figures.further.films:films", arguments)
+    call = Call(texts.films, arguments)
     yield Product("films", call, tuple(made_by_jobs(courses)), tuple(map(str, outs.values())))
 
 
@@ -76,7 +78,7 @@ def documentation(files: Files) -> Iterator[Product]:
     out = files.shared / "docs"
     settings = files.settings
     shared = {"claims": settings.claims, "statistics": settings.evaluation.statistics, "out": out}
-    call = Call("experiments.site.docs:docs", {**given, **shared})
+    call = Call(texts.docs, {**given, **shared})
     yield Product("docs", call, tuple(made_by_jobs(given)), (str(out),))
 
 
@@ -219,7 +221,7 @@ def make_plan(settings: Settings, *, with_pdf: bool, with_mp4: bool | None = Non
     paper, manifest = (Path("paper"), results.parent) if scale == MAIN else (results / "paper", results)
     folders = Folders(results, Path("tables") / part, Path("figures") / part, paper, manifest / "MANIFEST.sha256")
     files = Files(Catalogue(settings), results / PLANT)
-    products = Products(settings, files, folders, with_pdf)
+    products = Products(Context(settings, files, folders), with_pdf)
     return Plan(
         settings=settings,
         folders=folders,

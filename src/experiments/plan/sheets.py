@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 from experiments.plan.detection import level_of_detectors
 from experiments.plan.files import ARRAY, NETWORKS, SETS, Files, made_by_jobs
 from experiments.plan.plan import Plan
-from experiments.plan.products import Folders
+from experiments.plan.product import Folders
 from experiments.plan.sets import networks_of
 from experiments.plan.stacks import Stacked
 from experiments.running.words import SHEETS

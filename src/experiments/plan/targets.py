@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from experiments.plan.files import made_by_jobs
-from experiments.plan.products import Folders
+from experiments.plan.product import Folders
 from experiments.running.words import in_set, nearest
 from mobnet.core.errors import not_accepted
 

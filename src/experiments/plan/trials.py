@@ -4,10 +4,10 @@ from collections import defaultdict
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
-from experiments.plan.call import Call
 from experiments.plan.files import Files, made_by_jobs
+from experiments.plan.items import trials as made_by
 from experiments.plan.jobs import KINDS, scoring
-from experiments.plan.products import TABLE, Product
+from experiments.plan.product import TABLE, Call, Product
 from experiments.plan.runs import ExplainedRobot, TaughtRobot, Tried, TriedTask
 from experiments.settings.settings import Settings
 from experiments.settings.trials import (
@@ -42,7 +42,7 @@ def trial_products(files: Files) -> Iterator[Product]:
     counted = tuple(robot.falls for robot in files.whole_robots.values())
     out = files.shared / "trials" / "random_torque"
     arguments = {"counted": counted, "statistics": settings.evaluation.statistics, "out": out}
-    call = Call("experiments.evaluation.tables.further.falls:falls", arguments)
+    call = Call(made_by.falls, arguments)
     yield _table(out, call, made_by_jobs(counted))
     yield _factorial(files, files.shared / "trials" / "factorial")
     yield _why(files, files.shared / "trials" / "why")
@@ -66,7 +66,7 @@ def _factorial(files: Files, out: Path) -> Product:
         "out": out,
     }
     kinds = _kinds(robot.walk for robot in robots.values())
-    call = Call("experiments.evaluation.tables.further.factorial:factorial", arguments)
+    call = Call(made_by.factorial, arguments)
     return _table(out, call, made_by_jobs(robots), kinds)
 
 
@@ -102,7 +102,7 @@ def _why(files: Files, out: Path) -> Product:
         "out": out,
     }
     kinds = _kinds(explained_robot.taught.walk for explained_robot in asked)
-    call = Call("experiments.evaluation.tables.further.why:why", arguments)
+    call = Call(made_by.why, arguments)
     return _table(out, call, made_by_jobs(tuple(asked)), kinds)
 
 
@@ -155,7 +155,7 @@ def _product(files: Files, out: Path, trials: Sequence[MethodVariant]) -> Produc
         "out": out,
     }
     kinds = _kinds(tasks.values())
-    call = Call("experiments.evaluation.tables.further.trials:trials", arguments)
+    call = Call(made_by.trials, arguments)
     return _table(out, call, made_by_jobs(tasks), kinds)
 
 

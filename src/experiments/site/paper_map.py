@@ -9,7 +9,8 @@ from pathlib import Path
 
 from experiments.evaluation.tables.layout import markdown_table
 from experiments.plan.plan import Plan, make_plan
-from experiments.plan.products import CAPTIONS, Product
+from experiments.plan.product import Product
+from experiments.plan.products import CAPTIONS
 from experiments.settings.load import load_settings
 from mobnet.core.errors import ConfigError, not_accepted
 from mobnet.core.files import write_text
@@ -171,7 +172,7 @@ def test_of(product: Product, known: Mapping[str, Path]) -> Path:
     for name in (product.name, _function(product)):
         if name in known:
             return known[name]
-    package = product.call.function.split(".")[1:3]
+    package = product.call.late().__module__.split(".")[1:3]
     test = Path("tests", "paper", *package, f"test_{product.name}.py")
     if (PAGES / test.name).is_file():
         return PAGES / test.name
@@ -182,7 +183,7 @@ def test_of(product: Product, known: Mapping[str, Path]) -> Path:
 
 def _function(product: Product) -> str:
     """Return the name of the function that makes a product, without its module."""
-    return product.call.function.rpartition(":")[2]
+    return product.call.late().__name__
 
 
 def _check_names(known: MapNotes, products: Iterable[Product]) -> None:

@@ -65,10 +65,9 @@ from experiments.evaluation.number.frames import rows_of
 from experiments.evaluation.number.laws import number_from, numbers_by
 from experiments.evaluation.number.number import Number
 from experiments.evaluation.report import calibration, claims, sigma
-from experiments.plan.products import EVALUATION
+from experiments.plan.products import all_items
 from experiments.records.trial_errors import TrialError
 from experiments.running.words import draw_parser
-from experiments.settings.evaluation import PRODUCTS
 from experiments.settings.load import load_settings
 from experiments.settings.settings import Settings
 from experiments.settings.table_columns import SPREAD
@@ -406,11 +405,10 @@ DRAWINGS: Mapping[str, Callable[[Stored, str], Figure]] = {"method": draw_blocks
 
 def drawn_from_csv() -> dict[str, Callable[[Stored, str], Figure]]:
     """Return the names of the figures that can be drawn -> what draws them."""
-    known = {f"{function.__module__}:{function.__name__}": draw for function, draw in BY_FUNCTION.items()}
     found = dict(DRAWINGS)
-    for name, row in PRODUCTS.items():
-        if draw := known.get(f"{EVALUATION}.{row.function}"):
-            found |= dict.fromkeys((name, *row.further), draw)
+    for item in all_items():
+        if draw := BY_FUNCTION.get(item.late()) if item.figure else None:
+            found |= dict.fromkeys(item.pictures, draw)
     return found
 
 

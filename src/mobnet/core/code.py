@@ -24,7 +24,7 @@ from pathlib import Path
 
 from mobnet.core.errors import ConfigError
 from mobnet.core.root import ROOT
-from mobnet.core.source import PACKAGES, SOURCE, CodePart, Source, lock_name
+from mobnet.core.source import PACKAGES, SOURCE, CodePart, Source, is_declaring, lock_name
 from mobnet.core.source_cache import read
 
 LOCK = ROOT / "environment.lock"
@@ -37,10 +37,12 @@ CHANGED = "-changed"
 def code_hash(*starts: Path | str) -> str:
     """Return a short hash of the code behind files, or behind dotted names of modules or of functions, `module:name`.
 
+    Of a function in a package that declares, such as the plan, that function counts and what it uses, not its module.
+
     Raises:
         ConfigError: there is no such file or module.
     """
-    sources = reached(start_of(start) for start in starts)
+    sources = reached(map(part_of, starts))
     digests = sorted(source.digest for source in sources)
     packages = with_required(chain.from_iterable(source.packages for source in sources))
     pinned = sorted(lock_lines()[name] for name in packages)
@@ -54,7 +56,7 @@ def source_hash(*starts: Path | str) -> str:
     Raises:
         ConfigError: there is no such file or module.
     """
-    sources = reached(start_of(start) for start in starts)
+    sources = reached(map(part_of, starts))
     digests = sorted(source.digest for source in sources)
     return hashlib.sha256(b"".join(digests)).hexdigest()[:SHORT]
 
@@ -71,10 +73,16 @@ def start_of(start: Path | str) -> Path:
     return file_of_code
 
 
-def reached(starts: Iterable[Path]) -> tuple[Source, ...]:
-    """Return some files and all that they use of these packages, directly or not."""
+def part_of(start: Path | str) -> CodePart:
+    """Return where the code behind a path or a dotted name begins: a file, or a function of one that declares."""
+    module, _, name = str(start).partition(":")
+    return CodePart(start_of(start), name if isinstance(start, str) and is_declaring(module) else "")
+
+
+def reached(starts: Iterable[CodePart]) -> tuple[Source, ...]:
+    """Return some parts and all that they use of these packages, directly or not."""
     sources: dict[CodePart, Source] = {}
-    waiting = [CodePart(start) for start in starts]
+    waiting = [*starts]
     while waiting:
         part = waiting.pop()
         if part not in sources:

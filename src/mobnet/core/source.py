@@ -116,14 +116,15 @@ def read_name(part: CodePart) -> Source:
         read_statement(declared.statements[part.name], reader, is_type=part.is_type)
     else:
         (reader.types if part.is_type else reader.values).add(part.name)
-    imports = {**declared.imports, **dict(reader.imports)}
+    inner = dict(reader.imports)  # of a function: they hide the names of its module
+    imports = {**declared.imports, **inner}
     parts = set[CodePart]()
     outside = set[str]()
     for used in reader.types | reader.values:
         first, dot, rest = used.partition(".")
         is_type = used not in reader.values
         full_name = imports.get(first, "") + dot + rest
-        if first in declared.statements:
+        if first in declared.statements and first not in inner:
             parts.add(CodePart(part.path, first, is_type))
         elif is_declaring(full_name):
             parts.update(declared_parts(full_name, is_type=is_type))

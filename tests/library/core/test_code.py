@@ -10,8 +10,8 @@ from pathlib import Path
 
 import pytest
 
-from experiments.plan.call import Call
-from experiments.plan.products import Product
+from experiments.plan.items import detectors, texts
+from experiments.plan.product import SCRIPT, Call, Product
 from mobnet.core import code, source
 from mobnet.core.code import code_hash, lock_lines, required
 from mobnet.core.errors import ConfigError
@@ -317,11 +317,20 @@ def test_the_hash_of_a_rule_has_its_script() -> None:
             assert hashed == scripts or (scripts == ["product"] and "**product(" in rule), rule
             found += scripts
     assert set(found) | {"warm"} == {path.stem for path in code.ROOT.glob("workflow/scripts/*.py")}
-    call = Call("experiments.site.docs:docs", {})
-    script = code.ROOT / "workflow" / "scripts" / "product.py"
-    assert Product("docs", call, (), ()).code == code_hash(script, call.module)
+
+
+def test_the_hash_of_a_product_has_its_script_and_the_function_that_it_imports_late() -> None:
+    hashes = {late: Product("a", Call(late, {}), (), ()).code for late in (texts.docs, detectors.links)}
+    assert hashes[texts.docs] == code_hash(SCRIPT, "experiments.plan.items.texts:docs")
+    starts = [code.part_of("experiments.plan.items.detectors:links")]
+    files = {part.path for source_of_part in code.reached(starts) for part in source_of_part.parts}
+    tables = code.SOURCE / "experiments" / "evaluation" / "tables" / "further"
+    assert tables / "links.py" in files
+    # Its row, rows beside it and what they read are no part of it: a job gets their values.
+    assert {path for path in files if path.parent == tables} == {tables / "links.py", tables / "__init__.py"}
+    assert not {path for path in files if "plan" in path.parts} - {code.SOURCE / "experiments/plan/detection.py"}
 
 
 def packages_behind(path: Path) -> set[str]:
     """Return the packages that a file and what it imports of this package import."""
-    return {name for part in code.reached([path]) for name in part.packages}
+    return {name for part in code.reached([CodePart(path)]) for name in part.packages}

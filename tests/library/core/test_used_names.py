@@ -389,7 +389,7 @@ def test_a_job_uses_no_columns_of_tables_and_no_verdicts() -> None:
     for path in SOURCE.joinpath("experiments", "jobs").glob("*.py"):
         if is_check(("", path.stem)):  # read before a run begins, and by no job
             continue
-        used = chain.from_iterable(each.parts for each in code.reached([path]))
+        used = chain.from_iterable(each.parts for each in code.reached([source.CodePart(path)]))
         assert not {part.path.name for part in used} & {"table_columns.py", "verdicts.py", "claim_ranges.py"}, path
 
 

@@ -7,7 +7,7 @@ import sys
 import pytest
 
 from experiments.jobs.method_problems import method_problems
-from mobnet.core.code import SOURCE, reached, start_of
+from mobnet.core.code import SOURCE, part_of, reached
 from mobnet.core.errors import DataError
 from mobnet.estimation.kinds import build_estimator, kind_names
 from mobnet.estimation.kinds.residual import ResidualEstimator
@@ -91,7 +91,7 @@ def test_the_check_imports_nothing_heavy():
 def test_an_estimate_does_not_depend_on_how_networks_are_trained(settings):
     """The code hash of an estimate covers networks as they run, and neither their training nor other kinds."""
     kinds = [f"mobnet.estimation.kinds.{name}" for name in ("residual", "direct")]
-    starts = frozenset(start_of(name) for name in ("mobnet.estimation.estimate", *kinds))
+    starts = frozenset(part_of(name) for name in ("mobnet.estimation.estimate", *kinds))
     files = {file.relative_to(SOURCE) for source in reached(starts) for file, *_ in source.parts}
     learning = {file.stem for file in files if "learning" in file.parts} - {"__init__"}
     run = {"features", "limbs", "lanes", "loading", "networks", "weights", "module_network", "tick"}

@@ -23,12 +23,15 @@ from made_scores import (
     table_scores,
 )
 
-from experiments.plan.call import call_of
-from experiments.plan.products import function_of
+from experiments.plan.files import Files
+from experiments.plan.items import errors
+from experiments.plan.product import Context, Folders
+from experiments.plan.products import all_items
 from experiments.plan.runs import Run
 from experiments.records.scores import Score
+from experiments.settings.catalogue import Catalogue
 from experiments.settings.claims import Claim
-from experiments.settings.evaluation import PRODUCTS, Evaluation
+from experiments.settings.evaluation import Evaluation
 from experiments.settings.measures import CalibrationTest
 from experiments.settings.settings import Settings
 from mobnet.core.epochs import Epoch
@@ -87,23 +90,27 @@ def write_limb_scores(tmp_path: Path, layout: JointLayout) -> Callable[..., Path
     return write
 
 
+@pytest.fixture(scope="session")
+def files(settings: Settings) -> Files:
+    """What stands where; no test reads it."""
+    return Files(Catalogue(settings), Path("results"))
+
+
 @pytest.fixture
-def make_table(tmp_path: Path, settings: Settings, evaluation: Evaluation) -> Callable[..., Path]:
-    """Write a table as its rule does: make_table(name, folder=tmp_path, **needs and other settings) -> its CSV."""
+def make_table(tmp_path: Path, settings: Settings, evaluation: Evaluation, files: Files) -> Callable[..., Path]:
+    """Write a table as its row says: make_table(name, folder=tmp_path, **files and other settings) -> its CSV."""
 
     def make(name: str, folder: Path = tmp_path, **changes: Any) -> Path:
-        function = function_of(evaluation, name)
-        row = PRODUCTS.get(name)
-        printed = settings.published.tables.get(name)
-        printed = printed or getattr(settings.published, (row and row.published) or name, None)
-        section = evaluation.tables.get(name) or getattr(evaluation, name, None)
-        own = {"name": name, "settings": section, "published": printed, "layout": settings.layout, "table_dir": folder}
-        own |= {"figure_dir": folder / "figures", "tables": {}}
-        shared = {"statistics": evaluation.statistics, "figure_17": evaluation.figure_17}
-        if name in PRODUCTS:
-            shared |= {section: getattr(evaluation, section) for section in PRODUCTS[name].sections}
-        known = {**dict(settings), **shared, **own, **changes}
-        call_of(function, known).run()
+        items = {item.name: item for item in all_items()}
+        item = errors.error_table_of(name) if name in evaluation.tables else items[name]
+        folders = Folders(folder, folder, folder / "figures", folder, folder)
+        given = dict(item.given(Context(settings, files, folders)))
+        # Sections of made-up runs stand in for those of the configuration.
+        for section in Evaluation.model_fields:
+            for key, value in given.items():
+                if value is getattr(settings.evaluation, section):
+                    given[key] = getattr(evaluation, section)
+        item.late()(**{**given, **item.written_into(folders), **changes})
         return folder / f"{name}.csv"
 
     return make

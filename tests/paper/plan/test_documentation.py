@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from experiments.plan.plan import Plan, make_plan
-from experiments.plan.products import Product
+from experiments.plan.product import Product
 from experiments.settings.load import load_settings
 
 ROOT = Path(__file__).parents[3]

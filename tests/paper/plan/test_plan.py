@@ -3,8 +3,10 @@
 import inspect
 import re
 from collections import Counter
+from collections.abc import Callable
 from importlib import import_module
 from pathlib import Path
+from pkgutil import resolve_name
 from types import SimpleNamespace
 from typing import Any
 
@@ -12,17 +14,13 @@ import pytest
 from jobs_of import arguments, network, reads
 from paper_settings import settings_at
 
-from experiments.plan.call import Call, call_of, parameters
 from experiments.plan.files import files_in, made_by_jobs
-from experiments.plan.needs import needs_of
 from experiments.plan.plan import Plan, make_plan
+from experiments.plan.product import Call
 from experiments.plan.products import Shown, shown
 from experiments.plan.runs import SweptSize
 from experiments.plan.sheets import Sheets
-from experiments.settings.evaluation import PRODUCTS
-from experiments.settings.products import MadeBy
 from experiments.settings.settings import Settings
-from mobnet.core.errors import ConfigError
 
 SCALES = ("smoke", "quick", "default", "paper")
 
@@ -263,31 +261,24 @@ def test_a_push_reruns_the_walks_that_it_comes_in(plan: Plan) -> None:
 def test_scores_and_runs_follow_from_the_section_of_a_product(plan: Plan) -> None:
     settings = plan.settings.evaluation
     figure, rows, panels = settings.figure_06, settings.methods, settings.figure_18
-    own: Any = needs_of(plan.files, PRODUCTS["figure_06"], figure)
-    assert own == {
-        "runs": plan.files.first_runs(figure),
-        "scores": plan.files.scores([(figure.scenario, figure.level)]),
-    }
-    for name, section, tests in (
-        ("figure_06", figure, [(figure.scenario, figure.level)]),
-        ("methods", rows, [(row.scenario, row.level) for row in rows]),
-        ("figure_18", panels, [(test, panels.level) for test in panels.panels]),
+    given = plan.product("figure_06").arguments
+    assert given["runs"] == plan.files.first_runs(figure)
+    assert given["scores"] == plan.files.scores([(figure.scenario, figure.level)])
+    for name, tests in (
+        ("figure_06", [(figure.scenario, figure.level)]),
+        ("methods", [(row.scenario, row.level) for row in rows]),
+        ("figure_18", [(test, panels.level) for test in panels.panels]),
         (
             "fine_tuning",
-            settings.fine_tuning,
             [
                 ("changed_walk", level)
                 for level in ("robots_other", "robots", "robots_gains", "robots_gait", "robots_payload")
             ],
         ),
     ):
-        own = needs_of(plan.files, PRODUCTS[name], section)["scores"]
-        assert own == plan.files.scores(tests), name
-        assert len(own) == len(set(tests)), name
-    with pytest.raises(ConfigError, match=r"need of a.b:c: 'scors' is not accepted; accepted: scores, "):
-        needs_of(plan.files, MadeBy("a.b:c", needs={"scores": "scors"}), settings.steps)
-    with pytest.raises(AttributeError, match="'Steps' object has no"):  # a bug is no fault of the configuration
-        needs_of(plan.files, PRODUCTS["figure_06"], settings.steps)
+        read: Any = plan.product(name).arguments["scores"]
+        assert read == plan.files.scores(tests), name
+        assert len(read) == len(set(tests)), name
 
 
 def test_a_table_needs_the_levels_that_it_shows_alone(plans: dict[str, Plan]) -> None:
@@ -311,21 +302,18 @@ def test_a_caption_is_optional() -> None:
     assert shown("tables/table_05.csv") is None
 
 
-def test_a_call_takes_what_the_signature_names() -> None:
-    call = call_of("experiments.plan.plan:make_plan", {"settings": 1, "other": 2})
-    assert call.arguments == {"settings": 1}
-    assert parameters("experiments.plan.call:call_of") == (("function", "available"), ())
-    with pytest.raises(ConfigError, match="make_plan: parameter: 'settings' is not accepted; accepted: other"):
-        call_of("experiments.plan.plan:make_plan", {"other": 2})
-    with pytest.raises(
-        ConfigError, match=r"function of experiments\.plan\.plan: 'unmake' is not accepted; accepted: .*make_plan"
-    ):
-        parameters("experiments.plan.plan:unmake")
+def late_write() -> Callable[..., None]:
+    from mobnet.core.files import write_text
+
+    return write_text
 
 
-def test_a_call_runs_its_function(tmp_path: Path) -> None:
-    Call("mobnet.core.files:write_text", {"path": tmp_path / "a.txt", "text": "a"}).run()
+def test_a_call_imports_its_function_late_and_a_job_finds_it_by_its_name(plan: Plan, tmp_path: Path) -> None:
+    Call(late_write, {"path": tmp_path / "a.txt", "text": "a"}).run()
     assert (tmp_path / "a.txt").read_text() == "a"
+    for name in ("table_07", "links", "paper"):
+        call = plan.product(name).call
+        assert resolve_name(call.name) is call.late
 
 
 def test_files_are_found_behind_stems_networks_and_dataclasses() -> None:

@@ -6,7 +6,7 @@ import pytest
 
 from experiments import sheet
 from experiments.plan.plan import Plan, make_plan
-from experiments.plan.products import Folders
+from experiments.plan.product import Folders
 from experiments.plan.sheets import Own, Sheets, columns, seeds_in
 from experiments.running.words import SHEETS, sheet_parser
 from experiments.settings.load import load_settings

@@ -9,7 +9,7 @@ from jobs_of import arguments
 from experiments.commands.words import TRIALS
 from experiments.evaluation.tables.further.falls import ALL
 from experiments.plan.plan import Plan, make_plan
-from experiments.plan.products import Product
+from experiments.plan.product import Product
 from experiments.plan.seeds import FIRST_TRAINING_SEED
 from experiments.settings.load import load_settings
 from experiments.settings.trials import Factors, compared, factors_of, sets_of, taught, trial_name, tuned

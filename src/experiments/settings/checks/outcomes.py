@@ -13,7 +13,7 @@ from experiments.settings import counts
 from experiments.settings.catalogue import Catalogue
 from experiments.settings.claim_ranges import ranges_of
 from experiments.settings.claims import Cell, Claim
-from experiments.settings.evaluation import PRODUCTS
+from experiments.settings.evaluation import CLAIMED_TABLES
 from experiments.settings.runs import Statistics
 from experiments.settings.settings import Settings
 from mobnet.core.errors import misfit
@@ -49,8 +49,8 @@ def _place(name: str, claim: Claim) -> tuple[str, ...]:
 
 def clusters_of(settings: Settings, cell: Cell) -> int:
     """Return in how many robots the trials of a cell come; 1 where they are independent, or of one robot."""
-    row = PRODUCTS.get(cell.table or "")
-    return counts.robots_of(settings) if row and row.clustered else 1
+    table = CLAIMED_TABLES.get(cell.table or "")
+    return counts.robots_of(settings) if table and table.clustered else 1
 
 
 def is_met_by_a_share(bounds: Bounds, trials: int, clusters: int, statistics: Statistics) -> bool:

@@ -8,7 +8,7 @@ from typing import Any
 
 from experiments.settings.asked import tests_in
 from experiments.settings.catalogue import Catalogue
-from experiments.settings.evaluation import PRODUCTS, measured_in
+from experiments.settings.evaluation import CLAIMED_TABLES, measured_in
 from experiments.settings.metrics import metric_of
 from experiments.settings.runs import Mean
 from experiments.settings.settings import Settings
@@ -131,7 +131,7 @@ class Results:
 
     def claimed_tables(self) -> dict[str, tuple[str, ...]]:
         """Return the tables whose fields claims may name -> their columns."""
-        of_products = {name: row.columns for name, row in PRODUCTS.items() if row.columns}
+        of_products = {name: table.columns for name, table in CLAIMED_TABLES.items()}
         return {**dict.fromkeys(self.settings.evaluation.tables, ERRORS), **of_products}
 
     def pushed_joints(self, scenario: str) -> list[str]:

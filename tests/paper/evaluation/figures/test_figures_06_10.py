@@ -5,12 +5,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from called import call
 from csv_files import check_golden, read_table, write_rows
 
 from experiments.evaluation.figures.paper.figure_06 import figure_06
 from experiments.evaluation.figures.paper.figure_10 import figure_10
 from experiments.evaluation.measure.estimates.pushes import read_pushes
-from experiments.plan.call import call_of
 from experiments.plan.runs import Run
 from experiments.records.scores import Score
 from experiments.settings.evaluation import Evaluation
@@ -45,7 +45,7 @@ def draw(settings: Settings, evaluation: Evaluation, tmp_path: Path) -> Draw:
         printed, statistics = settings.published.tables[figure.__name__], evaluation.statistics
         own = {"settings": section, "published": printed, "runs": runs, "scores": scores, "figure_dir": tmp_path}
         shared = {"layout": settings.layout, "statistics": statistics, **dict(settings)}
-        call_of(f"{figure.__module__}:{figure.__name__}", {**shared, **own}).run()
+        call(figure, {**shared, **own})
 
     return write
 

@@ -9,11 +9,11 @@ from typing import Any
 
 import numpy as np
 import pytest
+from called import call
 from csv_files import check_golden, read_table, write_rows
 
 from experiments.evaluation.figures.paper.figure_05 import read_panel
-from experiments.plan.call import call_of
-from experiments.plan.products import function_of
+from experiments.plan.items import walks
 from experiments.plan.runs import Run
 from experiments.records.scores import Score
 from experiments.settings.evaluation import Evaluation
@@ -47,7 +47,7 @@ def draw(settings: Settings, evaluation: Evaluation, tmp_path: Path) -> Draw:
         own: dict[str, Any] = {"settings": section, "name": name, "start_s": START_S, "runs": runs}
         own |= {"scores": [tmp_path / "scores.csv"], "published": settings.published.tables[section.table]}
         shared = {**dict(settings), "layout": layout, "statistics": evaluation.statistics, "figure_dir": tmp_path}
-        call_of(function_of(evaluation, name), {**shared, **own}).run()
+        call(getattr(walks, name)(), {**shared, **own})
 
     return write
 

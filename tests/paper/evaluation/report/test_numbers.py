@@ -11,7 +11,8 @@ from experiments.evaluation.number.rows import read_numbers
 from experiments.evaluation.report.main_tables import cells_of
 from experiments.evaluation.report.numbers import cell_texts, further_texts, numbers, size_texts
 from experiments.evaluation.report.paper import defined_texts
-from experiments.plan.products import KEPT_TABLE, quoted
+from experiments.plan.items.texts import QUOTED
+from experiments.plan.products import KEPT_TABLE, names_of
 from experiments.settings.settings import Settings
 from experiments.settings.verdicts import VERDICTS
 from mobnet.settings.data import Recordings
@@ -25,7 +26,7 @@ TRAIN = Recordings(shards=3, shard_s=600.0)
 def defined(table: Path, claims_csv: Path, summary_csv: Path, settings: Settings) -> dict[str, str]:
     """Return name -> text of the numbers of a table and of claims."""
     out, sizes = claims_csv.with_name("numbers.tex"), (settings.scale, settings.rates, settings.sizes, settings.fleet)
-    further = [REPO / f"tests/golden/{name}.csv" for name in quoted()]
+    further = [REPO / f"tests/golden/{name}.csv" for name in names_of(QUOTED)]
     caption = out.with_name("legs.rst")
     caption.write_text('The left leg\n\nBy {{ found("rte-walk") }}.\n\nIts error.\n')
     compared = settings.evaluation.main_tables
@@ -75,7 +76,10 @@ def test_every_number_the_paper_asks_for_exists(texts: dict[str, str], settings:
     """Golden tables hold few rows, so that those of the results are looked for in what is published."""
     asked = asked_names((REPO / "paper/main.tex").read_text())
     assert len(asked) > 150
-    published = [*(REPO / f"docs/results/{name}.csv" for name in quoted()), REPO / KEPT_TABLE.with_suffix(".csv")]
+    published = [
+        *(REPO / f"docs/results/{name}.csv" for name in names_of(QUOTED)),
+        REPO / KEPT_TABLE.with_suffix(".csv"),
+    ]
     known = {*texts, *(name for path in published if path.is_file() for name in of_cells(path))}
     for name in settings.evaluation.tables:
         for of, number in read_numbers(REPO / f"docs/results/{name}.csv"):

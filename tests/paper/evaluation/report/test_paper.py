@@ -32,7 +32,8 @@ from experiments.evaluation.tables.further import claims_table, methods
 from experiments.evaluation.tables.further.uncertainty import text_of
 from experiments.evaluation.tables.layout import PART, long_table, note_tex, text_table
 from experiments.plan.files import Files
-from experiments.plan.products import DRAWN, KEPT_TABLE, MAIN_TABLES, Folders, Products, pictures, sources
+from experiments.plan.product import Context, Folders
+from experiments.plan.products import KEPT_TABLE, MAIN_TABLES, Products, sources
 from experiments.settings.catalogue import Catalogue
 from experiments.settings.load import load_settings
 from experiments.settings.pages import PaperText
@@ -221,7 +222,8 @@ def test_the_paper_itself_builds_from_the_published_tables(
 ) -> None:  # fmt: skip
     """And fits its pages and its results: every guard of its words holds. Every figure is the same picture."""
     folders = Folders(tmp_path, tmp_path, tmp_path, tmp_path / "out", tmp_path / "MANIFEST.sha256")
-    products = Products(settings, Files(Catalogue(settings), tmp_path), folders, with_pdf=True)
+    context = Context(settings, Files(Catalogue(settings), tmp_path), folders)
+    products = Products(context, with_pdf=True)
     deviations(REPO / "docs/deviations.md", tmp_path / "deviations.tex")
     claims = published_claims(claims_csv, tmp_path / "published_claims.csv")
     write_numbers(products, settings, claims, summary_csv, tmp_path / "numbers.tex")
@@ -229,8 +231,7 @@ def test_the_paper_itself_builds_from_the_published_tables(
     for name in {*products.table_names, "compute"}.difference(DETECTION, MAIN_TABLES):
         write_tex(name, settings, tmp_path / f"{name}.tex")
     names = (*products.table_names, "numbers", "captions", "deviations", "compute")
-    drawn = [*(picture for name in products.figure_names for picture in pictures(name)), *DRAWN]
-    figures = [tmp_path / f"{name}.pdf" for name in dict.fromkeys(drawn)]
+    figures = [tmp_path / f"{name}.pdf" for name in dict.fromkeys(products.drawn)]
     for path in figures:
         Figure().savefig(path)
     main, references, tables = REPO / "paper/main.tex", REPO / "paper/refs.bib", [tmp_path / f"{n}.tex" for n in names]
