@@ -11,6 +11,7 @@ from mobnet.core.errors import DataError
 from mobnet.core.files import refusal
 
 STDIN = Path("/dev/stdin")
+OPEN_FILES = (Path("/dev/fd"), Path("/proc/self/fd"))  # where a process sees its open files by their numbers
 NAME = "stdin"  # of the log, for messages and for what is made of it
 KINDS = {  # first bytes -> ending of the formats that are no texts
     b"\x1f\x8b": ".csv.gz",
@@ -25,8 +26,12 @@ LOOKED_BYTES = 8
 
 
 def is_piped(path: Path) -> bool:
-    """Return whether a log comes through standard input or a pipe."""
-    return path == STDIN or (path.exists() and stat.S_ISFIFO(path.stat().st_mode))
+    """Return whether a log comes through standard input or a pipe that this process was given open.
+
+    A pipe with a name is none: where nobody writes to it, opening it would wait for ever.
+    """
+    is_open = path.parent in OPEN_FILES and path.exists() and stat.S_ISFIFO(path.stat().st_mode)
+    return is_open or path == STDIN
 
 
 @contextlib.contextmanager

@@ -18,16 +18,24 @@ from mobnet.robotlog.piped import as_file
 
 
 @pytest.fixture
-def pipe(tmp_path):
-    """Return a function that makes a pipe through which some bytes come."""
+def pipe():
+    """Return a function that makes a pipe through which some bytes come, as a shell's `<(...)` does."""
+    reading = list[int]()
 
     def made(content):
-        path = tmp_path / "pipe"
-        os.mkfifo(path)
-        threading.Thread(target=path.write_bytes, args=[content], daemon=True).start()
-        return path
+        reader, writer = os.pipe()
+        reading.append(reader)
 
-    return made
+        def write():
+            with os.fdopen(writer, "wb") as file:
+                file.write(content)
+
+        threading.Thread(target=write, daemon=True).start()
+        return Path("/dev/fd", str(reader))
+
+    yield made
+    for reader in reading:
+        os.close(reader)
 
 
 def packed(table, folder):
