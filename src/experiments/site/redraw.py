@@ -62,7 +62,7 @@ from experiments.evaluation.measure.data.conditional import TorqueRange, even_ce
 from experiments.evaluation.measure.data.planes import Plane
 from experiments.evaluation.measure.estimates.bode import observer_response
 from experiments.evaluation.number.frames import rows_of
-from experiments.evaluation.number.laws import number_from, numbers_by
+from experiments.evaluation.number.laws import numbers_by
 from experiments.evaluation.number.number import Number
 from experiments.evaluation.report import calibration, claims, sigma
 from experiments.plan.products import all_items
@@ -225,15 +225,7 @@ def draw_14(stored: Stored, name: str) -> Figure:
 
 def draw_15(stored: Stored, name: str) -> Figure:
     """Draw standard deviations at collisions."""
-    courses: list[figure_15.CollisionCourse] = []
-    for title, rows in stored.rows(name).groupby("panel", sort=False):
-        by_method = {str(method): own for method, own in rows.groupby("method", sort=False)}
-        stds = {method: own["std_nm"].to_numpy() for method, own in by_method.items()}
-        thresholds = {method: float(own["threshold_nm"].iloc[0]) for method, own in by_method.items()}
-        first = next(iter(by_method.values()))
-        time, force, swing = (first[name].to_numpy() for name in ("time_s", "force_n", "swing"))
-        courses.append(figure_15.CollisionCourse(str(title), time, stds, thresholds, force, swing))
-    return figure_15.draw_courses(courses, stored.section(name).joint)
+    return figure_15.draw_courses(stored.rows(name), stored.section(name).joint)
 
 
 def draw_18(stored: Stored, name: str) -> Figure:
@@ -309,12 +301,7 @@ def draw_learning_curve(stored: Stored, name: str) -> Figure:
 
 def draw_sigma(stored: Stored, name: str) -> Figure:
     """Draw predicted standard deviations in parts of a walk."""
-    courses: list[sigma_courses.SigmaLine] = []
-    names = ["panel", "test", "method", "limb"]
-    for (panel, test, method, limb), own in stored.rows(name).groupby(names, sort=False):
-        numbers = [number_from(row) for row in own.to_dict("records")]
-        courses.append(sigma_courses.SigmaLine(panel, test, method, limb, own["x"].tolist(), numbers))
-    return sigma_courses.draw_sigma(courses, stored.settings.learning.calibration_share)
+    return sigma_courses.draw_sigma(stored.rows(name), stored.settings.learning.calibration_share)
 
 
 @styled
@@ -347,15 +334,7 @@ def draw_19(stored: Stored, name: str) -> Figure:
 
 def draw_detection(stored: Stored, name: str) -> Figure:
     """Draw detection against false alarms and force."""
-    rows = stored.rows(name)
-    own = rows[rows["panel"] != detection_curves.AREA]
-    courses: list[detection_curves.DetectorLine] = []
-    for detector in own["detector"].unique():
-        for panel, of in own[own["detector"] == detector].groupby("panel", sort=False):
-            numbers = [number_from(row) for row in of.to_dict("records")]
-            line = (str(panel), str(detector), of["x"].tolist(), numbers, of["count"].tolist())
-            courses.append(detection_curves.DetectorLine(*line))
-    return detection_curves.draw_courses(courses)
+    return detection_curves.draw_courses(stored.rows(name))
 
 
 def draw_claims(stored: Stored, name: str) -> Figure:

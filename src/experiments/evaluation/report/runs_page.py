@@ -10,9 +10,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import pandas as pd
+
 from experiments.evaluation.measure.learning.trainings import (
-    Key,
-    TestError,
     TrainedNetwork,
     read_test_errors,
     read_training,
@@ -42,7 +42,8 @@ class TrainingRun(TrainedNetwork):
         limb: row of the configuration's networks.
         cell: kind of network.
         settings: what was trained on what, dotted name -> text.
-        tested: error of its estimates in a test; None where it was in none.
+        test: test of its estimates, scenario and level; empty where it was in none.
+        test_rmse: RMSE of the external torque in a test [N m; N of the base's forces], if there is one.
         metrics: file that holds the curves.
         seconds: time of the training's epochs [s], of all starts; None where it is not known.
     """
@@ -52,7 +53,8 @@ class TrainingRun(TrainedNetwork):
     limb: str
     cell: str
     settings: Mapping[str, str]
-    tested: TestError | None
+    test: str
+    test_rmse: float | None
     metrics: Path
     seconds: float | None
 
@@ -87,17 +89,12 @@ class TrainingRun(TrainedNetwork):
         return self.best.validation_rmse if self.best else None
 
     @property
-    def test_rmse(self) -> float | None:
-        """RMSE of the external torque in a test [N m; N of the base's forces]."""
-        return self.tested.rmse if self.tested else None
-
-    @property
     def best_joints(self) -> Mapping[str, float]:
         """Joint -> RMSE on the validation blocks at the best epoch [N m; V1 to V3 in N]."""
         return {name: errors[self.best.epoch - 1] for name, errors in self.joint_errors.items()} if self.best else {}
 
 
-def read_training_run(folder: Path, tested: Mapping[Key, TestError] | None = None) -> TrainingRun:
+def read_training_run(folder: Path, tested: pd.DataFrame | None = None) -> TrainingRun:
     """Read a network's folder, and what its training took from the folder of its checkpoint.
 
     Raises:
@@ -106,15 +103,19 @@ def read_training_run(folder: Path, tested: Mapping[Key, TestError] | None = Non
     training = read_training(folder)
     note = read_json(folder / RUN)
     settings: dict[str, str] = {}
-    for key in SETTINGS:
-        settings |= dict(flattened(key, note[key]))
+    for name in SETTINGS:
+        settings |= dict(flattened(name, note[name]))
+    key = note["method"], note["limb"], note["seed"]
+    tested = read_test_errors(()) if tested is None else tested
+    is_tested = key in tested.index
     return TrainingRun(
         **vars(training),
-        **{key: note[key] for key in SHOWN},
+        **{name: note[name] for name in SHOWN},
         robot=robot_of(folder),
         cell=note["settings"]["network"]["cell"],
         settings=settings,
-        tested=(tested or {}).get((note["method"], note["limb"], note["seed"])),
+        test=str(tested.loc[key, "test"]) if is_tested else "",
+        test_rmse=float(tested.loc[key, "rmse"]) if is_tested else None,
         metrics=folder / METRICS,
         seconds=training_seconds(folder),
     )

@@ -12,7 +12,9 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from experiments.evaluation.measure.learning.trainings import Key, TestError, read_test_errors, read_training, robot_of
+import pandas as pd
+
+from experiments.evaluation.measure.learning.trainings import read_test_errors, read_training, robot_of
 from mobnet.core.epochs import Epoch
 from mobnet.core.errors import DataError
 from mobnet.core.files import PARTIAL, RUN, check_room, read_json
@@ -52,7 +54,7 @@ def wandb_runs(folders: Iterable[Path], scores: Sequence[Path], out: Path) -> No
         os.replace(runs, out)
 
 
-def _log_again(scratch: Path, folder: Path, tested: Mapping[Key, TestError], runs: Path) -> None:
+def _log_again(scratch: Path, folder: Path, tested: pd.DataFrame, runs: Path) -> None:
     """Log a training into a run among others, again where wandb fails or leaves no file: seen on a busy machine.
 
     Raises:
@@ -73,7 +75,7 @@ def _log_again(scratch: Path, folder: Path, tested: Mapping[Key, TestError], run
         log.warning("%s; once more", fault)
 
 
-def _log_run(scratch: Path, folder: Path, tested: Mapping[Key, TestError]) -> str:
+def _log_run(scratch: Path, folder: Path, tested: pd.DataFrame) -> str:
     """Log a training into a run below the scratch folder, and return its name.
 
     The robot and the keys SETTINGS of its note become the run's configuration, all others its summary, which ends with
@@ -86,8 +88,10 @@ def _log_run(scratch: Path, folder: Path, tested: Mapping[Key, TestError]) -> st
         for row in rows(training.epochs, training.joint_errors):
             run.log(row, step=row["epoch"])
         run.summary.update({key: value for key, value in note.items() if key not in SETTINGS})
-        if error := tested.get((note["method"], note["limb"], note["seed"])):
-            run.summary.update({"test": error.test, "test_rmse": error.rmse})
+        key = note["method"], note["limb"], note["seed"]
+        if key in tested.index:
+            error = tested.loc[key]
+            run.summary.update({"test": str(error["test"]), "test_rmse": float(error["rmse"])})
     return note["name"]
 
 

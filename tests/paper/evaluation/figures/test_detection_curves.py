@@ -3,13 +3,13 @@
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 import pytest
 from csv_files import check_golden, read_table
 from made_detections import HOURS, write_detections
 from matplotlib.colors import to_hex
 
 from experiments.evaluation.figures.further.detection_curves import (
-    DetectorLine,
     area_of,
     detection_curves,
     draw_courses,
@@ -17,7 +17,6 @@ from experiments.evaluation.figures.further.detection_curves import (
     shaded,
 )
 from experiments.evaluation.figures.style import LOOKS
-from experiments.evaluation.number.number import Number
 from experiments.settings.settings import Settings
 
 
@@ -75,11 +74,12 @@ def test_a_shade_lies_between_a_colour_and_black_or_white() -> None:
 
 
 def test_the_legend_has_all_detectors_and_the_first_and_the_last_have_their_intervals() -> None:
-    lines = [
-        DetectorLine("found collisions", name, [10.0, 0.0], [Number(0.9, 0.8, 0.95), Number(0.5, 0.4, 0.6)], [5, 5])
-        for name in ("MOB", "MOB-Net-OR", "MOB-fric-dahl")
-    ]
-    figure = draw_courses(lines)
+    points: list[dict[str, object]] = []
+    for name in ("MOB", "MOB-Net-OR", "MOB-fric-dahl"):
+        place = {"panel": "found collisions", "detector": name, "count": 5}
+        points.append({**place, "x": 10.0, "value": 0.9, "low": 0.8, "high": 0.95})
+        points.append({**place, "x": 0.0, "value": 0.5, "low": 0.4, "high": 0.6})
+    figure = draw_courses(pd.DataFrame(points))
     (key,) = figure.legends
     assert [text.get_text() for text in key.get_texts()] == ["MOB", "MOB-Net-OR", "MOB-fric-dahl"]
     bands = figure.axes[0].collections

@@ -4,13 +4,14 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
+import pandas as pd
 import pytest
 from csv_files import read_table
 from matplotlib.axes import Axes
 from matplotlib.text import Annotation
 from paper_settings import STATISTICS
 
-from experiments.evaluation.figures.further.why_share import Dot, dots_of, draw_why, marks_of, why_share
+from experiments.evaluation.figures.further.why_share import dots_of, draw_why, marks_of, why_share
 from experiments.evaluation.measure.learning.explained import by_robot, over_shown_robots, read_why
 from experiments.evaluation.measure.learning.taught import SHARE_OF_HIT, WALKING
 from experiments.evaluation.number.rows import write_csv
@@ -82,10 +83,8 @@ def test_texts_of_dots_do_not_overlap(settings: Settings, kept: Path) -> None:
     section = settings.evaluation.why_share
     rows = read_why(kept)
     numbers = by_robot(rows, WALKING), by_robot(rows, SHARE_OF_HIT)
-    dots: list[Dot] = []
-    for title, panel in section.panels.items():
-        dots += dots_of(section, STATISTICS, title, panel, *numbers)
-    figure = draw_why(section.networks, dots)
+    panels = [dots_of(section, STATISTICS, *panel, *numbers) for panel in section.panels.items()]
+    figure = draw_why(section.networks, pd.concat(panels, ignore_index=True))
     figure.draw_without_rendering()
     for axis in figure.axes:
         boxes = sorted((text.get_window_extent() for text in texts(axis)), key=lambda box: box.y0)

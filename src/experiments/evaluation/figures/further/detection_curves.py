@@ -1,8 +1,11 @@
 """What lower and higher thresholds do: collisions and delays over false alarms; and found shares over the force."""
 
+# pandas has no complete types, which the strict rules of this folder ask for.
+# pyright: standard
+
 from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -21,9 +24,9 @@ from experiments.evaluation.measure.detection.results import (
     hours_per_swing,
     owners,
 )
-from experiments.evaluation.number.frames import read_detection, read_hits, rows_of
-from experiments.evaluation.number.laws import share
-from experiments.evaluation.number.number import Number
+from experiments.evaluation.number.frames import read_detection, read_hits, records_of, rows_of
+from experiments.evaluation.number.laws import fields_of, number_from, share
+from experiments.evaluation.number.number import Number, is_missing
 from experiments.intervals.clusters import share_in
 from experiments.plan.detection import Detections
 from experiments.records.collisions import UNPUSHED
@@ -60,17 +63,6 @@ RING: Mapping[str, Any] = {"marker": "o", "markersize": 6.5, "markerfacecolor": 
 FURTHER = (("v", -0.35), ("X", 0.4))
 
 
-@dataclass(frozen=True)
-class DetectorLine:
-    """A line of a panel: numbers (n,) over x (n,), each made of so many collisions."""
-
-    panel: str
-    detector: str
-    x: Sequence[float]
-    numbers: Sequence[Number]
-    counts: Sequence[int]
-
-
 def detection_curves(
     settings: DetectionCurves, detection: Detection, statistics: Statistics, detections: Detections, figure_dir: Path
 ) -> None:
@@ -89,8 +81,8 @@ def detection_curves(
     every_hit = rows_of(read_hits(detections, robots), leg=leg)
     hits = rows_of(every_hit, scenario=detection.collisions, kind=COLLISION)
     sweep = rows_of(every_hit, scenario=detection.sweep, kind=settings.kind)
-    courses = list[DetectorLine]()
-    rows = []
+    areas: list[dict[str, object]] = []
+    points_of: list[dict[str, object]] = []
     for name in settings.detectors:
         hit = rows_of(hits, detector=name)
         if hit.empty:
@@ -98,22 +90,26 @@ def detection_curves(
         quiet = rows_of(held_out, detector=name)
         hours = len(quiet) * hours_per_swing(rows_of(promises, detector=name))
         of_detector = rows_of(points, detector=name)
-        courses += _over_rates(name, of_detector, quiet, hours, statistics)
-        courses += _at_promise(name, of_detector, quiet, hours, detection.thresholds.rates_per_h[COLLISION], statistics)
-        courses.append(_over_force(name, rows_of(sweep, detector=name), settings.force_bins, statistics))
-        courses.append(_without_hit(name, rows_of(between, detector=name), statistics))
+        points_of += _over_rates(name, of_detector, quiet, hours, statistics)
+        promised_per_h = detection.thresholds.rates_per_h[COLLISION]
+        points_of += _at_promise(name, of_detector, quiet, hours, promised_per_h, statistics)
+        points_of += _over_force(name, rows_of(sweep, detector=name), settings.force_bins, statistics)
+        points_of.append(_without_hit(name, rows_of(between, detector=name), statistics))
         area = area_of(hit["ratio"].to_numpy(), quiet["ratio"].to_numpy(), statistics)
-        rows.append((AREA, settings.level, name, None, *area.with_ends, len(hit), "-"))
-    for course in courses:
-        unit = "ms" if course.panel.startswith(DELAY) else "-"
-        for x, number, count in zip(course.x, course.numbers, course.counts, strict=True):
-            rows.append((course.panel, settings.level, course.detector, x, *number.with_ends, count, unit))
-    save_figure(draw_courses(courses), figure_dir / "detection_curves", COLUMNS, rows)
+        areas.append(_point(AREA, name, None, area, len(hit)))
+    rows = pd.DataFrame([*areas, *points_of], columns=list(COLUMNS)).assign(level=settings.level)
+    save_figure(draw_courses(rows), figure_dir / "detection_curves", COLUMNS, records_of(rows, COLUMNS))
+
+
+def _point(panel: str, detector: str, x: float | None, number: Number, count: int) -> dict[str, object]:
+    """Return a point of a line, made of so many collisions: `COLUMNS` without the level."""
+    unit = "ms" if panel.startswith(DELAY) else "-"
+    return {**fields_of(number), "panel": panel, "detector": detector, "x": x, "count": count, "unit": unit}
 
 
 def _over_rates(
     name: str, points: pd.DataFrame, quiet: pd.DataFrame, hours: float, statistics: Statistics
-) -> list[DetectorLine]:
+) -> list[dict[str, object]]:
     """Return the found share and the mean delay [ms] at multiples of the thresholds, over the false alarms [1/h].
 
     The points are those of all robots.
@@ -122,16 +118,14 @@ def _over_rates(
     factors = [factor for factor in factors if alarms_in(quiet, factor) <= RATE_MOST * hours]
     quiet_at = next((k for k, factor in enumerate(factors) if not alarms_in(quiet, factor)), len(factors))
     factors = factors[: quiet_at + 1]  # higher thresholds only find less
-    rates = [_rate(quiet, factor, hours) for factor in factors]
-    shares = list[Number]()
-    delays = list[Number]()
-    counts = list[int]()
+    shares: list[dict[str, object]] = []
+    delays: list[dict[str, object]] = []
     for factor in factors:
+        rate = _rate(quiet, factor, hours)
         share, delay, count = _at_factor(points, factor, statistics)
-        shares.append(share)
-        delays.append(delay)
-        counts.append(count)
-    return [DetectorLine(FOUND, name, rates, shares, counts), DetectorLine(DELAY, name, rates, delays, counts)]
+        shares.append(_point(FOUND, name, rate, share, count))
+        delays.append(_point(DELAY, name, rate, delay, count))
+    return [*shares, *delays]
 
 
 def _at_promise(
@@ -141,18 +135,18 @@ def _at_promise(
     hours: float,
     promised_per_h: float,
     statistics: Statistics,
-) -> list[DetectorLine]:
+) -> list[dict[str, object]]:
     """Return the found share and the mean delay [ms] by the thresholds for a promised rate, at what was counted [1/h].
 
     The points are those of all robots; the nearest multiple of the thresholds to 1 counts.
     """
     nearest = min(points["factor"].unique().tolist(), key=lambda factor: abs(np.log(factor)))
     share, delay, count = _at_factor(points, nearest, statistics)
-    rate = [_rate(quiet, nearest, hours)]
-    lines: list[DetectorLine] = []
-    for panel, number in ((FOUND, share), (DELAY, delay)):
-        lines.append(DetectorLine(SET[panel].format(promised_per_h), name, rate, [number], [count]))
-    return lines
+    rate = _rate(quiet, nearest, hours)
+    return [
+        _point(SET[FOUND].format(promised_per_h), name, rate, share, count),
+        _point(SET[DELAY].format(promised_per_h), name, rate, delay, count),
+    ]
 
 
 def _rate(quiet: pd.DataFrame, factor: float, hours: float) -> float:
@@ -169,19 +163,21 @@ def _at_factor(points: pd.DataFrame, factor: float, statistics: Statistics) -> t
     return share_in(flags, places, statistics), Number(late, unit="ms"), len(flags)
 
 
-def _without_hit(name: str, swings: pd.DataFrame, statistics: Statistics) -> DetectorLine:
+def _without_hit(name: str, swings: pd.DataFrame, statistics: Statistics) -> dict[str, object]:
     """Return the share of the swings without a hit in which a detector has an alarm, by the paper's rule."""
     alarms = swings.assign(alarm=swings["ratio_largest"] > 1.0)
-    return DetectorLine(NO_HIT, name, [0.0], [share("alarm", statistics)(alarms)], [len(alarms)])
+    return _point(NO_HIT, name, 0.0, share("alarm", statistics)(alarms), len(alarms))
 
 
-def _over_force(name: str, hits: pd.DataFrame, bins: int, statistics: Statistics) -> DetectorLine:
+def _over_force(name: str, hits: pd.DataFrame, bins: int, statistics: Statistics) -> list[dict[str, object]]:
     """Return the found share in bins of the largest force with as many collisions each, over their mean force [N]."""
     ordered = hits.sort_values("force_n", kind="stable")
     parts = [ordered.iloc[rows] for rows in np.array_split(np.arange(len(ordered)), bins) if len(rows)]
-    x = [float(part["force_n"].mean()) for part in parts]
-    shares = [share("found", statistics)(part) for part in parts]
-    return DetectorLine(FORCE, name, x, shares, [len(part) for part in parts])
+    points: list[dict[str, object]] = []
+    for part in parts:
+        force_n = float(part["force_n"].mean())
+        points.append(_point(FORCE, name, force_n, share("found", statistics)(part), len(part)))
+    return points
 
 
 def area_of(hits: np.ndarray, quiet: np.ndarray, statistics: Statistics) -> Number:
@@ -201,23 +197,27 @@ def area_of(hits: np.ndarray, quiet: np.ndarray, statistics: Statistics) -> Numb
 
 
 @styled
-def draw_courses(courses: Sequence[DetectorLine]) -> Figure:
+def draw_courses(rows: pd.DataFrame) -> Figure:
     """Draw the three panels side by side, those over false alarms with a break left of which none was counted.
 
-    Of the found share over false alarms the first and the last detector have their intervals.
+    Of the found share over false alarms the first and the last detector have their intervals. The rows have columns
+    `COLUMNS`.
     """
-    styles = looks_of(course.detector for course in courses)
+    rows = rows[rows["panel"] != AREA]
+    styles = looks_of(rows["detector"].unique())
     named = list(styles)
     banded = {*named[:1], *named[-1:]}  # of more bands nothing is seen
     figure, axes = beside(len(LABELS), HEIGHT_INCH, width_ratios=WIDTHS)
     for k, (panel, axis) in enumerate(zip(LABELS, axes, strict=True)):
-        for course in courses:
-            if course.panel == panel:
-                _draw(axis, course, styles[course.detector], is_banded=course.detector in banded)
-            elif course.panel.startswith(f"{panel} at "):
-                _ring(axis, course, styles[course.detector])
-            elif (course.panel, panel) == (NO_HIT, FORCE):
-                _mark(axis, NO_HIT_N, course, styles[course.detector])
+        for name, look in styles.items():
+            of_detector = rows_of(rows, detector=name)
+            line = rows_of(of_detector, panel=panel)
+            if len(line):
+                _draw(axis, line, look, is_banded=name in banded)
+            for point in of_detector[of_detector["panel"].str.startswith(f"{panel} at ")].to_dict("records"):
+                _ring(axis, point, look)
+            for point in rows_of(of_detector, panel=NO_HIT).to_dict("records") if panel == FORCE else ():
+                _mark(axis, NO_HIT_N, point, look)
         axis.set(xlabel=LABELS[panel][0], ylabel=LABELS[panel][1], xscale="log")
         axis.minorticks_off()
         first = "none" if panel == FORCE else "0"
@@ -226,7 +226,7 @@ def draw_courses(courses: Sequence[DetectorLine]) -> Figure:
         axis.axvline(NO_HIT_BREAK_N if panel == FORCE else BREAK, **BROKEN)
         axis.set_ylim(0.0, None if panel == DELAY else 1.05)
         entitle(axis, k, panel)
-    rates = {course.panel.rpartition(" ")[2] for course in courses if course.panel.startswith(f"{DELAY} at ")}
+    rates = {name.rpartition(" ")[2] for name in rows["panel"].unique() if name.startswith(f"{DELAY} at ")}
     keys = [Line2D([], [], linestyle="", label=f"thresholds for {rate}", **RING, color="0.3") for rate in rates]
     axes[1].legend(handles=keys, loc="lower left", frameon=False, handletextpad=0.2, borderpad=0.0)
     legend(figure, axes[:1], columns=4)
@@ -255,26 +255,28 @@ def shaded(colour: str, lightness: float) -> str:
     return to_hex(tuple(mixed.tolist()))
 
 
-def _draw(axis: Axes, course: DetectorLine, look: Look, *, is_banded: bool) -> None:
+def _draw(axis: Axes, line: pd.DataFrame, look: Look, *, is_banded: bool) -> None:
     """Draw a line with its intervals, where it has any: bars at the forces, bands over the rates where it has one."""
-    mean, low, high = np.array([number.range for number in course.numbers], dtype=np.float64).reshape(-1, 3).T
-    x = np.asarray(course.x) if course.panel == FORCE else np.maximum(course.x, RATE_FLOOR)
-    axis.plot(x, mean, marker=look.marker, markersize=MARKER_POINTS, label=course.detector, **look.line)
-    if course.panel == FORCE:
+    is_force = line["panel"].iloc[0] == FORCE
+    mean = line["value"].to_numpy(dtype=np.float64)
+    low, high = (line[name].astype(float).fillna(line["value"].astype(float)).to_numpy() for name in ("low", "high"))
+    at = line["x"].to_numpy(dtype=np.float64)
+    x = at if is_force else np.maximum(at, RATE_FLOOR)
+    axis.plot(x, mean, marker=look.marker, markersize=MARKER_POINTS, label=line["detector"].iloc[0], **look.line)
+    if is_force:
         axis.vlines(x, low, high, color=look.colour, linewidth=0.6, alpha=0.7, zorder=look.order)
     elif is_banded:
         axis.fill_between(x, low, high, color=look.colour, alpha=BAND_ALPHA, linewidth=0.0)
 
 
-def _ring(axis: Axes, course: DetectorLine, look: Look) -> None:
+def _ring(axis: Axes, point: Mapping[Any, Any], look: Look) -> None:
     """Draw a ring around where the thresholds for a promised rate are, at the rate that was counted."""
-    (number,) = course.numbers
-    if number.value is not None:
-        axis.plot(max(course.x[0], RATE_FLOOR), number.value, color=look.colour, zorder=4, **RING)
+    if not is_missing(point["value"]):
+        axis.plot(max(point["x"], RATE_FLOOR), point["value"], color=look.colour, zorder=4, **RING)
 
 
-def _mark(axis: Axes, x: float, course: DetectorLine, look: Look) -> None:
+def _mark(axis: Axes, x: float, point: Mapping[Any, Any], look: Look) -> None:
     """Draw a single number with its interval at a place."""
-    mean, low, high = np.array(course.numbers[0].range, dtype=np.float64)
+    mean, low, high = np.array(number_from(point).range, dtype=np.float64)
     axis.plot(x, mean, marker=look.marker, markersize=MARKER_POINTS, color=look.colour, zorder=look.order)
     axis.vlines(x, low, high, color=look.colour, linewidth=0.6, alpha=0.7, zorder=look.order)

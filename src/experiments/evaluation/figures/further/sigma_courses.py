@@ -1,11 +1,12 @@
 """Standard deviations by their own size, and how long an error stays: coverage, error over sigma, autocorrelation."""
 
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+# pandas has no complete types, which the strict rules of this folder ask for.
+# pyright: standard
+
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -13,9 +14,9 @@ from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter, StrMethodF
 
 from experiments.evaluation.figures.style import Look, entitle, legend, looks, save_figure
 from experiments.evaluation.measure.estimates.sigma import COVER, MEMORY, STD
-from experiments.evaluation.number.laws import number_from
+from experiments.evaluation.number.frames import records_of, rows_of
+from experiments.evaluation.number.laws import fields_of, number_from
 from experiments.evaluation.number.number import Number
-from experiments.evaluation.number.rows import Field
 from experiments.evaluation.number.scored import asked_of, numbers_of
 from experiments.settings.measures import Sigma
 from experiments.settings.runs import Statistics
@@ -42,28 +43,6 @@ DIAGONAL = "error = sigma"
 GUIDE = {"color": "0.7", "linewidth": 0.6, "linestyle": "-", "zorder": 0}  # where sigma would be true
 
 
-@dataclass(frozen=True)
-class SigmaLine:
-    """A line of a panel: numbers (n,) of a limb of a method in a test, over x (n,) [units of LABELS]."""
-
-    panel: str
-    test: str
-    method: str
-    limb: str
-    x: Sequence[float]
-    numbers: Sequence[Number]
-
-    @property
-    def label(self) -> str:
-        """Name in the legend."""
-        return f"{self.method}, {self.limb}"
-
-    def rows(self) -> Iterator[tuple[Field, ...]]:
-        """Yield the rows of sigma.csv."""
-        for x, number in zip(self.x, self.numbers, strict=True):
-            yield self.panel, self.test, self.method, self.limb, float(x), *number.with_ends, *number.spread
-
-
 def sigma_figure(settings: Sigma, scores: pd.DataFrame, statistics: Statistics, share: float, figure_dir: Path) -> None:
     """Write coverage of a nominal share [-], error [N m] and autocorrelation [-] of tests like the training data."""
     known = {title: test for title, test in settings.tests.items() if title not in settings.against}
@@ -71,18 +50,20 @@ def sigma_figure(settings: Sigma, scores: pd.DataFrame, statistics: Statistics, 
     for pattern in (SIZE, COVERED, ERROR_OF):
         metrics += [pattern.format(part) for part in parts_of(settings)]
     averages = numbers_of(scores, asked_of(known.items(), metrics), statistics)
-    courses: list[SigmaLine] = []
+    records: list[dict[str, object]] = []
     for (title, method, limb), same in averages.groupby(["title", "method", "limb"], sort=False):
         numbers = {row["metric"]: number_from(row) for row in same.to_dict("records")}
-        courses += courses_of(settings, numbers, str(title), str(method), str(limb))
-    rows = [row for course in courses for row in course.rows()]
-    save_figure(draw_sigma(courses, share), figure_dir / "sigma", SIGMA, rows)
+        place = {"test": title, "method": method, "limb": limb}
+        records += [{**place, **point} for point in points_of(settings, numbers)]
+    rows = pd.DataFrame(records, columns=list(SIGMA))
+    save_figure(draw_sigma(rows, share), figure_dir / "sigma", SIGMA, records_of(rows, SIGMA))
 
 
-def courses_of(
-    settings: Sigma, numbers: Mapping[str, Number], title: str, method: str, limb: str
-) -> Iterator[SigmaLine]:
-    """Yield the lines of a limb of a method in a test, those whose numbers, by their metric, are all there."""
+def points_of(settings: Sigma, numbers: Mapping[str, Number]) -> Iterator[dict[str, object]]:
+    """Yield the points of the lines of a limb, of those whose numbers, by their metric, are all there.
+
+    A point has its `panel`, its `x` [unit of LABELS] and the number there.
+    """
     parts = parts_of(settings)
     sizes = [numbers[SIZE.format(part)] for part in parts]
     lines = {
@@ -92,7 +73,8 @@ def courses_of(
     }
     for panel, (x, numbers_shown) in lines.items():
         if all(number.value is not None for number in (*sizes, *numbers_shown)):
-            yield SigmaLine(panel, title, method, limb, x, numbers_shown)
+            for at, number in zip(x, numbers_shown, strict=True):
+                yield {"panel": panel, "x": float(at), **fields_of(number)}
 
 
 def parts_of(settings: Sigma) -> list[int]:
@@ -101,30 +83,27 @@ def parts_of(settings: Sigma) -> list[int]:
 
 
 @styled
-def draw_sigma(courses: Sequence[SigmaLine], share: float) -> Figure:
-    """Draw a large panel and two small ones beside it; thin grey lines show where a sigma that is true would be."""
-    styles = looks(course.label for course in courses)
+def draw_sigma(rows: pd.DataFrame, share: float) -> Figure:
+    """Draw a large panel and two small ones beside it; thin grey lines show where a sigma that is true would be.
+
+    The rows have columns `SIGMA`.
+    """
+    rows = rows.assign(label=rows["method"] + ", " + rows["limb"])
+    styles = looks(rows["label"].unique())
     figure = Figure(figsize=SIZE_INCH, layout="constrained")
     axes = figure.subplot_mosaic([[ERROR, COVERAGE], [ERROR, CORRELATION]], width_ratios=WIDTHS)
     axes = {panel: axes[panel] for panel in LABELS}
     for k, (panel, axis) in enumerate(axes.items()):
-        for course in courses:
-            if course.panel == panel:
-                _draw(axis, course, styles[course.label])
+        for _, line in rows_of(rows, panel=panel).groupby(["test", "label"], sort=False):
+            _draw(axis, line, styles[line["label"].iloc[0]])
         axis.set(xlabel=LABELS[panel][0], ylabel=LABELS[panel][1])
         entitle(axis, k, panel)
     axes[COVERAGE].axhline(share, **GUIDE)
     axes[COVERAGE].set_ylim(0.0, 1.0)
-    parts: list[float] = []
-    sizes: list[float] = []
-    for course in courses:
-        if course.panel == COVERAGE:
-            parts += course.x
-        elif course.panel == ERROR:
-            sizes += course.x
-    for part in sorted(parts)[-1:]:
+    parts = sorted(rows_of(rows, panel=COVERAGE)["x"])
+    sizes = sorted(rows_of(rows, panel=ERROR)["x"])
+    for part in parts[-1:]:
         axes[COVERAGE].annotate(f"nominal share: {share:.0%}", (part, share), (0.0, -14.0), **NAME)
-    sizes.sort()
     axes[ERROR].plot(sizes, sizes, **GUIDE)
     for x in sizes[-1:]:
         axes[ERROR].annotate(DIAGONAL, (x, x), (-4.0, 0.0), **NAME)
@@ -141,8 +120,9 @@ def draw_sigma(courses: Sequence[SigmaLine], share: float) -> Figure:
     return figure
 
 
-def _draw(axis: Axes, course: SigmaLine, look: Look) -> None:
+def _draw(axis: Axes, line: pd.DataFrame, look: Look) -> None:
     """Draw a line and the band of its intervals."""
-    mean, low, high = np.array([number.range for number in course.numbers], dtype=np.float64).T
-    axis.plot(course.x, mean, label=course.label, marker=look.marker, markersize=2.5, **look.line)
-    axis.fill_between(course.x, low, high, color=look.colour, alpha=0.18, linewidth=0.0)
+    x = line["x"].to_numpy()
+    mean, low, high = line[["value", "low", "high"]].astype(float).T.fillna(line["value"].astype(float)).to_numpy()
+    axis.plot(x, mean, label=line["label"].iloc[0], marker=look.marker, markersize=2.5, **look.line)
+    axis.fill_between(x, low, high, color=look.colour, alpha=0.18, linewidth=0.0)

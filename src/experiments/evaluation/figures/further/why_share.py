@@ -1,19 +1,23 @@
 """Why a hit is hidden: what networks show of a hit over their error in walking, by inputs, robot and learning."""
 
+# pandas has no complete types, which the strict rules of this folder ask for.
+# pyright: standard
+
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from experiments.evaluation.figures.style import LOOKS, NAME, apart, beside, entitle, legend, save_figure
 from experiments.evaluation.measure.learning.explained import FEW, Learned, by_robot, over_shown_robots, read_why
 from experiments.evaluation.measure.learning.taught import SHARE_OF_HIT, WALKING
-from experiments.evaluation.number.number import Number
+from experiments.evaluation.number.frames import records_of, rows_of
+from experiments.evaluation.number.number import is_missing
 from experiments.settings.figures import ExplainedPanel, WhyShare
 from experiments.settings.runs import Statistics
 from mobnet.core.style import styled
@@ -33,29 +37,6 @@ ROOM, TO_NAMES, NAMES = 0.06, 0.12, 0.85  # beside all that is drawn; to texts; 
 AXIS_INCH, NAME_INCH = 1.5, 0.1  # height of a panel; least distance between two texts
 
 
-@dataclass(frozen=True)
-class Dot:
-    """Networks that differ in their seed and robot alone: their error in walking, as a ratio, and share of a hit [-].
-
-    `text` says what is special about their robots and their learning; the numbers are over so many robots.
-    """
-
-    panel: str
-    network: str
-    text: str
-    cell: Learned
-    robots: int
-    error: Number
-    share: Number
-
-    @property
-    def record(self) -> tuple[Any, ...]:
-        """The row of the CSV file."""
-        ends = INTERVAL if self.robots > FEW else ROBOTS
-        place = (self.panel, self.network, *self.cell, self.robots, ends)
-        return (*place, *self.error.with_ends, *self.share.with_ends)
-
-
 def why_share(settings: WhyShare, statistics: Statistics, kept: Path, figure_dir: Path) -> None:
     """Write the figure as PDF, PNG and CSV: share of a hit [-] over the error in walking, a ratio [-].
 
@@ -64,10 +45,9 @@ def why_share(settings: WhyShare, statistics: Statistics, kept: Path, figure_dir
     rows = read_why(kept)
     errors = by_robot(rows, WALKING)
     shares = by_robot(rows, SHARE_OF_HIT)
-    dots: list[Dot] = []
-    for title, panel in settings.panels.items():
-        dots += dots_of(settings, statistics, title, panel, errors, shares)
-    save_figure(draw_why(settings.networks, dots), figure_dir / "why_share", COLUMNS, [dot.record for dot in dots])
+    panels = [dots_of(settings, statistics, *panel, errors, shares) for panel in settings.panels.items()]
+    dots = pd.concat(panels, ignore_index=True)
+    save_figure(draw_why(settings.networks, dots), figure_dir / "why_share", COLUMNS, records_of(dots, COLUMNS))
 
 
 def dots_of(
@@ -77,24 +57,28 @@ def dots_of(
     panel: ExplainedPanel,
     errors: Mapping[Learned, Mapping[str, float]],
     shares: Mapping[Learned, Mapping[str, float]],
-) -> list[Dot]:
-    """Return the dots of a panel, from errors in walking [N m] and shares of a hit [-] of each robot.
+) -> pd.DataFrame:
+    """Return the dots of a panel, from errors in walking [N m] and shares of a hit [-] of each robot: `COLUMNS`.
 
-    Networks that the trial does not have are left out.
+    A row is of networks that differ in their seed and robot alone; `text` says what is special about their robots and
+    their learning. Networks that the trial does not have are left out.
     """
     shown = [(name, cell) for name, cell in cells_of(settings, panel) if cell in errors]
     common = set[str].intersection(*(set(errors[cell]) for _, cell in shown)) if shown else set[str]()
     robots = sorted(common)
-    dots: list[Dot] = []
+    ends = INTERVAL if len(robots) > FEW else ROBOTS
+    dots: list[dict[str, object]] = []
     for name, cell in shown:
-        data, _, way = cell
+        data, method, way = cell
         learned_from = settings.sets[data]
         over = (learned_from.over, settings.over.method, settings.over.ways[0])
         error = over_shown_robots([errors[each] for each in (cell, over)], robots, statistics)
         share = over_shown_robots([shares[cell]], robots, statistics)
         text = ", ".join(each for each in (learned_from.says, settings.ways.get(way, "")) if each)
-        dots.append(Dot(title, name, text, cell, len(robots), error, share))
-    return dots
+        place = {"panel": title, "network": name, "text": text, "data": data, "method": method, "way": way}
+        numbers = dict(zip((*ERROR, *SHARE), (*error.with_ends, *share.with_ends), strict=True))
+        dots.append({**place, "robots": len(robots), "ends": ends, **numbers})
+    return pd.DataFrame(dots, columns=[*COLUMNS, "text"]).astype(dict.fromkeys((*ERROR, *SHARE), float))
 
 
 def cells_of(settings: WhyShare, panel: ExplainedPanel) -> Iterator[tuple[str, Learned]]:
@@ -124,38 +108,44 @@ def marks_of(networks: Iterable[str]) -> dict[str, dict[str, Any]]:
 
 
 @styled
-def draw_why(networks: Iterable[str], dots: Sequence[Dot]) -> Figure:
+def draw_why(networks: Iterable[str], dots: pd.DataFrame) -> Figure:
     """Draw the panels side by side with one scale of shares; each dot has its text right of all that is drawn."""
-    panels: dict[str, list[Dot]] = {}
-    for dot in dots:
-        panels.setdefault(dot.panel, []).append(dot)
-    figure, axes = beside(len(panels), HEIGHT_INCH, sharey=True)
+    titles = dots["panel"].unique()
+    figure, axes = beside(len(titles), HEIGHT_INCH, sharey=True)
     marks = marks_of(networks)
-    for k, (axis, (title, dots_shown)) in enumerate(zip(axes, panels.items(), strict=True)):
-        for dot in dots_shown:
-            _draw(axis, dot, marks[dot.network])
+    for k, (axis, title) in enumerate(zip(axes, titles, strict=True)):
+        shown = rows_of(dots, panel=title)
+        for dot in shown.to_dict("records"):
+            _draw(axis, dot, marks[dot["network"]])
         axis.set_xlabel("error in walking, over MOB-Net's [-]")
-        entitle(axis, k, f"{title}, {dots_shown[0].robots} robots")
+        entitle(axis, k, f"{title}, {shown['robots'].iloc[0]} robots")
     axes[0].set_ylabel("share of a hit that is shown [-]")
     # The scale of shares is known once all panels have their dots.
-    for axis, dots_shown in zip(axes, panels.values(), strict=True):
-        _name(axis, dots_shown, marks)
+    for axis, title in zip(axes, titles, strict=True):
+        _name(axis, rows_of(dots, panel=title), marks)
     legend(figure, axes)
     return figure
 
 
-def _draw(axis: Axes, dot: Dot, mark: Mapping[str, Any]) -> None:
+def range_of(dot: Mapping[Any, Any], names: Sequence[str]) -> list[float]:
+    """Return a number and the ends of its interval, or itself where it has none, from columns of these names."""
+    value, *ends = (dot[name] for name in names)
+    return [value, *(value if is_missing(end) else end for end in ends)]
+
+
+def _draw(axis: Axes, dot: Mapping[Any, Any], mark: Mapping[str, Any]) -> None:
     """Draw networks as a mark, with lines from end to end of both numbers."""
-    x, left, right = np.array(dot.error.range, dtype=np.float64)
-    y, low, high = np.array(dot.share.range, dtype=np.float64)
+    x, left, right = range_of(dot, ERROR)
+    y, low, high = range_of(dot, SHARE)
     axis.hlines(y, left, right, color=mark["color"], **LINE)
     axis.vlines(x, low, high, color=mark["color"], **LINE)
-    axis.plot(x, y, label=dot.network, linestyle="", **mark)
+    axis.plot(x, y, label=dot["network"], linestyle="", **mark)
 
 
-def _name(axis: Axes, dots: Sequence[Dot], marks: Mapping[str, Mapping[str, Any]]) -> None:
+def _name(axis: Axes, dots: pd.DataFrame, marks: Mapping[str, Mapping[str, Any]]) -> None:
     """Write the texts of dots right of all that is drawn, apart from one another, each with a line to its dot."""
-    drawn = np.array([dot.error.range for dot in dots], dtype=np.float64)
+    rows = dots.to_dict("records")
+    drawn = np.array([range_of(dot, ERROR) for dot in rows], dtype=np.float64)
     width = float(drawn.max() - drawn.min())
     first, last = float(drawn.min()) - ROOM * width, float(drawn.max()) + ROOM * width
     place = last + TO_NAMES * width
@@ -166,10 +156,10 @@ def _name(axis: Axes, dots: Sequence[Dot], marks: Mapping[str, Mapping[str, Any]
     axis.hlines([0.0, 1.0], first, last, **WHOLE)
     low, high = axis.get_ylim()
     gap = NAME_INCH / AXIS_INCH * (high - low)
-    named = [dot for dot in dots if dot.text]
-    shares = [dot.share.value or 0.0 for dot in named]
+    named = [dot for dot in rows if dot["text"]]
+    shares = [dot["share"] for dot in named]
     for dot, share, height in zip(named, shares, apart(shares, gap, high), strict=True):
-        mark = {**marks[dot.network], **SMALL}
-        axis.plot([dot.error.value or 0.0, place], [share, height], color=mark["color"], **TO_NAME)
+        mark = {**marks[dot["network"]], **SMALL}
+        axis.plot([dot["error_ratio"], place], [share, height], color=mark["color"], **TO_NAME)
         axis.plot(place, height, linestyle="", **mark)
-        axis.annotate(dot.text, (place, height), (3.5, 0.0), ha="left", **NAME)
+        axis.annotate(dot["text"], (place, height), (3.5, 0.0), ha="left", **NAME)

@@ -1,15 +1,19 @@
 """Figure 15: the standard deviations that networks predict at three collisions, with their thresholds."""
 
+# pandas has no complete types, which the strict rules of this folder ask for.
+# pyright: standard
+
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 from matplotlib.figure import Figure
 
 from experiments.evaluation.figures.drawing.curves import mark_flag
 from experiments.evaluation.figures.style import beside, entitle, legend, looks, save_figure
-from experiments.evaluation.number.rows import Field, read_detections
+from experiments.evaluation.number.frames import records_of, rows_of
+from experiments.evaluation.number.rows import read_detections
 from experiments.plan.detection import Detections
 from experiments.records.collisions import Collision
 from experiments.settings.detection_tables import Figure15
@@ -22,18 +26,6 @@ from mobnet.settings.detection import Detection
 
 COLUMNS = ("panel", "method", "time_s", "std_nm", "threshold_nm", "force_n", "swing")
 HEIGHT_INCH = 2.3
-
-
-@dataclass(frozen=True)
-class CollisionCourse:
-    """A collision over time (n,) [s] from its beginning: standard deviations (n,) and thresholds [N m] by method."""
-
-    title: str
-    time: np.ndarray
-    stds: Mapping[str, np.ndarray]
-    thresholds: Mapping[str, float]
-    force: np.ndarray
-    swing: np.ndarray
 
 
 def figure_15(
@@ -52,17 +44,11 @@ def figure_15(
     asked = settings.leg, f"{STD}.{settings.joint}", settings.kind, 1
     by_detector = {row.detector: row.value for row in of_phase if (row.leg, row.signal, row.kind, row.phase) == asked}
     thresholds = {method: by_detector[name] for method, name in settings.detectors.items()}
-    courses = [
-        _course(settings, detection, layout, collisions, cell, recordings, estimates, thresholds)
-        for cell in settings.cells
-    ]
-    rows: list[tuple[Field, ...]] = []
-    for course in courses:
-        for method, std in course.stds.items():
-            threshold = [course.thresholds[method]] * len(std)
-            for numbers in zip(course.time, std, threshold, course.force, course.swing, strict=True):
-                rows.append((course.title, method, *map(float, numbers)))
-    save_figure(draw_courses(courses, settings.joint), figure_dir / "figure_15", COLUMNS, rows)
+    courses: list[pd.DataFrame] = []
+    for cell in settings.cells:
+        courses.append(_course(settings, detection, layout, collisions, cell, recordings, estimates, thresholds))
+    rows = pd.concat(courses, ignore_index=True)
+    save_figure(draw_courses(rows, settings.joint), figure_dir / "figure_15", COLUMNS, records_of(rows, COLUMNS))
 
 
 def _course(
@@ -74,8 +60,8 @@ def _course(
     recordings: Sequence[Path],
     estimates: Mapping[str, Sequence[Path]],
     thresholds: Mapping[str, float],
-) -> CollisionCourse:
-    """Return the first collision of a cell over time."""
+) -> pd.DataFrame:
+    """Return the first collision of a cell over time, method by method: `COLUMNS`."""
     hit = next(
         row
         for row in collisions
@@ -87,44 +73,57 @@ def _course(
     rate = float(meta["rate_hz"])
     start = round(hit.start_s * meta["rate_hz"])
     rows = slice(max(start - round(settings.before_s * rate), 0), start + round(settings.after_s * rate))
-    stds = {
-        method: read_array(estimates[method][place], [f"{STD}.{settings.joint}"])[0][rows, 0]
-        for method in settings.detectors
-    }
-    time = (np.arange(len(array))[rows] - start) / rate
-    return CollisionCourse(cell, time, stds, thresholds, np.linalg.norm(array[rows, :3], axis=1), array[rows, 3])
+    shown = array[rows].astype(np.float64)
+    course = pd.DataFrame(
+        {
+            "panel": cell,
+            "time_s": (np.arange(len(array))[rows] - start) / rate,
+            "force_n": np.linalg.norm(array[rows, :3], axis=1).astype(np.float64),
+            "swing": shown[:, 3],
+        }
+    )
+    parts: list[pd.DataFrame] = []
+    for method in settings.detectors:
+        std = read_array(estimates[method][place], [f"{STD}.{settings.joint}"])[0][rows, 0]
+        parts.append(course.assign(method=method, std_nm=std.astype(np.float64), threshold_nm=thresholds[method]))
+    return pd.concat(parts)
 
 
 @styled
-def draw_courses(courses: Sequence[CollisionCourse], joint: str) -> Figure:
-    """Draw a panel for each collision: standard deviations, thresholds dotted, and the force behind them."""
-    methods = list(courses[0].stds)
-    styles = looks(methods)
-    figure, axes = beside(len(courses), HEIGHT_INCH, sharey=True)
-    for k, (axis, course) in enumerate(zip(axes, courses, strict=True)):
-        for method in methods:
-            axis.plot(course.time, course.stds[method], label=method, **styles[method].line)
-            axis.axhline(
-                course.thresholds[method],
-                color=styles[method].colour,
-                linestyle=":",
-                linewidth=0.9,
-                label=f"threshold of {method}",
-            )
-        mark_flag(axis, "swing", course.time, course.swing)
+def draw_courses(rows: pd.DataFrame, joint: str) -> Figure:
+    """Draw a panel for each collision: standard deviations, thresholds dotted, and the force behind them.
+
+    The rows have columns `COLUMNS`.
+    """
+    titles = rows["panel"].unique()
+    styles = looks(rows["method"].unique())
+    figure, axes = beside(len(titles), HEIGHT_INCH, sharey=True)
+    for k, (axis, title) in enumerate(zip(axes, titles, strict=True)):
+        for method, course in rows_of(rows, panel=title).groupby("method", sort=False):
+            look = styles[str(method)]
+            axis.plot(course["time_s"], course["std_nm"], label=str(method), **look.line)
+            threshold_nm = float(course["threshold_nm"].iloc[0])
+            label = f"threshold of {method}"
+            axis.axhline(threshold_nm, color=look.colour, linestyle=":", linewidth=0.9, label=label)
+        # Time, force and swing are those of the collision, whatever the method.
+        collision = rows_of(rows, panel=title, method=rows["method"].iloc[0])
+        time_s = collision["time_s"].to_numpy()
+        mark_flag(axis, "swing", time_s, collision["swing"].to_numpy())
         behind = axis.twinx()
-        behind.fill_between(course.time, course.force, color="0.75", linewidth=0.0, zorder=0, label="force")
+        behind.fill_between(
+            time_s, collision["force_n"].to_numpy(), color="0.75", linewidth=0.0, zorder=0, label="force"
+        )
         # The force takes the lower half of each panel, by one scale in all of them.
-        behind.set_ylim(0.0, 2.0 * max(float(each.force.max()) for each in courses))
+        behind.set_ylim(0.0, 2.0 * float(rows["force_n"].max()))
         behind.spines["right"].set_visible(True)
         behind.set_ylabel("force [N]" if axis is axes[-1] else "")
         behind.tick_params(labelright=axis is axes[-1])
         # An axis that is made later is drawn above: curves must lie before the force.
         axis.set_zorder(behind.get_zorder() + 1)
         axis.patch.set_visible(False)
-        low, high = (float(course.time[end]) for end in (0, -1))
+        low, high = (float(time_s[end]) for end in (0, -1))
         axis.set(xlabel="time from the contact [s]", xlim=(low, high))
-        entitle(axis, k, course.title)
+        entitle(axis, k, str(title))
     axes[0].set_ylabel(f"sigma of {joint} [N m]")
     axes[0].set_ylim(bottom=0.0)
     legend(figure, figure.axes)

@@ -14,10 +14,9 @@ import numpy as np
 import pandas as pd
 from pydantic import Field
 
-from experiments.evaluation.number.frames import NETWORKS, TRAININGS, typed
+from experiments.evaluation.number.frames import NETWORKS, TRAININGS, read_scores, rows_of, typed
 from experiments.evaluation.number.laws import Law
 from experiments.evaluation.number.number import Number
-from experiments.evaluation.number.rows import read_scores
 from experiments.intervals.crossed import RunGrid, summarise
 from experiments.settings.figures import Figure17
 from experiments.settings.runs import Statistics
@@ -39,16 +38,7 @@ MEASURES: Mapping[str, tuple[str, str]] = {  # name -> column of `NETWORKS` and 
 DIGITS = 1e-6  # relative difference of a number that was written twice
 Row = list[float]
 Share = Annotated[float, Field(ge=0, le=1)]
-Key = tuple[str, str, int]  # method, limb and seed of a network
-
-
-@dataclass(frozen=True)
-class TestError:
-    """The error of a network's estimates in a test, scenario and level: RMSE [N m; N of the base's forces]."""
-
-    __test__ = False  # pytest would take it for a class of tests
-    test: str
-    rmse: float
+TRAINED = ["method", "limb", "seed"]  # what names a network among scores
 
 
 class NotedNetwork(Note):
@@ -162,22 +152,24 @@ class TrainedNetwork:
         return min(self.epochs, key=attrgetter("stride", self.chosen_by))
 
 
-def read_test_errors(scores: Sequence[Path]) -> dict[Key, TestError]:
-    """Return method, limb and seed -> error in the first of some files of scores that has it, a mean over walks.
+def read_test_errors(scores: Sequence[Path]) -> pd.DataFrame:
+    """Return the error of each network's estimates in the first of some files of scores that has it.
+
+    Returns:
+        Indexed by `TRAINED`: the `test`, scenario and level, and the `rmse`, a mean over walks [N m; N of the base's
+        forces].
 
     Raises:
         DataError: a file is missing or damaged.
     """
-    found: dict[Key, TestError] = {}
+    parts: list[pd.DataFrame] = []
     for path in scores:
-        values: dict[Key, list[float]] = {}
-        for row in read_scores(path):
-            if (row.metric, row.joint) == ("rmse", "avg"):
-                values.setdefault((row.method, row.limb, row.network_seed), []).append(row.value)
-        test = f"{path.parent.name}, {path.stem}"
-        # The first file that has a network counts, so that later ones only add others.
-        found = {key: TestError(test, fmean(own)) for key, own in values.items()} | found
-    return found
+        errors = rows_of(read_scores(path), metric="rmse", joint="avg").rename(columns={"network_seed": "seed"})
+        means = errors.groupby(TRAINED, sort=False)["value"].mean().rename("rmse")
+        parts.append(means.reset_index().assign(test=f"{path.parent.name}, {path.stem}"))
+    every = pd.concat(parts) if parts else pd.DataFrame(columns=[*TRAINED, "rmse", "test"])
+    # The first file that has a network counts, so that later ones only add others.
+    return every.drop_duplicates(TRAINED).set_index(TRAINED)
 
 
 def robot_of(folder: Path) -> str:
