@@ -40,7 +40,7 @@ def write_fit(
         ConfigError: the method's kind is not one that is fitted, or the limbs are not those that the method names.
         DataError: a recording is damaged.
     """
-    kind = kind_of(out.stem, method)
+    kind = kind_of(out.stem, method.kind)
     if not hasattr(kind, "fit") or not method.fitted:
         raise ConfigError(
             f"{out}: method of kind {method.kind!r} with `fitted` {list(method.fitted)} is not fitted; "

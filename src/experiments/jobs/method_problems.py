@@ -21,7 +21,7 @@ def method_problems(settings: Settings) -> Iterator[tuple[Place, str]]:
         if method.kind not in kind_names():
             yield (*place, "kind"), not_accepted("kind", method.kind, kind_names())
             continue
-        kind = kind_of(name, method)
+        kind = kind_of(name, method.kind)
         section = getattr(kind, "Options", Section)
         try:
             options = section.model_validate(method.options)

@@ -10,12 +10,10 @@ from functools import partial
 
 from torch import Tensor
 
-from mobnet.settings.networks import Learning, Loss
-
 Objective = Callable[[Tensor, Tensor, Tensor], tuple[Tensor, Tensor]]
 # What the last two minimise rates no network, because a wider sigma changes it at the same errors; (22) would choose by
 # the samples that they are there to weigh less.
-CHOSEN_BY: Mapping[Loss, str] = {  # column of `Epoch` that is smallest in the epoch kept
+CHOSEN_BY: Mapping[str, str] = {  # column of `Epoch` that is smallest in the epoch kept
     "likelihood": "validation_loss",
     "beta_likelihood": "validation_rmse",
     "squared": "validation_rmse",
@@ -55,14 +53,17 @@ def squared(mean: Tensor, std: Tensor, target: Tensor) -> tuple[Tensor, Tensor]:
     return error.square().mean() + loss, loss
 
 
-def objective_of(learning: Learning) -> Objective:
-    """Return the loss that section `learning` names, a function of mean, std and target as `likelihood`."""
-    objectives: Mapping[Loss, Objective] = {
+def objective_of(loss: str, beta: float) -> Objective:
+    """Return the loss of a name of `CHOSEN_BY`, a function of mean, std and target as `likelihood`.
+
+    Only `beta_likelihood` takes the power `beta` of sigma's square [-].
+    """
+    objectives: Mapping[str, Objective] = {
         "likelihood": likelihood,
-        "beta_likelihood": partial(beta_likelihood, beta=learning.loss_beta),
+        "beta_likelihood": partial(beta_likelihood, beta=beta),
         "squared": squared,
     }
-    return objectives[learning.loss]
+    return objectives[loss]
 
 
 def terms(error: Tensor, std: Tensor) -> Tensor:

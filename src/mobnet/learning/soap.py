@@ -6,15 +6,30 @@ directions that learn apart from each other, where Adam's belong to single weigh
 """
 
 from collections.abc import Iterable, Mapping
-from typing import Any
+from typing import Any, NamedTuple
 
 import torch
 from torch import Tensor, nn
 
 from mobnet.learning.model import LimbNetwork
-from mobnet.settings.networks import Learning
 
 EPSILON = 1e-8  # of Adam, beside the root of the second moment
+
+
+class OptimiserNumbers(NamedTuple):
+    """What an optimiser is made with.
+
+    Attributes:
+        name: `adam` or `soap`.
+        betas: forgetting factors of the first and the second moment [-].
+        basis_beta: that of the averages whose eigenvectors are the bases of SOAP [-].
+        basis_every: updates from one renewal of the bases to the next.
+    """
+
+    name: str
+    betas: tuple[float, float]
+    basis_beta: float
+    basis_every: int
 
 
 class Soap:
@@ -157,13 +172,13 @@ def _renew(state: dict[str, Tensor]) -> None:
 Optimizer = Soap | torch.optim.Adam
 
 
-def optimizer_of(network: LimbNetwork, learning: Learning) -> Optimizer:
-    """Return the optimiser of a network that section `learning` names; its rate is set before each epoch."""
-    if learning.optimizer == "adam":
-        return torch.optim.Adam(network.parameters(), lr=0.0, betas=learning.optimizer_betas, fused=True)
+def optimizer_of(network: LimbNetwork, numbers: OptimiserNumbers) -> Optimizer:
+    """Return the optimiser of a network; its rate is set before each epoch."""
+    if numbers.name == "adam":
+        return torch.optim.Adam(network.parameters(), lr=0.0, betas=numbers.betas, fused=True)
     # Matrices of a recurrent cell, one gate below the other; those of windows are convolutions.
     gated = [weight for weight in network.cell.parameters() if weight.dim() == 2]
     known = set(map(id, gated))  # tensors compare by element
     others = [weight for weight in network.parameters() if id(weight) not in known]
     gates = len(gated[0]) // network.cell.width if gated else 0
-    return Soap(gated, others, gates, learning.optimizer_betas, learning.basis_beta, learning.basis_every)
+    return Soap(gated, others, gates, numbers.betas, numbers.basis_beta, numbers.basis_every)

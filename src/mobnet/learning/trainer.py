@@ -22,6 +22,7 @@ from mobnet.learning.dataset import LimbData, ZScore
 from mobnet.learning.job import TrainingJob
 from mobnet.learning.losses import objective_of
 from mobnet.learning.model import seeded
+from mobnet.learning.numbers import optimiser_numbers
 from mobnet.learning.optimisation import EVERY_STEP, LAST_STEP, Samples, train_epoch, validate
 from mobnet.learning.schedule import Schedule
 from mobnet.learning.soap import optimizer_of
@@ -69,7 +70,7 @@ class Trainer:
         self._samples = Samples(inputs, targets, partial=self.schedule.partial)
         self.network = self.schedule.network().to(self.device)
         self.network.precision = torch.float32 if learned_on else job.precision(self.device)
-        self._optimizer = optimizer_of(self.network, job.training.learning)
+        self._optimizer = optimizer_of(self.network, optimiser_numbers(job.training.learning))
 
     def _scaled(self, array: NDArray[np.float32], scale: ZScore, in_place: bool) -> Tensor:
         scaled = np.subtract(array, scale.mean, out=array if in_place else None)
@@ -154,7 +155,7 @@ class Trainer:
                 job.horizon,
                 learning.gradient_norm,
                 schedule.scored,
-                objective_of(learning),
+                objective_of(learning.loss, learning.loss_beta),
             )
         schedule.check_losses(epoch, losses.median().item(), rate)
         validation, errors = self._validate(schedule.validation_at(stride))

@@ -67,13 +67,13 @@ def test_loss_is_minus_twice_the_log_of_20_without_its_constant():
 
 
 @pytest.mark.parametrize("loss", LOSSES)
-def test_every_loss_tells_22_beside_what_it_minimises(loss, learning, predicted):
-    _, told = objective_of(learning(loss))(*predicted)
+def test_every_loss_tells_22_beside_what_it_minimises(loss, predicted):
+    _, told = objective_of(loss, 0.5)(*predicted)
     torch.testing.assert_close(told, gaussian_loss(*predicted))
 
 
-def test_a_beta_of_0_is_the_likelihood(learning, predicted):
-    minimised, _ = objective_of(learning("beta_likelihood", 0.0))(*predicted)
+def test_a_beta_of_0_is_the_likelihood(predicted):
+    minimised, _ = objective_of("beta_likelihood", 0.0)(*predicted)
     torch.testing.assert_close(minimised, likelihood(*predicted)[0])
 
 

@@ -12,6 +12,7 @@ from mobnet.learning import checkpoint
 from mobnet.learning.cells import Gru, Lstm, Rnn, build_cell
 from mobnet.learning.checkpoint import Progress
 from mobnet.learning.model import LimbNetwork
+from mobnet.learning.numbers import optimiser_numbers
 from mobnet.learning.soap import EPSILON, Soap, optimizer_of
 from mobnet.settings.networks import NetworkCell
 
@@ -96,7 +97,7 @@ def test_other_weights_learn_by_adam(settings):
     for name in ("soap", "adam"):
         torch.manual_seed(0)
         networks.append(LimbNetwork(build_cell(cell, 2), 1, 1e-6))
-        optimizer = optimizer_of(networks[-1], learning.model_copy(update={"optimizer": name}))
+        optimizer = optimizer_of(networks[-1], optimiser_numbers(learning.model_copy(update={"optimizer": name})))
         for group in optimizer.param_groups:
             group["lr"] = RATE
         for _ in range(5):
@@ -116,7 +117,7 @@ def advance(network, optimizer, inputs=3):
 @pytest.mark.parametrize("cell", [Gru, Lstm, Rnn])
 def test_all_matrices_of_gates_are_turned_each_by_itself(cell, settings):
     network = LimbNetwork(cell(3, 8), 2, 1e-6)
-    optimizer = optimizer_of(network, settings.learning.model_copy(update={"optimizer": "soap"}))
+    optimizer = optimizer_of(network, optimiser_numbers(settings.learning.model_copy(update={"optimizer": "soap"})))
     advance(network, optimizer)
     gates = {Gru: 3, Lstm: 4, Rnn: 1}[cell]
     turned = {tuple(state["left"].shape) for state in optimizer.state.values() if "left" in state}
@@ -128,7 +129,8 @@ def test_it_goes_on_from_a_checkpoint_to_the_same_weights(settings, tmp_path):
     def fresh():
         torch.manual_seed(0)
         network = LimbNetwork(Gru(3, 8), 2, 1e-6)
-        optimizer = optimizer_of(network, settings.learning.model_copy(update={"optimizer": "soap", "basis_every": 3}))
+        learning = settings.learning.model_copy(update={"optimizer": "soap", "basis_every": 3})
+        optimizer = optimizer_of(network, optimiser_numbers(learning))
         for group in optimizer.param_groups:
             group["lr"] = RATE
         return network, optimizer

@@ -12,6 +12,7 @@ from mobnet.core.errors import ConfigError
 from mobnet.core.files import CHECKPOINT, METRICS, WEIGHTS
 from mobnet.learning.job import TrainingJob
 from mobnet.learning.model import build_network
+from mobnet.learning.numbers import optimiser_numbers
 from mobnet.learning.soap import Soap, optimizer_of
 from mobnet.learning.stacked import gates
 from mobnet.learning.stacked.cells import StackedGru
@@ -205,7 +206,7 @@ def test_soap_makes_the_updates_of_one_network(settings):
         torch.manual_seed(2)
         networks = [build_network(NetworkCell(cell="GRU", hidden=8), 6, 2, 1e-6, seed) for seed in range(2)]
         stacked = StackedNetwork(networks, CPU)
-        learning = settings.learning.model_copy(update={"optimizer": "soap", "basis_every": 3})
+        learning = optimiser_numbers(settings.learning.model_copy(update={"optimizer": "soap", "basis_every": 3}))
         optimiser = StackedOptimiser(stacked.weights, stacked.width, learning)
         alone = [optimizer_of(network, learning) for network in networks]
         assert all(isinstance(own, Soap) for own in alone)

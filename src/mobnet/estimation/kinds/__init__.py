@@ -12,7 +12,6 @@ from types import ModuleType
 from mobnet.core.errors import ConfigError, not_accepted
 from mobnet.core.estimator import TorqueEstimator
 from mobnet.estimation.recipe import Recipe
-from mobnet.settings.methods import Method
 
 
 def build_estimator(recipe: Recipe) -> TorqueEstimator:
@@ -22,14 +21,18 @@ def build_estimator(recipe: Recipe) -> TorqueEstimator:
         ConfigError: the method's kind is unknown, or its numbers are not those of its kind.
         DataError: a file is missing or damaged.
     """
-    return kind_of(recipe.name, recipe.method).build(recipe)
+    return kind_of(recipe.name, recipe.method.kind).build(recipe)
 
 
-def kind_of(name: str, method: Method) -> ModuleType:
-    """Return the module that a method names as its kind, or raise ConfigError."""
-    if method.kind not in kind_names():
-        raise ConfigError(not_accepted(f"methods.{name}.kind", method.kind, kind_names()))
-    return importlib.import_module(f"{__name__}.{method.kind}")
+def kind_of(name: str, kind: str) -> ModuleType:
+    """Return the module of the kind that a method of some name has.
+
+    Raises:
+        ConfigError: there is no such kind.
+    """
+    if kind not in kind_names():
+        raise ConfigError(not_accepted(f"methods.{name}.kind", kind, kind_names()))
+    return importlib.import_module(f"{__name__}.{kind}")
 
 
 def kind_names() -> list[str]:

@@ -10,7 +10,6 @@ from torch.nn.functional import softplus
 from mobnet.learning.losses import terms
 from mobnet.learning.model import LimbNetwork
 from mobnet.learning.stacked.cells import stacked_cell
-from mobnet.settings.networks import Learning
 
 HEAD = ("head.weight", "head.bias")
 
@@ -93,12 +92,12 @@ def averages(values: Tensor, known: Tensor | None) -> Tensor:
 
 
 class StackedLosses:
-    """What a training minimises of each network, as section `learning` of each names it, and (22)."""
+    """What a training minimises of each network, and (22)."""
 
-    def __init__(self, learnings: Sequence[Learning], device: torch.device) -> None:
-        """Take the sections of all networks."""
-        squared = [learning.loss == "squared" for learning in learnings]
-        powers = [2.0 * section.loss_beta if section.loss == "beta_likelihood" else 0.0 for section in learnings]
+    def __init__(self, losses: Sequence[str], betas: Sequence[float], device: torch.device) -> None:
+        """Take the name of each network's loss and the beta of `beta_likelihood`, as `losses.objective_of` does."""
+        squared = [loss == "squared" for loss in losses]
+        powers = [2.0 * beta if loss == "beta_likelihood" else 0.0 for loss, beta in zip(losses, betas, strict=True)]
         self._squared = torch.tensor(squared, device=device)[:, None, None, None]
         self._powers = torch.tensor(powers, device=device)[:, None, None, None]
 

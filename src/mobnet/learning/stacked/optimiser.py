@@ -9,9 +9,8 @@ from collections.abc import Mapping, Sequence
 import torch
 from torch import Tensor
 
-from mobnet.learning.soap import EPSILON, SIDES
+from mobnet.learning.soap import EPSILON, SIDES, OptimiserNumbers
 from mobnet.learning.stacked.network import spread
-from mobnet.settings.networks import Learning
 
 GATED = ("cell.weight_ih_l0", "cell.weight_hh_l0")  # matrices whose gates learn in bases of their own
 PASSES = 2  # of Cholesky-QR: after the second one, bases are orthogonal to a rounding
@@ -24,14 +23,15 @@ class StackedOptimiser:
     A network moves where it is `active`; where it is not, its weights and moments stay as they are.
     """
 
-    def __init__(self, weights: Mapping[str, Tensor], width: int, learning: Learning) -> None:
-        """Take weights by name, as `StackedNetwork` has them, how wide its cells are, and what names the optimiser."""
+    def __init__(self, weights: Mapping[str, Tensor], width: int, numbers: OptimiserNumbers) -> None:
+        """Take weights by name, as `StackedNetwork` has them, how wide its cells are, and the numbers of the laws."""
         self._weights = dict(weights)
-        soap = learning.optimizer == "soap"
+        soap = numbers.name == "soap"
         self._gated = tuple(name for name in GATED if soap and name in weights)
         self._gates = weights[self._gated[0]].shape[1] // width if self._gated else 0
-        self._betas = learning.optimizer_betas
-        self._beta_basis = learning.basis_beta
+        self._betas = numbers.betas
+        self._beta_basis = numbers.basis_beta
+        self.basis_every = numbers.basis_every
         self.state: dict[str, dict[str, Tensor]] = {}
         for name, weight in self._weights.items():
             shaped = self._shaped(name, weight.detach())

@@ -13,7 +13,6 @@ from mobnet.learning.optimisation import EVERY_STEP
 from mobnet.learning.stacked.network import StackedLosses, StackedNetwork, spread
 from mobnet.learning.stacked.optimiser import StackedOptimiser
 from mobnet.learning.stacked.samples import StackedPlan, StackedSamples
-from mobnet.settings.networks import Learning
 
 WARM_UP = 3  # calls before a graph is captured: libraries take their memory in the first ones
 
@@ -118,17 +117,29 @@ class Updates:
         samples: StackedSamples,
         optimiser: StackedOptimiser,
         losses: StackedLosses,
-        learning: Learning,
+        lanes: int,
         horizon: int,
+        most_norm: float,
         scored: slice = EVERY_STEP,
     ) -> None:
-        """Take what learns, from what and how; `scored` are the steps of a horizon that are in the loss."""
+        """Take what learns, from what and how.
+
+        Args:
+            network: what learns.
+            samples: what it learns from.
+            optimiser: makes the updates.
+            losses: what is minimised.
+            lanes: streams of samples side by side.
+            horizon: steps from one update to the next.
+            most_norm: of a network's gradient, which is clipped to it [-].
+            scored: steps of a horizon that are in the loss.
+        """
         self._network = network
         self._optimiser = optimiser
         self._objective = losses
-        self._learning = learning
+        self._most_norm = most_norm
         self._scored = scored
-        self._horizons = Horizons(samples, network, learning.batch_size, horizon)
+        self._horizons = Horizons(samples, network, lanes, horizon)
         self._rates = torch.zeros_like(self._horizons.active)
         self._told = torch.zeros_like(self._horizons.active)
         self._losses = torch.zeros_like(self._rates)
@@ -163,7 +174,7 @@ class Updates:
     def _renew(self, moved: Tensor, done: Tensor) -> None:
         """Renew the bases of networks that have made as many updates of their gates as it takes."""
         # The first update of a network gives its gates a basis and moves none of them.
-        due = moved & ((done - 1) % self._learning.basis_every == 0) & (done > 1)
+        due = moved & ((done - 1) % self._optimiser.basis_every == 0) & (done > 1)
         if due.any():
             self._optimiser.renew(due.nonzero()[:, 0].tolist())
 
@@ -177,7 +188,7 @@ class Updates:
             predicted = mean[:, scored], std[:, scored], target[:, scored]
             minimised, losses = self._objective.of(*predicted, known)
             given = torch.autograd.grad(minimised.sum(), list(weights.values()))
-        gradients, norms = self._network.clipped(dict(zip(weights, given, strict=True)), self._learning.gradient_norm)
+        gradients, norms = self._network.clipped(dict(zip(weights, given, strict=True)), self._most_norm)
         self._losses.copy_(losses.detach())
         self._norms.copy_(norms)
         self._told.copy_(self._horizons.active)

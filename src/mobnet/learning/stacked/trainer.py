@@ -20,6 +20,7 @@ from mobnet.learning.checkpoint import Progress, below, read_checkpoint, write_c
 from mobnet.learning.dataset import LimbData
 from mobnet.learning.job import TrainingJob
 from mobnet.learning.model import seeded
+from mobnet.learning.numbers import optimiser_numbers
 from mobnet.learning.schedule import Schedule
 from mobnet.learning.stacked.network import StackedLosses, StackedNetwork
 from mobnet.learning.stacked.optimiser import StackedOptimiser
@@ -100,11 +101,22 @@ class StackedTrainer:
         places = [list(arrays).index(digest) for digest in digests]
         self._samples = StackedSamples(list(arrays.values()), places, self._schedules)
         self._network = StackedNetwork([schedule.network() for schedule in self._schedules], device)
-        self._optimiser = StackedOptimiser(self._network.weights, self._network.width, learning)
-        self._losses = StackedLosses([member.job.training.learning for member in members], device)
+        self._optimiser = StackedOptimiser(self._network.weights, self._network.width, optimiser_numbers(learning))
+        learnings = [member.job.training.learning for member in members]
+        names = [section.loss for section in learnings]
+        self._losses = StackedLosses(names, [section.loss_beta for section in learnings], device)
         horizon = self._job.horizon
         scored = self._schedules[0].scored
-        self._epochs = Updates(self._network, self._samples, self._optimiser, self._losses, learning, horizon, scored)
+        self._epochs = Updates(
+            self._network,
+            self._samples,
+            self._optimiser,
+            self._losses,
+            lanes=learning.batch_size,
+            horizon=horizon,
+            most_norm=learning.gradient_norm,
+            scored=scored,
+        )
         self._validations: dict[int, Validation] = {}  # by number of lanes
         self._frozen = torch.zeros(len(members), dtype=torch.bool, device=device)
         self._units = np.stack([schedule.scales[1].std for schedule in self._schedules])
