@@ -205,8 +205,9 @@ def run(options: Namespace) -> Iterator[str]:
     logs = [read_free_log(path, robot, meaning, settings) for path in options.logs]
     terms = (*TERMS, *(term for term in FURTHER if getattr(options, term)))
     fits, carried = identify(robot, logs, terms, settings, options.payload)
-    is_table = options.robot is not None and not is_robot_file(options.robot)
-    head = head_of(options.robot) if is_table else list(robot.notes)
+    head = list(robot.notes)
+    if options.robot and not is_robot_file(options.robot):
+        head = head_of(options.robot)
     made = f"friction and armature: from {', '.join(path.name for path in options.logs)}, by {command('identify')}."
     made_table = with_numbers(table, fits)
     made_table = with_payload(made_table, options.payload, carried) if carried else made_table
