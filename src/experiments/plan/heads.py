@@ -40,3 +40,9 @@ def put_head(table: Path, head: str) -> None:
         DataError: there is no such table.
     """
     write_text(table, head + read_text(table))
+
+
+def table_in(text: str) -> str:
+    """Return the table of a Markdown file, and what stands below it, without what stands above."""
+    start = FIRST_ROW.search(text)
+    return text[start.start() :] if start else ""

@@ -19,11 +19,12 @@ from experiments.evaluation.report.captions import filled
 from experiments.evaluation.report.claims_page import claims_page
 from experiments.evaluation.report.numbers import texts_in
 from experiments.evaluation.report.pages import titled
+from experiments.plan.heads import table_in
 from experiments.settings.claims import Claim
 from experiments.settings.runs import Statistics
 from experiments.site.contents import README, menu, menus, sections
 from experiments.site.reference import INTERNALS, PUBLIC, reference_pages
-from experiments.site.results import ALL_CLAIMS, CLAIMS_PAGE, result_pages, table_in
+from experiments.site.results import ALL_CLAIMS, CLAIMS_PAGE, result_pages
 from mobnet.core.errors import DataError
 from mobnet.core.files import read_text, write_text
 from mobnet.core.heartbeat import last_line, telling

@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 from experiments.evaluation.report.captions import filled
 from experiments.evaluation.report.numbers import texts_in
+from experiments.plan.heads import table_in
 from experiments.settings.claims import Claim
 from experiments.site.contents import menu
 from mobnet.core.files import read_text
@@ -114,12 +115,6 @@ def _table(item: Item) -> str:
     if item.name == ALL_CLAIMS:
         return f'<p><a href="{Path(CLAIMS_PAGE).name}">All claims, to filter, sort and open</a></p>'
     return table_in(read_text(item.shown)).strip()
-
-
-def table_in(text: str) -> str:
-    """Return the table of a Markdown file, and what stands below it, without what stands above."""
-    start = FIRST_ROW.search(text)
-    return text[start.start() :] if start else ""
 
 
 def with_head(item: Item) -> str:

@@ -10,7 +10,7 @@ from markdown_it import MarkdownIt
 from experiments.evaluation.report.claims_page import claims_page
 from experiments.evaluation.report.first_page import first_page
 from experiments.evaluation.report.html import rendered
-from experiments.evaluation.report.site.results import table_in
+from experiments.plan.heads import table_in
 from experiments.settings.runs import Statistics
 from mobnet.core.files import read_text, write_text
 

@@ -107,15 +107,15 @@ def read_training_run(folder: Path, tested: pd.DataFrame | None = None) -> Train
         settings |= dict(flattened(name, note[name]))
     key = note["method"], note["limb"], note["seed"]
     tested = read_test_errors(()) if tested is None else tested
-    is_tested = key in tested.index
+    error = tested.to_dict("index").get(key)
     return TrainingRun(
         **vars(training),
         **{name: note[name] for name in SHOWN},
         robot=robot_of(folder),
         cell=note["settings"]["network"]["cell"],
         settings=settings,
-        test=str(tested.loc[key, "test"]) if is_tested else "",
-        test_rmse=float(tested.loc[key, "rmse"]) if is_tested else None,
+        test=str(error["test"]) if error else "",
+        test_rmse=float(error["rmse"]) if error else None,
         metrics=folder / METRICS,
         seconds=training_seconds(folder),
     )

@@ -89,8 +89,8 @@ def _log_run(scratch: Path, folder: Path, tested: pd.DataFrame) -> str:
             run.log(row, step=row["epoch"])
         run.summary.update({key: value for key, value in note.items() if key not in SETTINGS})
         key = note["method"], note["limb"], note["seed"]
-        if key in tested.index:
-            error = tested.loc[key]
+        error = tested.to_dict("index").get(key)
+        if error:
             run.summary.update({"test": str(error["test"]), "test_rmse": float(error["rmse"])})
     return note["name"]
 
