@@ -1,5 +1,6 @@
 """What stands above the rows of a table as Markdown: its title, and what it shows in which unit, from its caption."""
 
+import re
 import textwrap
 from pathlib import Path
 
@@ -8,6 +9,7 @@ from mobnet.core.files import read_text, write_text
 
 CAPTIONS = Path("workflow/report")
 FIELD = "{{"  # begins a field of a caption, a number of the results
+FIRST_ROW = re.compile(r"^\|", re.MULTILINE)
 WIDTH = 120  # characters of a line
 
 

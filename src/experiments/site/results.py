@@ -17,7 +17,6 @@ PLACE = "docs/results"
 FIGURES = "figures"  # folder of their captions and of the CSVs of their numbers
 PRINTED = re.compile(r"\b(Table|Figure) (\d+)")
 PAPER = re.compile(r"(table|figure)_\d")
-FIRST_ROW = re.compile(r"^\|", re.MULTILINE)
 ALL_CLAIMS = "claims"
 CLAIMS_PAGE = f"{PLACE}/all_claims.html"  # the page of the report: as a plain table the claims are 24 000 px high
 HEAD = """# Tables and figures

@@ -230,14 +230,9 @@ def run(options: Namespace) -> Iterator[str]:
     terms = (*TERMS, *(term for term in FURTHER if getattr(options, term)))
     fits, carried = identify(robot, logs, terms, settings, options.payload)
     head = list(robot.notes)
-<<<<<<< HEAD
     if options.robot is not None and not is_robot_file(options.robot):
         head = head_of(options.robot)
     suspected = suspicions(robot, logs, settings)
-=======
-    if options.robot and not is_robot_file(options.robot):
-        head = head_of(options.robot)
->>>>>>> b7694e54aff481823e695741fdac2e019c47a285
     made = f"friction and armature: from {', '.join(path.name for path in options.logs)}, by {command('identify')}."
     made_table = with_numbers(table, fits)
     made_table = with_payload(made_table, options.payload, carried) if carried else made_table
