@@ -211,8 +211,8 @@ def _header(
         for k, name in enumerate(names):
             if name:
                 places.setdefault(name, []).append(k)
-        if not row:
-            with_sign = line.split(separator or None)[0].strip()
+        with_sign = line.split(separator or None)[0].strip()
+        if not row and with_sign.lstrip("#%/ ") == names[0]:
             places.setdefault(with_sign, [0])
         return places
     return {str(k): [k] for k in range(len(first))}

@@ -178,6 +178,8 @@ def test_a_header_that_is_a_comment_has_its_first_name_with_and_without_the_sign
     lines = [f"{round(1e9 * t)}{line[line.index(',') :]}" for t, line in zip(TIME, LINES, strict=True)]
     (tmp_path / "log.csv").write_text("\n".join([f"%{HEADER}", *lines]))
     assert column_names(tmp_path / "log.csv") == [*NAMES, "%time"]
+    (tmp_path / "spaces.txt").write_text("# t a\n0 1\n1 2\n")
+    assert column_names(tmp_path / "spaces.txt") == ["t", "a"]
     signals = {key: {"columns": [f"{key}.J1", f"{key}.J2"]} for key in ("q", "v", "tau_motor")}
     for name in ("%time", "time"):
         meaning = LogMap.model_validate({"clock": {"column": name, "unit": "ns"}, **signals})
