@@ -1,5 +1,5 @@
-# Every table and figure by its name. What each of them reads of what its rule names stands in its row:
-# `./reproduce sheet shown table_07`.
+# Every table and figure by its name. Its row, in src/experiments/plan/items, says what makes it and what it reads of what
+# its rule names; `./reproduce sheet shown table_07` prints the latter.
 
 
 rule table:

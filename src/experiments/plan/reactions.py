@@ -11,21 +11,7 @@ from mobnet.settings.reaction import watches_of
 # Of the time of a walk with all networks, that of one with the legs' alone, which lasts to its end where those into
 # obstacles end after the contact: .63 in a second of walking (docs/notes/reaction.md), 1.27 times as long.
 LEGS_SHARE = 0.8
-OTHERS = "scenarios"  # job of the cases that compare little
 Reactions = Mapping[str, Mapping[str, Path]]  # level of a robot -> case -> file of its trials, or a course
-
-
-def cases_of_jobs(files: Files) -> dict[str, tuple[str, ...]]:
-    """Return job -> its cases: those that compare several detectors with ours have one each, the others share one."""
-    reaction = files.settings.reaction
-    cases = files.settings.reaction.cases
-    alone: dict[str, tuple[str, ...]] = {}
-    for case in cases:
-        detectors = {watch.detector for watch in watches_of(reaction, case)}
-        if len(detectors - {reaction.ours.detector}) > 1:
-            alone[case] = (case,)
-    others = tuple(case for case in cases if case not in alone)
-    return {**alone, **({OTHERS: others} if others else {})}
 
 
 def methods_of(files: Files, cases: Iterable[str]) -> tuple[str, ...]:
