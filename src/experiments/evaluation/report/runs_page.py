@@ -14,6 +14,7 @@ import pandas as pd
 
 from experiments.evaluation.measure.learning.trainings import (
     TrainedNetwork,
+    error_in_test,
     read_test_errors,
     read_training,
     robot_of,
@@ -105,17 +106,15 @@ def read_training_run(folder: Path, tested: pd.DataFrame | None = None) -> Train
     settings: dict[str, str] = {}
     for name in SETTINGS:
         settings |= dict(flattened(name, note[name]))
-    key = note["method"], note["limb"], note["seed"]
-    tested = read_test_errors(()) if tested is None else tested
-    error = tested.to_dict("index").get(key)
+    test, rmse = ("", None) if tested is None else error_in_test(tested, note)
     return TrainingRun(
         **vars(training),
         **{name: note[name] for name in SHOWN},
         robot=robot_of(folder),
         cell=note["settings"]["network"]["cell"],
         settings=settings,
-        test=str(error["test"]) if error else "",
-        test_rmse=float(error["rmse"]) if error else None,
+        test=test,
+        test_rmse=rmse,
         metrics=folder / METRICS,
         seconds=training_seconds(folder),
     )

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 import pandas as pd
 
-from experiments.evaluation.measure.learning.trainings import read_test_errors, read_training, robot_of
+from experiments.evaluation.measure.learning.trainings import error_in_test, read_test_errors, read_training, robot_of
 from mobnet.core.epochs import Epoch
 from mobnet.core.errors import DataError
 from mobnet.core.files import PARTIAL, RUN, check_room, read_json
@@ -88,10 +88,9 @@ def _log_run(scratch: Path, folder: Path, tested: pd.DataFrame) -> str:
         for row in rows(training.epochs, training.joint_errors):
             run.log(row, step=row["epoch"])
         run.summary.update({key: value for key, value in note.items() if key not in SETTINGS})
-        key = note["method"], note["limb"], note["seed"]
-        error = tested.to_dict("index").get(key)
-        if error:
-            run.summary.update({"test": str(error["test"]), "test_rmse": float(error["rmse"])})
+        test, rmse = error_in_test(tested, note)
+        if rmse is not None:
+            run.summary.update({"test": test, "test_rmse": rmse})
     return note["name"]
 
 

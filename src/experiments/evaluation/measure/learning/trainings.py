@@ -156,8 +156,8 @@ def read_test_errors(scores: Sequence[Path]) -> pd.DataFrame:
     """Return the error of each network's estimates in the first of some files of scores that has it.
 
     Returns:
-        Indexed by `TRAINED`: the `test`, scenario and level, and the `rmse`, a mean over walks [N m; N of the base's
-        forces].
+        Columns `TRAINED`, which name the network; the `test`, scenario and level; and the `rmse`, a mean over walks
+        [N m; N of the base's forces].
 
     Raises:
         DataError: a file is missing or damaged.
@@ -169,7 +169,13 @@ def read_test_errors(scores: Sequence[Path]) -> pd.DataFrame:
         parts.append(means.reset_index().assign(test=f"{path.parent.name}, {path.stem}"))
     every = pd.concat(parts) if parts else pd.DataFrame(columns=[*TRAINED, "rmse", "test"])
     # The first file that has a network counts, so that later ones only add others.
-    return every.drop_duplicates(TRAINED).set_index(TRAINED)
+    return every.drop_duplicates(TRAINED)
+
+
+def error_in_test(tested: pd.DataFrame, note: Mapping[str, Any]) -> tuple[str, float | None]:
+    """Return the test of a network, which the note of its training names, and its error there; "" and None of none."""
+    rows = rows_of(tested, **{name: note[name] for name in TRAINED}).to_dict("records")
+    return (rows[0]["test"], rows[0]["rmse"]) if rows else ("", None)
 
 
 def robot_of(folder: Path) -> str:
