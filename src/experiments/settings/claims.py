@@ -146,7 +146,7 @@ def spelt_out(claims: Any) -> Any:
     return {name: _spelt_claim(entry) for name, entry in mapping(claims).items()} or claims
 
 
-def place_of(place: Place, claims: Mapping[str, Any]) -> Place:
+def where_typed(place: Place, claims: Mapping[str, Any]) -> Place:
     """Return where something of a cell was typed: in the cell, in what cells share, or by its order."""
     if "cells" not in place[2:-2]:
         return place

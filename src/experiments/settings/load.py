@@ -10,7 +10,7 @@ from typing import Any, cast
 
 from experiments.settings.catalogue import Catalogue
 from experiments.settings.checks.sections import inconsistencies, refused_changes, unknown_names
-from experiments.settings.claims import place_of, spelt_out
+from experiments.settings.claims import spelt_out, where_typed
 from experiments.settings.settings import Settings
 from mobnet.core.errors import ConfigError
 from mobnet.core.files import files_like
@@ -69,7 +69,7 @@ class Sources:
         section = str(place[0]) if place else ""
         document = self.files.get(section, self.main)
         if section == "claims":
-            place = place_of(place, document.values)
+            place = where_typed(place, document.values)
         is_own = section in NAMED_FILES and document is not self.main
         return document.told(place[1:] if is_own else place, text)
 

@@ -19,6 +19,7 @@ LONG_LINES, LEAST_COMMENTS = 12, 15.0  # lines of a long function; comments in 1
 PROTOCOLS = {"Options": "the numbers of a kind or of a measure; the loader finds it by this name in each module"}
 SAY_NOTHING = {"found", "own", "told", "held", "one"}  # as names of values: each says no more than "something"
 MOST_THAT_SAY_NOTHING = {"mobnet": 45, "experiments": 710}
+MOST_CLASSES = {"experiments/evaluation": 89}  # what pandas frames hold needs none
 COMPREHENSIONS = (ast.ListComp, ast.SetComp, ast.DictComp, ast.GeneratorExp)
 FUNCTIONS = (ast.FunctionDef, ast.AsyncFunctionDef)
 
@@ -90,3 +91,11 @@ def test_a_value_is_named_by_what_it_is(package: str) -> None:
             name = node.id if isinstance(node, ast.Name) else node.arg if isinstance(node, ast.arg) else ""
             count += name in SAY_NOTHING
     assert count <= MOST_THAT_SAY_NOTHING[package]
+
+
+@pytest.mark.parametrize("folder", list(MOST_CLASSES))
+def test_what_frames_hold_has_no_class_of_its_own(folder: str) -> None:
+    count = 0
+    for _, tree, _ in modules(SOURCE / folder):
+        count += sum(isinstance(node, ast.ClassDef) for node in ast.walk(tree))
+    assert count <= MOST_CLASSES[folder]

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from experiments.evaluation.figures.drawing.diagram import SUM_RADIUS, Box, draw_box, draw_path, draw_sum, sheet
 from experiments.evaluation.figures.drawing.ground import draw_ground, draw_shadow
 from experiments.evaluation.figures.drawing.pushed import draw_force, standing
-from experiments.evaluation.figures.drawing.robot import place_of, poses_of, projection, solids_of
+from experiments.evaluation.figures.drawing.robot import point_at, poses_of, projection, solids_of
 from experiments.evaluation.figures.drawing.robot_parts import LIMBS, axes_of, draw_axes, draw_limbs, draw_note
 from experiments.evaluation.figures.style import save_figure
 from experiments.settings.pages import Drawings
@@ -150,7 +150,7 @@ def draw_parts(
     draw_limbs(axis, robot, placed, view)
     axes = axes_of(robot, placed, robot.layout.limb(settings.leg))
     draw_axes(axis, axes, view)
-    point = place_of(robot, placed, str(push.point))
+    point = point_at(robot, placed, str(push.point))
     draw_force(axis, point, np.array([-settings.force_n, 0.0, 0.0]), view, SIZE_M)
     rotation, position = poses_of(robot, placed)
     parts = [(joint, "axis", place) for joint, (place, _) in axes.items()]

@@ -9,7 +9,7 @@ from matplotlib.patches import FancyArrow
 from numpy.typing import NDArray
 
 from experiments.evaluation.figures.drawing.ground import draw_ground, draw_shadow
-from experiments.evaluation.figures.drawing.robot import lowest, place_of, solids_of
+from experiments.evaluation.figures.drawing.robot import lowest, point_at, solids_of
 from experiments.evaluation.figures.drawing.solids import draw_solids
 from mobnet.core.arrays import Array
 from mobnet.robot.description import RobotDescription
@@ -44,7 +44,7 @@ def draw_pushed(
     draw_shadow(axis, solids, view)
     draw_solids(axis, solids, view)
     if np.linalg.norm(force) > LEAST_N:
-        draw_force(axis, place_of(robot, q, point), force, view)
+        draw_force(axis, point_at(robot, q, point), force, view)
 
 
 def draw_force(axis: Axes, place: Array, force: Array, view: Array, beside_m: float = BESIDE_M) -> None:

@@ -52,7 +52,7 @@ def poses_of(robot: RobotDescription, q: NDArray[Any]) -> tuple[dict[str, Array]
     return dict(zip(names, pose.rotation, strict=True)), dict(zip(names, pose.position, strict=True))
 
 
-def place_of(robot: RobotDescription, q: NDArray[Any], name: str) -> Array:
+def point_at(robot: RobotDescription, q: NDArray[Any], name: str) -> Array:
     """Return where a point of the robot is (3,) [m] at a position q (nq,) [m, -, rad]."""
     row = next(row for row in robot.points if row.name == name)
     rotation, position = poses_of(robot, q)

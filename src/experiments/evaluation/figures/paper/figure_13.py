@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 from matplotlib.axes import Axes
 
-from experiments.evaluation.figures.drawing.robot import draw_arrow, draw_robot, lowest, place_of, projection
+from experiments.evaluation.figures.drawing.robot import draw_arrow, draw_robot, lowest, point_at, projection
 from experiments.evaluation.figures.style import beside, entitle, save_figure
 from experiments.evaluation.number.rows import read_detections
 from experiments.plan.detection import Detections
@@ -82,7 +82,7 @@ def _draw(axis: Axes, robot: RobotDescription, hit: Collision, recordings: Seque
     q[:3] = 0.0
     q[2] = -lowest(robot, q)  # the sensed height drifts, and the supporting foot stands on the ground
     side = next(side for side, limb in robot.layout.legs.items() if limb == hit.leg)
-    point = place_of(robot, q, f"{side}_{hit.link}_{hit.direction}")
+    point = point_at(robot, q, f"{side}_{hit.link}_{hit.direction}")
     heading = np.rad2deg(np.arctan2(2 * (q[3] * q[6] + q[4] * q[5]), 1 - 2 * (q[5] ** 2 + q[6] ** 2)))
     view = projection(heading + VIEW[0], VIEW[1])
     draw_robot(axis, robot, q, view)
