@@ -31,6 +31,7 @@ from experiments.evaluation.number.number import Number
 from experiments.evaluation.tables.further.claims_summary import claims_summary
 from experiments.evaluation.tables.further.claims_table import claim_table
 from experiments.evaluation.tables.further.claims_tolerance import claims_tolerance
+from experiments.evaluation.tables.further.ten_first import ten_first
 from experiments.settings.claims import Cell, Claim, numbers_of
 from experiments.settings.load import load_settings
 from experiments.settings.settings import Settings
@@ -42,6 +43,7 @@ from experiments.site.snapshot import (
     SNAPSHOT,
     note_renewal,
     run_renewal,
+    save_small,
     store_drawn,
 )
 from mobnet.core.rows import read_texts
@@ -140,6 +142,7 @@ def write_again(settings: Settings, published: Path) -> None:
         claim_table(again, confidence, folder)
         claims_summary(folder / "claims.csv", folder)
         claims_tolerance(folder / "claims.csv", folder)
+        ten_first(settings.claims, folder / "claims.csv", settings.evaluation.statistics, folder)
         for path in sorted(folder.iterdir()):
             if path.suffix in TABLE:
                 path.replace(published / path.name)
@@ -149,7 +152,7 @@ def write_again(settings: Settings, published: Path) -> None:
             for ending in PICTURES:
                 picture = folder / f"{stem}{ending}"
                 if picture.is_file():
-                    picture.replace(published / picture.name)
+                    save_small(picture, published / picture.name)
     note_renewal(published, "claims", AGAIN)
     log.info("%s: %d claims are judged again", published, len(again))
 

@@ -8,9 +8,9 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 from experiments.evaluation.tables.layout import markdown_table
+from experiments.plan.heads import CAPTIONS
 from experiments.plan.plan import Plan, make_plan
 from experiments.plan.product import Product
-from experiments.plan.products import CAPTIONS
 from experiments.settings.load import load_settings
 from mobnet.core.errors import ConfigError, not_accepted
 from mobnet.core.files import write_text
