@@ -24,8 +24,8 @@ from experiments.evaluation.report.paper import (
     missing_packages,
     set_paper,
 )
+from experiments.plan.heads import CAPTIONS as SOURCES
 from experiments.plan.plan import Plan, make_plan
-from experiments.plan.products import CAPTIONS as SOURCES
 from experiments.plan.products import KEPT_TABLE
 from experiments.running.words import paper_parser
 from experiments.settings.load import load_settings

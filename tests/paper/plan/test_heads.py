@@ -3,10 +3,9 @@
 from pathlib import Path
 
 import pytest
-from experiments.evaluation.report.site.results import table_in
 
 from experiments.evaluation.tables.layout import Table, write_table
-from experiments.plan.heads import head_of, put_head
+from experiments.plan.heads import head_of, put_head, table_in
 from experiments.plan.plan import make_plan
 from experiments.settings.load import load_settings
 from mobnet.core.errors import DataError
@@ -15,7 +14,9 @@ ROOT = Path(__file__).parents[3]
 
 
 def test_a_head_is_the_title_and_the_paragraph_without_numbers_of_the_run() -> None:
-    head = head_of("Table 5: left leg\n\nMOB-Net has {ours:a;b} N m.\n\nRMSE [N m]\nof the leg.\n\nA detail.\n")
+    head = head_of(
+        'Table 5: left leg\n\nMOB-Net has {{ ours("a", "b") }} N m.\n\nRMSE [N m]\nof the leg.\n\nA detail.\n'
+    )
     assert head == "# Table 5: left leg\n\nRMSE [N m] of the leg.\n\n"
 
 

@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 from paper_settings import settings_at
 
+from experiments.plan.heads import CAPTIONS
 from experiments.plan.plan import make_plan
-from experiments.plan.products import CAPTIONS
 from experiments.site.paper_map import MAP, SOURCE, files_of, paper_map, read_known
 from mobnet.core.code import start_of
 from mobnet.core.errors import ConfigError
