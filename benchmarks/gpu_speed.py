@@ -25,6 +25,7 @@ from mobnet.learning.dataset import LimbData
 from mobnet.learning.features import limb_inputs
 from mobnet.learning.job import TrainingJob
 from mobnet.learning.model import build_network
+from mobnet.learning.numbers import optimiser_numbers
 from mobnet.learning.optimisation import Samples, train_epoch
 from mobnet.learning.soap import optimizer_of
 from mobnet.learning.stacked.cells import StackedGru
@@ -167,7 +168,7 @@ def alone_speed(training: Training, data: LimbData, sizes: Sizes, device: torch.
     learning = training.learning
     network = build_network(training.network, len(data.input_names), len(data.joints), learning.std_min, seed=0)
     network.to(device)
-    optimizer = optimizer_of(network, learning.model_copy(update={"optimizer": "adam"}))
+    optimizer = optimizer_of(network, optimiser_numbers(learning.model_copy(update={"optimizer": "adam"})))
     rows_learned = sizes.updates * learning.batch_size * job.horizon
     inputs = torch.from_numpy(data.inputs[:rows_learned]).to(device)
     targets = torch.from_numpy(data.targets[:rows_learned]).to(device)

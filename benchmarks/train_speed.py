@@ -23,6 +23,7 @@ from mobnet.learning.features import limb_inputs
 from mobnet.learning.job import PRECISIONS, TrainingJob
 from mobnet.learning.losses import gaussian_loss
 from mobnet.learning.model import LimbNetwork, build_network
+from mobnet.learning.numbers import optimiser_numbers
 from mobnet.learning.optimisation import Samples, train_epoch
 from mobnet.learning.precision import of_processor
 from mobnet.learning.soap import optimizer_of
@@ -142,7 +143,7 @@ def _ours(
 ) -> Callable[[], object]:
     """Return one epoch as this package trains, with an optimiser of this kind."""
     samples, horizon, learning = Samples(inputs, targets), job.horizon, job.training.learning
-    optimizer = optimizer_of(network, learning.model_copy(update={"optimizer": kind}))
+    optimizer = optimizer_of(network, optimiser_numbers(learning.model_copy(update={"optimizer": kind})))
     for group in optimizer.param_groups:
         group["lr"] = job.rate(0)
     rng = np.random.default_rng(0)

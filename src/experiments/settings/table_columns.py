@@ -45,8 +45,8 @@ CLAIMS = (
 )
 HOURLY = ("event", "walks", "method", "hours", "count", "value", "low", "high", "unit")
 TEN_FIRST = (
-    *("place", "claim", "statement", "says", "published", "value", "low", "high", "unit", "size", "sign"),
-    *("verdict", "remark", "picture"),
+    *("place", "claim", "statement", "published", "value", "low", "high", "unit"),
+    *("size", "sign", "verdict", "picture"),
 )
 CLAIMED = ("score", "outcome", "statements", "firsts", "claims")  # `firsts`: statements by their first claim alone
 TOLERANCE = ("tolerance", *CLAIMED[1:])  # `tolerance`: a factor, or the rules of the claims

@@ -91,7 +91,7 @@ def test_a_level_of_one_robot_is_walked_by_it_alone(plan: Plan) -> None:
     assert {(run.level, run.network_seed, run.recording.parts[2]) for run in runs} == {("robot_1", 101, "robot_1")}
     assert {run.estimate for run in runs} >= {plan.files.runs("motion_test", "robots", ["MOB-Net"])[0].estimate}
     trained = [{method for method, _ in plan.files.robots[robot].learned} for robot in ROBOTS]
-    assert ["MOB-Net-Single" in methods for methods in trained] == [True, False, False]
+    assert ["GRU-windows" in methods for methods in trained] == [True, False, False]
     read = reads(plan, "train", "robot_1", **network("MOB-Net-plain-LL-s101"))
     assert {Path(name).parts[2] for name in read} == {"robot_1"}
     assert {path.parts[2] for path in plan.files.training("recordings", "robot_walk_plain")} == set(ROBOTS)

@@ -48,7 +48,8 @@ MORE = {
     "figure_18": 5,
     "figure_20": 5,  # the settings put the network's own size into its sweep
     "why_share": 6,  # the note on training names its networks and sets as the figure does
-    "coverage": 9,
+    "coverage": 10,
+    "false_alarms": 5,
     "peaks": 9,
     "bode": 6,
     "drift": 5,

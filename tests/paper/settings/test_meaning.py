@@ -274,7 +274,7 @@ MEANINGLESS: list[tuple[str, Any, str]] = [
     ("robot.feet.left.limb", "RL", "at the end of limb"),
     ("robot.hands.right", "L_Wrist2_Link", "R_Wrist2_Link"),
     ("robot.groups.W", ["W2", "W1", "W3"], "in the order of"),
-    ("robot.bodies.16.inertia", [60.2, 75.6, 75.6, 0.0, 0.0, 0.0], "radius of gyration"),
+    ("robot.bodies.16.inertia", [96.0, 121.0, 121.0, 0.0, 0.0, 0.0], "radius of gyration"),
     ("robot.networks.W.Q", ["V"], "limb with motors"),
     ("robot.joints.3.torque_limit", 289_000.0, "to 5000"),
     ("robot.shapes.2.segment", [0.0] * 6, "two points that differ"),

@@ -28,8 +28,9 @@ def pages(tmp_path: Path, settings) -> dict[str, str]:
         (results / f"{name}.md").write_text("| a |\n| --- |\n| 1.25 |\n")
         (results / f"{name}.csv").touch()
     shutil.copy(PUBLISHED / "claims_summary.csv", results)
-    head, first = (PUBLISHED / "claims.csv").read_text().splitlines()[:2]
-    (results / "claims.csv").write_text(f"{head}\n{first}\n")
+    head, *rows = (PUBLISHED / "claims.csv").read_text().splitlines()
+    named = next(row for row in rows if row.startswith("mob-exact,"))
+    (results / "claims.csv").write_text(f"{head}\n{named}\n")
     claims: dict[str, Claim] = settings.claims
     return dict(result_pages(results, captions, claims))
 

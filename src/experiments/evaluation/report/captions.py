@@ -17,7 +17,7 @@ from jinja2 import TemplateSyntaxError, UndefinedError
 
 from experiments.evaluation.report import html
 from experiments.evaluation.tables.layout import tex_escape
-from experiments.plan.heads import drawn
+from experiments.plan.heads import FIELD, drawn
 from mobnet.core.errors import DataError
 from mobnet.core.files import read_text, write_text
 
@@ -79,9 +79,16 @@ def captions_tex(files: Sequence[Path]) -> str:
 
 
 def caption_tex(path: Path) -> str:
-    """Return the caption of a file as TeX: title and what is drawn."""
+    """Return the caption of a file as TeX: title and what is drawn.
+
+    Raises:
+        DataError: no paragraph says so without a field.
+    """
     title, _, text = written(path).partition("\n")
-    words = cited(QUOTED.sub(r"``\1''", inline_tex(drawn(text))), path.parents[1])
+    paragraph = drawn(text)
+    if FIELD in paragraph:
+        raise DataError(f"{path}: every paragraph has a field; accepted: one without, which says what is drawn")
+    words = cited(QUOTED.sub(r"``\1''", inline_tex(paragraph)), path.parents[1])
     bare = ASIDE.sub("", PRINTED.sub("", title.strip()))
     printed = PRINTED.match(title)
     after = f"After {printed['kind']}~{printed['number']}{CITED}." if printed else ""

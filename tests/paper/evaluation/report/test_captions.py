@@ -9,11 +9,11 @@ from experiments.evaluation.report.captions import (
     caption_tex,
     captions_tex,
     cited,
-    drawn,
     fill_captions,
     filled,
     inline_tex,
 )
+from experiments.plan.heads import drawn
 from mobnet.core.errors import DataError
 
 CAPTIONS = Path(__file__).parents[4] / "workflow/report"
@@ -86,7 +86,7 @@ def test_a_caption_of_the_paper_has_at_most_four_lines_and_neither_a_path_nor_a_
     assert len(NARROW) > 1
     for path in captions:
         title, _, text = path.read_text().partition("\n")
-        shown = drawn(text, path)
+        shown = drawn(text)
         width = 68 if path.stem in NARROW else 140
         if path.stem != "push":  # the film is not in the paper
             assert AROUND + len(title) + len(shown) <= 4 * width, path

@@ -12,9 +12,9 @@ from typing import Any
 
 import made_detections
 import numpy as np
+import pandas as pd
 import pytest
 from asked_numbers import asked_names
-from csv_files import read_table
 from matplotlib.figure import Figure
 from PIL import Image
 
@@ -28,9 +28,10 @@ from experiments.evaluation.report.paper import (
     missing_packages,
     paper,
 )
-from experiments.evaluation.tables.further import claims_table, methods
-from experiments.evaluation.tables.further.uncertainty import text_of
+from experiments.evaluation.tables.further import claims_table, methods, ten_first
+from experiments.evaluation.tables.further.uncertainty import PLANT, look_at
 from experiments.evaluation.tables.layout import PART, long_table, note_tex, text_table
+from experiments.evaluation.tables.look import lines_of
 from experiments.plan.files import Files
 from experiments.plan.product import Context, Folders
 from experiments.plan.products import KEPT_TABLE, MAIN_TABLES, Products, sources
@@ -84,13 +85,12 @@ def text_of_table(name: str) -> tuple[list[str], list[list[str]], int, str]:
 
 def text_of_uncertainty() -> tuple[list[str], list[list[str]], int, str]:
     """Return the same of the published sizes of the uncertainty torque, laid out as they are now."""
-    records: list[Any] = [
-        (row.limb, row.joint, row.set, row.value, row.unit, row.published, row.ratio, row.within)
-        for row in read_table(PUBLISHED / "uncertainty.csv")
-    ]
-    robots = dict.fromkeys(row[2] for row in records if row[2].startswith("robot"))
-    header, lines = text_of(records, list(robots))
-    return header, [list(line) for line in lines if not isinstance(line, str)], 4, ""
+    rows = pd.read_csv(PUBLISHED / "uncertainty.csv")
+    is_of_robot = rows["set"].str.startswith("robot")
+    rows["plant"] = rows["set"].where(is_of_robot, PLANT)
+    rows["data"] = rows["set"].where(~is_of_robot).groupby(rows["joint"]).transform("first")
+    look = look_at(list(rows["plant"].unique()), "")
+    return look.header, [list(line) for line in lines_of(rows, look) if not isinstance(line, str)], 4, ""
 
 
 def write_tex(name: str, settings: Settings, out: Path) -> None:
@@ -102,6 +102,9 @@ def write_tex(name: str, settings: Settings, out: Path) -> None:
         width = len(claims_table.HEADER)  # what follows are lines below a claim
         shown = [line[:width] for line in lines]
         tex = long_table(claims_table.COLUMNS, claims_table.CAPTION, header[:width], shown)
+    elif name == "ten_first":
+        width = len(ten_first.HEADER)  # what follows is in the Markdown alone
+        tex = text_table(ten_first.TEX_COLUMNS, header[:width], [line[:width] for line in lines])
     elif name == "methods":
         tex = long_table(align, methods.CAPTION, header, lines)
     elif parts:
@@ -170,7 +173,10 @@ def write_detection(
         for name in DETECTION:
             section = getattr(configured.evaluation, name)
             made = made_detections.write_detections(tmp_path / "detection", ["robot_1"])
-            make_table(name, settings=section, detection=configured.detection, detections=made)
+            given: dict[str, Any] = {"settings": section, "detections": made}
+            if name != "table_13":  # it has all that it shows in the rows of thresholds
+                given["detection"] = configured.detection
+            make_table(name, **given)
 
     return write
 

@@ -37,7 +37,6 @@ def test_rows_are_those_of_the_table_of_claims_in_order(made: pd.DataFrame, sett
     assert list(made["place"]) == sorted(made["place"])
     assert {*made["claim"]} == {name for name, claim in settings.claims.items() if claim.first}
     assert set(made["value"]) == {1.5}
-    assert made["says"].iloc[0] == settings.claims[made["claim"].iloc[0]].says
 
 
 def test_a_reader_sees_number_interval_verdict_and_cause(made: pd.DataFrame, tmp_path: Path) -> None:
