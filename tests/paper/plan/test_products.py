@@ -50,6 +50,7 @@ MORE = {
     "why_share": 6,  # the note on training names its networks and sets as the figure does
     "coverage": 10,
     "false_alarms": 5,
+    "ten_first": 5,
     "peaks": 9,
     "bode": 6,
     "drift": 5,
