@@ -6,7 +6,7 @@ from made_weights import weights
 
 from experiments.plan.jobs import walk_settings
 from experiments.warm import warm
-from mobnet.core import compilation
+from mobnet.core import machine_code
 from mobnet.core.columns import COMMAND, FEET, recording_width
 from mobnet.core.recording import Sensed
 from mobnet.detection.detector import LegGate
@@ -30,7 +30,7 @@ from mobnet.simulation.simulator import Simulator
 @pytest.mark.sim
 def test_the_jobs_find_everything_compiled(settings):
     warm(walk_settings(settings, "forward_walk", "ideal"), settings.detection)
-    functions = engine.run, compilation._hold, tick.advance_row, advance_held, sweep, decay, follow
+    functions = engine.run, machine_code._hold, tick.advance_row, advance_held, sweep, decay, follow
     before = [list(function.signatures) for function in functions]
     assert all(before)
     simulator = Simulator(walk_settings(settings, "robot_walk", "robot_1"), seed=3)
