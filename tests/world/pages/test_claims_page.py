@@ -112,8 +112,8 @@ def browse(open_page: Callable[[Path, str], Browser], page: Path) -> Callable[[s
 def test_the_papers_statements_and_ours_have_a_bar_each(page: Path) -> None:
     """And those of the paper are also counted by their first claims."""
     text = " ".join(page.read_text().split())
-    paper, ours = text.split("<h2>Statements of the paper</h2>")[1].split(
-        "<h2>Our own statements, not in the paper</h2>"
+    paper, ours = text.split("<h2>Statements of the original</h2>")[1].split(
+        "<h2>Our own statements, not in the original</h2>"
     )
     statements = read_statements(GOLDEN)
     for part, kinds in ((paper, {one.kind for one in statements} - {"ours"}), (ours, {"ours"})):

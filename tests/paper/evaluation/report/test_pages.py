@@ -110,7 +110,7 @@ def test_the_first_page_shows_verdicts_errors_pictures_and_links(
     for text in (
         "title of index",
         "9 open",
-        "statements of the paper, by verdict",
+        "statements of the original, by verdict",
         "By their first claim alone: ",
         "1.2 (1.5)",
         "title of picture. First words of picture.",
