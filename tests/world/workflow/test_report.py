@@ -22,6 +22,7 @@ from .conftest import ROOT
 
 CAPTIONS = ROOT / "workflow" / "report"
 TABLE_HTML = ROOT / TEMPLATES / "table.html"
+FIELD = re.compile(r"\{\{.*?\}\}", re.DOTALL)  # of a caption
 COUNTERPARTS = ["table_07", "table_08", "table_10", "table_11", "figure_08", "figure_09", "figure_10", "figure_12"]
 
 
@@ -87,7 +88,9 @@ def report(make_project, snakemake, outputs):
         page = table_page(TABLE_HTML, table.read_text(), *caption)
         write_text(folder / "results" / "smoke" / "pages" / f"{table.stem}.html", page)
     for kind in ("tables", "figures"):
-        shutil.copytree(CAPTIONS / kind, folder / "results" / "smoke" / "captions" / kind, dirs_exist_ok=True)
+        for caption in (CAPTIONS / kind).iterdir():
+            filled = FIELD.sub("1.25", caption.read_text())
+            write_text(folder / "results" / "smoke" / "captions" / kind / caption.name, filled)
     done = snakemake("--config", "scale=smoke", "--report", "report.html", folder=folder)
     assert (folder / "report.html").is_file(), done.stdout + done.stderr
     return folder / "report.html"

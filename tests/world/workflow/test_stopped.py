@@ -90,7 +90,11 @@ def test_a_killed_run_that_went_on_is_one_run(make_project):
     assert "jobs would run again, which is not accepted" in refusal(folder, "observer={gain_hz: 50}")
     (folder / "docs" / "map.md").write_text("changed\n")
     assert "-changed: is not accepted; accepted: a checkout without changed files" in refusal(folder)
-    git(folder, "commit", "--quiet", "--all", "-m", "another")
+    git(folder, "commit", "--quiet", "--all", "-m", "other words")
+    assert refusal(folder) == ""
+    (folder / "configs" / "plant.yaml").open("a").write("# another comment\n")
+    git(folder, "commit", "--quiet", "--all", "-m", "another configuration")
     (line,) = refusal(folder).splitlines()
     assert line.startswith("results/smoke/logs/collect/plant/forward_walk-ideal.json: commit ")
+    assert "from which configs/plant.yaml differs" in line
     assert "further files" in line
