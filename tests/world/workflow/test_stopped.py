@@ -92,7 +92,8 @@ def test_a_killed_run_that_went_on_is_one_run(make_project):
     assert "-changed: is not accepted; accepted: a checkout without changed files" in refusal(folder)
     git(folder, "commit", "--quiet", "--all", "-m", "other words")
     assert refusal(folder) == ""
-    (folder / "configs" / "plant.yaml").open("a").write("# another comment\n")
+    plant = folder / "configs" / "plant.yaml"
+    plant.write_text(plant.read_text() + "# another comment\n")
     git(folder, "commit", "--quiet", "--all", "-m", "another configuration")
     (line,) = refusal(folder).splitlines()
     assert line.startswith("results/smoke/logs/collect/plant/forward_walk-ideal.json: commit ")
