@@ -226,8 +226,10 @@ def explained(
     trial = trials.why
     for row in trial.rows:
         sets = [name for name in row.sets if named in (name, None)]
+        # Checks of the configuration tell names that do not exist, here they are passed over.
         known = [name for name in row.methods if name in methods]
-        for data, base_name, way in product(sets, known, row.ways if robot in (*row.robots, None) else ()):
+        ways = [name for name in row.ways if name in trial.ways]
+        for data, base_name, way in product(sets, known, ways if robot in (*row.robots, None) else ()):
             method = methods[base_name]
             changes: dict[str, Value] = {DATA: data, WAY: way}
             chosen = trial.ways[way]
