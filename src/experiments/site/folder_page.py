@@ -6,11 +6,11 @@
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
+from experiments.plan.heads import CAPTIONS
 from experiments.site.results import PAPER, Item, items_of, with_head
 from mobnet.core.files import write_text
 
 RESULTS = Path("docs/results")
-CAPTIONS = Path("workflow/report")
 PAGE = "README.md"
 WIDTH = 240  # of a small picture [px]
 HEAD = """# Published results

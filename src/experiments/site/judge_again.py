@@ -41,7 +41,7 @@ from experiments.site.readme import tell_readme
 from experiments.site.snapshot import (
     PICTURES,
     SNAPSHOT,
-    note_renewal,
+    note_entry,
     run_renewal,
     save_small,
     store_drawn,
@@ -153,7 +153,7 @@ def write_again(settings: Settings, published: Path) -> None:
                 picture = folder / f"{stem}{ending}"
                 if picture.is_file():
                     save_small(picture, published / picture.name)
-    note_renewal(published, "claims", AGAIN)
+    note_entry(published, "claims", AGAIN)
     log.info("%s: %d claims are judged again", published, len(again))
 
 

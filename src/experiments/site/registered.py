@@ -80,11 +80,9 @@ def check_registered(settings: Settings) -> None:
         )
 
 
-def note_registered(published: Path) -> None:
-    """Say in the note of published results what was registered before their run, and in which commit."""
-    note = published / "provenance.json"
-    parts = {"commit": commit_of(REGISTERED), **registered()}
-    write_json(note, {**read_json(note), "registered": parts})
+def registration() -> dict[str, str]:
+    """Return the commit that registered last, and what it did, as the note of published results holds them."""
+    return {"commit": commit_of(REGISTERED), **registered()}
 
 
 if __name__ == "__main__":

@@ -39,7 +39,7 @@ from experiments.site.folder_page import write_page
 from experiments.site.model_card import CARD, card
 from experiments.site.rates import measured
 from experiments.site.readme import tell_readme
-from experiments.site.registered import check_registered, note_registered
+from experiments.site.registered import check_registered, registration
 from experiments.site.single_rows import write_single_rows
 from experiments.site.walked import SEEDS, check_seeds, read_history, walked, write_history
 from mobnet.core.code import CHANGED, UNKNOWN, changed_between, commit, provenance
@@ -330,10 +330,10 @@ def store(manifest: Path) -> None:
     run = walked(plan.files, ran)
     check_seeds(run, published)
     write_snapshot(settings, TABLES, FIGURES, FURTHER, SNAPSHOT)
-    note_registered(SNAPSHOT)
+    note_entry(SNAPSHOT, "registered", registration())
     if ran != commit():
-        note_renewal(SNAPSHOT, "commit", ran)
-        note_renewal(SNAPSHOT, "words", commit())
+        note_entry(SNAPSHOT, "commit", ran)
+        note_entry(SNAPSHOT, "words", commit())
     store_paper(PAPER, SNAPSHOT)
     detections = all_detections(plan.files)
     reactions = all_reactions(plan.files)
@@ -350,10 +350,10 @@ def store(manifest: Path) -> None:
     write_page(SNAPSHOT)
 
 
-def note_renewal(published: Path, part: str, how: str) -> None:
-    """Say in the note of published results that a part of them was made again after their run, and how."""
+def note_entry(published: Path, name: str, value: object) -> None:
+    """Put an entry into the note of published results, such as how a part was made again after their run."""
     note = published / "provenance.json"
-    write_json(note, {**read_json(note), part: how})
+    write_json(note, {**read_json(note), name: value})
 
 
 def run_renewal(renew: Callable[[], None], told: logging.Logger) -> int:

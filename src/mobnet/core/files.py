@@ -38,7 +38,7 @@ REFUSALS = FULL | {
     errno.ENAMETOOLONG,
 }
 MIB = 2**20
-STDIN = ("-", "/dev/stdin")
+STDIN = Path("/dev/stdin")
 OPEN_FILES = ("/dev/fd", "/proc/self/fd")  # folders in which a process sees its open files by their numbers
 ROOM_BYTES = 2**17  # below this a disk counts as full
 
@@ -151,7 +151,7 @@ def write_json(path: Path, value: Mapping[str, object]) -> None:
 
 def descriptor_of(path: Path) -> int | None:
     """Return the open file that a path stands for: that of `-`, of /dev/stdin, and of a shell's `<(...)`; else None."""
-    if str(path) in STDIN:
+    if path in (Path("-"), STDIN):
         return 0
     is_number = path.name.isascii() and path.name.isdecimal()
     return int(path.name) if str(path.parent) in OPEN_FILES and is_number else None

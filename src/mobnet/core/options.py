@@ -4,7 +4,7 @@ import argparse
 from collections.abc import Iterator
 from pathlib import Path
 
-from mobnet.core.files import descriptor_of, files_like
+from mobnet.core.files import STDIN, descriptor_of, files_like
 from mobnet.core.place import command
 
 LABELS = {
@@ -49,7 +49,7 @@ def observe_parser() -> argparse.ArgumentParser:
 
 def log_path(word: str) -> Path:
     """Return the file of a log that a word names; `-` is standard input."""
-    return Path("/dev/stdin" if word == "-" else word)
+    return STDIN if word == "-" else Path(word)
 
 
 def add_robot(parser: argparse.ArgumentParser) -> None:

@@ -8,10 +8,8 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from mobnet.core.errors import DataError
-from mobnet.core.files import refusal
+from mobnet.core.files import STDIN, descriptor_of, refusal
 
-STDIN = Path("/dev/stdin")
-OPEN_FILES = (Path("/dev/fd"), Path("/proc/self/fd"))  # where a process sees its open files by their numbers
 NAME = "stdin"  # of the log, for messages and for what is made of it
 KINDS = {  # first bytes -> ending of the formats that are no texts
     b"\x1f\x8b": ".csv.gz",
@@ -30,7 +28,7 @@ def is_piped(path: Path) -> bool:
 
     A pipe with a name is none: where nobody writes to it, opening it would wait for ever.
     """
-    is_open = path.parent in OPEN_FILES and path.exists() and stat.S_ISFIFO(path.stat().st_mode)
+    is_open = descriptor_of(path) is not None and path.exists() and stat.S_ISFIFO(path.stat().st_mode)
     return is_open or path == STDIN
 
 

@@ -8,9 +8,10 @@ from experiments.settings.load import load_settings
 from experiments.site.registered import (
     check_registered,
     fingerprints,
-    note_registered,
     registered,
+    registration,
 )
+from experiments.site.snapshot import note_entry
 from mobnet.core.errors import DataError
 from mobnet.core.files import read_json, write_json
 
@@ -42,7 +43,7 @@ def test_words_may_change_and_numbers_may_not() -> None:
 
 def test_note_of_a_snapshot_names_what_was_registered(tmp_path: Path) -> None:
     write_json(tmp_path / "provenance.json", {"scale": "default"})
-    note_registered(tmp_path)
+    note_entry(tmp_path, "registered", registration())
     note = read_json(tmp_path / "provenance.json")
     assert note["registered"] == {"commit": note["registered"]["commit"], **registered()}
     assert note["scale"] == "default"

@@ -5,8 +5,9 @@ from pathlib import Path
 
 import pandas as pd
 
+from experiments.evaluation.measure.claims.verdicts import unit_text
 from experiments.evaluation.number.frames import records_of
-from experiments.evaluation.number.number import Number, number_text
+from experiments.evaluation.number.number import Number, is_missing, number_text
 from experiments.evaluation.tables.layout import GAP, Line, Table, text_table, write_table
 from experiments.evaluation.tables.look import Row
 from experiments.settings.claims import Claim
@@ -62,8 +63,8 @@ def cells_of(row: Row) -> list[str]:
     """Return what is shown of a claim: what it says, the original's number, ours with its interval, and its verdict."""
     ours = Number(row["value"], row["low"], row["high"], unit=row["unit"])
     text, interval = ours.texts()
-    if row["unit"] != "-" and not pd.isna(row["value"]):
-        text = f"{text} {row['unit']}"
+    if not is_missing(row["value"]):
+        text += unit_text(row["unit"])
     return [row["says"], number_text(row["published"]), text, interval, row["verdict"]]
 
 
