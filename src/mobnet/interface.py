@@ -44,6 +44,7 @@ from mobnet.estimation.own import (
     read_network_folder,
 )
 from mobnet.export.contract import CONTRACT
+from mobnet.formats.limb_thresholds import LimbThresholds
 from mobnet.kernel.drive import TorqueKind
 from mobnet.learning.deployed.limbs import load_limb_networks
 from mobnet.reaction.handler import Handler, Reacted
@@ -53,7 +54,6 @@ from mobnet.robot.given import given_robot
 from mobnet.robot.import_model import robot_of_model
 from mobnet.robot.nominal import NominalModel
 from mobnet.settings.lab import Lab, load_lab
-from mobnet.settings.limb_thresholds import LimbThresholds
 from mobnet.settings.reaction import Strategy, load_reaction
 
 if TYPE_CHECKING:

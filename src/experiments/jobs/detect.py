@@ -31,9 +31,9 @@ from mobnet.detection.calibration import (
 )
 from mobnet.detection.numbers import watched_signals
 from mobnet.detection.watch import LegSetup, read_estimate
+from mobnet.formats.robot import RobotTable
 from mobnet.robot.description import describe
 from mobnet.settings.detection import Detection
-from mobnet.settings.robot import RobotTable
 
 log = logging.getLogger(__name__)
 Rows = dict[str, list[Any]]  # name of a file -> its rows

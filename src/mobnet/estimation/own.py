@@ -20,15 +20,15 @@ from mobnet.core.word_checks import ESTIMATE, RECORDING, check_log_folder, check
 from mobnet.estimation.estimate import ObservedRecording, only, run_segments
 from mobnet.estimation.kinds.residual import ResidualEstimator
 from mobnet.estimation.observer import RobotObserver
+from mobnet.formats.base import GainHz, RateHz
+from mobnet.formats.robot import GroupName
 from mobnet.kernel.detecting import Target
 from mobnet.kernel.drive import TorqueKind
 from mobnet.learning.deployed.limbs import LimbNetworks, load_limb_networks
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.nominal import NominalModel
 from mobnet.robot.word_checks import limb_named
-from mobnet.settings.base import GainHz, RateHz
 from mobnet.settings.lab import Lab
-from mobnet.settings.robot import GroupName
 
 DRIVES = "drives"  # key of a note: digest of the friction that the observer knew
 OBSERVER, LEARNED = "MOB", "MOB-Net"  # methods: the observer alone, and with a network

@@ -16,13 +16,13 @@ from pydantic import ValidationError
 from mobnet.core.errors import ConfigError, not_accepted
 from mobnet.core.joints import JointLayout
 from mobnet.core.recording import Sensed
+from mobnet.formats.base import Section
+from mobnet.formats.faults import problems
+from mobnet.formats.reading import dotted
+from mobnet.formats.robot import RobotTable
 from mobnet.learning.deployed.limbs import LimbNetworks, load_limb_networks
 from mobnet.robot.description import describe
-from mobnet.settings.base import Section
-from mobnet.settings.faults import problems
 from mobnet.settings.methods import Method, ObserverSettings
-from mobnet.settings.reading import dotted
-from mobnet.settings.robot import RobotTable
 
 Kind = TypeVar("Kind", bound=Section)
 

@@ -32,6 +32,7 @@ from mobnet.export.graph import graph_of
 from mobnet.export.model_file import RuntimeDetector, RuntimeNetwork, model_content
 from mobnet.export.session import OnnxNetwork
 from mobnet.export.trained import Trained, check_apart, contract_of, read_trained
+from mobnet.formats.limb_thresholds import LimbThresholds
 from mobnet.kernel.detecting import GateNumbers
 from mobnet.kernel.drive import TorqueKind
 from mobnet.learning.deployed.loading import WITHOUT_TORCH, deployed
@@ -39,7 +40,6 @@ from mobnet.robot.description import RobotDescription
 from mobnet.robot.given import given_robot
 from mobnet.robot.nominal import NominalModel
 from mobnet.settings.lab import Lab, load_lab
-from mobnet.settings.limb_thresholds import LimbThresholds
 
 MODEL = "model.bin"
 log = logging.getLogger(__name__)

@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 from onnx import TensorProto, helper, numpy_helper
 
 from mobnet.export.contract import IR_VERSION, OPSET
+from mobnet.formats.network import CellKind, NetworkCell
 from mobnet.learning.deployed.weights import WeightsNote, std_scale_of
-from mobnet.settings.networks import CellKind, NetworkCell
 
 PRODUCER = "mobnet"
 LAST = 2**31  # beyond the end of any axis

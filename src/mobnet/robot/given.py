@@ -4,9 +4,10 @@ from pathlib import Path
 
 from mobnet.core.files import descriptor_of
 from mobnet.core.place import check_extra
+from mobnet.formats.loading import load_section
+from mobnet.formats.robot import RobotTable
 from mobnet.robot.description import RobotDescription, describe
-from mobnet.settings.lab import Lab, load_section
-from mobnet.settings.robot import RobotTable
+from mobnet.settings.lab import Lab
 
 FILES = (".urdf", ".xml", ".mjcf")  # of robots that no table describes yet; gzip may have packed them
 

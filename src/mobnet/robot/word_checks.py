@@ -9,12 +9,13 @@ from pathlib import Path
 
 from mobnet.core.errors import ConfigError, not_accepted
 from mobnet.core.joints import JointLayout
+from mobnet.formats.limb_thresholds import LimbThresholds
+from mobnet.formats.loading import load_section
+from mobnet.formats.log_map import LogMap
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.given import given_robot
 from mobnet.robot.limit_words import check_limits
-from mobnet.settings.lab import load_lab, load_section
-from mobnet.settings.limb_thresholds import LimbThresholds
-from mobnet.settings.robotlog import LogMap
+from mobnet.settings.lab import load_lab
 
 
 def check_named(options: Namespace) -> None:

@@ -15,6 +15,7 @@ from mobnet.core.errors import DataError, not_accepted
 from mobnet.core.joints import JointLayout
 from mobnet.core.motion import turned
 from mobnet.core.recording import ABSENT, Recording, Sensed, Truth
+from mobnet.formats.log_map import LogMap, Signal, Tool
 from mobnet.robot.nominal import NominalModel
 from mobnet.robot.wrench import point_torque
 from mobnet.robotlog.clocks import Rising, Segments, Timed, at, common_ticks, covered, rate_of, rising, stamp_hints
@@ -24,7 +25,7 @@ from mobnet.robotlog.long_arrays import give_back, long_array
 from mobnet.robotlog.meaning import given_signals, is_truth, resolved
 from mobnet.robotlog.pieces import pieces
 from mobnet.robotlog.restarts import counted_on
-from mobnet.settings.robotlog import LogMap, RobotLog, Signal, Tool
+from mobnet.settings.robotlog import RobotLog
 
 SI = {  # unit -> in SI units
     "deg": np.pi / 180,

@@ -16,13 +16,13 @@ from mobnet.detection.detector import GateSignal, run_segments
 from mobnet.detection.threshold_file import sampling_of, setup_with, watched_of
 from mobnet.detection.watch import LegSetup, LimbSetup
 from mobnet.estimation.own import OwnLog, OwnNetwork, estimates_of, estimator_of
+from mobnet.formats.limb_thresholds import LimbThresholds
+from mobnet.formats.log_map import LogMap
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.nominal import NominalModel
 from mobnet.robotlog.flags import Flag, PushCount, flags_of, found_pushes
 from mobnet.robotlog.observe import ObservedLog, observe_log
 from mobnet.settings.lab import Lab
-from mobnet.settings.limb_thresholds import LimbThresholds
-from mobnet.settings.robotlog import LogMap
 
 
 @dataclass(frozen=True)

@@ -11,6 +11,9 @@ from mobnet.core.rows import csv_text
 from mobnet.detection.threshold_file import check_thresholds, read_thresholds, sampling_of
 from mobnet.estimation.estimate import write_estimate
 from mobnet.estimation.own import ESTIMATE, OwnNetwork, check_sampling, read_network_folder
+from mobnet.formats.limb_thresholds import LimbThresholds
+from mobnet.formats.loading import load_section
+from mobnet.formats.log_map import LogMap
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.given import given_robot
 from mobnet.robot.nominal import NominalModel
@@ -20,9 +23,7 @@ from mobnet.robotlog.flags_mcap import write_mcap
 from mobnet.robotlog.formats import stem_of
 from mobnet.robotlog.plot import plot_flags
 from mobnet.robotlog.wrenches import place_of, wrench_lines, wrenches_of, write_wrenches
-from mobnet.settings.lab import Lab, load_section
-from mobnet.settings.limb_thresholds import LimbThresholds
-from mobnet.settings.robotlog import LogMap
+from mobnet.settings.lab import Lab
 
 FLAGS = "flags.csv"
 PLOT = "flags"

@@ -12,10 +12,10 @@ from mobnet.core.columns import EXTERNAL, PUSHED
 from mobnet.core.recording import SensedRecording
 from mobnet.detection.detector import ALARM_RATIO, DetectorOutput
 from mobnet.detection.points import EstimatedPush, felt_push
+from mobnet.formats.limb_thresholds import LimbThresholds
 from mobnet.robot.nominal import NominalModel
 from mobnet.robotlog.convert import Converted
 from mobnet.robotlog.long_arrays import give_back
-from mobnet.settings.limb_thresholds import LimbThresholds
 from mobnet.settings.robotlog import RobotLog
 
 

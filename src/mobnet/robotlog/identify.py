@@ -20,6 +20,10 @@ from mobnet.core.recording import SensedRecording
 from mobnet.core.word_checks import RECORDING, check_new_file
 from mobnet.estimation import observer
 from mobnet.estimation.own import read_log_folder
+from mobnet.formats.loading import load_section
+from mobnet.formats.log_map import LogMap
+from mobnet.formats.parts import BodyRow, FrictionRow
+from mobnet.formats.robot import RobotTable
 from mobnet.kernel.drive import TorqueKind
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.given import given_robot, given_table, is_robot_file
@@ -31,10 +35,8 @@ from mobnet.robotlog.identifying.fit import JointFit, fit_joints
 from mobnet.robotlog.identifying.payload import Payload
 from mobnet.robotlog.identifying.regressors import RegressorWindows, columns_of, moved, together, windows_of
 from mobnet.robotlog.observe import converted_log, torques_looked_at
-from mobnet.settings.lab import Lab, load_lab, load_section
-from mobnet.settings.parts import BodyRow, FrictionRow
-from mobnet.settings.robot import RobotTable
-from mobnet.settings.robotlog import Identification, LogMap
+from mobnet.settings.lab import Lab, load_lab
+from mobnet.settings.robotlog import Identification
 
 log = logging.getLogger(__name__)
 TERMS = ("coulomb", "viscous", "offset", "armature")

@@ -30,6 +30,8 @@ from mobnet.estimation.own import (
     refuse_twice,
     without_friction,
 )
+from mobnet.formats.network import Limb
+from mobnet.formats.robot import RobotTable
 from mobnet.learning.dataset import LimbData
 from mobnet.learning.deployed.loading import load_network
 from mobnet.learning.job import TrainingJob
@@ -43,8 +45,7 @@ from mobnet.robotlog.free_check import Held, course_of, free_check, held_out, li
 from mobnet.robotlog.labels import before, label_of, limb_data
 from mobnet.robotlog.planted_check import PlantedCheck, planted_check
 from mobnet.settings.lab import Lab, load_lab
-from mobnet.settings.networks import Coarse, Learning, Limb, Network, Training
-from mobnet.settings.robot import RobotTable
+from mobnet.settings.networks import Coarse, Learning, Network, Training
 
 log = logging.getLogger(__name__)
 STATE = "training"  # folder of the checkpoint, in that of the network

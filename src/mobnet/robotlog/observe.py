@@ -28,6 +28,8 @@ from mobnet.core.word_checks import check_observe
 from mobnet.estimation import observer
 from mobnet.estimation.observer import drives_of
 from mobnet.estimation.own import DRIVES, ESTIMATE, OBSERVER, RECORDING
+from mobnet.formats.loading import load_section
+from mobnet.formats.log_map import LogMap
 from mobnet.kernel.drive import TorqueKind
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.given import given_robot
@@ -56,8 +58,8 @@ from mobnet.robotlog.pieces import pieces, root_mean_square
 from mobnet.robotlog.piped import as_file
 from mobnet.robotlog.plot import plot_residual
 from mobnet.robotlog.wrenches import Wrenches, WrenchPoint, place_of, wrench_lines, wrenches_of, write_wrenches
-from mobnet.settings.lab import load_lab, load_section
-from mobnet.settings.robotlog import LogMap, RobotLog
+from mobnet.settings.lab import load_lab
+from mobnet.settings.robotlog import RobotLog
 
 log = logging.getLogger(__name__)
 PLOT = "residual"  # beside the arrays of a log

@@ -7,10 +7,10 @@ from pydantic import Field
 
 from mobnet.core.detections import LARGEST
 from mobnet.core.place import CONFIGS
-from mobnet.settings import base
-from mobnet.settings.base import Section
+from mobnet.formats import base
+from mobnet.formats.base import Section
+from mobnet.formats.loading import load_section
 from mobnet.settings.data import Wrench
-from mobnet.settings.lab import load_section
 
 Strategy = Literal["compliant", "rewind"]
 

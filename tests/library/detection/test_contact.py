@@ -10,8 +10,8 @@ from mobnet.core.errors import ConfigError, DataError
 from mobnet.detection.contact import LEAST, ContactLocator, explain
 from mobnet.detection.numbers import contact_numbers
 from mobnet.detection.surface import carried_by, surface_of
+from mobnet.formats.parts import ShapeRow
 from mobnet.robot.wrench import feet_torque
-from mobnet.settings.parts import ShapeRow
 
 FORCE_N = 150.0
 POINTS = ("left_knee_front", "left_knee_side", "left_ankle_front", "left_ankle_side", "left_foot_side")

@@ -13,11 +13,11 @@ from mobnet.detection.numbers import gate_numbers
 from mobnet.export.contract import ObserverContract
 from mobnet.export.export import RunTime, export
 from mobnet.export.trained import read_trained
+from mobnet.formats.limb_thresholds import LimbThresholds
+from mobnet.formats.network import NetworkCell
 from mobnet.learning.deployed.weights import NOTE
 from mobnet.learning.features import limb_inputs
 from mobnet.learning.model import build_network
-from mobnet.settings.limb_thresholds import LimbThresholds
-from mobnet.settings.networks import NetworkCell
 
 STD_MIN = 1e-6
 

@@ -8,8 +8,8 @@ from mobnet.core.errors import ConfigError
 from mobnet.core.joints import N_VIRTUAL, NQ_BASE
 from mobnet.core.recording import Sensed, read_sensed, write_recording
 from mobnet.core.store import read_array
+from mobnet.formats.network import Limb
 from mobnet.learning.features import limb_inputs, signal_names, signals
-from mobnet.settings.networks import Limb
 
 WIDTHS = {"LL": 30, "RL": 30, "RA": 34, "LA": 34, "W": 50, "V": 74}  # Table 1
 

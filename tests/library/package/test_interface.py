@@ -15,9 +15,9 @@ from made_contacts import pushed
 import mobnet
 from mobnet.core.files import RUN, WEIGHTS
 from mobnet.detection.threshold_file import write_thresholds
+from mobnet.formats.limb_thresholds import LimbThresholds
 from mobnet.robot.given import given_robot
 from mobnet.settings.lab import CONFIGS, load_lab
-from mobnet.settings.limb_thresholds import LimbThresholds
 
 ROOT = Path(__file__).parents[3]
 ARM, DEMO = ROOT / "tests" / "data" / "arm.yaml", ROOT / "docs" / "demo"

@@ -8,13 +8,13 @@ from made_weights import weights
 
 from mobnet.core.columns import recording_columns
 from mobnet.estimation.kinds.residual import ResidualEstimator
+from mobnet.formats.network import Limb, NetworkCell
 from mobnet.learning.deployed.limbs import LimbNetworks
 from mobnet.learning.deployed.loading import deployed
 from mobnet.learning.deployed.networks import Prediction
 from mobnet.learning.features import limb_inputs, signal_names, signals
 from mobnet.reaction.handler import Handler
 from mobnet.reaction.loop import columns_of, force_on, give_way, plan_steps, stop, walk_with
-from mobnet.settings.networks import Limb, NetworkCell
 from mobnet.simulation.simulator import Simulator
 
 pytestmark = pytest.mark.sim

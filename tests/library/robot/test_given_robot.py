@@ -11,11 +11,12 @@ import pytest
 from mobnet.core.errors import DataError
 from mobnet.core.options import export_parser, import_parser, missing_input, observe_parser
 from mobnet.core.word_checks import imported_table
+from mobnet.formats.loading import load_section
+from mobnet.formats.robot import RobotTable
 from mobnet.interface import Robot
 from mobnet.robot.given import given_robot, given_table, is_robot_file
 from mobnet.robot.import_file import read_file
-from mobnet.settings.lab import load_lab, load_section
-from mobnet.settings.robot import RobotTable
+from mobnet.settings.lab import load_lab
 
 URDF = Path("tests/data/arm.urdf").resolve()
 MJCF = Path(__file__).parent / "cases" / "m00_plain.xml"

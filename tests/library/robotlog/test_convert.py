@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from mobnet.core.errors import ConfigError, DataError, near_names
+from mobnet.formats.log_map import LogMap
 from mobnet.robotlog.columns import LogColumn
 from mobnet.robotlog.convert import convert
 from mobnet.robotlog.formats import read_log
 from mobnet.robotlog.meaning import default_map
-from mobnet.settings.robotlog import LogMap
 
 RATE_HZ, ROWS = 500.0, 400
 TIME = np.arange(ROWS) / RATE_HZ

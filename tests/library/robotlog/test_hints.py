@@ -7,6 +7,8 @@ import numpy as np
 import pytest
 
 from mobnet.core.contract import BEYOND_SPEED
+from mobnet.formats.loading import load_section
+from mobnet.formats.robot import RobotTable
 from mobnet.robot.description import describe
 from mobnet.robot.dynamics import gravity
 from mobnet.robot.nominal import NominalModel
@@ -17,8 +19,6 @@ from mobnet.robotlog.hints.explained import _in_words
 from mobnet.robotlog.hints.fits import positive_fit
 from mobnet.robotlog.hints.motion import jump_hints
 from mobnet.robotlog.observe import observe_log
-from mobnet.settings.lab import load_section
-from mobnet.settings.robot import RobotTable
 
 ARM = Path("tests/data/arm.yaml")
 BOTH = ("J1", "J2")

@@ -27,6 +27,7 @@ from mobnet.estimation.own import (
     read_log_folder,
     read_network_folder,
 )
+from mobnet.formats.network import Limb
 from mobnet.kernel.low_pass import low_pass
 from mobnet.learning.dataset import LimbData
 from mobnet.learning.deployed.networks import Prediction
@@ -37,7 +38,6 @@ from mobnet.robotlog.labels import label_of, limb_data
 from mobnet.robotlog.learn import filled, training_of
 from mobnet.robotlog.observe import main as observe
 from mobnet.robotlog.planted_check import planted_check
-from mobnet.settings.networks import Limb
 
 GAIN_HZ, RATE_HZ = 100.0, 1000.0
 WRENCH = ("fx", "fy", "fz", "mx", "my", "mz")

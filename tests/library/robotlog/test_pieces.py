@@ -5,6 +5,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from mobnet.formats.loading import load_section
+from mobnet.formats.robot import RobotTable
 from mobnet.robot.description import describe
 from mobnet.robot.nominal import NominalModel
 from mobnet.robotlog.hints.changes import Seen, _needed_by_angle, _waves
@@ -12,8 +14,6 @@ from mobnet.robotlog.hints.columns import _clipped, held_share
 from mobnet.robotlog.hints.motion import turns
 from mobnet.robotlog.hints.windows import MotionWindows
 from mobnet.robotlog.pieces import PIECE_ROWS, pieces, ranges, root_mean_square
-from mobnet.settings.lab import load_section
-from mobnet.settings.robot import RobotTable
 
 ROWS = 2 * PIECE_ROWS + 77
 

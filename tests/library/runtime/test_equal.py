@@ -14,13 +14,13 @@ from mobnet.detection.signals import Watched
 from mobnet.estimation.kinds.residual import ResidualEstimator
 from mobnet.estimation.observer import RobotObserver
 from mobnet.export.model_file import RuntimeDetector, write_model_file
+from mobnet.formats.parts import FrictionRow
 from mobnet.kernel.detecting import WatchedSignals
 from mobnet.learning.deployed.limbs import LimbNetworks
 from mobnet.learning.deployed.loading import deployed
 from mobnet.learning.deployed.weights import GRU_TENSORS
 from mobnet.reaction.watchers import LimbWatcher
 from mobnet.robot.nominal import NominalModel
-from mobnet.settings.parts import FrictionRow
 
 from .conftest import GAIN_HZ, GRAVITY, RATE_HZ, chain_of, changed, moving, network_of
 

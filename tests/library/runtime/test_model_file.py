@@ -23,11 +23,11 @@ from mobnet.export.contract import ObserverContract
 from mobnet.export.export import MODEL, main, model_of
 from mobnet.export.model_file import RuntimeDetector, leg_record, write_model_file
 from mobnet.export.trained import contract_of, read_trained
+from mobnet.formats import base
+from mobnet.formats.limb_thresholds import LimbThresholds
+from mobnet.formats.parts import FrictionRow
 from mobnet.robot.description import describe
 from mobnet.robot.nominal import NominalModel
-from mobnet.settings import base
-from mobnet.settings.limb_thresholds import LimbThresholds
-from mobnet.settings.parts import FrictionRow
 
 from .conftest import GRAVITY, RATE_HZ, chain_of, moving, network_of, watching
 

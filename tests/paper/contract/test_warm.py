@@ -14,6 +14,7 @@ from mobnet.detection.gate import advance_held, gate_state
 from mobnet.detection.numbers import gate_numbers
 from mobnet.estimation.kinds.dahl import bent
 from mobnet.estimation.observe import observer_of
+from mobnet.formats.network import NetworkCell
 from mobnet.kernel.first_order import decay, follow
 from mobnet.kernel.momentum import sweep
 from mobnet.learning.deployed import tick
@@ -21,7 +22,6 @@ from mobnet.learning.deployed.limbs import LimbNetworks
 from mobnet.learning.deployed.loading import deployed
 from mobnet.learning.features import signal_names
 from mobnet.robot.description import describe
-from mobnet.settings.networks import NetworkCell
 from mobnet.simulation import engine
 from mobnet.simulation.simulator import Simulator
 

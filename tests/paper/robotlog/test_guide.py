@@ -7,10 +7,10 @@ import numpy as np
 import yaml
 
 from experiments.check import main as check
+from mobnet.formats.loading import load_section
+from mobnet.formats.log_map import LogMap, Signal, Tool
 from mobnet.robotlog.convert import convert
 from mobnet.robotlog.formats import FORMATS, read_log
-from mobnet.settings.lab import load_section
-from mobnet.settings.robotlog import LogMap, Signal, Tool
 
 PAGE, FORMATS_PAGE = Path("docs/logs.md"), Path("docs/log_formats.md")
 

@@ -23,8 +23,8 @@ from mobnet.estimation.kinds.friction import LARGEST, check, fitted_joints, fric
 from mobnet.estimation.kinds.residual import ResidualEstimator
 from mobnet.estimation.recipe import Recipe
 from mobnet.estimation.regression import Pair, logged, non_negative, square_sums
+from mobnet.formats.base import Positive, Rising, Section
 from mobnet.kernel.drive import bent
-from mobnet.settings.base import Positive, Rising, Section
 from mobnet.settings.methods import ObserverSettings
 from mobnet.settings.networks import Network
 

@@ -11,10 +11,10 @@ from mobnet.core.estimator import Estimate, Stretch
 from mobnet.core.joints import JointLayout
 from mobnet.core.recording import Sensed
 from mobnet.estimation.recipe import Recipe, ResidualObserver
+from mobnet.formats.base import Section
+from mobnet.formats.reading import Place
 from mobnet.learning.deployed.networks import Prediction
-from mobnet.settings.base import Section
 from mobnet.settings.methods import Method
-from mobnet.settings.reading import Place
 
 State = tuple[Any, Any]  # of the observer and of the uncertainty model
 

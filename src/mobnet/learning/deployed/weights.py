@@ -13,8 +13,8 @@ from safetensors import SafetensorError, safe_open
 from mobnet.core.errors import DataError, not_accepted, refuse
 from mobnet.core.files import parse_json
 from mobnet.core.notes import Names, Note, Positive, Text, checked, fault_of
-from mobnet.settings.networks import NetworkCell
-from mobnet.settings.robot import GroupName
+from mobnet.formats.network import NetworkCell
+from mobnet.formats.robot import GroupName
 
 NOTE = "note"  # the only entry of the file's metadata: several would be written in an order that changes
 GRU_TENSORS = (
