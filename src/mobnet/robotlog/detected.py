@@ -73,7 +73,9 @@ def detect_log(
     low = setup.low_passed(estimate.tau_ext.astype(np.float64), read.segments)
     nominal = NominalModel(robot, gravity_m_s2=gravity)
     flags = tuple(
-        flags_of(alarm, observed.converted.time_s, read, low, estimate.std, thresholds, nominal, settings.robotlog)
+        flags_of(
+            alarm, observed.converted.time_s, read, low, estimate.std, thresholds, nominal, settings.robotlog.flag_gap_s
+        )
     )
     known = found_pushes(observed.converted, thresholds.joints, flags, settings.robotlog.flag_gap_s)
     return LogDetection(observed, estimate, setup.low_passed(signals, read.segments), flags, known)

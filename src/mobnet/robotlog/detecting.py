@@ -14,6 +14,7 @@ from mobnet.estimation.own import ESTIMATE, OwnNetwork, check_sampling, read_net
 from mobnet.formats.limb_thresholds import LimbThresholds
 from mobnet.formats.loading import load_section
 from mobnet.formats.log_map import LogMap
+from mobnet.formats.plain import as_plain
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.given import given_robot
 from mobnet.robot.nominal import NominalModel
@@ -22,7 +23,7 @@ from mobnet.robotlog.flags import COLUMNS, pushed_rows
 from mobnet.robotlog.flags_mcap import write_mcap
 from mobnet.robotlog.formats import stem_of
 from mobnet.robotlog.plot import plot_flags
-from mobnet.robotlog.wrenches import place_of, wrench_lines, wrenches_of, write_wrenches
+from mobnet.robotlog.wrenches import WrenchNumbers, place_of, wrench_lines, wrenches_of, write_wrenches
 from mobnet.settings.lab import Lab
 
 FLAGS = "flags.csv"
@@ -81,7 +82,7 @@ def detect(options: Namespace, settings: Lab) -> Iterator[str]:
     sweep(out.parent if is_mcap else out)
     made = detect_log(options.log, robot, meaning, network, thresholds, settings)
     read = made.observed.converted.recording
-    numbers = settings.robotlog.wrench
+    numbers = as_plain(settings.robotlog.wrench, WrenchNumbers)
     wrenches = [wrenches_of(nominal, place, read.sensed.q, made.estimate, numbers) for place in places]
     if is_mcap:
         write_mcap(made, thresholds, robot.layout.columns(thresholds.joints), out)

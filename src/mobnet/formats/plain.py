@@ -1,0 +1,20 @@
+"""Sections as plain dataclasses, for code that takes numbers and knows no configuration."""
+
+from dataclasses import Field, fields
+from typing import Any, ClassVar, Protocol, TypeVar
+
+from mobnet.formats.base import Section
+
+
+class Dataclass(Protocol):
+    """Any dataclass."""
+
+    __dataclass_fields__: ClassVar[dict[str, Field[Any]]]
+
+
+Kind = TypeVar("Kind", bound=Dataclass)
+
+
+def as_plain(section: Section, kind: type[Kind]) -> Kind:
+    """Return an object of a dataclass with the values that a section has under the names of its fields."""
+    return kind(**section.model_dump(include={field.name for field in fields(kind)}))
