@@ -18,8 +18,10 @@ from mobnet.detection.detector import LegDetector, LegGate
 from mobnet.detection.signals import Watched
 from mobnet.estimation.kinds.residual import ResidualEstimator
 from mobnet.estimation.observe import observer_of
+from mobnet.formats.plain import as_plain
 from mobnet.reaction.handler import Handler
 from mobnet.reaction.loop import walk_with
+from mobnet.reaction.numbers import ReactionNumbers
 from mobnet.reaction.watchers import LegWatcher, LimbWatcher
 from mobnet.robot.description import describe
 from mobnet.simulation.simulator import Simulator
@@ -88,7 +90,9 @@ def _handler(settings: Settings, rate_hz: float) -> Handler:
         gate = LegGate.of(detection.gate.numbers, robot, limb, rate_hz) if limb in detection.legs else None
         leg = LegWatcher(LegDetector(watched, gate, chain), columns) if gate else None
         watchers[limb] = leg or LimbWatcher(watched, chain, columns)
-    return Handler(robot, settings.reaction, settings.walking.foot_spacing_m, watchers, "compliant")
+    return Handler(
+        robot, as_plain(settings.reaction, ReactionNumbers), settings.walking.foot_spacing_m, watchers, "compliant"
+    )
 
 
 if __name__ == "__main__":

@@ -45,16 +45,19 @@ from mobnet.estimation.own import (
 )
 from mobnet.export.contract import CONTRACT
 from mobnet.formats.limb_thresholds import LimbThresholds
+from mobnet.formats.plain import as_plain
+from mobnet.kernel.detecting import Strategy
 from mobnet.kernel.drive import TorqueKind
 from mobnet.learning.deployed.limbs import load_limb_networks
 from mobnet.reaction.handler import Handler, Reacted
+from mobnet.reaction.numbers import ReactionNumbers
 from mobnet.reaction.watchers import LegWatcher, LimbWatcher, some
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.given import given_robot
 from mobnet.robot.import_model import robot_of_model
 from mobnet.robot.nominal import NominalModel
 from mobnet.settings.lab import Lab, load_lab
-from mobnet.settings.reaction import Strategy, load_reaction
+from mobnet.settings.reaction import load_reaction
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -478,7 +481,9 @@ class ReactionHandler:
             columns = description.layout.columns(detector.joints)
             watchers[detector.thresholds.limb] = watcher_of(description, detector.thresholds, columns)
         self._limbs = list(watchers)
-        self._handler = Handler(description, load_reaction(), foot_spacing_m, watchers, strategy)
+        self._handler = Handler(
+            description, as_plain(load_reaction(), ReactionNumbers), foot_spacing_m, watchers, strategy
+        )
         self.reset()
 
     def __repr__(self) -> str:

@@ -25,8 +25,10 @@ from mobnet.detection.detector import LegDetector
 from mobnet.detection.numbers import watched_signals
 from mobnet.detection.signals import Watched
 from mobnet.detection.watch import LegSetup
+from mobnet.formats.plain import as_plain
 from mobnet.reaction.handler import Handler, Watcher
 from mobnet.reaction.loop import Course, columns_of, walk_with
+from mobnet.reaction.numbers import ReactionNumbers
 from mobnet.reaction.watchers import BaseWatcher, FootWatcher, LegWatcher, LimbWatcher, OwnLegWatcher
 from mobnet.settings.detection import Detection
 from mobnet.settings.methods import ObserverSettings
@@ -100,7 +102,9 @@ class CaseWalker:
         times_s = watch.wait_s, settings.recording.settle_s, case.sizes.longest_s, numbers.after_s
         wait, settle, longest, after = (round(time_s * robot.rate_hz) for time_s in times_s)
         spacing_m = settings.walking.foot_spacing_m
-        handler = Handler(robot.description, numbers, spacing_m, watchers, row.strategy, wait, settle)
+        handler = Handler(
+            robot.description, as_plain(numbers, ReactionNumbers), spacing_m, watchers, row.strategy, wait, settle
+        )
         height_m = robot.detection.gate.contact_height_m
         estimator = self.estimator(numbers.estimator)
         sizes = (longest, after, numbers.touch_n, height_m)

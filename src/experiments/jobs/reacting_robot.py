@@ -15,6 +15,8 @@ from mobnet.detection.watch import LegSetup
 from mobnet.estimation.kinds import build_estimator
 from mobnet.estimation.observe import observer_of
 from mobnet.estimation.recipe import Recipe, ResidualObserver
+from mobnet.formats.plain import as_plain
+from mobnet.reaction.numbers import WrenchDamping
 from mobnet.reaction.watchers import BaseForce
 from mobnet.robot.description import RobotDescription, describe
 from mobnet.settings.detection import Detection
@@ -66,7 +68,7 @@ class ReactingRobot:
     @cached_property
     def base(self) -> BaseForce:
         """The unexpected force on the base."""
-        numbers = self.reaction.identification
+        numbers = as_plain(self.reaction.identification, WrenchDamping)
         return BaseForce.of(self.description, numbers, self.detection.gate.contact_height_m)
 
     def joints_of(self, limb: str) -> tuple[str, ...]:

@@ -16,5 +16,12 @@ Kind = TypeVar("Kind", bound=Dataclass)
 
 
 def as_plain(section: Section, kind: type[Kind]) -> Kind:
-    """Return an object of a dataclass with the values that a section has under the names of its fields."""
-    return kind(**section.model_dump(include={field.name for field in fields(kind)}))
+    """Return an object of a dataclass with the values that a section has under the names of its fields.
+
+    A field whose value is a section is of a dataclass, too.
+    """
+    values = dict[str, Any]()
+    for field in fields(kind):
+        value = getattr(section, field.name)
+        values[field.name] = as_plain(value, field.type) if isinstance(value, Section) else value
+    return kind(**values)

@@ -1,7 +1,6 @@
 """Handling collisions (sections 5.4 and 7): identification, reacting steps, stop mode."""
 
 from pathlib import Path
-from typing import Literal
 
 from pydantic import Field
 
@@ -10,9 +9,8 @@ from mobnet.core.place import CONFIGS
 from mobnet.formats import base
 from mobnet.formats.base import Section
 from mobnet.formats.loading import load_section
+from mobnet.kernel.detecting import Strategy
 from mobnet.settings.data import Wrench
-
-Strategy = Literal["compliant", "rewind"]
 
 
 class WrenchIdentification(Section):

@@ -9,9 +9,11 @@ from mobnet.detection.detector import LegDetector, LegGate
 from mobnet.detection.numbers import gate_numbers
 from mobnet.detection.signals import Watched
 from mobnet.estimation.kinds import build_estimator
+from mobnet.formats.plain import as_plain
 from mobnet.kernel.detecting import WatchedSignals
 from mobnet.reaction.handler import Handler
 from mobnet.reaction.loop import walk_with
+from mobnet.reaction.numbers import ReactionNumbers
 from mobnet.reaction.watchers import LegWatcher, LimbWatcher
 from mobnet.simulation.simulator import Simulator
 
@@ -53,7 +55,9 @@ def into(robot, recipe_of, settings):
     def walk(scenario, seed, watchers, strategy="compliant", seconds=10.0, after_s=5.0):
         simulator = Simulator(walk_settings(settings, scenario, "sensor_noise"), seed)
         simulator.start()
-        handler = Handler(robot, settings.reaction, settings.walking.foot_spacing_m, watchers, strategy)
+        handler = Handler(
+            robot, as_plain(settings.reaction, ReactionNumbers), settings.walking.foot_spacing_m, watchers, strategy
+        )
         estimator = build_estimator(recipe_of("MOB", "sensor_noise"))
         samples, after = round(seconds * RATE_HZ), round(after_s * RATE_HZ)
         numbers = settings.reaction.touch_n, settings.detection.gate.contact_height_m
