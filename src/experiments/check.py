@@ -87,7 +87,7 @@ class Against:
     @cached_property
     def layout(self) -> JointLayout:
         """The robot's joints."""
-        return given_table(self.robot, self.lab).layout
+        return given_table(self.robot, self.lab.robot).layout
 
     @cached_property
     def rate_hz(self) -> float:

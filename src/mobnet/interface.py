@@ -53,7 +53,7 @@ from mobnet.reaction.handler import Handler, Reacted
 from mobnet.reaction.numbers import ReactionNumbers
 from mobnet.reaction.watchers import LegWatcher, LimbWatcher, some
 from mobnet.robot.description import RobotDescription
-from mobnet.robot.given import given_robot
+from mobnet.robot.given import robot_of_file
 from mobnet.robot.import_model import robot_of_model
 from mobnet.robot.nominal import NominalModel
 from mobnet.settings.lab import Lab, load_lab
@@ -104,7 +104,7 @@ class Robot:
             ConfigError: the table cannot be read, or a value is not accepted.
             DataError: the file is no robot, or a table cannot hold it.
         """
-        return cls(given_robot(Path(path), lab()))
+        return cls(robot_of_file(Path(path)))
 
     @classmethod
     def from_model(

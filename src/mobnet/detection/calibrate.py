@@ -96,7 +96,7 @@ def run(options: Namespace) -> list[str]:
     settings = load_lab()
     if options.out:
         sweep(options.out.parent)
-    robot = given_robot(options.robot, settings)
+    robot = given_robot(options.robot, settings.robot)
     if not options.folders:
         limb = options.limb or next(iter(robot.layout.legs.values()), None) or limb_of(robot.layout, None)
         recordings = of_files(options, robot, limb)

@@ -277,7 +277,7 @@ def run(options: Namespace) -> Iterator[str]:
     """Export networks as the command's options say, and yield what is printed."""
     check_export(options)
     settings = load_lab()
-    robot = given_robot(options.robot, settings)
+    robot = given_robot(options.robot, settings.robot)
     given = Given(options.rate, options.gain, options.torque)
     contract, networks = export_folders(options.network, robot, options.thresholds, given, settings, options.out)
     yield from report_lines(contract, networks, options.out)

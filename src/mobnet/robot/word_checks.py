@@ -30,7 +30,7 @@ def check_named(options: Namespace) -> None:
         check_limits(options)
     if "robot" not in given:  # it takes nothing of the configuration
         return
-    robot = given_robot(options.robot, load_lab())
+    robot = given_robot(options.robot, load_lab().robot)
     if given.get("map"):
         load_section(options.map, LogMap)
     # A network or recordings say which limb is meant where the words do not.

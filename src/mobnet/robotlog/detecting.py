@@ -59,7 +59,7 @@ def report_lines(made: LogDetection) -> Iterator[str]:
 
 def detect(options: Namespace, settings: Lab) -> Iterator[str]:
     """Detect as the command's options say, and yield what is printed."""
-    robot = given_robot(options.robot, settings)
+    robot = given_robot(options.robot, settings.robot)
     meaning = load_section(options.map, LogMap) if options.map else None
     network = read_network_folder(options.network, robot.layout, settings) if options.network else None
     thresholds = read_thresholds(options.thresholds)

@@ -233,8 +233,8 @@ def _cell(fit: JointFit, term: str) -> str:
 def run(options: Namespace) -> Iterator[str]:
     """Identify as the command's options say, and yield what is printed."""
     settings = load_lab()
-    table = given_table(options.robot, settings)
-    robot = given_robot(options.robot, settings)
+    table = given_table(options.robot, settings.robot)
+    robot = given_robot(options.robot, settings.robot)
     out = options.out or Path(f"{robot.name.replace(' ', '_')}_identified.yaml")
     check_new_file(out, force=options.force)
     meaning = load_section(options.map, LogMap) if options.map else None

@@ -187,7 +187,7 @@ def run(options: Namespace) -> list[str]:
     check_learn(options)
     settings = load_lab()
     epochs = settings.robotlog.learn.epochs if options.epochs is None else options.epochs
-    table = given_table(options.robot, settings)
+    table = given_table(options.robot, settings.robot)
     limb = limb_of(table.layout, options.limb)
     out = options.out or Path(f"{limb}_net")
     check_place(out)

@@ -303,7 +303,7 @@ def run(options: Namespace) -> Iterator[str]:
     """Observe a log as the command's options say, and yield what is printed."""
     check_observe(options)
     settings = load_lab()
-    robot = given_robot(options.robot, settings)
+    robot = given_robot(options.robot, settings.robot)
     meaning = load_section(options.map, LogMap) if options.map else None
     gain_hz = settings.observer.gain_hz if options.gain is None else options.gain
     torque = options.torque or (meaning.torque if meaning else "sample")

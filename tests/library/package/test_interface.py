@@ -265,8 +265,8 @@ def test_an_export_is_that_of_the_command(humanoid, tmp_path):
 
 def test_a_command_takes_a_urdf_where_it_takes_a_table(tmp_path):
     robot = ROOT / "tests" / "data" / "arm.urdf"
-    given = given_robot(robot, load_lab())
+    given = given_robot(robot, load_lab().robot)
     assert given.layout.actuated == mobnet.Robot.read(robot).motors
     (tmp_path / "arm.urdf").write_text("<robot/>")
     with pytest.raises(mobnet.MobnetError, match=r"arm\.urdf"):
-        given_robot(tmp_path / "arm.urdf", load_lab())
+        given_robot(tmp_path / "arm.urdf", load_lab().robot)

@@ -57,7 +57,7 @@ def judged(table, folder, calm, pushes, settings):
 
     A threshold is the largest number in the calm logs, behind the low-pass of a detector.
     """
-    robot, meaning = given_robot(table, settings), load_section(folder / "map.yaml", LogMap)
+    robot, meaning = given_robot(table, settings.robot), load_section(folder / "map.yaml", LogMap)
     chain = make_chain(settings.detection.low_pass_hz, 0.0, 100.0, np.ones((1, robot.layout.nu)))
 
     def watched(name):
