@@ -16,8 +16,8 @@ from mobnet.core.machine import one_thread
 from mobnet.detection.chain import make_chain
 from mobnet.detection.detector import LegDetector, LegGate
 from mobnet.detection.signals import Watched
-from mobnet.estimation.kinds.residual import ResidualEstimator
 from mobnet.estimation.observe import observer_of
+from mobnet.estimation.residual import ResidualEstimator
 from mobnet.formats.plain import as_plain
 from mobnet.reaction.handler import Handler
 from mobnet.reaction.loop import walk_with

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from mobnet.core.estimator import Estimate
-from mobnet.core.recording import read_sensed
+from mobnet.core.recording_file import read_sensed
 from mobnet.detection.numbers import watched_signals
 from mobnet.detection.signals import Watched
 from mobnet.detection.watch import LegSetup

@@ -40,8 +40,8 @@ from mobnet.formats.limb_thresholds import LimbThresholds
 from mobnet.formats.loading import load_section
 from mobnet.formats.reading import read_yaml
 from mobnet.formats.robot import RobotTable
-from mobnet.learning.deployed.limbs import LimbNetworks, check_limb
-from mobnet.learning.deployed.loading import deployed
+from mobnet.learning.deployed.limbs import LimbNetworks
+from mobnet.learning.deployed.loading import check_limb, deployed
 from mobnet.learning.deployed.weights import read_weights
 from mobnet.robot.given import given_table
 from mobnet.robotlog.formats import FORMATS, format_of

@@ -18,7 +18,8 @@ from mobnet.core.arrays import Array
 from mobnet.core.detections import LARGEST, Threshold
 from mobnet.core.estimator import Estimate, Stretch, TorqueEstimator, estimate_all
 from mobnet.core.files import write_text
-from mobnet.core.recording import Recording, Sensed, read_recording
+from mobnet.core.recording import Recording, Sensed
+from mobnet.core.recording_file import read_recording
 from mobnet.core.rows import csv_text
 from mobnet.detection.calibration import unit_of
 from mobnet.detection.numbers import tail_numbers

@@ -8,13 +8,13 @@ from typing import Any
 from numpy.typing import NDArray
 
 from experiments.plan.parts import MethodRun
-from mobnet.core.estimator import TorqueEstimator, once
+from mobnet.core.estimator import ResidualObserver, TorqueEstimator, once
 from mobnet.detection.numbers import watched_signals
 from mobnet.detection.signals import Watched
 from mobnet.detection.watch import LegSetup
 from mobnet.estimation.kinds import build_estimator
 from mobnet.estimation.observe import observer_of
-from mobnet.estimation.recipe import Recipe, ResidualObserver
+from mobnet.estimation.recipe import Recipe
 from mobnet.formats.plain import as_plain
 from mobnet.reaction.numbers import WrenchDamping
 from mobnet.reaction.watchers import BaseForce

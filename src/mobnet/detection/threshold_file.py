@@ -8,7 +8,8 @@ from mobnet.core.place import command
 from mobnet.detection.always import setup_of
 from mobnet.detection.signals import Watched
 from mobnet.detection.watch import LegSetup, LimbSetup
-from mobnet.estimation.own import OwnNetwork, Sampling, check_drives
+from mobnet.estimation.own import OwnNetwork
+from mobnet.estimation.sampling import Sampling, check_drives
 from mobnet.formats.limb_thresholds import LimbThresholds
 from mobnet.formats.loading import load_section
 from mobnet.kernel.detecting import WatchedSignals

@@ -12,7 +12,8 @@ from mobnet.core.arrays import Array
 from mobnet.core.columns import EXTERNAL, STD, named
 from mobnet.core.estimator import Estimate
 from mobnet.core.notes import read_array_note
-from mobnet.core.recording import SensedRecording, read_sensed
+from mobnet.core.recording import SensedRecording
+from mobnet.core.recording_file import read_sensed
 from mobnet.core.store import NOTE, file_of, read_array
 from mobnet.detection.chain import Chain, low_passed, make_chain
 from mobnet.detection.detector import DetectorOutput, GateSignal, LegGate, run_segments

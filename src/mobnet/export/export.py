@@ -26,7 +26,7 @@ from mobnet.detection.numbers import gate_numbers
 from mobnet.detection.signals import MEAN
 from mobnet.detection.threshold_file import read_thresholds
 from mobnet.estimation.observer import RobotObserver
-from mobnet.estimation.own import OBSERVER, check_drives
+from mobnet.estimation.sampling import OBSERVER, check_drives
 from mobnet.export.contract import CONTRACT, Contract, ObserverContract, read_contract
 from mobnet.export.graph import graph_of
 from mobnet.export.model_file import RuntimeDetector, RuntimeNetwork, model_content

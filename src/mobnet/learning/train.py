@@ -17,7 +17,8 @@ from mobnet.formats.base import Section
 from mobnet.learning.calibration import StdFactors
 from mobnet.learning.checkpoint import Progress, copy_weights, write_metrics
 from mobnet.learning.dataset import LimbData
-from mobnet.learning.deployed.weights import NOTE, STD_SCALE
+from mobnet.learning.deployed.tensors import STD_SCALE
+from mobnet.learning.deployed.weights import NOTE
 from mobnet.learning.job import TrainingJob, precision_name
 from mobnet.learning.model import parameter_count
 from mobnet.learning.stacked.train import read_lesson

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mobnet.control.geometry import wrap
-from mobnet.control.parameters import DURATION, STEP_X, STEP_Y, TURN
+from mobnet.control.steps import DURATION, STEP_X, STEP_Y, TURN
 from mobnet.core.arrays import Array
 from mobnet.reaction.numbers import CompliantNumbers, FirstStepNumbers
 

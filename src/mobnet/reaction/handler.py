@@ -11,7 +11,7 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from mobnet.control.parameters import DURATION, SIDES
+from mobnet.control.steps import DURATION, SIDES
 from mobnet.core.arrays import Array
 from mobnet.core.estimator import Estimate
 from mobnet.core.recording import Sensed

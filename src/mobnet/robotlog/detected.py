@@ -15,7 +15,8 @@ from mobnet.detection.always import always_on
 from mobnet.detection.detector import GateSignal, run_segments
 from mobnet.detection.threshold_file import sampling_of, setup_with, watched_of
 from mobnet.detection.watch import LegSetup, LimbSetup
-from mobnet.estimation.own import OwnLog, OwnNetwork, estimates_of, estimator_of
+from mobnet.estimation.own import OwnLog, OwnNetwork, estimates_of
+from mobnet.estimation.sampling import estimator_of
 from mobnet.formats.limb_thresholds import LimbThresholds
 from mobnet.formats.log_map import LogMap
 from mobnet.robot.description import RobotDescription

@@ -10,7 +10,8 @@ from mobnet.core.options import MCAP
 from mobnet.core.rows import csv_text
 from mobnet.detection.threshold_file import check_thresholds, read_thresholds, sampling_of
 from mobnet.estimation.estimate import write_estimate
-from mobnet.estimation.own import ESTIMATE, OwnNetwork, check_sampling, read_network_folder
+from mobnet.estimation.own import ESTIMATE, OwnNetwork, read_network_folder
+from mobnet.estimation.sampling import check_sampling
 from mobnet.formats.limb_thresholds import LimbThresholds
 from mobnet.formats.loading import load_section
 from mobnet.formats.log_map import LogMap

@@ -21,15 +21,8 @@ from mobnet.core.options import learn_parser
 from mobnet.core.printed import printed
 from mobnet.core.word_checks import check_learn
 from mobnet.estimation import observer
-from mobnet.estimation.own import (
-    LEARNED,
-    OwnLog,
-    check_drives,
-    limb_of,
-    read_log_folder,
-    refuse_twice,
-    without_friction,
-)
+from mobnet.estimation.own import OwnLog, limb_of, read_log_folder, refuse_twice, without_friction
+from mobnet.estimation.sampling import LEARNED, check_drives
 from mobnet.formats.network import Limb
 from mobnet.formats.robot import RobotTable
 from mobnet.learning.dataset import LimbData

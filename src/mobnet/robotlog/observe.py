@@ -27,7 +27,8 @@ from mobnet.core.store import NOTE, array_writer, file_of
 from mobnet.core.word_checks import check_observe
 from mobnet.estimation import observer
 from mobnet.estimation.observer import drives_of
-from mobnet.estimation.own import DRIVES, ESTIMATE, OBSERVER, RECORDING
+from mobnet.estimation.own import ESTIMATE, RECORDING
+from mobnet.estimation.sampling import DRIVES, OBSERVER
 from mobnet.formats.loading import load_section
 from mobnet.formats.log_map import LogMap
 from mobnet.formats.plain import as_plain
@@ -254,7 +255,7 @@ def write_observed(observed: ObservedLog, robot: RobotDescription, gain_hz: floa
 
 
 def _write_recording(stem: Path, recording: Recording, layout: JointLayout) -> None:
-    """Write a recording as `mobnet.core.recording` does, in pieces, because a log may be as large as the memory."""
+    """Write a recording as `mobnet.core.recording_file` does, in pieces: a log may be as large as the memory."""
     columns = recording_columns(layout)
     fields = {**vars(recording.sensed), **vars(recording.truth)}
     with array_writer(stem, list(chain.from_iterable(columns.values()))) as writer:

@@ -15,7 +15,7 @@ from mobnet.export.export import export
 from mobnet.export.session import load_exported
 from mobnet.export.trained import Trained, read_trained
 from mobnet.formats.network import NetworkCell
-from mobnet.learning.deployed.limbs import load_limb_networks
+from mobnet.learning.deployed.loading import load_limb_networks
 from mobnet.learning.features import signal_names, signals
 
 STEPS = 500

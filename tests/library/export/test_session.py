@@ -12,7 +12,7 @@ from mobnet.core.estimator import Estimate
 from mobnet.detection.detector import ALARM_RATIO, LegDetector
 from mobnet.detection.numbers import watched_signals
 from mobnet.detection.signals import Watched
-from mobnet.estimation.kinds.residual import ResidualEstimator
+from mobnet.estimation.residual import ResidualEstimator
 from mobnet.export.session import OnnxNetwork, load_exported
 from mobnet.learning.deployed.loading import load_network
 from mobnet.learning.features import signal_names, signals

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from mobnet.control.parameters import DURATION, STEP_X, STEP_Y, TURN
+from mobnet.control.steps import DURATION, STEP_X, STEP_Y, TURN
 from mobnet.formats.plain import as_plain
 from mobnet.reaction.footsteps import Stance, compliant_steps, in_place, rewound_steps, step_to
 from mobnet.reaction.numbers import CompliantNumbers, FirstStepNumbers

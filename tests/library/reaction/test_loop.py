@@ -7,7 +7,7 @@ from library_settings import library_settings, walk_settings
 from made_weights import weights
 
 from mobnet.core.columns import recording_columns
-from mobnet.estimation.kinds.residual import ResidualEstimator
+from mobnet.estimation.residual import ResidualEstimator
 from mobnet.formats.network import Limb, NetworkCell
 from mobnet.formats.plain import as_plain
 from mobnet.learning.deployed.limbs import LimbNetworks

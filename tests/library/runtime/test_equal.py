@@ -11,14 +11,14 @@ from mobnet.core.estimator import Estimate
 from mobnet.detection.detector import ALARM_RATIO, GateSignal, LegDetector, LegGate, run_over
 from mobnet.detection.numbers import gate_numbers, watched_signals
 from mobnet.detection.signals import Watched
-from mobnet.estimation.kinds.residual import ResidualEstimator
 from mobnet.estimation.observer import RobotObserver
+from mobnet.estimation.residual import ResidualEstimator
 from mobnet.export.model_file import RuntimeDetector, write_model_file
 from mobnet.formats.parts import FrictionRow
 from mobnet.kernel.detecting import WatchedSignals
 from mobnet.learning.deployed.limbs import LimbNetworks
 from mobnet.learning.deployed.loading import deployed
-from mobnet.learning.deployed.weights import GRU_TENSORS
+from mobnet.learning.deployed.tensors import GRU_TENSORS
 from mobnet.reaction.watchers import LimbWatcher
 from mobnet.robot.nominal import NominalModel
 

@@ -17,7 +17,7 @@ from made_arm import arm_log
 
 from experiments.commands.main import MODULES
 from experiments.commands.words import parse
-from mobnet.core.recording import read_sensed
+from mobnet.core.recording_file import read_sensed
 from mobnet.core.store import read_array
 from mobnet.detection.calibrate import main as calibrate
 from mobnet.detection.threshold_file import read_thresholds

@@ -25,7 +25,8 @@ from mobnet.core.columns import EXTERNAL, PUSH, PUSH_TORQUE, named
 from mobnet.core.detections import Threshold
 from mobnet.core.errors import ConfigError, DataError, not_accepted, refuse
 from mobnet.core.estimator import Estimate, TorqueEstimator
-from mobnet.core.recording import SensedRecording, read_sensed
+from mobnet.core.recording import SensedRecording
+from mobnet.core.recording_file import read_sensed
 from mobnet.core.store import check_rate, read_array
 from mobnet.detection.detector import ALARM_RATIO, LegDetector
 from mobnet.detection.numbers import watched_signals

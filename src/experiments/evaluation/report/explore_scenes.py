@@ -16,7 +16,7 @@ from experiments.settings.pages import Explore, Story
 from mobnet.control.kinematics import empty_pose, tree_of, update
 from mobnet.core.arrays import Array
 from mobnet.core.columns import FEET, PUSH, PUSHED
-from mobnet.core.recording import read_sensed
+from mobnet.core.recording_file import read_sensed
 from mobnet.core.store import read_array
 from mobnet.detection.detector import LegGate
 from mobnet.detection.numbers import gate_numbers

@@ -18,9 +18,9 @@ from mobnet.core.joints import JointLayout
 from mobnet.core.notes import Note, NotNegative, Text, read_note
 from mobnet.core.notes import Positive as AboveZero
 from mobnet.core.recording import Sensed
-from mobnet.estimation.kinds.residual import ResidualEstimator
 from mobnet.estimation.recipe import Recipe
 from mobnet.estimation.regression import TERMS, Law, Pair, regress, regressors
+from mobnet.estimation.residual import ResidualEstimator
 from mobnet.formats.base import Distinct, Positive, Rising, Section
 from mobnet.formats.network import Limb
 from mobnet.formats.reading import Place

@@ -15,7 +15,8 @@ from mobnet.learning.deployed.lanes import CHUNK
 from mobnet.learning.deployed.loading import load_network
 from mobnet.learning.deployed.module_network import ModuleNetwork
 from mobnet.learning.deployed.networks import ConstantNetwork, GruNetwork
-from mobnet.learning.deployed.weights import NOTE, STD_SCALE
+from mobnet.learning.deployed.tensors import STD_SCALE
+from mobnet.learning.deployed.weights import NOTE
 from mobnet.learning.model import build_network
 from mobnet.learning.streams import split
 

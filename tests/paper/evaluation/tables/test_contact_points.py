@@ -21,7 +21,8 @@ from experiments.records.collisions import Detected
 from experiments.settings.settings import Settings
 from mobnet.core.columns import torque_columns
 from mobnet.core.errors import DataError
-from mobnet.core.recording import Recording, write_recording
+from mobnet.core.recording import Recording
+from mobnet.core.recording_file import write_recording
 from mobnet.core.store import write_array
 from mobnet.detection.contact import ContactLocator
 from mobnet.detection.numbers import contact_numbers

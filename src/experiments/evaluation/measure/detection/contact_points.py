@@ -25,7 +25,7 @@ from mobnet.core.arrays import Array
 from mobnet.core.columns import EXTERNAL_LP, PUSH, named
 from mobnet.core.errors import DataError
 from mobnet.core.estimator import Estimate
-from mobnet.core.recording import read_sensed
+from mobnet.core.recording_file import read_sensed
 from mobnet.core.store import read_array
 from mobnet.detection.contact import ContactLocator
 from mobnet.detection.numbers import contact_numbers

@@ -19,7 +19,7 @@ from experiments.evaluation.tables.look import Row, ShownColumn, TableLook, writ
 from experiments.settings.published import PublishedData
 from experiments.settings.table_columns import DATA
 from experiments.settings.tables import DataTable
-from mobnet.control.parameters import DURATION
+from mobnet.control.steps import DURATION
 from mobnet.core.columns import COMMAND, recording_columns
 from mobnet.core.errors import refuse_lines
 from mobnet.core.notes import read_array_note

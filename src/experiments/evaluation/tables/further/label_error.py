@@ -12,7 +12,7 @@ from experiments.settings.tables import LabelError
 from mobnet.core.arrays import Array
 from mobnet.core.columns import EXTERNAL_LP, FEET, foot_of, named
 from mobnet.core.joints import JointLayout
-from mobnet.core.recording import read_sensed
+from mobnet.core.recording_file import read_sensed
 from mobnet.core.store import read_array
 from mobnet.estimation.label import foot_label
 from mobnet.estimation.observe import read_wrenches
