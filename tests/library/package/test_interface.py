@@ -152,6 +152,24 @@ def test_the_import_alone_loads_no_package():
     assert said.stdout == "[]\n"
 
 
+def test_the_names_need_no_configuration_and_few_lines():
+    """What a stranger reads who takes the interface. Lower the number, never raise it."""
+    code = """
+import sys
+import mobnet
+for name in mobnet.__all__:
+    getattr(mobnet, name)
+for name, module in sys.modules.items():
+    if name.partition(".")[0] in ("mobnet", "pyarrow", "safetensors"):
+        print(name, module.__file__)
+"""
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    files = dict(line.split() for line in done.stdout.splitlines())
+    assert {name.partition(".")[0] for name in files} == {"mobnet"}
+    assert not {name for name in files if name.startswith(("mobnet.settings", "mobnet.formats.reading"))}
+    assert sum(len(Path(file).read_text().splitlines()) for file in files.values()) <= 8000
+
+
 def test_a_robot_of_a_urdf_is_that_of_the_table_that_the_command_makes():
     arm = mobnet.Robot.read(ROOT / "tests" / "data" / "arm.urdf")
     assert len(arm.motors) == len(arm.joints) == 2
