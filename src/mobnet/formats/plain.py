@@ -1,7 +1,7 @@
 """Sections as plain dataclasses, for code that takes numbers and knows no configuration."""
 
 from dataclasses import Field, fields
-from typing import Any, ClassVar, Protocol, TypeVar
+from typing import Any, ClassVar, Protocol, TypeVar, cast
 
 from mobnet.formats.base import Section
 
@@ -23,5 +23,7 @@ def as_plain(section: Section, kind: type[Kind]) -> Kind:
     values = dict[str, Any]()
     for field in fields(kind):
         value = getattr(section, field.name)
-        values[field.name] = as_plain(value, field.type) if isinstance(value, Section) else value
+        if isinstance(value, Section):
+            value = as_plain(value, cast("type[Dataclass]", field.type))
+        values[field.name] = value
     return kind(**values)
