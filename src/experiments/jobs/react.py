@@ -22,10 +22,10 @@ from mobnet.core.recording import Sensed
 from mobnet.core.rows import csv_text, read_rows
 from mobnet.core.store import write_array
 from mobnet.detection.detector import LegDetector
-from mobnet.detection.numbers import watched_signals
 from mobnet.detection.signals import Watched
 from mobnet.detection.watch import LegSetup
 from mobnet.formats.plain import as_plain
+from mobnet.kernel.detecting import WatchedSignals
 from mobnet.reaction.handler import Handler, Watcher
 from mobnet.reaction.loop import Course, columns_of, walk_with
 from mobnet.reaction.numbers import ReactionNumbers
@@ -174,7 +174,7 @@ class CaseWalker:
                 setup.gate, setup.chain(np.array([[thresholds[1, FORCE]]]), norm=True), columns, wrenches
             )
         row = self.robot.detection.detectors[watch.detector]
-        watched = Watched(watched_signals(row))
+        watched = Watched(as_plain(row, WatchedSignals))
         names = watched.names(setup.joints)
         limits: list[list[float]] = []
         for phase in range(1, row.phases + 1):

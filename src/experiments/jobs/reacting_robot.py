@@ -9,13 +9,13 @@ from numpy.typing import NDArray
 
 from experiments.plan.parts import MethodRun
 from mobnet.core.estimator import ResidualObserver, TorqueEstimator, once
-from mobnet.detection.numbers import watched_signals
 from mobnet.detection.signals import Watched
 from mobnet.detection.watch import LegSetup
 from mobnet.estimation.kinds import build_estimator
 from mobnet.estimation.observe import observer_of
 from mobnet.estimation.recipe import Recipe
 from mobnet.formats.plain import as_plain
+from mobnet.kernel.detecting import WatchedSignals
 from mobnet.reaction.numbers import WrenchDamping
 from mobnet.reaction.watchers import BaseForce
 from mobnet.robot.description import RobotDescription, describe
@@ -63,7 +63,7 @@ class ReactingRobot:
     @property
     def watched(self) -> Watched:
         """What our detector watches."""
-        return Watched(watched_signals(self.detection.detectors[self.reaction.ours.detector]))
+        return Watched(as_plain(self.detection.detectors[self.reaction.ours.detector], WatchedSignals))
 
     @cached_property
     def base(self) -> BaseForce:

@@ -22,7 +22,6 @@ from mobnet.core.printed import printed
 from mobnet.core.word_checks import check_export
 from mobnet.detection.chain import make_chain
 from mobnet.detection.detector import LegGate
-from mobnet.detection.numbers import gate_numbers
 from mobnet.detection.signals import MEAN
 from mobnet.detection.threshold_file import read_thresholds
 from mobnet.estimation.observer import RobotObserver
@@ -33,6 +32,7 @@ from mobnet.export.model_file import RuntimeDetector, RuntimeNetwork, model_cont
 from mobnet.export.session import OnnxNetwork
 from mobnet.export.trained import Trained, check_apart, contract_of, read_trained
 from mobnet.formats.limb_thresholds import LimbThresholds
+from mobnet.formats.plain import as_plain
 from mobnet.kernel.detecting import GateNumbers
 from mobnet.kernel.drive import TorqueKind
 from mobnet.learning.deployed.loading import WITHOUT_TORCH, deployed
@@ -270,7 +270,7 @@ def export_folders(
         ),
     )
     sweep(out)
-    return export(networks, robot, run_time, of_limbs, gate_numbers(settings.detection.gate), out), networks
+    return export(networks, robot, run_time, of_limbs, as_plain(settings.detection.gate, GateNumbers), out), networks
 
 
 def run(options: Namespace) -> Iterator[str]:

@@ -6,11 +6,10 @@ from library_settings import walk_settings
 
 from mobnet.detection.chain import make_chain
 from mobnet.detection.detector import LegDetector, LegGate
-from mobnet.detection.numbers import gate_numbers
 from mobnet.detection.signals import Watched
 from mobnet.estimation.kinds import build_estimator
 from mobnet.formats.plain import as_plain
-from mobnet.kernel.detecting import WatchedSignals
+from mobnet.kernel.detecting import GateNumbers, WatchedSignals
 from mobnet.reaction.handler import Handler
 from mobnet.reaction.loop import walk_with
 from mobnet.reaction.numbers import ReactionNumbers
@@ -28,7 +27,7 @@ def leg_watchers(settings, robot):
     def watcher(limb):
         detection = settings.detection
         chain = make_chain(detection.low_pass_hz, detection.hold_s, RATE_HZ, np.full((1, 6), THRESHOLD_NM))
-        gate = LegGate.of(gate_numbers(detection.gate), robot, limb, RATE_HZ)
+        gate = LegGate.of(as_plain(detection.gate, GateNumbers), robot, limb, RATE_HZ)
         detector = LegDetector(Watched(WatchedSignals(signals=("mean",))), gate, chain)
         return LegWatcher(detector, robot.layout.columns(robot.layout.limb(limb)))
 
