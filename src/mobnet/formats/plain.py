@@ -1,6 +1,6 @@
 """Sections as plain dataclasses, for code that takes numbers and knows no configuration."""
 
-from dataclasses import Field, fields
+from dataclasses import fields
 from typing import Any, ClassVar, Protocol, TypeVar, cast
 
 from mobnet.formats.base import Section
@@ -9,7 +9,7 @@ from mobnet.formats.base import Section
 class Dataclass(Protocol):
     """Any dataclass."""
 
-    __dataclass_fields__: ClassVar[dict[str, Field[Any]]]
+    __dataclass_fields__: ClassVar[dict[str, Any]]
 
 
 Kind = TypeVar("Kind", bound=Dataclass)
