@@ -13,8 +13,8 @@ from benchmarks.step_latency import six_networks
 
 from experiments.settings.load import load_settings
 from mobnet.core.estimator import Stretch
-from mobnet.estimation.kinds.residual import ResidualEstimator
 from mobnet.estimation.observe import observer_of
+from mobnet.estimation.residual import ResidualEstimator
 from mobnet.robot.description import describe
 
 RECORDINGS, ROUNDS = 15, 3

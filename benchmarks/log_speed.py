@@ -17,9 +17,9 @@ from pyarrow import csv
 
 from mobnet.core.columns import recording_columns
 from mobnet.core.joints import JointLayout
+from mobnet.formats.loading import load_section
+from mobnet.formats.robot import RobotTable
 from mobnet.robot.description import describe
-from mobnet.settings.lab import load_section
-from mobnet.settings.robot import RobotTable
 
 ROOT = Path(__file__).parents[1]
 ROBOTS = {"an arm of two joints": "tests/data/arm.yaml", "TOCABI": "configs/robots/tocabi.yaml"}

@@ -16,10 +16,13 @@ from mobnet.core.machine import one_thread
 from mobnet.detection.chain import make_chain
 from mobnet.detection.detector import LegDetector, LegGate
 from mobnet.detection.signals import Watched
-from mobnet.estimation.kinds.residual import ResidualEstimator
 from mobnet.estimation.observe import observer_of
+from mobnet.estimation.residual import ResidualEstimator
+from mobnet.formats.plain import as_plain
+from mobnet.kernel.detecting import GateNumbers, WatchedSignals
 from mobnet.reaction.handler import Handler
 from mobnet.reaction.loop import walk_with
+from mobnet.reaction.numbers import ReactionNumbers
 from mobnet.reaction.watchers import LegWatcher, LimbWatcher
 from mobnet.robot.description import describe
 from mobnet.simulation.simulator import Simulator
@@ -79,16 +82,19 @@ def main() -> list[Row]:
 def _handler(settings: Settings, rate_hz: float) -> Handler:
     """Return the pipeline with watchers of all limbs that never say anything."""
     robot, detection = describe(settings.robot), settings.detection
-    watched = Watched(detection.detectors[settings.reaction.ours.detector].watching)
+    watched = Watched(as_plain(detection.detectors[settings.reaction.ours.detector], WatchedSignals))
+    swing = as_plain(detection.gate, GateNumbers)
     watchers: dict[str, Any] = {}
     for limb in (*detection.legs, *settings.reaction.watched):
         joints, columns = robot.layout.limb(limb), robot.layout.columns(robot.layout.limb(limb))
         never = np.full((1, len(watched.names(joints))), np.inf)
         chain = make_chain(detection.low_pass_hz, detection.hold_s, rate_hz, never)
-        gate = LegGate.of(detection.gate.numbers, robot, limb, rate_hz) if limb in detection.legs else None
+        gate = LegGate.of(swing, robot, limb, rate_hz) if limb in detection.legs else None
         leg = LegWatcher(LegDetector(watched, gate, chain), columns) if gate else None
         watchers[limb] = leg or LimbWatcher(watched, chain, columns)
-    return Handler(robot, settings.reaction, settings.walking.foot_spacing_m, watchers, "compliant")
+    return Handler(
+        robot, as_plain(settings.reaction, ReactionNumbers), settings.walking.foot_spacing_m, watchers, "compliant"
+    )
 
 
 if __name__ == "__main__":

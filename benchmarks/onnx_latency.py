@@ -16,6 +16,8 @@ from mobnet.export.contract import ObserverContract
 from mobnet.export.export import RunTime, export
 from mobnet.export.session import load_exported
 from mobnet.export.trained import Trained
+from mobnet.formats.plain import as_plain
+from mobnet.kernel.detecting import GateNumbers
 from mobnet.learning.deployed.limbs import LimbNetworks
 from mobnet.learning.deployed.weights import WeightsNote
 from mobnet.learning.features import limb_inputs
@@ -39,7 +41,7 @@ def exported_networks(settings: Settings, folder: Path) -> LimbNetworks:
     known = {"gain_hz": observer.gain_hz, "torque": observer.torque, "gravity_m_s2": settings.plant.gravity_m_s2}
     run = RunTime(settings.rates.data_hz, ObserverContract.model_validate(known))
     networks = [_trained(one, settings) for one in six_trainings(settings).values()]
-    export(networks, robot, run, [], settings.detection.gate.numbers, folder)
+    export(networks, robot, run, [], as_plain(settings.detection.gate, GateNumbers), folder)
     return load_exported(folder, robot.layout)
 
 

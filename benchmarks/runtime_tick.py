@@ -19,6 +19,8 @@ from mobnet.detection.chain import make_chain
 from mobnet.detection.detector import LegGate
 from mobnet.estimation.observe import observer_of
 from mobnet.export.model_file import RuntimeDetector, RuntimeNetwork, write_model_file
+from mobnet.formats.plain import as_plain
+from mobnet.kernel.detecting import GateNumbers
 from mobnet.learning.deployed.weights import WeightsNote
 from mobnet.learning.features import limb_inputs
 from mobnet.learning.model import build_network
@@ -62,11 +64,12 @@ def write_six(path: Path, settings: Settings) -> None:
     )
     trainings = six_trainings(settings)
     detectors = []
+    swing = as_plain(detection.gate, GateNumbers)
     for limb in trainings:
         joints = robot.layout.limb(limb)
         thresholds = np.full((1, len(joints)), THRESHOLD)
         chain = make_chain(detection.low_pass_hz, detection.hold_s, rate_hz, thresholds)
-        gate = LegGate.of(detection.gate.numbers, robot, limb, rate_hz) if limb in detection.legs else None
+        gate = LegGate.of(swing, robot, limb, rate_hz) if limb in detection.legs else None
         if not set(joints) & set(robot.layout.virtual):
             detectors.append(RuntimeDetector(limb, joints, ("ratio",), chain, gate))
     observer = observer_of(robot, *known, rate_hz, settings.observer.torque)

@@ -18,8 +18,8 @@ from mobnet.core.columns import COMMAND, FEET
 from mobnet.core.joints import NQ_BASE, JointLayout
 from mobnet.core.machine import one_thread
 from mobnet.core.recording import Sensed
-from mobnet.estimation.kinds.residual import ResidualEstimator
 from mobnet.estimation.observe import observer_of
+from mobnet.estimation.residual import ResidualEstimator
 from mobnet.learning.deployed.limbs import LimbNetworks
 from mobnet.learning.deployed.networks import GruNetwork
 from mobnet.learning.features import limb_inputs, signals

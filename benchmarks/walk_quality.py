@@ -18,7 +18,8 @@ from numpy.typing import NDArray
 from experiments.plan.jobs import walk_settings
 from experiments.settings.load import load_settings
 from experiments.settings.settings import Settings
-from mobnet.core.recording import Recording, read_recording
+from mobnet.core.recording import Recording
+from mobnet.core.recording_file import read_recording
 from mobnet.estimation.observe import BlockObserver, observer_of
 from mobnet.robot.description import RobotDescription, describe
 from mobnet.simulation.record import collect

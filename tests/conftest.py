@@ -15,12 +15,13 @@ from patience import hear_ctrl_c
 
 from mobnet.core.columns import residual_columns
 from mobnet.core.joints import N_VIRTUAL, NQ_BASE, JointLayout
-from mobnet.core.recording import Recording, Sensed, write_recording
+from mobnet.core.recording import Recording, Sensed
+from mobnet.core.recording_file import write_recording
 from mobnet.core.store import write_array
+from mobnet.formats.loading import load_section
+from mobnet.formats.robot import RobotTable
 from mobnet.robot.description import describe, for_walking
 from mobnet.robot.nominal import NominalModel
-from mobnet.settings.lab import load_section
-from mobnet.settings.robot import RobotTable
 
 ROOT = Path(__file__).parents[1]
 RATE_HZ = 1000.0

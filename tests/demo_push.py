@@ -7,11 +7,12 @@ from pathlib import Path
 import numpy as np
 
 from mobnet.core.estimator import Estimate
-from mobnet.core.recording import read_sensed
-from mobnet.detection.numbers import watched_signals
+from mobnet.core.recording_file import read_sensed
 from mobnet.detection.signals import Watched
 from mobnet.detection.watch import LegSetup
 from mobnet.estimation.kinds import build_estimator
+from mobnet.formats.plain import as_plain
+from mobnet.kernel.detecting import WatchedSignals
 from mobnet.robot.description import describe
 
 DATA = Path(__file__).parents[1] / "docs" / "demo"
@@ -63,6 +64,6 @@ class DemoPush:
         """The filters of the detector, with the thresholds of the published run."""
         with (DATA / "thresholds.csv").open() as file:
             values = {(int(row["phase"]), row["signal"]): float(row["value"]) for row in csv.DictReader(file)}
-        names = Watched(watched_signals(self.row)).names(self.joints)
+        names = Watched(as_plain(self.row, WatchedSignals)).names(self.joints)
         limits = [[values[phase, name] for name in names] for phase in range(1, self.row.phases + 1)]
         return self.setup.chain(np.array(limits))

@@ -4,6 +4,7 @@ from functools import cache
 from pathlib import Path
 
 from mobnet.estimation.recipe import Recipe
+from mobnet.formats.reading import Document
 from mobnet.learning.precision import in_precision, of_processor
 from mobnet.settings.data import (
     Commands,
@@ -20,7 +21,6 @@ from mobnet.settings.lab import Lab
 from mobnet.settings.methods import Method
 from mobnet.settings.networks import Learning, Network, Training
 from mobnet.settings.reaction import Reaction
-from mobnet.settings.reading import Document
 from mobnet.settings.surrogate import Level, Surrogate
 from mobnet.settings.walking import Walking, WalkSettings
 

@@ -8,7 +8,8 @@ from made_scores import JOINTS
 from experiments.plan.runs import Run
 from mobnet.core.columns import FEET, residual_columns, torque_columns
 from mobnet.core.joints import N_VIRTUAL, NQ_BASE, JointLayout
-from mobnet.core.recording import Recording, Sensed, Truth, write_recording
+from mobnet.core.recording import Recording, Sensed, Truth
+from mobnet.core.recording_file import write_recording
 from mobnet.core.store import write_array
 
 RATE_HZ = 100.0

@@ -36,16 +36,17 @@ from mobnet.core.store import ARRAY, NOTE, check_rate, file_of, read_pieces
 from mobnet.detection.threshold_file import read_thresholds
 from mobnet.estimation.kinds.dahl import DahlNote, read_dahl
 from mobnet.estimation.kinds.friction import FrictionNote, read_friction
-from mobnet.learning.deployed.limbs import LimbNetworks, check_limb
-from mobnet.learning.deployed.loading import deployed
+from mobnet.formats.limb_thresholds import LimbThresholds
+from mobnet.formats.loading import load_section
+from mobnet.formats.reading import read_yaml
+from mobnet.formats.robot import RobotTable
+from mobnet.learning.deployed.limbs import LimbNetworks
+from mobnet.learning.deployed.loading import check_limb, deployed
 from mobnet.learning.deployed.weights import read_weights
 from mobnet.robot.given import given_table
 from mobnet.robotlog.formats import FORMATS, format_of
 from mobnet.robotlog.wrenches import WRENCH_SIGNALS, wrench_columns
-from mobnet.settings.lab import Lab, load_lab, load_section
-from mobnet.settings.limb_thresholds import LimbThresholds
-from mobnet.settings.reading import read_yaml
-from mobnet.settings.robot import RobotTable
+from mobnet.settings.lab import Lab, load_lab
 
 FITS = {FrictionNote: read_friction, DahlNote: read_dahl}
 NOTES = (ArrayNote, TrainingNote, AccountNote, *FITS)
@@ -86,7 +87,7 @@ class Against:
     @cached_property
     def layout(self) -> JointLayout:
         """The robot's joints."""
-        return given_table(self.robot, self.lab).layout
+        return given_table(self.robot, self.lab.robot).layout
 
     @cached_property
     def rate_hz(self) -> float:

@@ -15,9 +15,10 @@ from mobnet.core.recording import Sensed
 from mobnet.detection.chain import low_passed, make_chain
 from mobnet.detection.detector import LegGate, run_over
 from mobnet.detection.gate import gate_state
-from mobnet.detection.numbers import gate_numbers
 from mobnet.estimation.kinds.dahl import bent
 from mobnet.estimation.observer import RobotObserver
+from mobnet.formats.plain import as_plain
+from mobnet.kernel.detecting import GateNumbers
 from mobnet.learning.deployed.lanes import gru_states
 from mobnet.learning.deployed.tick import GruWeights, advance, advance_row, row_of
 from mobnet.learning.gates import ordered
@@ -92,7 +93,7 @@ def _detect(robot: WalkingRobot, sensed: Sensed, detection: Detection, rate_hz: 
     for norm in (False, True):
         chain = make_chain(detection.low_pass_hz, detection.hold_s, rate_hz, np.ones((1, 1)), norm=norm)
         for limb in robot.layout.legs.values():
-            gate = LegGate.of(gate_numbers(detection.gate), robot, limb, rate_hz)
+            gate = LegGate.of(as_plain(detection.gate, GateNumbers), robot, limb, rate_hz)
             run_over(chain, signals, gate.run(sensed, np.zeros((SAMPLES, 6))))
             gate.step(gate_state(), np.zeros(robot.layout.nq), np.zeros(6), 0.0, 0.0)
         low_passed(chain.pole, signals, np.zeros_like(signals))

@@ -49,8 +49,8 @@ from mobnet.core.errors import MobnetError
 from mobnet.core.files import check_room as check_folder
 from mobnet.core.machine import gpus_seen
 from mobnet.core.printed import end_where_full, watch_output
+from mobnet.formats.reading import Problem
 from mobnet.learning.precision import Precision
-from mobnet.settings.reading import Problem
 
 WRITTEN = (".snakemake", ".cache")  # Snakemake and packages write there
 FOLLOWER_LOG = Path(".cache") / "wandb_live.log"

@@ -16,7 +16,7 @@ from mobnet.core.store import read_array
 from mobnet.estimation import observer
 from mobnet.interface import Estimator, Observer, Robot, lab, read_recording
 from mobnet.kernel.low_pass import low_pass
-from mobnet.robot.given import given_robot
+from mobnet.robot.description import describe
 from mobnet.robotlog.pieces import root_mean_square
 
 NETWORK = DEMO / "networks" / "MOB-Net-pushed-LL"
@@ -27,7 +27,7 @@ log = logging.getLogger(__name__)
 def lines() -> Iterator[str]:
     """Yield what the command prints."""
     numbers = lab()
-    robot = Robot(given_robot(None, numbers))
+    robot = Robot(describe(numbers.robot))
     recording = read_recording(RECORDING, robot)
     samples = recording.sensed
     rate_hz = recording.rate_hz

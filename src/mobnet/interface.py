@@ -20,54 +20,40 @@ from mobnet.core.columns import recording_columns
 from mobnet.core.errors import ConfigError, DataError, not_accepted
 from mobnet.core.errors import MobnetError as MobnetError
 from mobnet.core.estimator import Estimate
-from mobnet.core.files import RUN
 from mobnet.core.place import check_extra
-from mobnet.core.recording import ABSENT, PLANNED, Recording, Sensed, SensedRecording, Truth, read_sensed
-from mobnet.core.recording import write_recording as write_whole
+from mobnet.core.recording import ABSENT, PLANNED, Recording, Sensed, SensedRecording, Truth
 from mobnet.detection import contact
 from mobnet.detection.contact import Contact
 from mobnet.detection.detector import ALARM_RATIO, LegDetector
-from mobnet.detection.limb import OwnRecording, calibrate_limb
-from mobnet.detection.limb_report import thresholds_of
-from mobnet.detection.numbers import contact_numbers
-from mobnet.detection.threshold_file import check_thresholds, read_thresholds, sampling_of, setup_with, watched_of
-from mobnet.detection.watch import LegSetup
-from mobnet.estimation.estimate import only
-from mobnet.estimation.kinds.residual import ResidualEstimator
 from mobnet.estimation.observer import ObserverState, RobotObserver
-from mobnet.estimation.own import (
-    Sampling,
-    check_drives,
-    check_sampling,
-    estimator_of,
-    limb_of,
-    read_network_folder,
-)
-from mobnet.export.contract import CONTRACT
+from mobnet.estimation.residual import ResidualEstimator
+from mobnet.estimation.sampling import Sampling, check_drives, check_sampling, estimator_of
+from mobnet.formats.plain import as_plain
+from mobnet.kernel.detecting import ContactNumbers, Strategy
 from mobnet.kernel.drive import TorqueKind
-from mobnet.learning.deployed.limbs import load_limb_networks
 from mobnet.reaction.handler import Handler, Reacted
+from mobnet.reaction.numbers import ReactionNumbers
 from mobnet.reaction.watchers import LegWatcher, LimbWatcher, some
 from mobnet.robot.description import RobotDescription
-from mobnet.robot.given import given_robot
-from mobnet.robot.import_model import robot_of_model
 from mobnet.robot.nominal import NominalModel
-from mobnet.settings.lab import Lab, load_lab
-from mobnet.settings.limb_thresholds import LimbThresholds
-from mobnet.settings.reaction import Strategy, load_reaction
 
 if TYPE_CHECKING:
     import pandas as pd
     import pinocchio as pin
     from matplotlib.figure import Figure
 
+    from mobnet.formats.limb_thresholds import LimbThresholds
+    from mobnet.settings.lab import Lab
+
 FEW = 8  # joints that a line names
 FIELDS = {"acc": "acc_base_in_base"}  # argument of `sample` -> field, where their names differ
 
 
 @cache
-def lab() -> Lab:
+def lab() -> "Lab":
     """Return the configuration of a lab."""
+    from mobnet.settings.lab import load_lab
+
     return load_lab()
 
 
@@ -101,7 +87,9 @@ class Robot:
             ConfigError: the table cannot be read, or a value is not accepted.
             DataError: the file is no robot, or a table cannot hold it.
         """
-        return cls(given_robot(Path(path), lab()))
+        from mobnet.robot.given import robot_of_file
+
+        return cls(robot_of_file(Path(path)))
 
     @classmethod
     def from_model(
@@ -120,6 +108,8 @@ class Robot:
             DataError: a joint is no hinge, or gravity or the base is one that a table cannot hold.
             ConfigError: a name or a number is not accepted, or a joint is in no limb.
         """
+        from mobnet.robot.import_model import robot_of_model
+
         return cls(robot_of_model(model, lab().plant.gravity_m_s2, limbs, name))
 
     def __repr__(self) -> str:
@@ -247,6 +237,10 @@ class Estimator:
             DataError: a file is missing or damaged, a network is another robot's or was trained with other friction
                 than that of its table, two are of one limb, or the networks differ in their rate or observer.
         """
+        from mobnet.core.files import RUN
+        from mobnet.estimation.own import read_network_folder
+        from mobnet.learning.deployed.loading import load_limb_networks
+
         folder = Path(folder)
         layout = robot.description.layout
         numbers = lab()
@@ -307,7 +301,7 @@ class Detector:
         rate_hz: samples per second [Hz].
     """
 
-    def __init__(self, robot: RobotDescription, estimator: ResidualEstimator, thresholds: LimbThresholds) -> None:
+    def __init__(self, robot: RobotDescription, estimator: ResidualEstimator, thresholds: "LimbThresholds") -> None:
         """Take the estimator and the thresholds of a limb; `from_files` reads them, `from_free_motion` finds them."""
         self.joints = thresholds.joints
         self.rate_hz = thresholds.rate_hz
@@ -326,6 +320,9 @@ class Detector:
             ConfigError: a file or a value is not accepted.
             DataError: network, thresholds and robot do not belong together.
         """
+        from mobnet.detection.threshold_file import check_thresholds, read_thresholds, sampling_of
+        from mobnet.estimation.own import read_network_folder
+
         numbers = lab()
         path = Path(thresholds)
         description = robot.description
@@ -368,6 +365,11 @@ class Detector:
             DataError: the samples are too few or never change, or the rate of alarms is above what they can hold.
             ConfigError: the limb is unknown, or a number is not accepted.
         """
+        from mobnet.detection.limb import OwnRecording, calibrate_limb
+        from mobnet.detection.limb_report import thresholds_of
+        from mobnet.estimation.estimate import only
+        from mobnet.estimation.own import limb_of
+
         numbers = lab()
         description = robot.description
         limb = limb_of(description.layout, limb)
@@ -415,7 +417,8 @@ class ContactFinder:
             ConfigError: limb or joints are unknown, or the limb has no shapes.
         """
         names = robot.description.layout.limb(limb) if joints is None else tuple(joints)
-        self._finder = contact.ContactLocator.of(contact_numbers(lab().contact_point), robot.description, limb, names)
+        numbers = as_plain(lab().contact_point, ContactNumbers)
+        self._finder = contact.ContactLocator.of(numbers, robot.description, limb, names)
         self.joints = self._finder.joints
 
     def __repr__(self) -> str:
@@ -467,6 +470,8 @@ class ReactionHandler:
         Raises:
             ConfigError: the estimator lacks a joint that a detector watches.
         """
+        from mobnet.settings.reaction import load_reaction
+
         description = robot.description
         self._estimator = estimator
         self._layout = description.layout
@@ -478,7 +483,9 @@ class ReactionHandler:
             columns = description.layout.columns(detector.joints)
             watchers[detector.thresholds.limb] = watcher_of(description, detector.thresholds, columns)
         self._limbs = list(watchers)
-        self._handler = Handler(description, load_reaction(), foot_spacing_m, watchers, strategy)
+        self._handler = Handler(
+            description, as_plain(load_reaction(), ReactionNumbers), foot_spacing_m, watchers, strategy
+        )
         self.reset()
 
     def __repr__(self) -> str:
@@ -548,9 +555,12 @@ def _joints(names: Sequence[str]) -> str:
 
 
 def watcher_of(
-    robot: RobotDescription, thresholds: LimbThresholds, columns: NDArray[np.intp]
+    robot: RobotDescription, thresholds: "LimbThresholds", columns: NDArray[np.intp]
 ) -> LegWatcher | LimbWatcher:
     """Return what watches a limb with thresholds, on an estimate in which the limb's joints have these columns."""
+    from mobnet.detection.threshold_file import setup_with, watched_of
+    from mobnet.detection.watch import LegSetup
+
     watched = watched_of(thresholds)
     setup = setup_with(thresholds, lab().detection, robot)
     chain = setup.chain(np.array([thresholds.thresholds]))
@@ -571,6 +581,8 @@ def read_recording(path: str | Path, robot: Robot) -> LabRecording:
     Raises:
         DataError: a file is missing or damaged, or a column is missing.
     """
+    from mobnet.core.recording_file import read_sensed
+
     read = read_sensed(Path(path), robot.description.layout)
     return LabRecording(read.sensed, read.segments, read.rate_hz, read.meta, robot)
 
@@ -596,6 +608,8 @@ def write_recording(
     Raises:
         DataError: the file cannot be written.
     """
+    from mobnet.core.recording_file import write_recording as write_whole
+
     layout = robot.description.layout
     columns = recording_columns(layout)
     values = {name: np.zeros((len(samples), len(columns[name]))) for name in Truth.__dataclass_fields__}
@@ -627,6 +641,7 @@ def export_networks(
     paths = [Path(path) for path in folders]
     limits = [Path(path) for path in thresholds]
     check_extra("export")
+    from mobnet.export.contract import CONTRACT
     from mobnet.export.export import Given, export_folders  # ONNX, which comes with an extra
 
     export_folders(paths, robot.description, limits, Given(), lab(), Path(out))

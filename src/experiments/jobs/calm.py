@@ -18,12 +18,14 @@ from mobnet.core.arrays import Array
 from mobnet.core.detections import LARGEST, Threshold
 from mobnet.core.estimator import Estimate, Stretch, TorqueEstimator, estimate_all
 from mobnet.core.files import write_text
-from mobnet.core.recording import Recording, Sensed, read_recording
+from mobnet.core.recording import Recording, Sensed
+from mobnet.core.recording_file import read_recording
 from mobnet.core.rows import csv_text
 from mobnet.detection.calibration import unit_of
-from mobnet.detection.numbers import tail_numbers
 from mobnet.detection.thresholds import calibrate
 from mobnet.detection.watch import LegSetup
+from mobnet.formats.plain import as_plain
+from mobnet.kernel.detecting import TailNumbers
 from mobnet.reaction.watchers import some
 from mobnet.settings.detection import Detection
 from mobnet.settings.methods import ObserverSettings
@@ -134,7 +136,7 @@ def limb_thresholds(robot: ReactingRobot, heights: Sequence[Array]) -> Array:
     rate_per_h = numbers.rates_per_h[robot.reaction.ours.rule]
     walked_s = len(largest) * robot.detection.window_s
     calibration = calibrate(
-        (largest / scale).max(axis=1), episodes.tolist(), walked_s, rate_per_h, tail_numbers(numbers)
+        (largest / scale).max(axis=1), episodes.tolist(), walked_s, rate_per_h, as_plain(numbers, TailNumbers)
     )
     return calibration.factor * scale
 

@@ -29,11 +29,12 @@ from mobnet.detection.calibration import (
     quiet_rows,
     threshold_rows,
 )
-from mobnet.detection.numbers import watched_signals
 from mobnet.detection.watch import LegSetup, read_estimate
+from mobnet.formats.plain import as_plain
+from mobnet.formats.robot import RobotTable
+from mobnet.kernel.detecting import WatchedSignals
 from mobnet.robot.description import describe
 from mobnet.settings.detection import Detection
-from mobnet.settings.robot import RobotTable
 
 log = logging.getLogger(__name__)
 Rows = dict[str, list[Any]]  # name of a file -> its rows
@@ -83,7 +84,7 @@ def _try_leg(setup: LegSetup, walks: Mapping[str, Walk], rows: Rows) -> None:
         for name, detector in settings.detectors.items():
             if detector.method == method:
                 try:
-                    calibrated = calibrate_detector(setup, name, watched_signals(detector), place, random)
+                    calibrated = calibrate_detector(setup, name, as_plain(detector, WatchedSignals), place, random)
                 except NotWatchedError as error:  # of networks that have hardly learned
                     log.warning("%s, %s is left out: %s", setup.limb, name, error)
                     continue

@@ -13,7 +13,7 @@ from mobnet.core.arrays import Array
 from mobnet.core.columns import EXTERNAL_LP, named
 from mobnet.core.detections import COLLISION, LARGEST, WALKING, FreeSwing
 from mobnet.core.estimator import Estimate
-from mobnet.core.recording import read_sensed
+from mobnet.core.recording_file import read_sensed
 from mobnet.core.store import read_array
 from mobnet.detection.calibration import CalibratedDetector, swing_ratios
 from mobnet.detection.detector import ALARM_RATIO

@@ -11,10 +11,10 @@ from mobnet.core.store import NOTE, file_of
 from mobnet.estimation.estimate import ObservedRecording, only, rate_of, read_observed, run_segments, write_estimate
 from mobnet.estimation.kinds import build_estimator
 from mobnet.estimation.recipe import Recipe
+from mobnet.formats.robot import RobotTable
 from mobnet.learning.deployed.weights import std_scales
 from mobnet.robot.description import describe
 from mobnet.settings.methods import ObserverSettings
-from mobnet.settings.robot import RobotTable
 from mobnet.settings.surrogate import Level
 
 log = logging.getLogger(__name__)

@@ -8,9 +8,9 @@ from experiments.settings.catalogue import Catalogue
 from experiments.settings.settings import Settings
 from mobnet.core.errors import not_accepted
 from mobnet.estimation.kinds import kind_names, kind_of
-from mobnet.settings.base import Section
-from mobnet.settings.faults import problems
-from mobnet.settings.reading import Place
+from mobnet.formats.base import Section
+from mobnet.formats.faults import problems
+from mobnet.formats.reading import Place
 
 
 def method_problems(settings: Settings) -> Iterator[tuple[Place, str]]:

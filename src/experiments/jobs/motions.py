@@ -13,9 +13,9 @@ import numpy as np
 from experiments.plan.seeds import FIRST_TRAINING_SEED
 from mobnet.core.code import provenance
 from mobnet.core.store import write_array
+from mobnet.formats.robot import RobotTable
 from mobnet.robot.description import describe, for_walking
 from mobnet.settings.data import Motion
-from mobnet.settings.robot import RobotTable
 from mobnet.simulation.motion import measured, plan, working_range
 from mobnet.simulation.reaching import Reacher
 

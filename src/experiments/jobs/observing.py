@@ -9,14 +9,15 @@ from pathlib import Path
 from mobnet.core.columns import EXTERNAL, residual_columns
 from mobnet.core.errors import DataError
 from mobnet.core.notes import read_array_note
-from mobnet.core.recording import Sensed, read_blocks
+from mobnet.core.recording import Sensed
+from mobnet.core.recording_file import read_blocks
 from mobnet.core.store import NOTE, array_writer, check_rate, file_of, spans_and_rate
 from mobnet.estimation.label import FootLabel
 from mobnet.estimation.observe import CARRIED, BlockObserver, feet_zeros, observer_of, wrench_fields
+from mobnet.formats.robot import RobotTable
 from mobnet.kernel.recursion import BLOCK_ROWS
 from mobnet.robot.description import describe
 from mobnet.settings.methods import ObserverSettings
-from mobnet.settings.robot import RobotTable
 from mobnet.settings.surrogate import Level
 
 log = logging.getLogger(__name__)

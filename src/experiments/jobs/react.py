@@ -22,11 +22,13 @@ from mobnet.core.recording import Sensed
 from mobnet.core.rows import csv_text, read_rows
 from mobnet.core.store import write_array
 from mobnet.detection.detector import LegDetector
-from mobnet.detection.numbers import watched_signals
 from mobnet.detection.signals import Watched
 from mobnet.detection.watch import LegSetup
+from mobnet.formats.plain import as_plain
+from mobnet.kernel.detecting import WatchedSignals
 from mobnet.reaction.handler import Handler, Watcher
 from mobnet.reaction.loop import Course, columns_of, walk_with
+from mobnet.reaction.numbers import ReactionNumbers
 from mobnet.reaction.watchers import BaseWatcher, FootWatcher, LegWatcher, LimbWatcher, OwnLegWatcher
 from mobnet.settings.detection import Detection
 from mobnet.settings.methods import ObserverSettings
@@ -100,7 +102,9 @@ class CaseWalker:
         times_s = watch.wait_s, settings.recording.settle_s, case.sizes.longest_s, numbers.after_s
         wait, settle, longest, after = (round(time_s * robot.rate_hz) for time_s in times_s)
         spacing_m = settings.walking.foot_spacing_m
-        handler = Handler(robot.description, numbers, spacing_m, watchers, row.strategy, wait, settle)
+        handler = Handler(
+            robot.description, as_plain(numbers, ReactionNumbers), spacing_m, watchers, row.strategy, wait, settle
+        )
         height_m = robot.detection.gate.contact_height_m
         estimator = self.estimator(numbers.estimator)
         sizes = (longest, after, numbers.touch_n, height_m)
@@ -170,7 +174,7 @@ class CaseWalker:
                 setup.gate, setup.chain(np.array([[thresholds[1, FORCE]]]), norm=True), columns, wrenches
             )
         row = self.robot.detection.detectors[watch.detector]
-        watched = Watched(watched_signals(row))
+        watched = Watched(as_plain(row, WatchedSignals))
         names = watched.names(setup.joints)
         limits: list[list[float]] = []
         for phase in range(1, row.phases + 1):

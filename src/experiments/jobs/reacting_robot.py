@@ -8,13 +8,15 @@ from typing import Any
 from numpy.typing import NDArray
 
 from experiments.plan.parts import MethodRun
-from mobnet.core.estimator import TorqueEstimator, once
-from mobnet.detection.numbers import watched_signals
+from mobnet.core.estimator import ResidualObserver, TorqueEstimator, once
 from mobnet.detection.signals import Watched
 from mobnet.detection.watch import LegSetup
 from mobnet.estimation.kinds import build_estimator
 from mobnet.estimation.observe import observer_of
-from mobnet.estimation.recipe import Recipe, ResidualObserver
+from mobnet.estimation.recipe import Recipe
+from mobnet.formats.plain import as_plain
+from mobnet.kernel.detecting import WatchedSignals
+from mobnet.reaction.numbers import WrenchDamping
 from mobnet.reaction.watchers import BaseForce
 from mobnet.robot.description import RobotDescription, describe
 from mobnet.settings.detection import Detection
@@ -61,12 +63,12 @@ class ReactingRobot:
     @property
     def watched(self) -> Watched:
         """What our detector watches."""
-        return Watched(watched_signals(self.detection.detectors[self.reaction.ours.detector]))
+        return Watched(as_plain(self.detection.detectors[self.reaction.ours.detector], WatchedSignals))
 
     @cached_property
     def base(self) -> BaseForce:
         """The unexpected force on the base."""
-        numbers = self.reaction.identification
+        numbers = as_plain(self.reaction.identification, WrenchDamping)
         return BaseForce.of(self.description, numbers, self.detection.gate.contact_height_m)
 
     def joints_of(self, limb: str) -> tuple[str, ...]:

@@ -8,7 +8,8 @@ from pathlib import Path
 from typing import NamedTuple
 
 from experiments.plan.files import Files, NetworkName
-from mobnet.settings.networks import IN_A_STACK, SIZES, Inertial, Network, Training
+from mobnet.formats.network import SIZES, Inertial
+from mobnet.settings.networks import IN_A_STACK, Network, Training
 
 INPUTS_PER_JOINT = 2  # of a network: position and velocity
 IMU_INPUTS: dict[Inertial, int] = {"rotation": 6, "angular_velocity": 3, "acceleration": 3}

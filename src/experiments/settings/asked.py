@@ -16,9 +16,9 @@ from experiments.settings.products import items_of
 from experiments.settings.runs import Mean, Runs
 from experiments.settings.settings import Settings
 from experiments.settings.tables import ErrorRow
+from mobnet.formats.reading import Place
 from mobnet.settings.detection import Detection
 from mobnet.settings.methods import swept_name
-from mobnet.settings.reading import Place
 
 SHOWN = ("limbs", "limb", "columns", "joints", "joint")  # keys that say what is shown, the first one that is there
 

@@ -10,7 +10,7 @@ from pydantic import AfterValidator, Field, model_validator
 from experiments.settings.runs import Metric
 from experiments.settings.verdicts import NOT_PRINTED
 from mobnet.core.errors import not_accepted
-from mobnet.settings.base import (
+from mobnet.formats.base import (
     Item,
     JointName,
     LevelName,
@@ -25,7 +25,7 @@ from mobnet.settings.base import (
     Text,
     distinct,
 )
-from mobnet.settings.reading import Place, mapping
+from mobnet.formats.reading import Place, mapping
 
 MOST_FIRST = 10  # statements that stand before all others
 SHORT_CELL = ("level", "method", "joint")

@@ -69,8 +69,8 @@ from experiments.settings.tables import (
     Table01,
     Uncertainty,
 )
-from mobnet.settings import base
-from mobnet.settings.base import Section
+from mobnet.formats import base
+from mobnet.formats.base import Section
 
 
 class Evaluation(Section):

@@ -14,10 +14,10 @@ from experiments.settings.claims import spelt_out, where_typed
 from experiments.settings.settings import Settings
 from mobnet.core.errors import ConfigError
 from mobnet.core.files import files_like
-from mobnet.settings.checks.robot import robot_problems
-from mobnet.settings.faults import problems, refuse_faults, validated
+from mobnet.formats.checks.robot import robot_problems
+from mobnet.formats.faults import problems, refuse_faults, validated
+from mobnet.formats.reading import Document, Place, Problem, dotted, read_override
 from mobnet.settings.lab import CONFIGS
-from mobnet.settings.reading import Document, Place, Problem, dotted, read_override
 
 ROOT = Path(__file__).parents[3]
 PARTS: Mapping[str, tuple[str, ...]] = {  # file -> the sections that stand in it

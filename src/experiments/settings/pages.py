@@ -5,8 +5,8 @@ from typing import Annotated
 from pydantic import Field
 
 from experiments.settings.runs import LimbRuns
-from mobnet.settings import base
-from mobnet.settings.base import Section
+from mobnet.formats import base
+from mobnet.formats.base import Section
 
 
 class Story(Section):

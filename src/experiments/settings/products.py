@@ -6,7 +6,7 @@ from typing import Any, cast
 
 from pydantic import BaseModel
 
-from mobnet.settings.base import Section
+from mobnet.formats.base import Section
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from mobnet.settings.base import (
+from mobnet.formats.base import (
     Count,
     Distinct,
     Flag,

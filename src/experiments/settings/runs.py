@@ -5,8 +5,8 @@ from typing import Annotated
 from pydantic import AfterValidator, Field
 
 from experiments.settings.metrics import METRIC
-from mobnet.settings import base
-from mobnet.settings.base import Section
+from mobnet.formats import base
+from mobnet.formats.base import Section
 
 Metric = Annotated[str, Field(pattern=rf"^({METRIC})$")]
 LimbsOrJoints = base.Distinct[base.LimbOrJointName]

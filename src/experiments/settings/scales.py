@@ -4,7 +4,7 @@ from typing import Annotated
 
 from pydantic import Field
 
-from mobnet.settings.base import (
+from mobnet.formats.base import (
     Count,
     LowerName,
     NotNegative,

@@ -10,7 +10,7 @@ from experiments.settings.published import Published
 from experiments.settings.scales import Scale
 from experiments.settings.trials import Trials
 from mobnet.core.joints import JointLayout
-from mobnet.settings.base import (
+from mobnet.formats.base import (
     Flag,
     LowerName,
     RowName,

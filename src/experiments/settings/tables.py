@@ -6,8 +6,8 @@ from pydantic import AfterValidator, Field
 
 from experiments.settings.detection_tables import AlarmTable
 from experiments.settings.runs import Columns, LimbsOrJoints, Metric, Runs, Texts
-from mobnet.settings import base
-from mobnet.settings.base import Section
+from mobnet.formats import base
+from mobnet.formats.base import Section
 
 
 class ErrorRow(Runs):

@@ -8,8 +8,8 @@ from typing import Annotated, Any, NamedTuple
 
 from pydantic import Field
 
-from mobnet.settings import base
-from mobnet.settings.base import Section
+from mobnet.formats import base
+from mobnet.formats.base import Section
 from mobnet.settings.data import Development, Scenario, TrainingSet
 from mobnet.settings.methods import Method
 

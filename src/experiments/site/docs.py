@@ -28,7 +28,7 @@ from experiments.site.results import ALL_CLAIMS, CLAIMS_PAGE, result_pages
 from mobnet.core.errors import DataError
 from mobnet.core.files import read_text, write_text
 from mobnet.core.heartbeat import last_line, telling
-from mobnet.settings.reading import read_yaml
+from mobnet.formats.reading import read_yaml
 
 log = logging.getLogger(__name__)
 

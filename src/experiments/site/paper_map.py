@@ -14,9 +14,9 @@ from experiments.plan.product import Product
 from experiments.settings.load import load_settings
 from mobnet.core.errors import ConfigError, not_accepted
 from mobnet.core.files import write_text
-from mobnet.settings.base import Section
-from mobnet.settings.faults import validated
-from mobnet.settings.reading import Document
+from mobnet.formats.base import Section
+from mobnet.formats.faults import validated
+from mobnet.formats.reading import Document
 
 MAP = Path("docs/map.md")
 SOURCE = Path("workflow/report/map.yaml")

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mobnet.control.parameters import DURATION, FOOT_HEIGHT, STEP_X
+from mobnet.control.steps import DURATION, FOOT_HEIGHT, STEP_X
 from mobnet.core.arrays import Array
 from mobnet.settings.data import Commands, FixedCommand
 

@@ -8,7 +8,8 @@ World axes, metres. The equations (W5) to (W12) are derived in docs/notes/walkin
 import numpy as np
 
 from mobnet.control.geometry import clip
-from mobnet.control.parameters import STEP_X, STEP_Y, TURN, State, WalkingParameters
+from mobnet.control.parameters import State, WalkingParameters
+from mobnet.control.steps import STEP_X, STEP_Y, TURN
 from mobnet.core.arrays import Array
 from mobnet.core.compilation import compiled
 

@@ -1,7 +1,4 @@
-"""Parameters, commands and state of the walking controller as compiled code sees them.
-
-A command is a row (5,): step x, step y [m], turn [rad], duration [s], foot height [m].
-"""
+"""Parameters and state of the walking controller as compiled code sees them."""
 
 from __future__ import annotations
 
@@ -11,8 +8,6 @@ import numpy as np
 
 from mobnet.settings.walking import Walking
 
-STEP_X, STEP_Y, TURN, DURATION, FOOT_HEIGHT = range(5)  # columns of a command
-SIDES = (1.0, -1.0)  # of the left, right leg: +y is left
 State = np.record  # one record of STATE; its fields are attributes
 if TYPE_CHECKING:
     WalkingParameters = Walking  # a type checker sees the fields and their units

@@ -8,7 +8,8 @@ import numpy as np
 
 from mobnet.control.footsteps import decay
 from mobnet.control.geometry import clip, smoothstep, wrap
-from mobnet.control.parameters import DURATION, State, WalkingParameters
+from mobnet.control.parameters import State, WalkingParameters
+from mobnet.control.steps import DURATION
 from mobnet.control.walker import Walker, foot_yaw, is_ground, vertical_force
 from mobnet.core.arrays import Array
 from mobnet.core.compilation import compiled

@@ -6,7 +6,8 @@ The equations (W31) to (W34) are derived in docs/notes/walking.md.
 import numpy as np
 
 from mobnet.control.geometry import rise, rise_slope, wrap, yaw_roll_pitch_matrix
-from mobnet.control.parameters import FOOT_HEIGHT, State, WalkingParameters
+from mobnet.control.parameters import State, WalkingParameters
+from mobnet.control.steps import FOOT_HEIGHT
 from mobnet.core.arrays import Array
 from mobnet.core.compilation import compiled
 

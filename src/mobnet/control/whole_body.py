@@ -9,7 +9,8 @@ import numpy as np
 
 from mobnet.control.geometry import clip, cross, dead, solve, triple, yaw_roll_pitch_matrix
 from mobnet.control.leg_ik import leg_ik
-from mobnet.control.parameters import SIDES, State
+from mobnet.control.parameters import State
+from mobnet.control.steps import SIDES
 from mobnet.control.walker import Walker
 from mobnet.core.arrays import Array
 from mobnet.core.compilation import compiled, matrix3, vector3

@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol, TypeVar, cast, runtime_checkable
 
+import numpy as np
 from numpy.typing import NDArray
 
 from mobnet.core.recording import Sensed
@@ -112,3 +113,19 @@ class _Once:
             stepped = self._stepped.step(state, sample)
             self._last = state, sample, stepped
         return stepped
+
+
+class ResidualObserver(Protocol):
+    """An observer of the residual r of (9) of all joints, (nv,); its state is explicit."""
+
+    def init(self) -> Any:
+        """Return the state before the first sample."""
+        ...
+
+    def step(self, state: Any, sample: Sensed) -> tuple[Any, NDArray[np.float64]]:
+        """Take one sample (1-D arrays); return the new state and r, (nv,) [N] and [N m]."""
+        ...
+
+    def residual(self, sensed: Sensed) -> NDArray[np.float64]:
+        """Return r over one contiguous recording, (T, nv) [N] and [N m], from a fresh state."""
+        ...

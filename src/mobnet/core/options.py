@@ -14,9 +14,6 @@ LABELS = {
 }
 SIGNALS = ("mean", "std", "ratio")
 MCAP = ".mcap"  # ending of what Foxglove opens
-# Of files that people pass on, too: what the C library accepts (src/runtime/cursor.h) lies further out.
-RATE_HZ = (1.0, 100_000.0)
-GAIN_HZ = (0.1, 5000.0)
 # Of a joint for which a robot's file or model has no limit or no rotor.
 TORQUE_LIMIT_NM = 100.0
 SPEED_LIMIT_RAD_S = 10.0

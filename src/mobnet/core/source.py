@@ -1,9 +1,9 @@
 """What the hash of code takes of a source file: its syntax, without what cannot change a result, and what it uses.
 
 Files are followed in two ways. A file that computes counts whole, with every file that it imports. The packages of
-`DECLARING` say what there is: sections of the configuration, and what each job gets. A job receives their values as
-parameters, and an edit of a table's section must not simulate a walk again. So of these packages only those names count
-that the code uses, each with the names that it uses in turn:
+`DECLARING` say what there is: sections of files and of the configuration, and what each job gets. A job receives their
+values as parameters, and an edit of a table's section must not simulate a walk again. So of these packages only those
+names count that the code uses, each with the names that it uses in turn:
 
 * of a function or a constant, its code;
 * of a class, its methods, wherever an annotation names it: an object of it may come from anywhere. Where the code uses
@@ -37,10 +37,10 @@ NOT_FOLLOWED = (
     "mobnet.core.source",
     "mobnet.core.source_cache",
     "experiments.running.logs",
-    "mobnet.settings.checks",
+    "mobnet.formats.checks",
     "experiments.settings.checks",
 )
-DECLARING = ("mobnet.settings", "experiments.settings", "experiments.plan")
+DECLARING = ("mobnet.formats", "mobnet.settings", "experiments.settings", "experiments.plan")
 DISTRIBUTIONS = {  # import name -> name in the lock, where they differ; asking importlib.metadata for all takes 0.4 s
     "OpenGL": "pyopengl",
     "PIL": "pillow",

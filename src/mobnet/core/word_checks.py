@@ -10,8 +10,9 @@ from pathlib import Path
 
 from mobnet.core.errors import ConfigError, DataError, beyond, not_accepted, refuse_lines
 from mobnet.core.files import RUN, check_place, stem_of
-from mobnet.core.options import GAIN_HZ, LABELS, MCAP, RATE_HZ, SIGNALS
+from mobnet.core.options import LABELS, MCAP, SIGNALS
 from mobnet.core.place import command
+from mobnet.core.rates import GAIN_HZ, RATE_HZ
 
 RECORDING, ESTIMATE = "recording", "estimate"  # arrays in the folder of a log
 ENDINGS = (".csv", ".parquet")  # of a simulated log

@@ -26,16 +26,14 @@ from mobnet.estimation import observer
 from mobnet.estimation.own import (
     OwnLog,
     OwnNetwork,
-    check_drives,
-    check_sampling,
     estimates_of,
-    estimator_of,
     limb_of,
     read_log_folder,
     read_network_folder,
     refuse_twice,
     without_friction,
 )
+from mobnet.estimation.sampling import check_drives, check_sampling, estimator_of
 from mobnet.kernel.detecting import Signal
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.given import given_robot
@@ -96,7 +94,7 @@ def run(options: Namespace) -> list[str]:
     settings = load_lab()
     if options.out:
         sweep(options.out.parent)
-    robot = given_robot(options.robot, settings)
+    robot = given_robot(options.robot, settings.robot)
     if not options.folders:
         limb = options.limb or next(iter(robot.layout.legs.values()), None) or limb_of(robot.layout, None)
         recordings = of_files(options, robot, limb)

@@ -13,11 +13,11 @@ from mobnet.core.errors import DataError
 from mobnet.core.estimator import Estimate
 from mobnet.detection.chain import Chain
 from mobnet.detection.gate import Spans, episodes_of, largest
-from mobnet.detection.numbers import tail_numbers
 from mobnet.detection.signals import MEAN, STD, Watched, slopes_of, whitening_of
 from mobnet.detection.thresholds import HOUR_S, Calibrated, calibrate
 from mobnet.detection.watch import LegRecording, LegSetup, LimbSetup
-from mobnet.kernel.detecting import WatchedSignals
+from mobnet.formats.plain import as_plain
+from mobnet.kernel.detecting import TailNumbers, WatchedSignals
 
 NEVER = "the leg is watched in none of the swings that calibrate; some are needed in which it is"
 
@@ -157,7 +157,8 @@ def rate_scales(
     episodes = episodes_of((leg.episodes or leg.segments, leg.swings) for leg in walk.legs)[: walk.first]
     rates = numbers.rates_per_h.items()
     return scales, {
-        kind: calibrate(seen, episodes, walk.hours * HOUR_S, rate, tail_numbers(numbers)) for kind, rate in rates
+        kind: calibrate(seen, episodes, walk.hours * HOUR_S, rate, as_plain(numbers, TailNumbers))
+        for kind, rate in rates
     }
 
 

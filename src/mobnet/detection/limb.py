@@ -11,7 +11,8 @@ from mobnet.core.columns import EXTERNAL, named
 from mobnet.core.errors import DataError, refuse
 from mobnet.core.estimator import Estimate
 from mobnet.core.notes import pair_differences, read_array_note
-from mobnet.core.recording import SensedRecording, read_sensed
+from mobnet.core.recording import SensedRecording
+from mobnet.core.recording_file import read_sensed
 from mobnet.core.store import NOTE, check_finite, file_of
 from mobnet.detection.always import AlwaysWatched, always_watched, setup_of
 from mobnet.detection.calibration import QuietWalk, check_signals, rate_scales, swing_heights

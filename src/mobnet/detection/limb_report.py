@@ -8,10 +8,11 @@ from mobnet.core.errors import beyond, refuse_lines
 from mobnet.detection.calibration import unit_of
 from mobnet.detection.limb import LimbCalibration
 from mobnet.detection.points import AXES
-from mobnet.estimation.own import LEARNED, OBSERVER, OwnNetwork, Sampling
-from mobnet.settings.base import THRESHOLD
+from mobnet.estimation.own import OwnNetwork
+from mobnet.estimation.sampling import LEARNED, OBSERVER, Sampling
+from mobnet.formats.base import THRESHOLD
+from mobnet.formats.limb_thresholds import LimbThresholds
 from mobnet.settings.lab import Lab
-from mobnet.settings.limb_thresholds import LimbThresholds
 
 NOTHING = 1e-3  # share of the expected rate below which one counts as zero
 

@@ -14,10 +14,10 @@ from mobnet.core.arrays import Array
 from mobnet.detection.detector import GateSignal, run_over
 from mobnet.detection.leg import unit_torques
 from mobnet.detection.watch import LegSetup, LimbSetup
+from mobnet.formats.parts import PointRow
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.nominal import NominalModel
 from mobnet.robot.wrench import carrier_of, point_torque
-from mobnet.settings.parts import PointRow
 
 AXES = "xyz"
 

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array
-from mobnet.settings.parts import ShapeRow
+from mobnet.formats.parts import ShapeRow
 
 Piece = tuple[float, float, float, float]  # of an outline: radius and height [m], angle of its normal, length [m]
 

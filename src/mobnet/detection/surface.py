@@ -13,9 +13,9 @@ from numpy.typing import NDArray
 from mobnet.core.arrays import Array
 from mobnet.core.errors import ConfigError
 from mobnet.detection.solids import Patch, across, depth, patch_of
+from mobnet.formats.parts import ShapeRow
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.wrench import carrier_of
-from mobnet.settings.parts import ShapeRow
 
 WITHIN = 1e-6  # depth from which a point counts as inside of a solid [m]
 

@@ -8,13 +8,14 @@ from mobnet.core.place import command
 from mobnet.detection.always import setup_of
 from mobnet.detection.signals import Watched
 from mobnet.detection.watch import LegSetup, LimbSetup
-from mobnet.estimation.own import OwnNetwork, Sampling, check_drives
+from mobnet.estimation.own import OwnNetwork
+from mobnet.estimation.sampling import Sampling, check_drives
+from mobnet.formats.limb_thresholds import LimbThresholds
+from mobnet.formats.loading import load_section
 from mobnet.kernel.detecting import WatchedSignals
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.table_file import flow
 from mobnet.settings.detection import Detection
-from mobnet.settings.lab import load_section
-from mobnet.settings.limb_thresholds import LimbThresholds
 
 HEADER = f"# Thresholds of a limb, by {command('calibrate')} (docs/detection.md). SI units, rates of alarms per hour."
 

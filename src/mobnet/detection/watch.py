@@ -12,12 +12,14 @@ from mobnet.core.arrays import Array
 from mobnet.core.columns import EXTERNAL, STD, named
 from mobnet.core.estimator import Estimate
 from mobnet.core.notes import read_array_note
-from mobnet.core.recording import SensedRecording, read_sensed
+from mobnet.core.recording import SensedRecording
+from mobnet.core.recording_file import read_sensed
 from mobnet.core.store import NOTE, file_of, read_array
 from mobnet.detection.chain import Chain, low_passed, make_chain
 from mobnet.detection.detector import DetectorOutput, GateSignal, LegGate, run_segments
 from mobnet.detection.gate import Spans, segment_of, swings_of
-from mobnet.detection.numbers import gate_numbers
+from mobnet.formats.plain import as_plain
+from mobnet.kernel.detecting import GateNumbers
 from mobnet.robot.description import RobotDescription
 from mobnet.settings.detection import Detection
 
@@ -91,7 +93,9 @@ class LegSetup(LimbSetup):
     @classmethod
     def of(cls, detection: Detection, robot: RobotDescription, limb: str, rate_hz: float) -> "LegSetup":
         """Return the setup of a leg; a ConfigError names a limb that is none."""
-        return cls(detection, robot, limb, rate_hz, LegGate.of(gate_numbers(detection.gate), robot, limb, rate_hz))
+        return cls(
+            detection, robot, limb, rate_hz, LegGate.of(as_plain(detection.gate, GateNumbers), robot, limb, rate_hz)
+        )
 
     @property
     def side(self) -> str:

@@ -12,7 +12,8 @@ from mobnet.core.columns import EXTERNAL, RESIDUAL, STD, Column, named, torque_c
 from mobnet.core.errors import ConfigError, DataError, not_accepted
 from mobnet.core.estimator import Estimate, Stretch, TorqueEstimator, estimate_all
 from mobnet.core.joints import JointLayout
-from mobnet.core.recording import SensedRecording, read_sensed
+from mobnet.core.recording import SensedRecording
+from mobnet.core.recording_file import read_sensed
 from mobnet.core.store import check_pair, check_rate, read_array, write_array
 from mobnet.estimation.observe import CARRIED
 

@@ -9,7 +9,8 @@ from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array
 from mobnet.core.columns import recording_columns
-from mobnet.core.recording import Sensed, read_blocks
+from mobnet.core.recording import Sensed
+from mobnet.core.recording_file import read_blocks
 from mobnet.core.store import read_array
 from mobnet.estimation.label import FootLabel, LabelState, zero_of
 from mobnet.estimation.observer import RobotObserver

@@ -9,11 +9,11 @@ import numpy as np
 from mobnet.core.arrays import Array
 from mobnet.core.errors import DataError
 from mobnet.core.recording import Sensed
+from mobnet.formats.parts import FrictionRow
 from mobnet.kernel.drive import DriveParameters, TorqueKind
 from mobnet.kernel.recursion import ObserverState, Recursion
 from mobnet.robot.dynamics import momentum_and_beta
 from mobnet.robot.nominal import NominalModel
-from mobnet.settings.parts import FrictionRow
 
 LOGGED_ROWS = 100_000  # samples between two messages of progress
 log = logging.getLogger(__name__)

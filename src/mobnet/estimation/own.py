@@ -13,27 +13,27 @@ from mobnet.core.estimator import Estimate
 from mobnet.core.files import RUN
 from mobnet.core.joints import JointLayout
 from mobnet.core.notes import Note, Text, pair_differences, read_array_note, read_note
-from mobnet.core.options import GAIN_HZ, RATE_HZ
-from mobnet.core.recording import SensedRecording, read_sensed
+from mobnet.core.rates import GAIN_HZ, RATE_HZ
+from mobnet.core.recording import SensedRecording
+from mobnet.core.recording_file import read_sensed
 from mobnet.core.store import ARRAY, NOTE, file_of, footer_hash, read_array
 from mobnet.core.word_checks import ESTIMATE, RECORDING, check_log_folder, check_network_folder
 from mobnet.estimation.estimate import ObservedRecording, only, run_segments
-from mobnet.estimation.kinds.residual import ResidualEstimator
 from mobnet.estimation.observer import RobotObserver
+from mobnet.estimation.residual import ResidualEstimator
+from mobnet.estimation.sampling import DRIVES, OBSERVER, Sampling
+from mobnet.formats.base import GainHz, RateHz
+from mobnet.formats.robot import GroupName
 from mobnet.kernel.detecting import Target
 from mobnet.kernel.drive import TorqueKind
-from mobnet.learning.deployed.limbs import LimbNetworks, load_limb_networks
+from mobnet.learning.deployed.limbs import LimbNetworks
+from mobnet.learning.deployed.loading import load_limb_networks
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.nominal import NominalModel
 from mobnet.robot.word_checks import limb_named
-from mobnet.settings.base import GainHz, RateHz
 from mobnet.settings.lab import Lab
-from mobnet.settings.robot import GroupName
 
-DRIVES = "drives"  # key of a note: digest of the friction that the observer knew
-OBSERVER, LEARNED = "MOB", "MOB-Net"  # methods: the observer alone, and with a network
 UNCERTAINTY: Target = "uncertainty"  # what such a network learns
-REMEDIES = {"rate_hz": "; one `rate_hz` in the maps of all logs gives them one rate"}  # of what two logs differ in
 
 
 class LearnedNote(Note):
@@ -51,23 +51,6 @@ class LearnedNote(Note):
     drives: Text | None = None
     folders: list[Text] | None = None
     recordings: list[Text] | None = None
-
-
-@dataclass(frozen=True)
-class Sampling:
-    """Samples per second [Hz], gain K_0 of the observer [1/s], and what a log holds of torques between two ticks.
-
-    `drives` is the digest of the friction that the observer knew; None where the table had none.
-    """
-
-    rate_hz: float
-    gain_hz: float
-    torque: TorqueKind
-    drives: str | None = None
-
-    def note(self) -> dict[str, float | str]:
-        """Return what a note says of it."""
-        return {key: value for key, value in vars(self).items() if value is not None}
 
 
 @dataclass(frozen=True)
@@ -170,32 +153,6 @@ def limb_of(layout: JointLayout, given: str | None, network: OwnNetwork | None =
     if network and not set(layout.limb(limb)) <= set(network.networks.joints):
         raise ConfigError(not_accepted("--limb", limb, [f"{network.limb}, that of {network.folder}"]))
     return limb
-
-
-def check_sampling(path: Path, sampling: Sampling, wanted: Sampling, of: Path) -> None:
-    """Raise a DataError where a log was sampled or observed otherwise than what a file was made with."""
-    faults = [
-        not_accepted(key, value, [f"{expected}, as {of} has it"]) + REMEDIES.get(key, "")
-        for key, value in vars(sampling).items()
-        if value != (expected := getattr(wanted, key))
-    ]
-    refuse(path, faults)
-
-
-def check_drives(path: Path, drives: str | None, robot: RobotDescription) -> None:
-    """Raise a DataError where a file was made with other friction or rotors than those of a robot's table."""
-    if drives != robot.drives:
-        made = f"made with friction and armature {drives or 'none'}, and the table of --robot has"
-        raise DataError(f"{path}: {made} {robot.drives or 'none'}; make it anew with that table")
-
-
-def estimator_of(
-    robot: RobotDescription, gravity_m_s2: float, sampling: Sampling, networks: LimbNetworks | None
-) -> ResidualEstimator:
-    """Return the estimator of a log, as a closed loop has it: the observer, or less what networks predict."""
-    nominal = NominalModel(robot, gravity_m_s2=gravity_m_s2)
-    observer = RobotObserver(nominal, sampling.gain_hz, sampling.rate_hz, sampling.torque)
-    return ResidualEstimator(observer, robot.layout, networks)
 
 
 def without_friction(logs: Sequence[OwnLog], robot: RobotDescription, gravity_m_s2: float) -> list[OwnLog]:

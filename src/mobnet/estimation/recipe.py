@@ -7,40 +7,23 @@ which needs Pinocchio, is imported when one is built.
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, Protocol, TypeVar
+from typing import TypeVar
 
-import numpy as np
-from numpy.typing import NDArray
 from pydantic import ValidationError
 
 from mobnet.core.errors import ConfigError, not_accepted
+from mobnet.core.estimator import ResidualObserver
 from mobnet.core.joints import JointLayout
-from mobnet.core.recording import Sensed
-from mobnet.learning.deployed.limbs import LimbNetworks, load_limb_networks
+from mobnet.formats.base import Section
+from mobnet.formats.faults import problems
+from mobnet.formats.reading import dotted
+from mobnet.formats.robot import RobotTable
+from mobnet.learning.deployed.limbs import LimbNetworks
+from mobnet.learning.deployed.loading import load_limb_networks
 from mobnet.robot.description import describe
-from mobnet.settings.base import Section
-from mobnet.settings.faults import problems
 from mobnet.settings.methods import Method, ObserverSettings
-from mobnet.settings.reading import dotted
-from mobnet.settings.robot import RobotTable
 
 Kind = TypeVar("Kind", bound=Section)
-
-
-class ResidualObserver(Protocol):
-    """An observer of the residual r of (9) of all joints, (nv,); its state is explicit."""
-
-    def init(self) -> Any:
-        """Return the state before the first sample."""
-        ...
-
-    def step(self, state: Any, sample: Sensed) -> tuple[Any, NDArray[np.float64]]:
-        """Take one sample (1-D arrays); return the new state and r, (nv,) [N] and [N m]."""
-        ...
-
-    def residual(self, sensed: Sensed) -> NDArray[np.float64]:
-        """Return r over one contiguous recording, (T, nv) [N] and [N m], from a fresh state."""
-        ...
 
 
 @dataclass(frozen=True)

@@ -9,11 +9,11 @@ from typing import Any
 
 from mobnet.core.files import read_json
 from mobnet.core.notes import Count, FileName, Index, Note, Positive, Text, checked
+from mobnet.formats.base import GainHz, RateHz
+from mobnet.formats.limb_thresholds import LimbThresholds
+from mobnet.formats.robot import GroupName
 from mobnet.kernel.detecting import Target
 from mobnet.kernel.drive import TorqueKind
-from mobnet.settings.base import GainHz, RateHz
-from mobnet.settings.limb_thresholds import LimbThresholds
-from mobnet.settings.robot import GroupName
 
 FORMAT = 1  # of the contract; another one has other keys
 OPSET, IR_VERSION = 17, 8  # of July 2022: run times of that age and newer ones read the files

@@ -22,16 +22,17 @@ from mobnet.core.printed import printed
 from mobnet.core.word_checks import check_export
 from mobnet.detection.chain import make_chain
 from mobnet.detection.detector import LegGate
-from mobnet.detection.numbers import gate_numbers
 from mobnet.detection.signals import MEAN
 from mobnet.detection.threshold_file import read_thresholds
 from mobnet.estimation.observer import RobotObserver
-from mobnet.estimation.own import OBSERVER, check_drives
+from mobnet.estimation.sampling import OBSERVER, check_drives
 from mobnet.export.contract import CONTRACT, Contract, ObserverContract, read_contract
 from mobnet.export.graph import graph_of
 from mobnet.export.model_file import RuntimeDetector, RuntimeNetwork, model_content
 from mobnet.export.session import OnnxNetwork
 from mobnet.export.trained import Trained, check_apart, contract_of, read_trained
+from mobnet.formats.limb_thresholds import LimbThresholds
+from mobnet.formats.plain import as_plain
 from mobnet.kernel.detecting import GateNumbers
 from mobnet.kernel.drive import TorqueKind
 from mobnet.learning.deployed.loading import WITHOUT_TORCH, deployed
@@ -39,7 +40,6 @@ from mobnet.robot.description import RobotDescription
 from mobnet.robot.given import given_robot
 from mobnet.robot.nominal import NominalModel
 from mobnet.settings.lab import Lab, load_lab
-from mobnet.settings.limb_thresholds import LimbThresholds
 
 MODEL = "model.bin"
 log = logging.getLogger(__name__)
@@ -270,14 +270,14 @@ def export_folders(
         ),
     )
     sweep(out)
-    return export(networks, robot, run_time, of_limbs, gate_numbers(settings.detection.gate), out), networks
+    return export(networks, robot, run_time, of_limbs, as_plain(settings.detection.gate, GateNumbers), out), networks
 
 
 def run(options: Namespace) -> Iterator[str]:
     """Export networks as the command's options say, and yield what is printed."""
     check_export(options)
     settings = load_lab()
-    robot = given_robot(options.robot, settings)
+    robot = given_robot(options.robot, settings.robot)
     given = Given(options.rate, options.gain, options.torque)
     contract, networks = export_folders(options.network, robot, options.thresholds, given, settings, options.out)
     yield from report_lines(contract, networks, options.out)

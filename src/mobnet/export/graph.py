@@ -13,8 +13,9 @@ from numpy.typing import NDArray
 from onnx import TensorProto, helper, numpy_helper
 
 from mobnet.export.contract import IR_VERSION, OPSET
-from mobnet.learning.deployed.weights import WeightsNote, std_scale_of
-from mobnet.settings.networks import CellKind, NetworkCell
+from mobnet.formats.network import CellKind, NetworkCell
+from mobnet.learning.deployed.tensors import std_scale_of
+from mobnet.learning.deployed.weights import WeightsNote
 
 PRODUCER = "mobnet"
 LAST = 2**31  # beyond the end of any axis

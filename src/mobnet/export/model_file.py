@@ -26,7 +26,8 @@ from mobnet.estimation.observer import RobotObserver
 from mobnet.kernel.detecting import Signal, Target
 from mobnet.kernel.drive import NUMBERS, DriveParameters
 from mobnet.learning.deployed.loading import WITHOUT_TORCH
-from mobnet.learning.deployed.weights import GRU_TENSORS, WeightsNote, std_scale_of
+from mobnet.learning.deployed.tensors import GRU_TENSORS, std_scale_of
+from mobnet.learning.deployed.weights import WeightsNote
 from mobnet.learning.features import ROTATION_NAMES
 from mobnet.learning.gates import ordered
 from mobnet.robot.nominal import NominalModel

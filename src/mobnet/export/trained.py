@@ -22,12 +22,12 @@ from mobnet.export.contract import (
     OutputContract,
 )
 from mobnet.export.graph import state_size
-from mobnet.learning.deployed.limbs import check_limb
-from mobnet.learning.deployed.loading import deployed
+from mobnet.formats.limb_thresholds import LimbThresholds
+from mobnet.learning.deployed.loading import check_limb, deployed
 from mobnet.learning.deployed.networks import Array
-from mobnet.learning.deployed.weights import WeightsNote, read_weights, std_scale_of
+from mobnet.learning.deployed.tensors import std_scale_of
+from mobnet.learning.deployed.weights import WeightsNote, read_weights
 from mobnet.learning.features import QUATERNION_NAMES, ROTATION_NAMES
-from mobnet.settings.limb_thresholds import LimbThresholds
 
 # The first two columns of the rotation from base to world axes, of a unit quaternion w x y z.
 FORMULAS = (

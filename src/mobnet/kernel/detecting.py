@@ -5,6 +5,7 @@ from typing import Literal
 
 Signal = Literal["mean", "std", "ratio"]
 Target = Literal["uncertainty", "external"]  # the torque that a network learns
+Strategy = Literal["compliant", "rewind"]  # of stepping: along the force, or back
 
 
 @dataclass(frozen=True)

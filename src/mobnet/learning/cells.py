@@ -10,7 +10,7 @@ from typing import Protocol
 import torch
 from torch import Tensor, nn
 
-from mobnet.settings.networks import SIZES, CellKind, NetworkCell
+from mobnet.formats.network import SIZES, CellKind, NetworkCell
 
 
 class CellModule(Protocol):

@@ -16,11 +16,11 @@ from mobnet.core.errors import DataError
 from mobnet.core.joints import JointLayout
 from mobnet.core.notes import read_array_note
 from mobnet.core.store import NOTE, check_pair, check_rate, file_of, label_of, read_array, spans_and_rate
+from mobnet.formats.network import Limb
 from mobnet.kernel.detecting import Target
 from mobnet.learning.features import LimbInputs, limb_inputs
 from mobnet.learning.streams import Span
 from mobnet.learning.swings import Margins, free_rows
-from mobnet.settings.networks import Limb
 
 Known = Callable[[Path, Sequence[str]], NDArray[Any]]  # recording, joints (n,) -> torque (T, n) [N, N m]
 CONSTANT = 1e-9  # an input that moves less than this share of its mean counts as constant

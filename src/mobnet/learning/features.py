@@ -12,8 +12,8 @@ from mobnet.core.arrays import rotation
 from mobnet.core.errors import ConfigError, not_accepted
 from mobnet.core.joints import N_VIRTUAL, NQ_BASE, JointLayout
 from mobnet.core.recording import Sensed
+from mobnet.formats.network import Inertial, Limb
 from mobnet.robot.frames import QUATERNION
-from mobnet.settings.networks import Inertial, Limb
 
 OMEGA = slice(3, N_VIRTUAL)  # of the generalized velocity, base axes
 ROTATION_NAMES: tuple[str, ...] = ("R.11", "R.21", "R.31", "R.12", "R.22", "R.32")

@@ -11,8 +11,8 @@ from torch.nn.utils import parametrize
 from torch.nn.utils.parametrizations import spectral_norm
 
 from mobnet.core.machine import one_thread
+from mobnet.formats.network import NetworkCell
 from mobnet.learning.cells import CellModule, build_cell
-from mobnet.settings.networks import NetworkCell
 
 
 class LimbNetwork(nn.Module):

@@ -18,7 +18,8 @@ from torch import Tensor
 from mobnet.core.errors import DataError, TrainingError, not_accepted
 from mobnet.learning.checkpoint import Progress
 from mobnet.learning.dataset import LimbData, ZScore, scale_of
-from mobnet.learning.deployed.weights import GRU_TENSORS, read_weights
+from mobnet.learning.deployed.tensors import GRU_TENSORS
+from mobnet.learning.deployed.weights import read_weights
 from mobnet.learning.job import TrainingJob
 from mobnet.learning.losses import CHOSEN_BY
 from mobnet.learning.model import LimbNetwork, build_network

@@ -13,15 +13,16 @@ from safetensors.torch import save as to_bytes
 from mobnet.core.code import provenance
 from mobnet.core.files import CHECKPOINT, METRICS, RUN, TIME, WEIGHTS, atomic_path, write_json
 from mobnet.core.machine import one_thread
+from mobnet.formats.base import Section
 from mobnet.learning.calibration import StdFactors
 from mobnet.learning.checkpoint import Progress, copy_weights, write_metrics
 from mobnet.learning.dataset import LimbData
-from mobnet.learning.deployed.weights import NOTE, STD_SCALE
+from mobnet.learning.deployed.tensors import STD_SCALE
+from mobnet.learning.deployed.weights import NOTE
 from mobnet.learning.job import TrainingJob, precision_name
 from mobnet.learning.model import parameter_count
 from mobnet.learning.stacked.train import read_lesson
 from mobnet.learning.trainer import Trainer
-from mobnet.settings.base import Section
 
 log = logging.getLogger(__name__)
 

@@ -15,8 +15,8 @@ from mobnet.control.kinematics import KinematicTree, Pose, empty_pose, tree_of, 
 from mobnet.core.arrays import Array
 from mobnet.core.compilation import compiled, on_stack, vector3
 from mobnet.core.joints import N_VIRTUAL
+from mobnet.reaction.numbers import WrenchDamping
 from mobnet.robot.description import SIDES, RobotDescription
-from mobnet.settings.reaction import WrenchIdentification
 
 IN_THE_AIR = 0.5  # of a flag
 vector6 = on_stack(6)
@@ -45,7 +45,7 @@ def end_effectors(robot: RobotDescription) -> dict[str, str]:
     return {robot.feet[side].limb: robot.feet[side].body for side in SIDES} | hands
 
 
-def make_ends(robot: RobotDescription, bodies: Mapping[str, str], numbers: WrenchIdentification) -> Ends:
+def make_ends(robot: RobotDescription, bodies: Mapping[str, str], numbers: WrenchDamping) -> Ends:
     """Return the end-effectors of limbs, limb -> body."""
     tree = tree_of(robot, 1.0)
     names = [body.name for body in robot.bodies]

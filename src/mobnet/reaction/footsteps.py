@@ -10,9 +10,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from mobnet.control.geometry import wrap
-from mobnet.control.parameters import DURATION, STEP_X, STEP_Y, TURN
+from mobnet.control.steps import DURATION, STEP_X, STEP_Y, TURN
 from mobnet.core.arrays import Array
-from mobnet.settings.reaction import Compliant, FirstStep
+from mobnet.reaction.numbers import CompliantNumbers, FirstStepNumbers
 
 
 @dataclass(frozen=True)
@@ -38,23 +38,28 @@ class Stance:
         """How far the swing foot is ahead of the stance foot [m]."""
         return float(turned(self.swing - self.foot[:2], -self.foot[2])[0])
 
-    def landing_m(self, numbers: FirstStep) -> float:
+    def landing_m(self, numbers: FirstStepNumbers) -> float:
         """Return how far ahead of the stance foot the swing foot lands at least [m], less than zero behind it."""
         return -np.inf if np.isinf(self.landing_s) else min(self.ahead_m, -numbers.behind_m)
 
-    def reach_m(self, numbers: FirstStep) -> float:
+    def reach_m(self, numbers: FirstStepNumbers) -> float:
         """Return how far the swing foot may be sent elsewhere [m]."""
         if np.isinf(self.landing_s):
             return np.inf
         return max(0.0, min(numbers.height_ratio * self.height_m, numbers.foot_speed_m_s * self.landing_s))
 
-    def clear_m(self, numbers: FirstStep) -> float:
+    def clear_m(self, numbers: FirstStepNumbers) -> float:
         """Return how far from where it is the swing foot lands at least [m], as far as the time that is left allows."""
         return max(0.0, min(numbers.clear_m, numbers.foot_speed_m_s * self.landing_s))
 
 
 def compliant_steps(
-    numbers: Compliant, first: FirstStep, stance: Stance, direction: Array, command: Array, spacing_m: float
+    numbers: CompliantNumbers,
+    first: FirstStepNumbers,
+    stance: Stance,
+    direction: Array,
+    command: Array,
+    spacing_m: float,
 ) -> Array:
     """Return steps along a direction (2,), Figure 21; duration and foot height are those of a command (5,).
 
@@ -74,7 +79,13 @@ def compliant_steps(
 
 
 def rewound_steps(
-    kept: Sequence[Array], count: int, step_m: float, first: FirstStep, stance: Stance, command: Array, spacing_m: float
+    kept: Sequence[Array],
+    count: int,
+    step_m: float,
+    first: FirstStepNumbers,
+    stance: Stance,
+    command: Array,
+    spacing_m: float,
 ) -> Array:
     """Return steps on the last footsteps that are kept, backwards; each foot of `kept` (3,) stood before the next one.
 

@@ -11,16 +11,16 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from mobnet.control.parameters import DURATION, SIDES
+from mobnet.control.steps import DURATION, SIDES
 from mobnet.core.arrays import Array
 from mobnet.core.estimator import Estimate
 from mobnet.core.recording import Sensed
 from mobnet.detection.detector import ALARM_RATIO
+from mobnet.kernel.detecting import Strategy
 from mobnet.reaction.contacts import IN_THE_AIR, Ends, end_effectors, identify, make_ends, unexpected_wrench
 from mobnet.reaction.footsteps import Stance, compliant_steps, in_place, rewound_steps
+from mobnet.reaction.numbers import ReactionNumbers
 from mobnet.robot.description import RobotDescription
-from mobnet.settings.reaction import Reaction as Numbers
-from mobnet.settings.reaction import Strategy
 
 
 class Watcher(Protocol):
@@ -84,7 +84,7 @@ class Handler:
     def __init__(
         self,
         robot: RobotDescription,
-        numbers: Numbers,
+        numbers: ReactionNumbers,
         spacing_m: float,
         watchers: Mapping[str, Watcher],
         strategy: Strategy,

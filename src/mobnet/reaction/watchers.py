@@ -14,8 +14,8 @@ from mobnet.detection.detector import DetectorState, LegDetector, LegGate
 from mobnet.detection.gate import gate_state
 from mobnet.detection.signals import Watched
 from mobnet.reaction.contacts import Ends, end_effectors, make_ends, unexpected_force, unexpected_forces
+from mobnet.reaction.numbers import WrenchDamping
 from mobnet.robot.description import RobotDescription
-from mobnet.settings.reaction import WrenchIdentification
 
 Columns = NDArray[Any]
 
@@ -112,7 +112,7 @@ class BaseForce:
     height_m: float
 
     @classmethod
-    def of(cls, robot: RobotDescription, numbers: WrenchIdentification, height_m: float) -> "BaseForce":
+    def of(cls, robot: RobotDescription, numbers: WrenchDamping, height_m: float) -> "BaseForce":
         """Return the force on a robot's base."""
         return cls(make_ends(robot, end_effectors(robot), numbers), height_m)
 

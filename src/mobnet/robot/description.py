@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from mobnet.core.errors import ConfigError
 from mobnet.core.joints import LEG_AXES, JointLayout, Limits, right_of, with_image
-from mobnet.settings.parts import (
+from mobnet.formats.parts import (
     BodyRow,
     Colour,
     FootRow,
@@ -23,7 +23,7 @@ from mobnet.settings.parts import (
     ShapeRow,
     SoleRow,
 )
-from mobnet.settings.robot import RobotTable
+from mobnet.formats.robot import RobotTable
 
 SIDES = ("left", "right")
 LEG_JOINTS = len(LEG_AXES)

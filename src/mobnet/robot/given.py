@@ -1,18 +1,18 @@
-"""The robot that a user names by a file. It reads a configuration, which no job of the workflow does."""
+"""The robot that a user names by a file; no job of the workflow takes one."""
 
 from pathlib import Path
 
 from mobnet.core.files import descriptor_of
 from mobnet.core.place import check_extra
+from mobnet.formats.loading import load_section
+from mobnet.formats.robot import RobotTable
 from mobnet.robot.description import RobotDescription, describe
-from mobnet.settings.lab import Lab, load_section
-from mobnet.settings.robot import RobotTable
 
 FILES = (".urdf", ".xml", ".mjcf")  # of robots that no table describes yet; gzip may have packed them
 
 
-def given_table(path: Path | None, settings: Lab) -> RobotTable:
-    """Return the table of a file, or that of the configuration where none is given.
+def given_table(path: Path | None, usual: RobotTable) -> RobotTable:
+    """Return the table of a file, or the usual one where none is given.
 
     A URDF or MJCF file is read as `mobnet robot` makes a table of it without further words.
 
@@ -21,7 +21,7 @@ def given_table(path: Path | None, settings: Lab) -> RobotTable:
         DataError: the file is no robot, or a table cannot hold it.
     """
     if path is None:
-        return settings.robot
+        return usual
     if not is_robot_file(path):
         return load_section(path, RobotTable)
     check_extra("simulate")
@@ -31,10 +31,20 @@ def given_table(path: Path | None, settings: Lab) -> RobotTable:
     return table
 
 
-def given_robot(path: Path | None, settings: Lab) -> RobotDescription:
+def given_robot(path: Path | None, usual: RobotTable) -> RobotDescription:
     """Return the robot of a file as `given_table` does its table, with notes of what the file does not say."""
-    if path is None or not is_robot_file(path):
-        return describe(given_table(path, settings))
+    return describe(usual) if path is None else robot_of_file(path)
+
+
+def robot_of_file(path: Path) -> RobotDescription:
+    """Return the robot of a table, or of a URDF or MJCF file, with notes of what the file does not say.
+
+    Raises:
+        ConfigError: the file cannot be read, or is no table of a robot.
+        DataError: the file is no robot, or a table cannot hold it.
+    """
+    if not is_robot_file(path):
+        return describe(load_section(path, RobotTable))
     check_extra("simulate")
     from mobnet.robot.import_table import read_robot
 

@@ -6,8 +6,8 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from mobnet.core.arrays import Array
+from mobnet.formats.parts import GYRATION_M, MOST_KG, is_possible
 from mobnet.robot.import_tree import Link, Part, RigidBody
-from mobnet.settings.parts import GYRATION_M, MOST_KG, is_possible
 
 # Of a body without mass between joints, [kg] and [kg m^2]: it changes no torque by a digit that counts, and MuJoCo
 # simulates it.

@@ -14,14 +14,14 @@ import pinocchio as pin
 from mobnet.core.arrays import Array
 from mobnet.core.errors import DataError, not_accepted
 from mobnet.core.options import ARMATURE_KG_M2, SPEED_LIMIT_RAD_S, TORQUE_LIMIT_NM
+from mobnet.formats.checks.robot import robot_problems
+from mobnet.formats.faults import refuse_faults, validated
+from mobnet.formats.reading import Place, dotted
+from mobnet.formats.robot import RobotTable
 from mobnet.kernel.mechanism import ENDLESS, HINGES
 from mobnet.robot.description import RobotDescription, describe
 from mobnet.robot.import_links import Imported, import_tree, left_out, values_of
 from mobnet.robot.import_tree import FREE, HINGE, WORLD, Joint, Link, LinkTree
-from mobnet.settings.checks.robot import robot_problems
-from mobnet.settings.faults import refuse_faults, validated
-from mobnet.settings.reading import Place, dotted
-from mobnet.settings.robot import RobotTable
 
 FREE_FLYER = "JointModelFreeFlyer"
 TURNING = (*HINGES, *ENDLESS, "JointModelRevoluteUnboundedUnaligned")

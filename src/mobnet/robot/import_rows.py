@@ -7,12 +7,12 @@ import numpy as np
 import pinocchio as pin
 
 from mobnet.core.arrays import Array
+from mobnet.formats.base import MOST_M, MOST_RAD
+from mobnet.formats.parts import SPEED_RAD_S, TORQUE_NM
 from mobnet.robot.import_base import RobotSelection
 from mobnet.robot.import_inertia import Mass, six
 from mobnet.robot.import_names import renamed, words_of
 from mobnet.robot.import_tree import Joint, RigidBody
-from mobnet.settings.base import MOST_M, MOST_RAD
-from mobnet.settings.parts import SPEED_RAD_S, TORQUE_NM
 
 
 def body_rows(

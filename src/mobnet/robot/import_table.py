@@ -16,6 +16,8 @@ from mobnet.core.options import import_parser
 from mobnet.core.place import command
 from mobnet.core.printed import printed
 from mobnet.core.word_checks import check_robot, floats, imported_table
+from mobnet.formats.loading import load_section
+from mobnet.formats.robot import RobotTable
 from mobnet.robot.description import RobotDescription, describe
 from mobnet.robot.import_checks import differences
 from mobnet.robot.import_file import content_of
@@ -23,8 +25,6 @@ from mobnet.robot.import_links import Imported, values_of
 from mobnet.robot.importing import import_robot
 from mobnet.robot.limit_words import check_limits
 from mobnet.robot.table_file import flow
-from mobnet.settings.lab import load_section
-from mobnet.settings.robot import RobotTable
 
 log = logging.getLogger(__name__)
 BY_NAME = ("order", "groups", "networks")  # entries of a table with a line for each name

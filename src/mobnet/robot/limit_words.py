@@ -3,7 +3,7 @@
 from argparse import Namespace
 
 from mobnet.core.errors import beyond, refuse_lines
-from mobnet.settings.parts import ARMATURE, SPEED_RAD_S, TORQUE_NM
+from mobnet.formats.parts import ARMATURE, SPEED_RAD_S, TORQUE_NM
 
 
 def check_limits(options: Namespace) -> None:

@@ -12,10 +12,10 @@ import numpy as np
 import pinocchio as pin
 from numpy.typing import NDArray
 
+from mobnet.formats.parts import BodyRow, JointRow
 from mobnet.kernel.linkage import linkage_of
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.frames import to_pinocchio
-from mobnet.settings.parts import BodyRow, JointRow
 
 ALIGNED = {(1.0, 0.0, 0.0): pin.JointModelRX, (0.0, 1.0, 0.0): pin.JointModelRY, (0.0, 0.0, 1.0): pin.JointModelRZ}
 

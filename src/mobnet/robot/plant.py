@@ -4,9 +4,9 @@ from collections.abc import Mapping
 
 import mujoco
 
+from mobnet.formats.parts import BodyRow, Colour, ImuRow, ShapeRow, SoleRow
+from mobnet.formats.robot import WORLD
 from mobnet.robot.description import RobotDescription
-from mobnet.settings.parts import BodyRow, Colour, ImuRow, ShapeRow, SoleRow
-from mobnet.settings.robot import WORLD
 
 SOLE_TYPE = 2  # contype of soles and conaffinity of terrain: only soles on terrain collide
 TERRAIN_TYPE = 1  # contype of terrain and conaffinity of soles

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from mobnet.core.files import write_text
-from mobnet.settings.robot import RobotTable
+from mobnet.formats.robot import RobotTable
 
 PLAIN = re.compile(r"[A-Za-z_]([A-Za-z0-9_./ -]*[A-Za-z0-9_./-])?")  # texts that need no quotes, but for these words
 OTHERWISE = re.compile(r"yes|no|on|off|true|false|null|nan|inf(inity)?", re.IGNORECASE)

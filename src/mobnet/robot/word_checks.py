@@ -9,12 +9,13 @@ from pathlib import Path
 
 from mobnet.core.errors import ConfigError, not_accepted
 from mobnet.core.joints import JointLayout
+from mobnet.formats.limb_thresholds import LimbThresholds
+from mobnet.formats.loading import load_section
+from mobnet.formats.log_map import LogMap
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.given import given_robot
 from mobnet.robot.limit_words import check_limits
-from mobnet.settings.lab import load_lab, load_section
-from mobnet.settings.limb_thresholds import LimbThresholds
-from mobnet.settings.robotlog import LogMap
+from mobnet.settings.lab import load_lab
 
 
 def check_named(options: Namespace) -> None:
@@ -29,7 +30,7 @@ def check_named(options: Namespace) -> None:
         check_limits(options)
     if "robot" not in given:  # it takes nothing of the configuration
         return
-    robot = given_robot(options.robot, load_lab())
+    robot = given_robot(options.robot, load_lab().robot)
     if given.get("map"):
         load_section(options.map, LogMap)
     # A network or recordings say which limb is meant where the words do not.

@@ -12,10 +12,28 @@ from numpy.typing import NDArray
 from mobnet.core.arrays import Array
 from mobnet.core.errors import DataError
 from mobnet.robotlog.columns import LogColumn
-from mobnet.settings.robotlog import RobotLog
 
 ROUND = 1e-3  # a rate this close to a whole number [Hz] is meant to be it
 Segments = tuple[tuple[int, int], ...]
+
+
+@dataclass(frozen=True)
+class ClockBounds:
+    """What is accepted of the times of a log.
+
+    Attributes:
+        gap_intervals: a pause of more than so many sample intervals ends a segment.
+        backward: share of the times of a table that may not be after the one before.
+        ticks: samples of the recording for each one of the log, above which it is refused.
+        even: standard deviation of the intervals over their median, below which samples are taken as they are.
+        apart_s: difference between stamps and times of recording from which clocks count as apart [s].
+    """
+
+    gap_intervals: float
+    backward: float
+    ticks: float
+    even: float
+    apart_s: float
 
 
 @dataclass(frozen=True)
@@ -48,7 +66,7 @@ class Rising:
     hints: tuple[str, ...] = ()
 
 
-def rising(path: Path, time_s: Array, bounds: RobotLog) -> Rising:
+def rising(path: Path, time_s: Array, bounds: ClockBounds) -> Rising:
     """Return the clock of a table, whose rows are put in order; of two with one time the first is taken.
 
     Where times begin anew, as those of episodes in one file do, a segment ends and times count on.
@@ -87,7 +105,7 @@ def rising(path: Path, time_s: Array, bounds: RobotLog) -> Rising:
     return Rising(times[kept], rows[kept], len(time_s), tuple(hints))
 
 
-def rows_anew(time_s: Array, pause: float, bounds: RobotLog) -> NDArray[np.intp]:
+def rows_anew(time_s: Array, pause: float, bounds: ClockBounds) -> NDArray[np.intp]:
     """Return the rows of a clock (T,) [s] in which it begins anew: by more than a pause [s], and not for a late row."""
     anew = np.flatnonzero(np.diff(time_s) < -pause) + 1
     few = anew[:, None] + np.arange(1, 1 + math.ceil(bounds.gap_intervals))
@@ -110,7 +128,7 @@ def rate_of(time_s: Array) -> float:
     return float(round(rate)) if abs(rate - round(rate)) < ROUND * rate else rate
 
 
-def common_ticks(path: Path, clocks: Mapping[str, Array], rate_hz: float, bounds: RobotLog) -> Ticks:
+def common_ticks(path: Path, clocks: Mapping[str, Array], rate_hz: float, bounds: ClockBounds) -> Ticks:
     """Return the clock of a recording at a rate [Hz] of signals with clocks (T,) [s] of their own.
 
     Samples of one even clock at the rate itself are taken as they are; else values are interpolated linearly.
@@ -179,7 +197,7 @@ def at(signal: Timed, ticks: Array) -> Array:
     return values
 
 
-def stamp_hints(columns: Iterable[LogColumn], bounds: RobotLog) -> Iterator[str]:
+def stamp_hints(columns: Iterable[LogColumn], bounds: ClockBounds) -> Iterator[str]:
     """Yield what looks wrong with the stamps of messages, of one column for each topic."""
     lags = dict[str, Array]()
     for topic, column in {column.topic: column for column in columns}.items():

@@ -15,16 +15,27 @@ from mobnet.core.errors import DataError, not_accepted
 from mobnet.core.joints import JointLayout
 from mobnet.core.motion import turned
 from mobnet.core.recording import ABSENT, Recording, Sensed, Truth
+from mobnet.formats.log_map import LogMap, Signal, Tool
 from mobnet.robot.nominal import NominalModel
 from mobnet.robot.wrench import point_torque
-from mobnet.robotlog.clocks import Rising, Segments, Timed, at, common_ticks, covered, rate_of, rising, stamp_hints
+from mobnet.robotlog.clocks import (
+    ClockBounds,
+    Rising,
+    Segments,
+    Timed,
+    at,
+    common_ticks,
+    covered,
+    rate_of,
+    rising,
+    stamp_hints,
+)
 from mobnet.robotlog.columns import Columns, LogColumn
 from mobnet.robotlog.hints.columns import listed
 from mobnet.robotlog.long_arrays import give_back, long_array
 from mobnet.robotlog.meaning import given_signals, is_truth, resolved
 from mobnet.robotlog.pieces import pieces
 from mobnet.robotlog.restarts import counted_on
-from mobnet.settings.robotlog import LogMap, RobotLog, Signal, Tool
 
 SI = {  # unit -> in SI units
     "deg": np.pi / 180,
@@ -64,7 +75,7 @@ class Converted:
 
 
 def convert(
-    path: Path, columns: Columns, meaning: LogMap, layout: JointLayout, bounds: RobotLog, folder: Path | None = None
+    path: Path, columns: Columns, meaning: LogMap, layout: JointLayout, bounds: ClockBounds, folder: Path | None = None
 ) -> Converted:
     """Make a recording of a log, whose long arrays lie in files in a folder, where one is given.
 
@@ -169,7 +180,7 @@ def _timed(
     signal: Signal,
     meaning: LogMap,
     clock: Rising,
-    bounds: RobotLog,
+    bounds: ClockBounds,
     free: int,
     folder: Path | None,
 ) -> Timed:
@@ -237,7 +248,7 @@ def _own(path: Path, name: str, column: LogColumn, meaning: LogMap, clock: Risin
     return time_s, values
 
 
-def _table_clock(path: Path, columns: Columns, meaning: LogMap, bounds: RobotLog) -> Rising:
+def _table_clock(path: Path, columns: Columns, meaning: LogMap, bounds: ClockBounds) -> Rising:
     """Return the clock of all columns of a table, which rises; logs of messages have none.
 
     Raises:

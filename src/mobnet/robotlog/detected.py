@@ -15,14 +15,15 @@ from mobnet.detection.always import always_on
 from mobnet.detection.detector import GateSignal, run_segments
 from mobnet.detection.threshold_file import sampling_of, setup_with, watched_of
 from mobnet.detection.watch import LegSetup, LimbSetup
-from mobnet.estimation.own import OwnLog, OwnNetwork, estimates_of, estimator_of
+from mobnet.estimation.own import OwnLog, OwnNetwork, estimates_of
+from mobnet.estimation.sampling import estimator_of
+from mobnet.formats.limb_thresholds import LimbThresholds
+from mobnet.formats.log_map import LogMap
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.nominal import NominalModel
 from mobnet.robotlog.flags import Flag, PushCount, flags_of, found_pushes
 from mobnet.robotlog.observe import ObservedLog, observe_log
 from mobnet.settings.lab import Lab
-from mobnet.settings.limb_thresholds import LimbThresholds
-from mobnet.settings.robotlog import LogMap
 
 
 @dataclass(frozen=True)
@@ -73,7 +74,9 @@ def detect_log(
     low = setup.low_passed(estimate.tau_ext.astype(np.float64), read.segments)
     nominal = NominalModel(robot, gravity_m_s2=gravity)
     flags = tuple(
-        flags_of(alarm, observed.converted.time_s, read, low, estimate.std, thresholds, nominal, settings.robotlog)
+        flags_of(
+            alarm, observed.converted.time_s, read, low, estimate.std, thresholds, nominal, settings.robotlog.flag_gap_s
+        )
     )
     known = found_pushes(observed.converted, thresholds.joints, flags, settings.robotlog.flag_gap_s)
     return LogDetection(observed, estimate, setup.low_passed(signals, read.segments), flags, known)

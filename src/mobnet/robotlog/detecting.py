@@ -10,7 +10,12 @@ from mobnet.core.options import MCAP
 from mobnet.core.rows import csv_text
 from mobnet.detection.threshold_file import check_thresholds, read_thresholds, sampling_of
 from mobnet.estimation.estimate import write_estimate
-from mobnet.estimation.own import ESTIMATE, OwnNetwork, check_sampling, read_network_folder
+from mobnet.estimation.own import ESTIMATE, OwnNetwork, read_network_folder
+from mobnet.estimation.sampling import check_sampling
+from mobnet.formats.limb_thresholds import LimbThresholds
+from mobnet.formats.loading import load_section
+from mobnet.formats.log_map import LogMap
+from mobnet.formats.plain import as_plain
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.given import given_robot
 from mobnet.robot.nominal import NominalModel
@@ -19,10 +24,8 @@ from mobnet.robotlog.flags import COLUMNS, pushed_rows
 from mobnet.robotlog.flags_mcap import write_mcap
 from mobnet.robotlog.formats import stem_of
 from mobnet.robotlog.plot import plot_flags
-from mobnet.robotlog.wrenches import place_of, wrench_lines, wrenches_of, write_wrenches
-from mobnet.settings.lab import Lab, load_section
-from mobnet.settings.limb_thresholds import LimbThresholds
-from mobnet.settings.robotlog import LogMap
+from mobnet.robotlog.wrenches import WrenchNumbers, place_of, wrench_lines, wrenches_of, write_wrenches
+from mobnet.settings.lab import Lab
 
 FLAGS = "flags.csv"
 PLOT = "flags"
@@ -57,7 +60,7 @@ def report_lines(made: LogDetection) -> Iterator[str]:
 
 def detect(options: Namespace, settings: Lab) -> Iterator[str]:
     """Detect as the command's options say, and yield what is printed."""
-    robot = given_robot(options.robot, settings)
+    robot = given_robot(options.robot, settings.robot)
     meaning = load_section(options.map, LogMap) if options.map else None
     network = read_network_folder(options.network, robot.layout, settings) if options.network else None
     thresholds = read_thresholds(options.thresholds)
@@ -80,7 +83,7 @@ def detect(options: Namespace, settings: Lab) -> Iterator[str]:
     sweep(out.parent if is_mcap else out)
     made = detect_log(options.log, robot, meaning, network, thresholds, settings)
     read = made.observed.converted.recording
-    numbers = settings.robotlog.wrench
+    numbers = as_plain(settings.robotlog.wrench, WrenchNumbers)
     wrenches = [wrenches_of(nominal, place, read.sensed.q, made.estimate, numbers) for place in places]
     if is_mcap:
         write_mcap(made, thresholds, robot.layout.columns(thresholds.joints), out)

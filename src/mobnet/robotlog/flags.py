@@ -12,11 +12,10 @@ from mobnet.core.columns import EXTERNAL, PUSHED
 from mobnet.core.recording import SensedRecording
 from mobnet.detection.detector import ALARM_RATIO, DetectorOutput
 from mobnet.detection.points import EstimatedPush, felt_push
+from mobnet.formats.limb_thresholds import LimbThresholds
 from mobnet.robot.nominal import NominalModel
 from mobnet.robotlog.convert import Converted
 from mobnet.robotlog.long_arrays import give_back
-from mobnet.settings.limb_thresholds import LimbThresholds
-from mobnet.settings.robotlog import RobotLog
 
 
 @dataclass(frozen=True)
@@ -53,7 +52,7 @@ def flags_of(
     std: NDArray[Any] | None,
     thresholds: LimbThresholds,
     nominal: NominalModel,
-    bounds: RobotLog,
+    gap_s: float,
 ) -> Iterator[Flag]:
     """Yield the flags of a limb in a log.
 
@@ -65,9 +64,9 @@ def flags_of(
         std: its standard deviation (T, n) [N m], where the estimate has one.
         thresholds: the thresholds.
         nominal: the model of the robot.
-        bounds: says how close two stretches are one.
+        gap_s: two stretches above a threshold that are closer are one flag [s].
     """
-    for start, end in stretches(alarm.ratio > ALARM_RATIO, read.segments, round(bounds.flag_gap_s * read.rate_hz)):
+    for start, end in stretches(alarm.ratio > ALARM_RATIO, read.segments, round(gap_s * read.rate_hz)):
         row = start + int(np.argmax(alarm.ratio[start:end]))
         # What is usual in free motion: thresholds themselves, of a ratio times sigma, which cannot be one of sigma.
         usual = np.array(thresholds.thresholds)

@@ -16,9 +16,9 @@ from mobnet.core.arrays import Array
 from mobnet.core.errors import DataError, not_accepted
 from mobnet.core.files import atomic_path
 from mobnet.core.place import version
+from mobnet.formats.limb_thresholds import LimbThresholds
 from mobnet.robotlog.detected import LogDetection
 from mobnet.robotlog.flags import COLUMNS, Flag
-from mobnet.settings.limb_thresholds import LimbThresholds
 
 TORQUES, FLAGS, LOG = "/torques", "/flags", "/log"  # topics
 NANO = 1_000_000_000  # ns in a second

@@ -20,21 +20,32 @@ from mobnet.core.recording import SensedRecording
 from mobnet.core.word_checks import RECORDING, check_new_file
 from mobnet.estimation import observer
 from mobnet.estimation.own import read_log_folder
+from mobnet.formats.loading import load_section
+from mobnet.formats.log_map import LogMap
+from mobnet.formats.parts import BodyRow, FrictionRow
+from mobnet.formats.plain import as_plain
+from mobnet.formats.robot import RobotTable
 from mobnet.kernel.drive import TorqueKind
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.given import given_robot, given_table, is_robot_file
 from mobnet.robot.nominal import NominalModel
 from mobnet.robot.table_file import head_of, write_table
 from mobnet.robot.word_checks import carrier_named
+from mobnet.robotlog.hints.bounds import HintBounds
 from mobnet.robotlog.hints.motion import motion_hints
-from mobnet.robotlog.identifying.fit import JointFit, fit_joints
+from mobnet.robotlog.identifying.fit import FitNumbers, JointFit, fit_joints
 from mobnet.robotlog.identifying.payload import Payload
-from mobnet.robotlog.identifying.regressors import RegressorWindows, columns_of, moved, together, windows_of
+from mobnet.robotlog.identifying.regressors import (
+    RegressorWindows,
+    WindowNumbers,
+    columns_of,
+    moved,
+    together,
+    windows_of,
+)
 from mobnet.robotlog.observe import converted_log, torques_looked_at
-from mobnet.settings.lab import Lab, load_lab, load_section
-from mobnet.settings.parts import BodyRow, FrictionRow
-from mobnet.settings.robot import RobotTable
-from mobnet.settings.robotlog import Identification, LogMap
+from mobnet.settings.lab import Lab, load_lab
+from mobnet.settings.robotlog import Identification
 
 log = logging.getLogger(__name__)
 TERMS = ("coulomb", "viscous", "offset", "armature")
@@ -82,9 +93,10 @@ def identify(
     numbers = settings.robotlog.identify
     gravity = settings.plant.gravity_m_s2
     carrier = carrier_named(robot, payload) if payload else None
-    windows = [windows_of(robot, log.recording, log.torque, gravity, numbers, carrier) for log in logs]
+    of_windows = as_plain(numbers, WindowNumbers)
+    windows = [windows_of(robot, log.recording, log.torque, gravity, of_windows, carrier) for log in logs]
     known, held_out = split(windows, numbers)
-    fits, carried = fit_joints(known, held_out, columns_of(numbers), terms, numbers)
+    fits, carried = fit_joints(known, held_out, columns_of(of_windows), terms, as_plain(numbers, FitNumbers))
     # Of a joint that rests a log tells no friction: it keeps the numbers of the table.
     speeds = moved([log.recording for log in logs], robot.layout.nu)
     fits_of_moving = {
@@ -101,7 +113,7 @@ def suspicions(robot: RobotDescription, logs: Sequence[FreeLog], settings: Lab) 
     Where something is wrong with a log, the numbers that are identified in it are, too.
     """
     nominal = NominalModel(robot, gravity_m_s2=settings.plant.gravity_m_s2)
-    bounds = settings.robotlog
+    bounds = as_plain(settings.robotlog, HintBounds)
     lines = list[str]()
     for log in logs:
         read = log.recording
@@ -221,8 +233,8 @@ def _cell(fit: JointFit, term: str) -> str:
 def run(options: Namespace) -> Iterator[str]:
     """Identify as the command's options say, and yield what is printed."""
     settings = load_lab()
-    table = given_table(options.robot, settings)
-    robot = given_robot(options.robot, settings)
+    table = given_table(options.robot, settings.robot)
+    robot = given_robot(options.robot, settings.robot)
     out = options.out or Path(f"{robot.name.replace(' ', '_')}_identified.yaml")
     check_new_file(out, force=options.force)
     meaning = load_section(options.map, LogMap) if options.map else None

@@ -12,12 +12,13 @@ from mobnet.core.recording import ABSENT
 from mobnet.core.store import read_array
 from mobnet.estimation.label import foot_label
 from mobnet.estimation.observe import read_wrenches
-from mobnet.estimation.own import RECORDING, OwnLog, check_sampling
+from mobnet.estimation.own import RECORDING, OwnLog
+from mobnet.estimation.sampling import check_sampling
+from mobnet.formats.network import Limb
 from mobnet.kernel.low_pass import low_pass
 from mobnet.learning.dataset import LimbData
 from mobnet.learning.features import limb_inputs
 from mobnet.robot.nominal import NominalModel
-from mobnet.settings.networks import Limb
 
 
 def label_of(log: OwnLog, nominal: NominalModel, labels: str) -> Array:

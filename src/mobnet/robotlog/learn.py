@@ -21,15 +21,10 @@ from mobnet.core.options import learn_parser
 from mobnet.core.printed import printed
 from mobnet.core.word_checks import check_learn
 from mobnet.estimation import observer
-from mobnet.estimation.own import (
-    LEARNED,
-    OwnLog,
-    check_drives,
-    limb_of,
-    read_log_folder,
-    refuse_twice,
-    without_friction,
-)
+from mobnet.estimation.own import OwnLog, limb_of, read_log_folder, refuse_twice, without_friction
+from mobnet.estimation.sampling import LEARNED, check_drives
+from mobnet.formats.network import Limb
+from mobnet.formats.robot import RobotTable
 from mobnet.learning.dataset import LimbData
 from mobnet.learning.deployed.loading import load_network
 from mobnet.learning.job import TrainingJob
@@ -43,8 +38,7 @@ from mobnet.robotlog.free_check import Held, course_of, free_check, held_out, li
 from mobnet.robotlog.labels import before, label_of, limb_data
 from mobnet.robotlog.planted_check import PlantedCheck, planted_check
 from mobnet.settings.lab import Lab, load_lab
-from mobnet.settings.networks import Coarse, Learning, Limb, Network, Training
-from mobnet.settings.robot import RobotTable
+from mobnet.settings.networks import Coarse, Learning, Network, Training
 
 log = logging.getLogger(__name__)
 STATE = "training"  # folder of the checkpoint, in that of the network
@@ -186,7 +180,7 @@ def run(options: Namespace) -> list[str]:
     check_learn(options)
     settings = load_lab()
     epochs = settings.robotlog.learn.epochs if options.epochs is None else options.epochs
-    table = given_table(options.robot, settings)
+    table = given_table(options.robot, settings.robot)
     limb = limb_of(table.layout, options.limb)
     out = options.out or Path(f"{limb}_net")
     check_place(out)

@@ -7,8 +7,8 @@ from pathlib import Path
 from mobnet.core.columns import EXTERNAL, FEET, PUSHED, recording_columns
 from mobnet.core.errors import ConfigError, DataError, not_accepted, refuse
 from mobnet.core.joints import JointLayout
+from mobnet.formats.log_map import Clock, LogMap, Signal
 from mobnet.robotlog.hints.columns import listed
-from mobnet.settings.robotlog import Clock, LogMap, Signal
 
 MOTORS = ("q", "v", "tau_motor")
 BASE = ("quaternion", "velocity", "omega", "acc")  # what a floating base needs

@@ -102,7 +102,7 @@ def run(options: Namespace) -> Iterator[str]:
     """Simulate a log as the command's options say, and yield what is printed."""
     check_motion(options)
     settings = load_lab()
-    robot = given_robot(options.robot, settings)
+    robot = given_robot(options.robot, settings.robot)
     if 60.0 * options.minutes * settings.rates.data_hz < 1.0:
         least = f"{1.0 / (60.0 * settings.rates.data_hz):.2g} or more, a sample at {settings.rates.data_hz:g} Hz"
         raise DataError(not_accepted("--minutes", options.minutes, [least]))

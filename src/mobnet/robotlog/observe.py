@@ -27,17 +27,22 @@ from mobnet.core.store import NOTE, array_writer, file_of
 from mobnet.core.word_checks import check_observe
 from mobnet.estimation import observer
 from mobnet.estimation.observer import drives_of
-from mobnet.estimation.own import DRIVES, ESTIMATE, OBSERVER, RECORDING
+from mobnet.estimation.own import ESTIMATE, RECORDING
+from mobnet.estimation.sampling import DRIVES, OBSERVER
+from mobnet.formats.loading import load_section
+from mobnet.formats.log_map import LogMap
+from mobnet.formats.plain import as_plain
 from mobnet.kernel.drive import TorqueKind
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.given import given_robot
 from mobnet.robot.nominal import NominalModel
-from mobnet.robotlog.clocks import rate_of
+from mobnet.robotlog.clocks import ClockBounds, rate_of
 from mobnet.robotlog.convert import Converted, convert, with_tool
 from mobnet.robotlog.delimited import refuse_without_header
 from mobnet.robotlog.flags import pushed_rows
 from mobnet.robotlog.formats import column_names, read_log, stem_of
 from mobnet.robotlog.hints.base import base_hints, weight_hints
+from mobnet.robotlog.hints.bounds import HintBounds
 from mobnet.robotlog.hints.columns import (
     base_column_hints,
     clock_hints,
@@ -55,9 +60,17 @@ from mobnet.robotlog.meaning import default_map, resolved, wanted_columns
 from mobnet.robotlog.pieces import pieces, root_mean_square
 from mobnet.robotlog.piped import as_file
 from mobnet.robotlog.plot import plot_residual
-from mobnet.robotlog.wrenches import Wrenches, WrenchPoint, place_of, wrench_lines, wrenches_of, write_wrenches
-from mobnet.settings.lab import load_lab, load_section
-from mobnet.settings.robotlog import LogMap, RobotLog
+from mobnet.robotlog.wrenches import (
+    Wrenches,
+    WrenchNumbers,
+    WrenchPoint,
+    place_of,
+    wrench_lines,
+    wrenches_of,
+    write_wrenches,
+)
+from mobnet.settings.lab import load_lab
+from mobnet.settings.robotlog import RobotLog
 
 log = logging.getLogger(__name__)
 PLOT = "residual"  # beside the arrays of a log
@@ -111,7 +124,7 @@ def observe_log(
         for piece in pieces(span.start, span.stop, OBSERVED_ROWS):
             state = mob.follow(state, read.sensed[piece], residual[piece])
     _progress(rows, "residual computed; looking for what is wrong with the log")
-    hints, explained = looked_at(converted, nominal, torque, gravity_m_s2, bounds)
+    hints, explained = looked_at(converted, nominal, torque, gravity_m_s2, as_plain(bounds, HintBounds))
     return ObservedLog(converted, residual, tuple(hints), tuple(explained))
 
 
@@ -137,11 +150,13 @@ def converted_log(
         if meaning is None:
             refuse_without_header(file, names)
         meaning = resolved(file, meaning or default_map(file, names, layout), names, layout)
-        return convert(file, read_log(file, wanted_columns(meaning, names)), meaning, layout, bounds, folder)
+        return convert(
+            file, read_log(file, wanted_columns(meaning, names)), meaning, layout, as_plain(bounds, ClockBounds), folder
+        )
 
 
 def looked_at(
-    converted: Converted, nominal: NominalModel, torque: TorqueKind, gravity_m_s2: float, bounds: RobotLog
+    converted: Converted, nominal: NominalModel, torque: TorqueKind, gravity_m_s2: float, bounds: HintBounds
 ) -> tuple[list[str], list[str]]:
     """Return what looks wrong with a log whose torques are of a kind, each as one line with numbers.
 
@@ -186,7 +201,7 @@ def torques_looked_at(
     torque: TorqueKind,
     wrenches: Mapping[str, Array],
     late: bool,
-    bounds: RobotLog,
+    bounds: HintBounds,
     with_friction: bool = True,
 ) -> tuple[list[str], list[str]]:
     """Return what looks wrong with torques of a kind, or else what explains the residual.
@@ -240,7 +255,7 @@ def write_observed(observed: ObservedLog, robot: RobotDescription, gain_hz: floa
 
 
 def _write_recording(stem: Path, recording: Recording, layout: JointLayout) -> None:
-    """Write a recording as `mobnet.core.recording` does, in pieces, because a log may be as large as the memory."""
+    """Write a recording as `mobnet.core.recording_file` does, in pieces: a log may be as large as the memory."""
     columns = recording_columns(layout)
     fields = {**vars(recording.sensed), **vars(recording.truth)}
     with array_writer(stem, list(chain.from_iterable(columns.values()))) as writer:
@@ -289,29 +304,29 @@ def run(options: Namespace) -> Iterator[str]:
     """Observe a log as the command's options say, and yield what is printed."""
     check_observe(options)
     settings = load_lab()
-    robot = given_robot(options.robot, settings)
+    robot = given_robot(options.robot, settings.robot)
     meaning = load_section(options.map, LogMap) if options.map else None
     gain_hz = settings.observer.gain_hz if options.gain is None else options.gain
     torque = options.torque or (meaning.torque if meaning else "sample")
-    bounds = settings.robotlog
+    numbers = as_plain(settings.robotlog.wrench, WrenchNumbers)
     gravity = settings.plant.gravity_m_s2
     places = [place_of(NominalModel(robot), name) for name in dict.fromkeys(options.wrench)]
     out = options.out or Path(f"{stem_of(options.log)}_observed")
     check_place(out)
     sweep(out)
-    observed = observe_log(options.log, robot, meaning, torque, gain_hz, gravity, bounds, out)
-    wrenches = [_wrench(observed, robot, place, bounds) for place in places]
+    observed = observe_log(options.log, robot, meaning, torque, gain_hz, gravity, settings.robotlog, out)
+    wrenches = [_wrench(observed, robot, place, numbers) for place in places]
     write_observed(observed, robot, gain_hz, torque, out)
     write_wrenches(wrenches, observed.converted.recording, OBSERVER, out)
     yield from report_lines(observed, robot, out)
-    yield from wrench_lines(wrenches, bounds.wrench, out)
+    yield from wrench_lines(wrenches, numbers, out)
 
 
-def _wrench(observed: ObservedLog, robot: RobotDescription, place: WrenchPoint, bounds: RobotLog) -> Wrenches:
+def _wrench(observed: ObservedLog, robot: RobotDescription, place: WrenchPoint, numbers: WrenchNumbers) -> Wrenches:
     """Return what the residual of the joints of a place tells of a wrench there."""
     residual = observed.residual[:, robot.layout.columns(place.joints)]
     q = observed.converted.recording.sensed.q
-    return wrenches_of(NominalModel(robot), place, q, Estimate(residual), bounds.wrench)
+    return wrenches_of(NominalModel(robot), place, q, Estimate(residual), numbers)
 
 
 def main(words: list[str]) -> int:

@@ -19,7 +19,7 @@ from mobnet.detection.limb import watched_signal
 from mobnet.detection.planted import found_pushes, plant
 from mobnet.detection.signals import MEAN, RATIO
 from mobnet.detection.watch import LegRecording
-from mobnet.estimation.own import Sampling
+from mobnet.estimation.sampling import Sampling
 from mobnet.kernel.detecting import Signal
 from mobnet.robot.nominal import NominalModel
 from mobnet.settings.lab import Lab

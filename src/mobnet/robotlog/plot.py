@@ -11,9 +11,9 @@ from mobnet.core.files import atomic_path
 from mobnet.core.joints import JointLayout
 from mobnet.core.recording import Recording
 from mobnet.core.style import PAGE_INCH, settle, styled
+from mobnet.formats.limb_thresholds import LimbThresholds
 from mobnet.robotlog.flags import Flag, stretches
 from mobnet.robotlog.long_arrays import give_back
-from mobnet.settings.limb_thresholds import LimbThresholds
 
 MOST_POINTS = 4000  # of a line, two for each stretch: more than a page shows
 PANEL_INCH, EDGE_INCH, BETWEEN = 1.1, 0.5, 0.5  # height of a panel, edge of the page, and gap as a share of a panel

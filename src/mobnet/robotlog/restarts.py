@@ -12,9 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array
-from mobnet.robotlog.clocks import rows_anew
+from mobnet.robotlog.clocks import ClockBounds, rows_anew
 from mobnet.robotlog.columns import Columns, LogColumn
-from mobnet.settings.robotlog import RobotLog
 
 
 @dataclass(frozen=True)
@@ -31,7 +30,7 @@ class Restarts:
     step_s: float
 
 
-def counted_on(columns: Columns, bounds: RobotLog) -> tuple[Columns, tuple[str, ...]]:
+def counted_on(columns: Columns, bounds: ClockBounds) -> tuple[Columns, tuple[str, ...]]:
     """Return the columns of a log with clocks that do not begin anew, and a hint for each topic whose clock did.
 
     Tables, whose columns have no times of their own, stay as they are.
@@ -60,7 +59,7 @@ def counted_on(columns: Columns, bounds: RobotLog) -> tuple[Columns, tuple[str, 
     return later, _hints(clocks, pause)
 
 
-def _restarts(column: LogColumn, time_s: Array, recorded_s: Array, bounds: RobotLog) -> Restarts:
+def _restarts(column: LogColumn, time_s: Array, recorded_s: Array, bounds: ClockBounds) -> Restarts:
     """Return where the clock of a column begins anew: nowhere, if its times are those of recording."""
     steps = np.diff(time_s)
     rising = steps[steps > 0.0]
@@ -83,7 +82,7 @@ def _first_row(clock: Restarts, start: float, end: float) -> int:
     return int(within[0]) if len(within) else int(np.searchsorted(clock.recorded_s, start))
 
 
-def _shift(clock: Restarts, shifts: list[float], bounds: RobotLog) -> Array:
+def _shift(clock: Restarts, shifts: list[float], bounds: ClockBounds) -> Array:
     """Return what each time of a clock is short of [s], so that it keeps the distance to the times of recording.
 
     Topics of one clock begin anew together, but are recorded with delays of their own: a shift close to one in the list

@@ -19,13 +19,28 @@ from mobnet.core.store import files_of, write_array
 from mobnet.robot.nominal import NominalModel
 from mobnet.robot.point_jacobian import point_jacobian
 from mobnet.robot.word_checks import point_named
-from mobnet.settings.robotlog import WrenchEstimate
 
 NAMES = ("force_x", "force_y", "force_z", "moment_x", "moment_y", "moment_z")
 WRENCH_SIGNALS = {*NAMES, *(f"std_{name}" for name in NAMES), *(f"told_{name}" for name in NAMES)}
 UNITS = ("N", "N", "N", "N m", "N m", "N m")
 WRENCH = "wrench"  # array in the folder of a log
 BLOCK_ROWS = 8192  # that are worked on at once
+
+
+@dataclass(frozen=True)
+class WrenchNumbers:
+    """How an external wrench follows from torques of joints.
+
+    Attributes:
+        torque_error: error of an external torque without a standard deviation, as a share of its motor's largest one.
+        force_n, moment_nm: a force and a moment that are large, beside which others are small [N], [N m].
+        told: share of a component that comes from the torques, below which it counts as not told.
+    """
+
+    torque_error: float
+    force_n: float
+    moment_nm: float
+    told: float
 
 
 @dataclass(frozen=True)
@@ -87,7 +102,7 @@ def _joints_ahead(nominal: NominalModel, joint: str) -> list[str]:
 
 
 def wrenches_of(
-    nominal: NominalModel, place: WrenchPoint, q: NDArray[np.floating], torque: Estimate, numbers: WrenchEstimate
+    nominal: NominalModel, place: WrenchPoint, q: NDArray[np.floating], torque: Estimate, numbers: WrenchNumbers
 ) -> Wrenches:
     """Return the wrenches that explain external torques of the place's joints (T, n) [N m] at positions (T, nq).
 
@@ -152,7 +167,7 @@ def write_wrenches(
         write_array(out / WRENCH, array, columns, {"rate_hz": recording.rate_hz, "method": method}, recording.segments)
 
 
-def wrench_lines(wrenches: Sequence[Wrenches], numbers: WrenchEstimate, out: Path) -> Iterator[str]:
+def wrench_lines(wrenches: Sequence[Wrenches], numbers: WrenchNumbers, out: Path) -> Iterator[str]:
     """Yield what is printed of wrenches: their sizes, where the joints do not tell them, and the file."""
     for at_place in wrenches:
         force, *moment = (_size(part) for part in np.split(at_place.mean, at_place.place.parts // 3, axis=1))

@@ -6,8 +6,8 @@ from typing import Annotated, Literal
 
 from pydantic import AfterValidator, Field
 
-from mobnet.settings import base
-from mobnet.settings.base import Section
+from mobnet.formats import base
+from mobnet.formats.base import Section
 
 Phase = Literal["always", "left_swing", "right_swing", "left_support", "right_support"]
 Direction = Literal["any", "horizontal", "down", "backward", "leftward", "rightward"]

@@ -4,9 +4,9 @@ from typing import Annotated
 
 from pydantic import AfterValidator, Field
 
+from mobnet.formats import base
+from mobnet.formats.base import Section
 from mobnet.kernel.detecting import Signal as Signal
-from mobnet.settings import base
-from mobnet.settings.base import Section
 
 
 class SwingGate(Section):

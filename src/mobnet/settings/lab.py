@@ -6,22 +6,22 @@ A fault in what the paper's experiments alone need, such as a claim or a figure,
 from collections.abc import Mapping
 from itertools import chain
 from pathlib import Path
-from typing import Annotated, Any, TypeVar
+from typing import Annotated
 
 from pydantic import Field
 
 from mobnet.core.files import files_like
 from mobnet.core.place import CONFIGS
-from mobnet.settings.base import Index, RobotNetworkName, Section
-from mobnet.settings.checks.robot import robot_problems
+from mobnet.formats.base import Index, RobotNetworkName, Section
+from mobnet.formats.checks.robot import robot_problems
+from mobnet.formats.faults import refuse_faults, validated
+from mobnet.formats.reading import Document, Place
+from mobnet.formats.robot import RobotTable
 from mobnet.settings.detection import ContactPoint, Detection
-from mobnet.settings.faults import refuse_faults, validated
 from mobnet.settings.free_motion import FreeMotion
 from mobnet.settings.methods import ObserverSettings
 from mobnet.settings.networks import Learning, NetworkRow
 from mobnet.settings.plant import Plant, Rates
-from mobnet.settings.reading import Document, Place
-from mobnet.settings.robot import RobotTable
 from mobnet.settings.robotlog import RobotLog
 
 FILES: Mapping[str, tuple[str, ...]] = {  # file -> the sections of it that a lab takes
@@ -33,7 +33,6 @@ FILES: Mapping[str, tuple[str, ...]] = {  # file -> the sections of it that a la
     "robotlog": ("robotlog",),
     "motion": ("free_motion",),
 }
-Kind = TypeVar("Kind", bound=Section)
 
 
 class Lab(Section):
@@ -80,19 +79,3 @@ def load_lab(folder: Path = CONFIGS) -> Lab:
     lab = validated(Lab, values, values, told)
     refuse_faults(homes["robot"].told(place, text) for place, text in robot_problems(lab.robot))
     return lab
-
-
-def load_section(path: Path, kind: type[Kind], key: str = "") -> Kind:
-    """Read one section from a file of its own, such as a robot's table, or what stands below a key of the file.
-
-    Raises:
-        ConfigError: the file, a key or a value is not accepted; one line for each of them.
-    """
-    document = Document(path)
-    refuse_faults(document.faults)
-    values: Mapping[str, Any] = document.values.get(key, {}) if key else document.values
-    above: Place = (key,) if key else ()
-    section = validated(kind, values, values, lambda place, text: document.told((*above, *place), text))
-    if isinstance(section, RobotTable):
-        refuse_faults(document.told(place, text) for place, text in robot_problems(section))
-    return section

@@ -6,9 +6,9 @@ from typing import Annotated, Literal
 
 from pydantic import AfterValidator, JsonValue
 
+from mobnet.formats import base
+from mobnet.formats.base import Section
 from mobnet.kernel.detecting import Target as Target
-from mobnet.settings import base
-from mobnet.settings.base import Section
 
 Networks = Annotated[tuple[base.NetworkName, ...], AfterValidator(base.distinct)]
 

@@ -2,7 +2,7 @@
 
 from pydantic import Field
 
-from mobnet.settings.base import NotNegative, Real, Section, Whole
+from mobnet.formats.base import NotNegative, Real, Section, Whole
 
 
 class Rates(Section):

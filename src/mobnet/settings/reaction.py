@@ -1,18 +1,16 @@
 """Handling collisions (sections 5.4 and 7): identification, reacting steps, stop mode."""
 
 from pathlib import Path
-from typing import Literal
 
 from pydantic import Field
 
 from mobnet.core.detections import LARGEST
 from mobnet.core.place import CONFIGS
-from mobnet.settings import base
-from mobnet.settings.base import Section
+from mobnet.formats import base
+from mobnet.formats.base import Section
+from mobnet.formats.loading import load_section
+from mobnet.kernel.detecting import Strategy
 from mobnet.settings.data import Wrench
-from mobnet.settings.lab import load_section
-
-Strategy = Literal["compliant", "rewind"]
 
 
 class WrenchIdentification(Section):

@@ -5,7 +5,7 @@ from typing import Annotated, Any, Literal, cast
 
 from pydantic import AfterValidator, Field
 
-from mobnet.settings.base import (
+from mobnet.formats.base import (
     BodyName,
     Change,
     Distinct,

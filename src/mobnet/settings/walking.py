@@ -4,10 +4,10 @@ from typing import Annotated
 
 from pydantic import Field
 
-from mobnet.settings.base import Length, LengthPair, Metres, Positive, Real, Section, Share, Some, Span
+from mobnet.formats.base import Length, LengthPair, Metres, Positive, Real, Section, Share, Some, Span
+from mobnet.formats.robot import RobotTable
 from mobnet.settings.data import Commands, Obstacle, Push, RandomTorque, RecordingSettings, Scenario, Terrain
 from mobnet.settings.plant import Plant, Rates
-from mobnet.settings.robot import RobotTable
 from mobnet.settings.surrogate import Level, Surrogate
 
 Stiffness = Annotated[Positive, Field(ge=10, le=100_000)]

@@ -12,9 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mobnet.core.errors import DataError
+from mobnet.formats.parts import BodyRow
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.plant import SHAPE_GROUP, robot_spec
-from mobnet.settings.parts import BodyRow
 
 REACH_M = 0.06  # larger distances are not measured, because they cost time
 NEIGHBOURS = 2  # joints

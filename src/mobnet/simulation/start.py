@@ -8,7 +8,8 @@ import numpy as np
 from mobnet.control.geometry import solve
 from mobnet.control.kinematics import update
 from mobnet.control.leg_ik import leg_ik
-from mobnet.control.parameters import DURATION, SIDES, State
+from mobnet.control.parameters import State
+from mobnet.control.steps import DURATION, SIDES
 from mobnet.control.walker import Walker
 from mobnet.control.whole_body import leg_jacobian
 from mobnet.core.arrays import Array

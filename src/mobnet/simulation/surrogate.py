@@ -5,9 +5,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from mobnet.formats.parts import BodyRow
 from mobnet.robot.description import WalkingRobot
 from mobnet.robot.plant import robot_spec
-from mobnet.settings.parts import BodyRow
 from mobnet.settings.plant import Plant
 from mobnet.settings.surrogate import Body, Surrogate, SurrogateRobot
 from mobnet.simulation.drives import Drives, draw_drives, no_drives

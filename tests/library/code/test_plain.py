@@ -19,6 +19,7 @@ LONG_LINES, LEAST_COMMENTS = 12, 15.0  # lines of a long function; comments in 1
 PROTOCOLS = {"Options": "the numbers of a kind or of a measure; the loader finds it by this name in each module"}
 SAY_NOTHING = {"found", "own", "told", "held", "one"}  # as names of values: each says no more than "something"
 MOST_THAT_SAY_NOTHING = {"mobnet": 45, "experiments": 710}
+MOST_WITH_SETTINGS = 54  # modules of the library, those of `settings` apart
 MOST_CLASSES = {"experiments/evaluation": 89}  # what pandas frames hold needs none
 COMPREHENSIONS = (ast.ListComp, ast.SetComp, ast.DictComp, ast.GeneratorExp)
 FUNCTIONS = (ast.FunctionDef, ast.AsyncFunctionDef)
@@ -47,6 +48,23 @@ def test_one_step_stands_on_a_line(package: str) -> None:
                 at_once += isinstance(node.value, ast.Tuple)
     assert per_thousand(nested, lines) <= MOST_NESTED
     assert per_thousand(at_once, lines) <= MOST_AT_ONCE
+
+
+def test_most_of_the_library_knows_no_configuration() -> None:
+    settings = SOURCE / "mobnet" / "settings"
+    knowing = [
+        path
+        for path, tree, _ in modules(SOURCE / "mobnet")
+        if not path.is_relative_to(settings) and any(map(is_of_settings, ast.walk(tree)))
+    ]
+    assert len(knowing) <= MOST_WITH_SETTINGS
+
+
+def is_of_settings(node: ast.AST) -> bool:
+    """Return whether a node imports a section of the configuration."""
+    names = [alias.name for alias in node.names] if isinstance(node, ast.Import | ast.ImportFrom) else []
+    of = f"{node.module}." if isinstance(node, ast.ImportFrom) else ""
+    return any(f"{of}{name}.".startswith("mobnet.settings.") for name in names)
 
 
 @pytest.mark.parametrize("folder", ["experiments/plan", "experiments/evaluation", "mobnet/robotlog"])

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from mobnet.control.commands import MOVING, WIDTH, fixed_commands, joystick_law, random_commands
-from mobnet.control.parameters import DURATION, FOOT_HEIGHT, STEP_X, STEP_Y, TURN
+from mobnet.control.steps import DURATION, FOOT_HEIGHT, STEP_X, STEP_Y, TURN
 from mobnet.settings.data import FixedCommand, RandomCommands
 
 STEPS = 3000

@@ -5,7 +5,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from mobnet.control.footsteps import decay, plan_steps, reference
-from mobnet.control.parameters import DURATION, STEP_X, STEP_Y, TURN
+from mobnet.control.steps import DURATION, STEP_X, STEP_Y, TURN
 
 ANKLE = np.array([0.2, 0.1, 0.158])
 

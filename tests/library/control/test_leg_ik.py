@@ -5,7 +5,7 @@ import pytest
 
 from mobnet.control.kinematics import update
 from mobnet.control.leg_ik import leg_ik
-from mobnet.control.parameters import SIDES
+from mobnet.control.steps import SIDES
 
 LOW = np.array([-0.6, -0.4, -1.2, 0.1, -0.8, -0.4])
 HIGH = np.array([0.6, 0.4, 0.6, 2.0, 0.4, 0.4])

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from mobnet.control.parameters import FOOT_HEIGHT
+from mobnet.control.steps import FOOT_HEIGHT
 from mobnet.control.swing import swing_foot, swing_height, turn_back
 
 DOUBLE_SUPPORT, SPAN, GROUND = 0.13, 0.67, 0.158

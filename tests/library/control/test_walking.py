@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 
 from mobnet.control.geometry import yaw_roll_pitch_matrix
-from mobnet.control.parameters import DURATION, empty_state
+from mobnet.control.parameters import empty_state
 from mobnet.control.phases import correct_load, feel_slope
+from mobnet.control.steps import DURATION
 from mobnet.control.walker import foot_yaw, vertical_force
 from mobnet.control.walking import walk
 from mobnet.simulation.start import start_standing, start_walking

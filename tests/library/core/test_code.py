@@ -149,8 +149,9 @@ def root(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
         "mobnet/settings/__init__.py": "",
         "mobnet/settings/plant.py": PLANT,
         "mobnet/settings/robot.py": ROBOT,
-        "mobnet/settings/checks/__init__.py": "",
-        "mobnet/settings/checks/plant.py": "x = 1\n",
+        "mobnet/formats/__init__.py": "",
+        "mobnet/formats/checks/__init__.py": "",
+        "mobnet/formats/checks/plant.py": "x = 1\n",
         "environment.lock": LOCK,
     }
     for name, text in texts.items():
@@ -209,7 +210,7 @@ def is_changed_by(root: Path, name: str, old: str, new: str) -> bool:
         ("mobnet/settings/plant.py", "unused = 1", "unused = 2", False),
         ("mobnet/settings/plant.py", "class Plant", "class Further(Section):\n    x: int = 1\n\n\nclass Plant", False),
         ("mobnet/settings/plant.py", "-> float:", "-> int:", False),
-        ("mobnet/settings/checks/plant.py", "1", "2", False),
+        ("mobnet/formats/checks/plant.py", "1", "2", False),
         ("environment.lock", "aa", "bb", False),
         ("environment.lock", "other==3.0", "other==3.1", False),
         ("mobnet/two.py", "row = 1", "row = 2", True),

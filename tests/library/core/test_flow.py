@@ -7,8 +7,8 @@ import yaml
 from hypothesis import given
 from hypothesis import strategies as st
 
+from mobnet.formats.reading import read_yaml
 from mobnet.robot.table_file import flow
-from mobnet.settings.reading import read_yaml
 
 TEXTS = [
     "a, b", "a: b", "{b", "[", "#", "a #b", "- a", "yes", "No", "null", "12", "1e5", "inf", "", " a", "a ", "a\nb", '"',

@@ -12,7 +12,8 @@ import pytest
 from mobnet.core.columns import recording_columns, recording_width
 from mobnet.core.errors import DataError
 from mobnet.core.joints import JointLayout
-from mobnet.core.recording import Recording, Sensed, Truth, read_recording, read_sensed, write_recording
+from mobnet.core.recording import Recording, Sensed, Truth
+from mobnet.core.recording_file import read_recording, read_sensed, write_recording
 from mobnet.core.store import read_array, write_array
 
 META = {"rate_hz": 1000.0}

@@ -25,8 +25,8 @@ import pytest
 from mobnet.core import code, source
 from mobnet.core.code import ROOT, SOURCE, code_hash
 
-PACKAGES = ("mobnet.settings", "experiments.settings", "experiments.plan")
-CHECKS = ("mobnet.settings.checks", "experiments.settings.checks")
+PACKAGES = ("mobnet.formats", "mobnet.settings", "experiments.settings", "experiments.plan")
+CHECKS = ("mobnet.formats.checks", "experiments.settings.checks")
 MAKERS = ("mobnet", "experiments/jobs", "experiments/evaluation")  # folders of the code that makes results
 # What code takes of modules that are not followed: notes, names of states and caches, and where the project lies.
 NOTED = {

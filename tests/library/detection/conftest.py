@@ -6,12 +6,13 @@ import pytest
 from made_swings import RATE_HZ, swinging
 
 from mobnet.detection.detector import LegGate
-from mobnet.detection.numbers import gate_numbers
+from mobnet.formats.plain import as_plain
+from mobnet.kernel.detecting import GateNumbers
 
 
 @pytest.fixture(scope="session")
 def gate(settings, robot):
-    return LegGate.of(gate_numbers(settings.detection.gate), robot, "LL", RATE_HZ)
+    return LegGate.of(as_plain(settings.detection.gate, GateNumbers), robot, "LL", RATE_HZ)
 
 
 @pytest.fixture(scope="session")

@@ -10,7 +10,8 @@ import pytest
 from made_swings import AIR, GROUND, RATE_HZ, unseen
 
 from mobnet.core.columns import torque_columns
-from mobnet.core.recording import Recording, write_recording
+from mobnet.core.recording import Recording
+from mobnet.core.recording_file import write_recording
 from mobnet.core.store import write_array
 from mobnet.detection.calibrate import main
 

@@ -8,10 +8,11 @@ from made_contacts import pushed
 
 from mobnet.core.errors import ConfigError, DataError
 from mobnet.detection.contact import LEAST, ContactLocator, explain
-from mobnet.detection.numbers import contact_numbers
 from mobnet.detection.surface import carried_by, surface_of
+from mobnet.formats.parts import ShapeRow
+from mobnet.formats.plain import as_plain
+from mobnet.kernel.detecting import ContactNumbers
 from mobnet.robot.wrench import feet_torque
-from mobnet.settings.parts import ShapeRow
 
 FORCE_N = 150.0
 POINTS = ("left_knee_front", "left_knee_side", "left_ankle_front", "left_ankle_side", "left_foot_side")
@@ -30,7 +31,7 @@ def q(robot):
 @pytest.fixture(scope="module")
 def finder(settings, robot):
     return ContactLocator.of(
-        contact_numbers(settings.contact_point), robot, "LL", robot.layout.limbs(["LL", "RL", "V"])
+        as_plain(settings.contact_point, ContactNumbers), robot, "LL", robot.layout.limbs(["LL", "RL", "V"])
     )
 
 
@@ -65,7 +66,10 @@ def test_a_hit_is_found_where_and_how_hard_it_is(robot, finder, q, name):
 
 def test_a_point_is_weighed_by_what_is_known_of_a_force_and_by_the_torques(settings):
     """A closed form, as the three directions do not mix: the cone is two standard deviations wide."""
-    numbers, told = contact_numbers(settings.contact_point), 0.01  # what torques tell of each direction [1/N^2]
+    numbers, told = (
+        as_plain(settings.contact_point, ContactNumbers),
+        0.01,
+    )  # what torques tell of each direction [1/N^2]
     forces = np.array([[50.0, 10.0, -5.0], [-50.0, 0.0, 0.0]])
     seen = told * np.concatenate([forces, np.zeros((2, 3))], axis=1)
     wrenches, weight = np.broadcast_to(np.eye(3, 6), (2, 3, 6)), np.broadcast_to(told * np.eye(6), (2, 6, 6))
@@ -89,7 +93,7 @@ def test_the_wrench_of_the_ground_on_the_other_foot_changes_nothing(robot, finde
 
 
 def test_the_torques_of_the_leg_alone_tell_less(settings, robot, finder, q):
-    alone = ContactLocator.of(contact_numbers(settings.contact_point), robot, "LL", robot.layout.limb("LL"))
+    alone = ContactLocator.of(as_plain(settings.contact_point, ContactNumbers), robot, "LL", robot.layout.limb("LL"))
     for name in ("left_knee_side", "left_ankle_side"):
         torque, _ = hit(robot, q, name)
         assert located(alone, q, torque).spread_m > 1.2 * located(finder, q, torque).spread_m
@@ -132,7 +136,7 @@ def test_an_arm_on_a_wall_feels_where_it_is_pressed(settings, arm):
     ends = {"upper": [0.0, 0.0, 0.0, 0.45, 0.0, 0.0], "lower": [0.0, 0.0, 0.0, 0.4, 0.0, 0.0]}
     rows = [{"name": name, "body": name, "segment": segment, **common} for name, segment in ends.items()]
     robot = replace(arm, shapes=tuple(map(ShapeRow.model_validate, rows)))
-    finder = ContactLocator.of(contact_numbers(settings.contact_point), robot, "A", robot.layout.limb("A"))
+    finder = ContactLocator.of(as_plain(settings.contact_point, ContactNumbers), robot, "A", robot.layout.limb("A"))
     q = np.array([0.3, 0.8])
     torque = pushed(robot, q, "lower", [0.3, 0.0, 0.03], np.array([0.0, 0.0, -60.0]))
     contact = finder.locate(q, torque, np.full(2, 0.1))
@@ -162,9 +166,9 @@ def test_a_body_without_a_joint_is_carried_by_the_one_above(robot):
 
 def test_what_is_not_there_is_refused(settings, robot, finder, arm, q):
     with pytest.raises(ConfigError, match="no `shapes` of limb A"):
-        ContactLocator.of(contact_numbers(settings.contact_point), arm, "A", arm.layout.limb("A"))
+        ContactLocator.of(as_plain(settings.contact_point, ContactNumbers), arm, "A", arm.layout.limb("A"))
     with pytest.raises(ConfigError, match="joint: 'LL7'"):
-        ContactLocator.of(contact_numbers(settings.contact_point), robot, "LL", ["LL7"])
+        ContactLocator.of(as_plain(settings.contact_point, ContactNumbers), robot, "LL", ["LL7"])
     with pytest.raises(DataError, match=r"shapes \(18,\)"):
         finder.locate(q, np.zeros(6), np.ones(6))
     with pytest.raises(ConfigError, match="the base is not accepted"):

@@ -6,7 +6,8 @@ from made_swings import AIR, GROUND, bent_to
 
 from mobnet.detection.gate import make_gate
 from mobnet.detection.leg import foot_load, unit_torques
-from mobnet.detection.numbers import gate_numbers
+from mobnet.formats.plain import as_plain
+from mobnet.kernel.detecting import GateNumbers
 
 LATE = GROUND + AIR - 120  # when the plan and the pose let the foot meet the ground
 
@@ -72,5 +73,5 @@ def test_a_hit_from_the_front_is_no_ground(gate, walk, robot, link):
 
 def test_times_of_the_gate_are_a_sample_at_least(settings):
     """At a rate at which they are shorter than half a sample."""
-    gate = make_gate(gate_numbers(settings.detection.gate), 1.0)
+    gate = make_gate(as_plain(settings.detection.gate, GateNumbers), 1.0)
     assert (gate.lift_off, gate.hold) == (1, 1)

@@ -5,9 +5,9 @@ import pytest
 
 from mobnet.detection.always import setup_of
 from mobnet.detection.points import axis_forces, axis_torques, felt_push, points_of, some_rows
+from mobnet.formats.parts import PointRow
 from mobnet.robot.description import describe
 from mobnet.robot.nominal import NominalModel
-from mobnet.settings.parts import PointRow
 
 POINTS = (
     PointRow(name="elbow", body="upper", pos=(0.45, 0.0, 0.0)),

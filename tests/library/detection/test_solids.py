@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from mobnet.detection.solids import depth, patch_of
-from mobnet.settings.parts import ShapeRow
+from mobnet.formats.parts import ShapeRow
 
 SPACING_M = 0.01
 ENDS = (0.1, 0.0, 0.0, 0.1, 0.06, 0.08)  # 0.1 m apart, along no axis

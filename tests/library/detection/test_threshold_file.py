@@ -4,7 +4,7 @@ import pytest
 
 from mobnet.core.errors import ConfigError
 from mobnet.detection.threshold_file import read_thresholds, write_thresholds
-from mobnet.settings.limb_thresholds import LimbThresholds
+from mobnet.formats.limb_thresholds import LimbThresholds
 
 FOUND = LimbThresholds(
     robot="two-link arm", limb="A", joints=("J1", "J2"), method="MOB-Net", network="12345678e901", signal="ratio",

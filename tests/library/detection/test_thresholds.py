@@ -7,8 +7,9 @@ import pytest
 from scipy.stats import lognorm
 
 from mobnet.core.errors import DataError
-from mobnet.detection.numbers import tail_numbers
 from mobnet.detection.thresholds import SHAPES, Calibrated, Tail, calibrate, expected_counts, fit_tail
+from mobnet.formats.plain import as_plain
+from mobnet.kernel.detecting import TailNumbers
 
 SWINGS, DURATION_S = 870, 20 * 60.0  # of twenty minutes
 WALKS = 200
@@ -18,7 +19,7 @@ PER_H = SWINGS * 3600.0 / DURATION_S
 @pytest.fixture
 def numbers(settings):
     """As configured, with fewer resamples: hundreds of walks are calibrated here."""
-    return replace(tail_numbers(settings.detection.thresholds), resamples=200)
+    return replace(as_plain(settings.detection.thresholds, TailNumbers), resamples=200)
 
 
 @pytest.mark.parametrize(("shape", "scale"), [(-0.2, 1.0), (0.0, 0.5), (0.2, 2.0)])
@@ -116,12 +117,14 @@ def test_a_wanted_rate_that_is_common_is_met_without_going_beyond_what_was_seen(
 ])  # fmt: skip
 def test_what_gives_no_threshold_is_told(largest, rate, text, settings):
     with pytest.raises(DataError, match=text):
-        calibrate(largest, range(len(largest)), 1000.0, rate, tail_numbers(settings.detection.thresholds))
+        calibrate(largest, range(len(largest)), 1000.0, rate, as_plain(settings.detection.thresholds, TailNumbers))
 
 
 def test_a_tail_of_which_every_second_value_differs_gives_a_threshold(settings):
     largest = np.minimum(np.arange(1.0, 301.0), 285.0)  # 30 in the tail, the last 15 of them the same
-    assert calibrate(largest, range(300), 1000.0, 1.0, tail_numbers(settings.detection.thresholds)).factor > 270.0
+    assert (
+        calibrate(largest, range(300), 1000.0, 1.0, as_plain(settings.detection.thresholds, TailNumbers)).factor > 270.0
+    )
 
 
 def test_a_walk_drawn_anew_without_its_rare_swings_expects_no_alarm(numbers):

@@ -8,7 +8,8 @@ from pushed_arm import PUSH, RATE_HZ, SAMPLES
 
 from mobnet.core.columns import recording_columns
 from mobnet.core.errors import ConfigError
-from mobnet.core.recording import Sensed, read_recording, read_sensed, write_recording
+from mobnet.core.recording import Sensed
+from mobnet.core.recording_file import read_recording, read_sensed, write_recording
 from mobnet.estimation.observer import RobotObserver
 from mobnet.robot.dynamics import inverse_dynamics
 from mobnet.robot.nominal import NominalModel

@@ -9,7 +9,7 @@ import scipy
 from mobnet.core.columns import residual_columns
 from mobnet.core.errors import DataError
 from mobnet.core.joints import N_VIRTUAL
-from mobnet.core.recording import write_recording
+from mobnet.core.recording_file import write_recording
 from mobnet.core.store import write_array
 from mobnet.estimation.regression import TERMS, Law, non_negative, regress
 from mobnet.kernel.low_pass import low_pass

@@ -9,15 +9,16 @@ from demo_push import NETWORK, DemoPush
 from made_notes import network_note, training_note
 from safetensors.torch import save_file
 
-from mobnet.detection.numbers import gate_numbers
 from mobnet.export.contract import ObserverContract
 from mobnet.export.export import RunTime, export
 from mobnet.export.trained import read_trained
+from mobnet.formats.limb_thresholds import LimbThresholds
+from mobnet.formats.network import NetworkCell
+from mobnet.formats.plain import as_plain
+from mobnet.kernel.detecting import GateNumbers
 from mobnet.learning.deployed.weights import NOTE
 from mobnet.learning.features import limb_inputs
 from mobnet.learning.model import build_network
-from mobnet.settings.limb_thresholds import LimbThresholds
-from mobnet.settings.networks import NetworkCell
 
 STD_MIN = 1e-6
 
@@ -29,7 +30,7 @@ def run():
 
 @pytest.fixture(scope="session")
 def gate(settings):
-    return gate_numbers(settings.detection.gate)
+    return as_plain(settings.detection.gate, GateNumbers)
 
 
 @pytest.fixture(scope="session")

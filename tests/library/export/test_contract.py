@@ -14,9 +14,9 @@ from mobnet.estimation.own import LearnedNote
 from mobnet.export.export import export
 from mobnet.export.session import load_exported
 from mobnet.export.trained import Trained, read_trained
-from mobnet.learning.deployed.limbs import load_limb_networks
+from mobnet.formats.network import NetworkCell
+from mobnet.learning.deployed.loading import load_limb_networks
 from mobnet.learning.features import signal_names, signals
-from mobnet.settings.networks import NetworkCell
 
 STEPS = 500
 

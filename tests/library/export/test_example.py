@@ -14,7 +14,7 @@ from demo_push import DATA, NETWORK
 
 from mobnet.core.columns import EXTERNAL, named
 from mobnet.core.estimator import Estimate
-from mobnet.core.recording import read_sensed
+from mobnet.core.recording_file import read_sensed
 from mobnet.core.store import read_array
 from mobnet.detection.chain import make_chain
 from mobnet.detection.detector import ALARM_RATIO, GateSignal, run_over
@@ -22,7 +22,7 @@ from mobnet.detection.signals import Watched
 from mobnet.export.export import export
 from mobnet.export.trained import read_trained
 from mobnet.kernel.detecting import WatchedSignals
-from mobnet.learning.deployed.limbs import load_limb_networks
+from mobnet.learning.deployed.loading import load_limb_networks
 
 EXAMPLE = Path(__file__).parents[3] / "docs" / "examples" / "run_onnx.py"
 SEGMENTS = [[0, 1200], [1300, 4000]]  # between them samples are missing

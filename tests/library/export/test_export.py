@@ -13,9 +13,9 @@ from mobnet.core.errors import DataError
 from mobnet.detection.threshold_file import write_thresholds
 from mobnet.export.export import agreed, export, main
 from mobnet.export.trained import read_trained
+from mobnet.formats.limb_thresholds import LimbThresholds
+from mobnet.formats.network import NetworkCell
 from mobnet.learning.deployed.weights import NOTE
-from mobnet.settings.limb_thresholds import LimbThresholds
-from mobnet.settings.networks import NetworkCell
 
 
 @pytest.fixture

@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 from made_weights import weights
 
 from mobnet.export.graph import graph_of, state_size
+from mobnet.formats.network import NetworkCell
 from mobnet.learning.deployed.loading import deployed
-from mobnet.settings.networks import NetworkCell
 
 STEPS, BOUND = 120, 1e-5  # the bound is a share of the target's standard deviation
 ROUNDING = 2e-7  # of a sum in float32, to which the target's mean is added

@@ -5,7 +5,7 @@ import re
 from pathlib import Path
 
 from mobnet.export.contract import Contract, NetworkContract
-from mobnet.settings.limb_thresholds import LimbThresholds
+from mobnet.formats.limb_thresholds import LimbThresholds
 
 ROOT = Path(__file__).parents[3]
 PAGE = (ROOT / "docs" / "runtime.md").read_text()

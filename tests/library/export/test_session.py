@@ -10,10 +10,11 @@ from demo_push import NETWORK
 from mobnet.core.errors import DataError
 from mobnet.core.estimator import Estimate
 from mobnet.detection.detector import ALARM_RATIO, LegDetector
-from mobnet.detection.numbers import watched_signals
 from mobnet.detection.signals import Watched
-from mobnet.estimation.kinds.residual import ResidualEstimator
+from mobnet.estimation.residual import ResidualEstimator
 from mobnet.export.session import OnnxNetwork, load_exported
+from mobnet.formats.plain import as_plain
+from mobnet.kernel.detecting import WatchedSignals
 from mobnet.learning.deployed.loading import load_network
 from mobnet.learning.features import signal_names, signals
 
@@ -42,7 +43,7 @@ def test_the_whole_recording_gives_the_same_mean_and_deviation(demo, own, lane):
 
 def test_flags_come_at_the_same_samples(demo, push):
     row, setup = push.row, push.setup
-    detector = LegDetector(Watched(watched_signals(row)), push.gate, push.chain)
+    detector = LegDetector(Watched(as_plain(row, WatchedSignals)), push.gate, push.chain)
     sensed, wanted = push.recording.sensed, push.estimate("MOB-Net-pushed")
     found = _stepped(push, load_exported(demo, push.robot.layout))
     gate = push.gate.run(sensed, push.estimate(setup.detection.gate.method).tau_ext)

@@ -10,7 +10,7 @@ from scipy.special import ndtr
 
 from mobnet.core.files import RUN, WEIGHTS
 from mobnet.learning.calibration import calibrate, coverage, half_width, predict, scale_for
-from mobnet.learning.deployed.weights import STD_SCALE
+from mobnet.learning.deployed.tensors import STD_SCALE
 from mobnet.learning.optimisation import Samples
 from mobnet.learning.streams import deal
 

@@ -5,9 +5,9 @@ import torch
 from library_settings import network_of
 from torch import nn
 
+from mobnet.formats.network import SIZES, NetworkCell
 from mobnet.learning.cells import CELLS, Block, Lstm
 from mobnet.learning.model import build_network, parameter_count
-from mobnet.settings.networks import SIZES, NetworkCell
 
 STD_MIN = 1e-6
 PUBLISHED = {"GRU": 83712, "LSTM": 83468, "RNN": 83628, "TCN": 83956, "MLP": 83227, "MLP-500": 756512}  # section 6.1

@@ -6,10 +6,11 @@ import pytest
 from mobnet.core.arrays import rotation
 from mobnet.core.errors import ConfigError
 from mobnet.core.joints import N_VIRTUAL, NQ_BASE
-from mobnet.core.recording import Sensed, read_sensed, write_recording
+from mobnet.core.recording import Sensed
+from mobnet.core.recording_file import read_sensed, write_recording
 from mobnet.core.store import read_array
+from mobnet.formats.network import Limb
 from mobnet.learning.features import limb_inputs, signal_names, signals
-from mobnet.settings.networks import Limb
 
 WIDTHS = {"LL": 30, "RL": 30, "RA": 34, "LA": 34, "W": 50, "V": 74}  # Table 1
 

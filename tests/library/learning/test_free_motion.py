@@ -5,6 +5,8 @@ import pytest
 from library_settings import ROOT, training_of
 
 from mobnet.estimation.observer import RobotObserver
+from mobnet.formats.loading import load_section
+from mobnet.formats.robot import RobotTable
 from mobnet.kernel.low_pass import filter_in_place
 from mobnet.learning.dataset import LimbData
 from mobnet.learning.deployed.loading import load_network
@@ -13,8 +15,6 @@ from mobnet.learning.job import TrainingJob
 from mobnet.learning.train import train_on
 from mobnet.robot.description import describe
 from mobnet.robot.nominal import NominalModel
-from mobnet.settings.lab import load_section
-from mobnet.settings.robot import RobotTable
 from mobnet.simulation.free_run import Numbers, record_motion
 
 LIMB, EVERY = "ARM", 10  # a sample of ten is learned from

@@ -4,10 +4,10 @@ import pytest
 import torch
 from library_settings import network_of
 
+from mobnet.formats.network import NetworkCell
 from mobnet.learning.cells import Gru
 from mobnet.learning.features import limb_inputs
 from mobnet.learning.model import LimbNetwork, build_network, parameter_count, seeded
-from mobnet.settings.networks import NetworkCell
 
 SIZES = {"LL": 83712, "RL": 83712, "RA": 144816, "LA": 144816, "W": 152406, "V": 168012}  # Table 1
 STD_MIN = 1e-6

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 import torch
 
+from mobnet.formats.network import SIZES, NetworkCell
 from mobnet.learning.cells import Gru
 from mobnet.learning.losses import gaussian_loss
 from mobnet.learning.model import LimbNetwork, build_network
 from mobnet.learning.optimisation import LAST_STEP, SEQUENCES, Samples, train_epoch, validate
 from mobnet.learning.streams import deal, epoch_plan, window_plan
-from mobnet.settings.networks import SIZES, NetworkCell
 
 HORIZON = 10
 

@@ -8,13 +8,13 @@ import pytest
 import torch
 from torch import nn
 
+from mobnet.formats.network import NetworkCell
 from mobnet.learning import checkpoint
 from mobnet.learning.cells import Gru, Lstm, Rnn, build_cell
 from mobnet.learning.checkpoint import Progress
 from mobnet.learning.model import LimbNetwork
 from mobnet.learning.numbers import optimiser_numbers
 from mobnet.learning.soap import EPSILON, Soap, optimizer_of
-from mobnet.settings.networks import NetworkCell
 
 BETAS, BASIS, EVERY, RATE = (0.9, 0.999), 0.95, 5, 0.02
 

@@ -10,6 +10,7 @@ from torch import nn
 
 from mobnet.core.errors import ConfigError
 from mobnet.core.files import CHECKPOINT, METRICS, WEIGHTS
+from mobnet.formats.network import NetworkCell
 from mobnet.learning.job import TrainingJob
 from mobnet.learning.model import build_network
 from mobnet.learning.numbers import optimiser_numbers
@@ -20,7 +21,7 @@ from mobnet.learning.stacked.network import StackedNetwork
 from mobnet.learning.stacked.optimiser import StackedOptimiser, orthogonal
 from mobnet.learning.stacked.trainer import Member, StackedTrainer
 from mobnet.learning.trainer import Trainer
-from mobnet.settings.networks import Coarse, NetworkCell
+from mobnet.settings.networks import Coarse
 
 CPU = torch.device("cpu")
 EPOCHS = 3

@@ -12,7 +12,8 @@ from mobnet.core.files import WEIGHTS
 from mobnet.core.store import read_array
 from mobnet.learning.cells import Gru
 from mobnet.learning.dataset import load_limb_data
-from mobnet.learning.deployed.weights import GRU_TENSORS, read_weights
+from mobnet.learning.deployed.tensors import GRU_TENSORS
+from mobnet.learning.deployed.weights import read_weights
 from mobnet.learning.job import TrainingJob
 from mobnet.learning.model import LimbNetwork
 from mobnet.learning.optimisation import Samples, train_epoch

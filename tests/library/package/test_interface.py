@@ -15,9 +15,9 @@ from made_contacts import pushed
 import mobnet
 from mobnet.core.files import RUN, WEIGHTS
 from mobnet.detection.threshold_file import write_thresholds
+from mobnet.formats.limb_thresholds import LimbThresholds
 from mobnet.robot.given import given_robot
 from mobnet.settings.lab import CONFIGS, load_lab
-from mobnet.settings.limb_thresholds import LimbThresholds
 
 ROOT = Path(__file__).parents[3]
 ARM, DEMO = ROOT / "tests" / "data" / "arm.yaml", ROOT / "docs" / "demo"
@@ -152,6 +152,24 @@ def test_the_import_alone_loads_no_package():
     assert said.stdout == "[]\n"
 
 
+def test_the_names_need_no_configuration_and_few_lines():
+    """What a stranger reads who takes the interface. Lower the number, never raise it."""
+    code = """
+import sys
+import mobnet
+for name in mobnet.__all__:
+    getattr(mobnet, name)
+for name, module in sys.modules.items():
+    if name.partition(".")[0] in ("mobnet", "pyarrow", "safetensors"):
+        print(name, module.__file__)
+"""
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    files = dict(line.split() for line in done.stdout.splitlines())
+    assert {name.partition(".")[0] for name in files} == {"mobnet"}
+    assert not {name for name in files if name.startswith(("mobnet.settings", "mobnet.formats.reading"))}
+    assert sum(len(Path(file).read_text().splitlines()) for file in files.values()) <= 8000
+
+
 def test_a_robot_of_a_urdf_is_that_of_the_table_that_the_command_makes():
     arm = mobnet.Robot.read(ROOT / "tests" / "data" / "arm.urdf")
     assert len(arm.motors) == len(arm.joints) == 2
@@ -265,8 +283,8 @@ def test_an_export_is_that_of_the_command(humanoid, tmp_path):
 
 def test_a_command_takes_a_urdf_where_it_takes_a_table(tmp_path):
     robot = ROOT / "tests" / "data" / "arm.urdf"
-    given = given_robot(robot, load_lab())
+    given = given_robot(robot, load_lab().robot)
     assert given.layout.actuated == mobnet.Robot.read(robot).motors
     (tmp_path / "arm.urdf").write_text("<robot/>")
     with pytest.raises(mobnet.MobnetError, match=r"arm\.urdf"):
-        given_robot(tmp_path / "arm.urdf", load_lab())
+        given_robot(tmp_path / "arm.urdf", load_lab().robot)

@@ -6,12 +6,13 @@ from library_settings import walk_settings
 
 from mobnet.detection.chain import make_chain
 from mobnet.detection.detector import LegDetector, LegGate
-from mobnet.detection.numbers import gate_numbers
 from mobnet.detection.signals import Watched
 from mobnet.estimation.kinds import build_estimator
-from mobnet.kernel.detecting import WatchedSignals
+from mobnet.formats.plain import as_plain
+from mobnet.kernel.detecting import GateNumbers, WatchedSignals
 from mobnet.reaction.handler import Handler
 from mobnet.reaction.loop import walk_with
+from mobnet.reaction.numbers import ReactionNumbers
 from mobnet.reaction.watchers import LegWatcher, LimbWatcher
 from mobnet.simulation.simulator import Simulator
 
@@ -26,7 +27,7 @@ def leg_watchers(settings, robot):
     def watcher(limb):
         detection = settings.detection
         chain = make_chain(detection.low_pass_hz, detection.hold_s, RATE_HZ, np.full((1, 6), THRESHOLD_NM))
-        gate = LegGate.of(gate_numbers(detection.gate), robot, limb, RATE_HZ)
+        gate = LegGate.of(as_plain(detection.gate, GateNumbers), robot, limb, RATE_HZ)
         detector = LegDetector(Watched(WatchedSignals(signals=("mean",))), gate, chain)
         return LegWatcher(detector, robot.layout.columns(robot.layout.limb(limb)))
 
@@ -53,7 +54,9 @@ def into(robot, recipe_of, settings):
     def walk(scenario, seed, watchers, strategy="compliant", seconds=10.0, after_s=5.0):
         simulator = Simulator(walk_settings(settings, scenario, "sensor_noise"), seed)
         simulator.start()
-        handler = Handler(robot, settings.reaction, settings.walking.foot_spacing_m, watchers, strategy)
+        handler = Handler(
+            robot, as_plain(settings.reaction, ReactionNumbers), settings.walking.foot_spacing_m, watchers, strategy
+        )
         estimator = build_estimator(recipe_of("MOB", "sensor_noise"))
         samples, after = round(seconds * RATE_HZ), round(after_s * RATE_HZ)
         numbers = settings.reaction.touch_n, settings.detection.gate.contact_height_m

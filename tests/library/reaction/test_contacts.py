@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 
 from mobnet.core.joints import N_VIRTUAL
+from mobnet.formats.plain import as_plain
 from mobnet.reaction.contacts import (
     end_effectors,
     identify,
@@ -13,12 +14,13 @@ from mobnet.reaction.contacts import (
     unexpected_force,
     unexpected_wrench,
 )
+from mobnet.reaction.numbers import WrenchDamping
 from mobnet.robot.plant import robot_spec
 
 
 @pytest.fixture(scope="module")
 def ends(settings, robot):
-    return make_ends(robot, end_effectors(robot), settings.reaction.identification)
+    return make_ends(robot, end_effectors(robot), as_plain(settings.reaction.identification, WrenchDamping))
 
 
 @pytest.fixture(scope="module")

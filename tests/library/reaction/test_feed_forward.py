@@ -5,9 +5,11 @@ import pytest
 from library_settings import library_settings, walk_settings
 
 from mobnet.core.estimator import Estimate
+from mobnet.formats.plain import as_plain
 from mobnet.reaction.feed_forward import FeedForward, swing_error
 from mobnet.reaction.handler import Handler
 from mobnet.reaction.loop import columns_of, walk_with
+from mobnet.reaction.numbers import ReactionNumbers
 from mobnet.simulation.simulator import Simulator
 
 pytestmark = pytest.mark.sim
@@ -51,7 +53,9 @@ def fields(simulator, rows):
 
 def test_motors_of_the_leg_that_swings_make_up_for_a_share_of_the_torque(simulator, robot, settings):
     layout = simulator.robot.layout
-    handler = Handler(robot, settings.reaction, settings.walking.foot_spacing_m, {}, "compliant")
+    handler = Handler(
+        robot, as_plain(settings.reaction, ReactionNumbers), settings.walking.foot_spacing_m, {}, "compliant"
+    )
     course = walk_with(simulator, Knows(layout, 4.0), handler, 1500, 1500, 1.0, 0.03, feed_forward=0.5)
     seen = fields(simulator, course.rows)
     legs = {side: [layout.actuated.index(joint) for joint in layout.limb(limb)] for side, limb in layout.legs.items()}

@@ -1,19 +1,22 @@
 """Reacting steps: where they land, how far the first one may go, and when they go back on kept footsteps."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
-from mobnet.control.parameters import DURATION, STEP_X, STEP_Y, TURN
+from mobnet.control.steps import DURATION, STEP_X, STEP_Y, TURN
+from mobnet.formats.plain import as_plain
 from mobnet.reaction.footsteps import Stance, compliant_steps, in_place, rewound_steps, step_to
-from mobnet.settings.reaction import FirstStep
+from mobnet.reaction.numbers import CompliantNumbers, FirstStepNumbers
 
 SPACING_M = 0.2
 COMMAND = np.array([0.15, 0.0, 0.0, 0.7, 0.05])
 LEFT, RIGHT = 1.0, -1.0
-FAR = FirstStep(
+FAR = FirstStepNumbers(
     height_ratio=2.0, foot_speed_m_s=1.0, behind_m=1.0, clear_m=0.0
 )  # twice as far as the foot is high, wherever it lands
-NOWHERE = FirstStep(height_ratio=0.0, foot_speed_m_s=1.0, behind_m=1.0, clear_m=0.0)
+NOWHERE = FirstStepNumbers(height_ratio=0.0, foot_speed_m_s=1.0, behind_m=1.0, clear_m=0.0)
 
 
 def stance(side=LEFT, foot=(0.0, 0.0, 0.0), swing=(-0.05, -0.2), height_m=0.04, landing_s=0.3):
@@ -38,7 +41,7 @@ def test_a_step_to_a_goal_lands_there(yaw, side):
 
 
 def test_a_foot_in_the_air_is_sent_back_by_its_height_and_by_the_time_that_is_left(settings):
-    first = settings.reaction.first_step
+    first = as_plain(settings.reaction.first_step, FirstStepNumbers)
     low, late = stance(height_m=0.01), stance(height_m=1.0, landing_s=0.02)
     assert low.reach_m(first) == pytest.approx(first.height_ratio * 0.01)
     assert late.reach_m(first) == pytest.approx(first.foot_speed_m_s * 0.02)
@@ -55,7 +58,7 @@ def test_a_swing_foot_is_ahead_along_the_stance_foot():
 
 
 def test_compliant_steps_go_along_the_direction(settings):
-    numbers, back = settings.reaction.compliant, np.array([-1.0, 0.0])
+    numbers, back = as_plain(settings.reaction.compliant, CompliantNumbers), np.array([-1.0, 0.0])
     rows = compliant_steps(numbers, FAR, stance(height_m=0.02), back, COMMAND, SPACING_M)
     assert len(rows) == numbers.steps == 3  # "three reactive footsteps"
     assert rows[0, STEP_X] == pytest.approx(-0.05 - 0.04)  # from where the foot is
@@ -66,8 +69,10 @@ def test_compliant_steps_go_along_the_direction(settings):
 
 @pytest.mark.parametrize(("ahead_m", "lands_m"), [(0.1, 0.02), (0.0, -0.05), (-0.1, -0.1)])
 def test_a_foot_lands_no_further_behind_the_stance_foot_than_it_may_or_is_already(settings, ahead_m, lands_m):
-    first, now = FAR.model_copy(update={"behind_m": 0.05}), stance(swing=(ahead_m, -0.2))
-    rows = compliant_steps(settings.reaction.compliant, first, now, np.array([-1.0, 0.0]), COMMAND, SPACING_M)
+    first, now = replace(FAR, behind_m=0.05), stance(swing=(ahead_m, -0.2))
+    rows = compliant_steps(
+        as_plain(settings.reaction.compliant, CompliantNumbers), first, now, np.array([-1.0, 0.0]), COMMAND, SPACING_M
+    )
     assert rows[0, STEP_X] == pytest.approx(lands_m)
 
 
@@ -79,22 +84,34 @@ def test_a_foot_lands_no_further_behind_the_stance_foot_than_it_may_or_is_alread
     (0.08, 0.05, 0.3, 0.0),  # clear of it, and no further behind the stance foot
 ])  # fmt: skip
 def test_a_foot_lands_clear_of_where_it_is(settings, ahead_m, height_m, landing_s, lands_m):
-    first = FAR.model_copy(update={"behind_m": 0.0, "clear_m": 0.05})
+    first = replace(FAR, behind_m=0.0, clear_m=0.05)
     now = stance(swing=(ahead_m, -0.2), height_m=height_m, landing_s=landing_s)
-    rows = compliant_steps(settings.reaction.compliant, first, now, np.array([-1.0, 0.0]), COMMAND, SPACING_M)
+    rows = compliant_steps(
+        as_plain(settings.reaction.compliant, CompliantNumbers), first, now, np.array([-1.0, 0.0]), COMMAND, SPACING_M
+    )
     assert rows[0, STEP_X] == pytest.approx(lands_m)
     assert rows[0, STEP_Y] == pytest.approx(0.0)
 
 
 def test_a_foot_that_stands_makes_a_whole_step_from_the_stance_foot(settings):
-    numbers, behind = settings.reaction.compliant, stance(swing=(-0.15, -0.2), landing_s=np.inf)
+    numbers, behind = (
+        as_plain(settings.reaction.compliant, CompliantNumbers),
+        stance(swing=(-0.15, -0.2), landing_s=np.inf),
+    )
     rows = compliant_steps(numbers, FAR, behind, np.array([-1.0, 0.0]), COMMAND, SPACING_M)
     assert rows[:, STEP_X] == pytest.approx(-numbers.step_m)
 
 
 def test_compliant_steps_are_told_in_the_frame_of_the_stance_foot(settings):
     turned = stance(foot=(0.0, 0.0, np.pi / 2), swing=(0.2, 0.0))
-    rows = compliant_steps(settings.reaction.compliant, NOWHERE, turned, np.array([-1.0, 0.0]), COMMAND, SPACING_M)
+    rows = compliant_steps(
+        as_plain(settings.reaction.compliant, CompliantNumbers),
+        NOWHERE,
+        turned,
+        np.array([-1.0, 0.0]),
+        COMMAND,
+        SPACING_M,
+    )
     assert rows[1:, STEP_Y] == pytest.approx(settings.reaction.compliant.step_m)  # world -x is to its left
     assert rows[1:, STEP_X] == pytest.approx(0.0, abs=1e-12)
 

@@ -8,7 +8,9 @@ import pytest
 
 from mobnet.core.estimator import Estimate
 from mobnet.core.recording import Sensed
+from mobnet.formats.plain import as_plain
 from mobnet.reaction.handler import Handler
+from mobnet.reaction.numbers import ReactionNumbers
 from mobnet.robot.plant import robot_spec
 
 COMMAND = np.array([0.15, 0.0, 0.0, 0.7, 0.05])
@@ -38,7 +40,9 @@ def sample_of(layout, left_swings, right_swings, landing=0.3):
 
 
 def handler_of(robot, settings, watchers, strategy="compliant", delay=0):
-    return Handler(robot, settings.reaction, settings.walking.foot_spacing_m, watchers, strategy, delay)
+    return Handler(
+        robot, as_plain(settings.reaction, ReactionNumbers), settings.walking.foot_spacing_m, watchers, strategy, delay
+    )
 
 
 @pytest.fixture(scope="module")
@@ -80,7 +84,9 @@ def test_the_highest_limb_reacts_once_after_its_waiting_time(robot, settings, la
 
 def test_nothing_is_an_alarm_before_filters_have_settled(robot, settings, layout, estimate_of):
     spacing_m = settings.walking.foot_spacing_m
-    handler = Handler(robot, settings.reaction, spacing_m, {"LL": Alarm(0)}, "compliant", settle=5)
+    handler = Handler(
+        robot, as_plain(settings.reaction, ReactionNumbers), spacing_m, {"LL": Alarm(0)}, "compliant", settle=5
+    )
     found = run(handler, [sample_of(layout, 1, 0)] * 8, estimate_of())
     assert [k for k, one in enumerate(found) if one is not None] == [4]
 
@@ -118,7 +124,9 @@ def test_a_robot_that_steps_faster_than_reacting_steps_keeps_its_pace(robot, set
 
 def test_a_robot_whose_filters_have_settled_reacts_however_late_it_is_hit(robot, settings, layout, estimate_of):
     spacing_m = settings.walking.foot_spacing_m
-    handler = Handler(robot, settings.reaction, spacing_m, {"LL": Alarm(8)}, "compliant", settle=2)
+    handler = Handler(
+        robot, as_plain(settings.reaction, ReactionNumbers), spacing_m, {"LL": Alarm(8)}, "compliant", settle=2
+    )
     found = run(handler, [sample_of(layout, 1, 0)] * 10, estimate_of())
     assert [k for k, one in enumerate(found) if one is not None] == [8]
 

@@ -7,14 +7,16 @@ from library_settings import library_settings, walk_settings
 from made_weights import weights
 
 from mobnet.core.columns import recording_columns
-from mobnet.estimation.kinds.residual import ResidualEstimator
+from mobnet.estimation.residual import ResidualEstimator
+from mobnet.formats.network import Limb, NetworkCell
+from mobnet.formats.plain import as_plain
 from mobnet.learning.deployed.limbs import LimbNetworks
 from mobnet.learning.deployed.loading import deployed
 from mobnet.learning.deployed.networks import Prediction
 from mobnet.learning.features import limb_inputs, signal_names, signals
 from mobnet.reaction.handler import Handler
 from mobnet.reaction.loop import columns_of, force_on, give_way, plan_steps, stop, walk_with
-from mobnet.settings.networks import Limb, NetworkCell
+from mobnet.reaction.numbers import ReactionNumbers
 from mobnet.simulation.simulator import Simulator
 
 pytestmark = pytest.mark.sim
@@ -202,7 +204,15 @@ def test_a_walk_on_legs_alone_is_that_with_the_base_s_network_to_the_bit(robot, 
         simulator.start()
         observer = recipe_of("MOB", "sensor_noise").observer()
         estimator = ResidualEstimator(observer, layout, LimbNetworks(networks, layout))
-        handler = Handler(robot, settings.reaction, settings.walking.foot_spacing_m, leg_watchers, "compliant", 0, 2000)
+        handler = Handler(
+            robot,
+            as_plain(settings.reaction, ReactionNumbers),
+            settings.walking.foot_spacing_m,
+            leg_watchers,
+            "compliant",
+            0,
+            2000,
+        )
         walked.append(walk_with(simulator, estimator, handler, 3000, 3000, 1.0, 0.03))
     whole, alone = walked
     assert len(whole.rows) > 2000
@@ -221,7 +231,13 @@ def test_networks_in_one_call_change_no_bit_of_a_walk(robot, layout, leg_watcher
         simulator = Simulator(walk_settings(settings, "walk_test", "sensor_noise"), 3)
         simulator.start()
         estimator = ResidualEstimator(recipe_of("MOB", "sensor_noise").observer(), layout, model)
-        handler = Handler(robot, settings.reaction, settings.walking.foot_spacing_m, leg_watchers, "compliant")
+        handler = Handler(
+            robot,
+            as_plain(settings.reaction, ReactionNumbers),
+            settings.walking.foot_spacing_m,
+            leg_watchers,
+            "compliant",
+        )
         walked.append(walk_with(simulator, estimator, handler, 1200, 1200, 1.0, 0.03))
     slow, fast = walked
     assert len(slow.rows) == 1200

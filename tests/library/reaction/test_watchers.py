@@ -7,7 +7,9 @@ from mobnet.core.estimator import Estimate
 from mobnet.core.recording import Sensed
 from mobnet.detection.chain import make_chain
 from mobnet.detection.signals import Watched
+from mobnet.formats.plain import as_plain
 from mobnet.kernel.detecting import WatchedSignals
+from mobnet.reaction.numbers import WrenchDamping
 from mobnet.reaction.watchers import BaseForce, BaseWatcher, LimbWatcher
 
 THRESHOLD, TORQUE_NM = 3.0, 12.0
@@ -29,7 +31,7 @@ def test_a_limb_is_watched_by_its_torque_over_the_standard_deviation(std_nm, rat
 
 @pytest.fixture
 def base(robot, settings):
-    numbers = settings.reaction.identification
+    numbers = as_plain(settings.reaction.identification, WrenchDamping)
     return BaseForce.of(robot, numbers, settings.detection.gate.contact_height_m)
 
 

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from mobnet.core.errors import ConfigError
+from mobnet.formats.parts import PointRow, ShapeRow
 from mobnet.robot.description import MIRROR_Y, describe, for_walking, with_mirrored
-from mobnet.settings.parts import PointRow, ShapeRow
 
 HAND = PointRow(name="left_hand", body="L_Wrist2_Link", pos=(0.1, 0.2, 0.3))
 HEAD = PointRow(name="head", body="Head_Link")

@@ -11,11 +11,12 @@ import pytest
 from mobnet.core.errors import DataError
 from mobnet.core.options import export_parser, import_parser, missing_input, observe_parser
 from mobnet.core.word_checks import imported_table
+from mobnet.formats.loading import load_section
+from mobnet.formats.robot import RobotTable
 from mobnet.interface import Robot
 from mobnet.robot.given import given_robot, given_table, is_robot_file
 from mobnet.robot.import_file import read_file
-from mobnet.settings.lab import load_lab, load_section
-from mobnet.settings.robot import RobotTable
+from mobnet.settings.lab import load_lab
 
 URDF = Path("tests/data/arm.urdf").resolve()
 MJCF = Path(__file__).parent / "cases" / "m00_plain.xml"
@@ -42,11 +43,11 @@ def piped():
 def test_a_pipe_may_be_looked_at_twice(path, piped):
     lab = load_lab()
     pipe = piped(path.read_bytes())
-    robot = given_robot(pipe, lab)
-    table = given_table(pipe, lab)
-    assert robot.bodies == table.bodies == given_robot(path, lab).bodies
+    robot = given_robot(pipe, lab.robot)
+    table = given_table(pipe, lab.robot)
+    assert robot.bodies == table.bodies == given_robot(path, lab.robot).bodies
     assert robot.notes
-    assert robot.name == given_robot(path, lab).name
+    assert robot.name == given_robot(path, lab.robot).name
 
 
 def test_each_pipe_holds_its_robot(piped):
@@ -63,7 +64,7 @@ def test_a_program_reads_a_robot_from_a_pipe(piped):
 def test_a_table_from_a_pipe_is_one_line(piped):
     pipe = piped(b"name: arm\nbase: fixed\n")
     with pytest.raises(DataError) as refused:
-        given_robot(pipe, load_lab())
+        given_robot(pipe, load_lab().robot)
     (line,) = str(refused.value).splitlines()
     assert line.startswith(f"{pipe}: text before the first element, 'name: arm', is not accepted; accepted: a URDF")
 

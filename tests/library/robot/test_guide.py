@@ -3,9 +3,9 @@
 import re
 from pathlib import Path
 
+from mobnet.formats.loading import load_section
+from mobnet.formats.robot import RobotTable
 from mobnet.robot.import_table import main as import_table
-from mobnet.settings.lab import load_section
-from mobnet.settings.robot import RobotTable
 
 ROOT = Path(__file__).parents[3]
 

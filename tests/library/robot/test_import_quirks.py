@@ -8,11 +8,11 @@ import pinocchio as pin
 import pytest
 
 from mobnet.core.errors import DataError
+from mobnet.formats.parts import GYRATION_M, MOST_KG
 from mobnet.robot.import_checks import differences
 from mobnet.robot.import_file import read_file
 from mobnet.robot.import_table import robot_of_text, table_text
 from mobnet.robot.importing import import_robot
-from mobnet.settings.parts import GYRATION_M, MOST_KG
 
 CASES = Path(__file__).parent / "cases"
 PLAIN = (CASES / "r00_plain.urdf").read_text()

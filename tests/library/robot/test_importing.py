@@ -10,6 +10,8 @@ import pinocchio as pin
 import pytest
 
 from mobnet.core.errors import DataError
+from mobnet.formats.loading import load_section
+from mobnet.formats.robot import RobotTable
 from mobnet.robot import import_checks, import_table
 from mobnet.robot.description import describe
 from mobnet.robot.import_checks import _apart, differences
@@ -21,8 +23,6 @@ from mobnet.robot.import_table import main, robot_of_text, table_text
 from mobnet.robot.import_tree import Joint
 from mobnet.robot.importing import import_robot
 from mobnet.robot.plant import robot_spec
-from mobnet.settings.lab import load_section
-from mobnet.settings.robot import RobotTable
 
 ARM = Path("tests/data/arm.urdf")
 EQUAL = 1e-10

@@ -12,13 +12,13 @@ import numpy as np
 import pytest
 
 from mobnet.core.errors import ConfigError
+from mobnet.formats.loading import load_section
+from mobnet.formats.robot import RobotTable
 from mobnet.robot.description import SIDES, describe, for_walking
 from mobnet.robot.dynamics import bias, mass_matrix
 from mobnet.robot.nominal import NominalModel
 from mobnet.robot.plant import robot_spec, sole_name
 from mobnet.robot.wrench import feet_torque
-from mobnet.settings.lab import load_section
-from mobnet.settings.robot import RobotTable
 
 ROOT = Path(__file__).parents[3]
 EQUAL = 1e-10  # of the largest entry

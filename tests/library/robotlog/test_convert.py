@@ -6,11 +6,13 @@ import numpy as np
 import pytest
 
 from mobnet.core.errors import ConfigError, DataError, near_names
+from mobnet.formats.log_map import LogMap
+from mobnet.formats.plain import as_plain
+from mobnet.robotlog.clocks import ClockBounds
 from mobnet.robotlog.columns import LogColumn
 from mobnet.robotlog.convert import convert
 from mobnet.robotlog.formats import read_log
 from mobnet.robotlog.meaning import default_map
-from mobnet.settings.robotlog import LogMap
 
 RATE_HZ, ROWS = 500.0, 400
 TIME = np.arange(ROWS) / RATE_HZ
@@ -27,7 +29,7 @@ def made(arm, settings):
     def convert_arm(columns, **mapping):
         given = {name: {"columns": (f"{name}1", f"{name}2")} for name in ("q", "v", "tau_motor")}
         meaning = LogMap.model_validate(given | mapping)
-        return convert("log", columns, meaning, arm.layout, settings.robotlog)
+        return convert("log", columns, meaning, arm.layout, as_plain(settings.robotlog, ClockBounds))
 
     return convert_arm
 
@@ -124,7 +126,7 @@ def test_a_floating_base_needs_its_sensors(layout, settings):
     log = {key: rows[:, k] for name in names for k, key in enumerate(names[name])} | {"time": np.arange(20) / 100}
     meaning = LogMap.model_validate({name: {"columns": keys} for name, keys in names.items()})
     with pytest.raises(ConfigError, match="quaternion, velocity, omega, acc: missing in the map"):
-        convert("log", columns_of(log), meaning, layout, settings.robotlog)
+        convert("log", columns_of(log), meaning, layout, as_plain(settings.robotlog, ClockBounds))
 
 
 def test_base_signals_are_turned_as_the_map_says(layout, settings):
@@ -140,7 +142,9 @@ def test_base_signals_are_turned_as_the_map_says(layout, settings):
     for name, vector in vectors.items():
         mapping[name] = {"columns": tuple(f"{name}{k}" for k in range(len(vector))), **extra.get(name, {})}
         log |= {f"{name}{k}": np.full(rows, value) for k, value in enumerate(vector)}
-    found = convert("log", columns_of(log), LogMap.model_validate(mapping), layout, settings.robotlog)
+    found = convert(
+        "log", columns_of(log), LogMap.model_validate(mapping), layout, as_plain(settings.robotlog, ClockBounds)
+    )
     sensed = found.recording.sensed
     np.testing.assert_allclose(sensed.q[:, 3:7], np.tile([half, 0, 0, half], (rows, 1)), atol=1e-12)
     np.testing.assert_allclose(sensed.v[0, :3], [0.0, 1.0, 0.0], atol=1e-12)

@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 from mobnet.core.errors import DataError
+from mobnet.formats.log_map import LogMap
 from mobnet.robotlog.formats import column_names, read_log
 from mobnet.robotlog.observe import converted_log
-from mobnet.settings.robotlog import LogMap
 
 NAMES = ["time", "q.J1", "q.J2", "v.J1", "v.J2", "tau_motor.J1", "tau_motor.J2"]
 TIME = np.arange(40) / 100

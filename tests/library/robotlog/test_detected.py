@@ -11,10 +11,10 @@ from scipy.signal import lfilter
 from mobnet.core.errors import DataError
 from mobnet.core.options import detect_parser
 from mobnet.core.word_checks import check_detect
+from mobnet.formats.limb_thresholds import LimbThresholds
+from mobnet.formats.log_map import LogMap
 from mobnet.robotlog.detected import detect_log
 from mobnet.robotlog.flags_mcap import write_mcap
-from mobnet.settings.limb_thresholds import LimbThresholds
-from mobnet.settings.robotlog import LogMap
 
 JOINTS = {name: {"columns": [f"/joint_states.{field}"]} for name, field in (("q", "position"), ("v", "velocity"))}
 MAP = {

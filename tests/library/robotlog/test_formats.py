@@ -21,9 +21,9 @@ from made_logs import (
 )
 
 from mobnet.core.errors import DataError
+from mobnet.formats.log_map import LogMap
 from mobnet.robotlog.formats import column_names, read_log
 from mobnet.robotlog.observe import observe_log
-from mobnet.settings.robotlog import LogMap
 
 ROWS = 1500
 PLAIN = {name: [f"{name}.{joint}" for joint in JOINTS] for name in SIGNALS}

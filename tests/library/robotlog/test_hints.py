@@ -7,18 +7,20 @@ import numpy as np
 import pytest
 
 from mobnet.core.contract import BEYOND_SPEED
+from mobnet.formats.loading import load_section
+from mobnet.formats.plain import as_plain
+from mobnet.formats.robot import RobotTable
 from mobnet.robot.description import describe
 from mobnet.robot.dynamics import gravity
 from mobnet.robot.nominal import NominalModel
 from mobnet.robotlog.hints.base import _turning
+from mobnet.robotlog.hints.bounds import HintBounds
 from mobnet.robotlog.hints.changes import _improves
 from mobnet.robotlog.hints.delay import EXACT, _unexplained
 from mobnet.robotlog.hints.explained import _in_words
 from mobnet.robotlog.hints.fits import positive_fit
 from mobnet.robotlog.hints.motion import jump_hints
 from mobnet.robotlog.observe import observe_log
-from mobnet.settings.lab import load_section
-from mobnet.settings.robot import RobotTable
 
 ARM = Path("tests/data/arm.yaml")
 BOTH = ("J1", "J2")
@@ -236,7 +238,7 @@ def test_terms_that_nothing_tells_apart_explain_what_they_can():
 
 @pytest.mark.parametrize(("left", "before", "improves"), [(0.4, 1.0, False), (0.2, 1.0, True), (0.2, 0.5, False)])
 def test_a_change_leaves_little_and_much_less_than_before(settings, left, before, improves):
-    assert _improves(left, before, settings.robotlog) == improves
+    assert _improves(left, before, as_plain(settings.robotlog, HintBounds)) == improves
 
 
 @pytest.mark.parametrize("rate_hz", [2.0, 100.0])  # at the first a window is shorter than a sample
@@ -244,13 +246,15 @@ def test_a_base_turns_as_its_rates_say(settings, rate_hz):
     angle = 0.1 * np.arange(1000) / rate_hz
     quat, omega = np.zeros((4, 1000)), np.zeros((3, 1000))
     quat[0], quat[3], omega[2] = np.cos(angle / 2), np.sin(angle / 2), 0.1
-    found = _turning(quat, omega, [slice(0, 1000)], rate_hz, settings.robotlog)
+    found = _turning(quat, omega, [slice(0, 1000)], rate_hz, as_plain(settings.robotlog, HintBounds))
     assert found == pytest.approx(1.0, rel=1e-2)
 
 
 def test_a_base_that_never_turns_tells_nothing(settings):
     quat = np.tile([[1.0], [0.0], [0.0], [0.0]], (1, 1000))
-    assert _turning(quat, np.zeros((3, 1000)), [slice(0, 1000)], RATE_HZ, settings.robotlog) is None
+    assert (
+        _turning(quat, np.zeros((3, 1000)), [slice(0, 1000)], RATE_HZ, as_plain(settings.robotlog, HintBounds)) is None
+    )
 
 
 def test_what_is_explained_in_full_leaves_a_share_whose_logarithm_is_known():

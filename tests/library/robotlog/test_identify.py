@@ -14,6 +14,10 @@ from mobnet.core.errors import ConfigError, DataError
 from mobnet.core.recording import Sensed, SensedRecording
 from mobnet.detection.calibrate import main as calibrate
 from mobnet.estimation.observer import RobotObserver
+from mobnet.formats.checks.robot import robot_problems
+from mobnet.formats.loading import load_section
+from mobnet.formats.parts import FrictionRow
+from mobnet.formats.robot import RobotTable
 from mobnet.robot.description import describe
 from mobnet.robot.nominal import NominalModel
 from mobnet.robot.table_file import head_of, write_table
@@ -21,10 +25,6 @@ from mobnet.robotlog.detect import main as detect
 from mobnet.robotlog.identify import TERMS, FreeLog, identify, main, suspicions, with_payload
 from mobnet.robotlog.identifying.payload import LEAST_KG, parameters
 from mobnet.robotlog.observe import main as observe
-from mobnet.settings.checks.robot import robot_problems
-from mobnet.settings.lab import load_section
-from mobnet.settings.parts import FrictionRow
-from mobnet.settings.robot import RobotTable
 
 ARM = Path(__file__).parents[2] / "data" / "arm.yaml"
 GRAVITY, RATE_HZ, SECONDS, WAVES = 9.81, 200.0, 120.0, 4

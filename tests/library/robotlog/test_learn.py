@@ -13,20 +13,14 @@ from demo_push import NETWORK
 from mobnet.core.epochs import Epoch
 from mobnet.core.errors import ConfigError, DataError
 from mobnet.core.estimator import Estimate
-from mobnet.core.recording import read_sensed, write_recording
+from mobnet.core.recording_file import read_sensed, write_recording
 from mobnet.core.store import footer_hash
 from mobnet.detection.limb import OwnRecording
 from mobnet.estimation.label import foot_label
 from mobnet.estimation.observe import read_wrenches
-from mobnet.estimation.own import (
-    RECORDING,
-    OwnLog,
-    Sampling,
-    check_sampling,
-    limb_of,
-    read_log_folder,
-    read_network_folder,
-)
+from mobnet.estimation.own import RECORDING, OwnLog, limb_of, read_log_folder, read_network_folder
+from mobnet.estimation.sampling import Sampling, check_sampling
+from mobnet.formats.network import Limb
 from mobnet.kernel.low_pass import low_pass
 from mobnet.learning.dataset import LimbData
 from mobnet.learning.deployed.networks import Prediction
@@ -37,7 +31,6 @@ from mobnet.robotlog.labels import label_of, limb_data
 from mobnet.robotlog.learn import filled, training_of
 from mobnet.robotlog.observe import main as observe
 from mobnet.robotlog.planted_check import planted_check
-from mobnet.settings.networks import Limb
 
 GAIN_HZ, RATE_HZ = 100.0, 1000.0
 WRENCH = ("fx", "fy", "fz", "mx", "my", "mz")

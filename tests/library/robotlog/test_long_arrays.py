@@ -10,13 +10,13 @@ import pytest
 
 from mobnet.core.columns import recording_columns
 from mobnet.core.errors import DataError
+from mobnet.formats.loading import load_section
+from mobnet.formats.robot import RobotTable
 from mobnet.robot.description import describe
 from mobnet.robotlog import long_arrays, pieces
 from mobnet.robotlog.formats import read_log
 from mobnet.robotlog.long_arrays import give_back, long_array
 from mobnet.robotlog.observe import converted_log, observe_log
-from mobnet.settings.lab import load_section
-from mobnet.settings.robot import RobotTable
 
 ROWS = 5000
 

@@ -10,10 +10,10 @@ from made_logs import IMU, JOINTS, TOPIC, Sample, bag1, bag2, humanoid, states
 from mcap.writer import Writer
 
 from mobnet.core.errors import DataError
+from mobnet.formats.loading import load_section
+from mobnet.formats.log_map import LogMap
 from mobnet.robotlog.formats import column_names, read_log
 from mobnet.robotlog.observe import converted_log, observe_log
-from mobnet.settings.lab import load_section
-from mobnet.settings.robotlog import LogMap
 
 ROWS = 2000
 OWN = """std_msgs/Header header

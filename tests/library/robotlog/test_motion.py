@@ -10,11 +10,11 @@ import pandas as pd
 import pytest
 
 from mobnet.core.recording import Recording
+from mobnet.formats.loading import load_section
+from mobnet.formats.robot import RobotTable
 from mobnet.robot.description import describe
 from mobnet.robotlog.motion import main, report_lines, write_log
 from mobnet.robotlog.observe import main as observe
-from mobnet.settings.lab import load_section
-from mobnet.settings.robot import RobotTable
 from mobnet.simulation.free_run import Numbers, record_motion
 
 ARM = Path("tests/data/arm.yaml")

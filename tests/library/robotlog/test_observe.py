@@ -11,7 +11,7 @@ import pytest
 from library_settings import walk_settings
 
 from mobnet.core.columns import recording_columns
-from mobnet.core.recording import read_sensed
+from mobnet.core.recording_file import read_sensed
 from mobnet.core.store import read_array
 from mobnet.kernel.low_pass import low_pass
 from mobnet.robot.description import describe

@@ -5,15 +5,17 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from mobnet.formats.loading import load_section
+from mobnet.formats.plain import as_plain
+from mobnet.formats.robot import RobotTable
 from mobnet.robot.description import describe
 from mobnet.robot.nominal import NominalModel
+from mobnet.robotlog.hints.bounds import HintBounds
 from mobnet.robotlog.hints.changes import Seen, _needed_by_angle, _waves
 from mobnet.robotlog.hints.columns import _clipped, held_share
 from mobnet.robotlog.hints.motion import turns
 from mobnet.robotlog.hints.windows import MotionWindows
 from mobnet.robotlog.pieces import PIECE_ROWS, pieces, ranges, root_mean_square
-from mobnet.settings.lab import load_section
-from mobnet.settings.robot import RobotTable
 
 ROWS = 2 * PIECE_ROWS + 77
 
@@ -66,7 +68,7 @@ def test_five_angles_of_a_joint_tell_all_others(table, joint, settings):
     none = np.zeros((4, layout.nu))
     loads = {side: rng.normal(size=(4, 11, 6)) for side in robot.feet}
     windows = MotionWindows(q, v, none, none, loads, 0.1)
-    seen = Seen(nominal, settings.robotlog, windows, windows.asked(nominal), none[0], (), (), ())
+    seen = Seen(nominal, as_plain(settings.robotlog, HintBounds), windows, windows.asked(nominal), none[0], (), (), ())
     by_angle = _needed_by_angle(seen, windows, joint)
     for shift in (-2.0, 0.0, 0.3):
         turned = q.copy()

@@ -14,12 +14,12 @@ import pytest
 from made_mistakes import PLANTED, Log, fault_of
 from made_ur10e import GAINS, UR10E, ur10e_rows, write_ur10e_table
 
+from mobnet.formats.loading import load_section
+from mobnet.formats.robot import RobotTable
 from mobnet.robot.description import describe
 from mobnet.robot.dynamics import inverse_dynamics
 from mobnet.robot.nominal import NominalModel
 from mobnet.robotlog.observe import observe_log
-from mobnet.settings.lab import load_section
-from mobnet.settings.robot import RobotTable
 
 RATE_HZ, SECONDS, WAVES = 100.0, 40.0, 6
 G = 9.81

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
+from mobnet.formats.loading import load_section
+from mobnet.formats.robot import RobotTable
 from mobnet.robot.description import describe
 from mobnet.robotlog.plot import FOOT, MOST_POINTS, plot_flags, plot_residual
-from mobnet.settings.lab import load_section
-from mobnet.settings.robot import RobotTable
 
 ROWS = 100_000
 

@@ -13,13 +13,13 @@ from made_ur10e import GAINS, UR10E, ur10e_rows, write_ur10e_table
 
 from mobnet.detection.chain import low_passed, make_chain
 from mobnet.estimation.observer import RobotObserver
+from mobnet.formats.loading import load_section
+from mobnet.formats.log_map import LogMap
 from mobnet.robot.dynamics import inverse_dynamics
 from mobnet.robot.given import given_robot
 from mobnet.robot.nominal import NominalModel
 from mobnet.robotlog.identify import main as identify
 from mobnet.robotlog.observe import converted_log
-from mobnet.settings.lab import load_section
-from mobnet.settings.robotlog import LogMap
 
 ARM = Path(__file__).parents[2] / "data" / "arm.yaml"
 KNOWN = (
@@ -57,7 +57,7 @@ def judged(table, folder, calm, pushes, settings):
 
     A threshold is the largest number in the calm logs, behind the low-pass of a detector.
     """
-    robot, meaning = given_robot(table, settings), load_section(folder / "map.yaml", LogMap)
+    robot, meaning = given_robot(table, settings.robot), load_section(folder / "map.yaml", LogMap)
     chain = make_chain(settings.detection.low_pass_hz, 0.0, 100.0, np.ones((1, robot.layout.nu)))
 
     def watched(name):

@@ -11,10 +11,10 @@ from scipy.io import savemat
 from scipy.io.matlab import MatlabOpaque
 
 from mobnet.core.errors import DataError
+from mobnet.formats.log_map import LogMap
 from mobnet.robotlog.clocks import common_ticks
 from mobnet.robotlog.formats import column_names, read_log
 from mobnet.robotlog.observe import converted_log
-from mobnet.settings.robotlog import LogMap
 
 T = np.arange(50) / 100
 Q = np.stack([np.sin(T), np.cos(T)], axis=1)

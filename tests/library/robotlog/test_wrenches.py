@@ -10,14 +10,15 @@ import pytest
 from mobnet.core.errors import ConfigError
 from mobnet.core.estimator import Estimate
 from mobnet.core.store import read_array
+from mobnet.formats.loading import load_section
+from mobnet.formats.plain import as_plain
+from mobnet.formats.robot import RobotTable
 from mobnet.robot.description import describe
 from mobnet.robot.nominal import NominalModel
 from mobnet.robot.point_jacobian import point_jacobian
 from mobnet.robot.wrench import carrier_of
 from mobnet.robotlog.observe import main as observe
-from mobnet.robotlog.wrenches import place_of, wrench_lines, wrenches_of
-from mobnet.settings.lab import load_section
-from mobnet.settings.robot import RobotTable
+from mobnet.robotlog.wrenches import WrenchNumbers, place_of, wrench_lines, wrenches_of
 
 ROWS = 400
 MIDDLE, SPREAD = np.array([0.0, -0.6, 0.0, -1.8, 0.0, 1.8, 0.0]), 0.5  # poses of the Panda far from singular ones [rad]
@@ -36,7 +37,7 @@ def planar(arm):
 
 @pytest.fixture
 def numbers(settings):
-    return settings.robotlog.wrench
+    return as_plain(settings.robotlog.wrench, WrenchNumbers)
 
 
 def posed(rows=ROWS, seed=0):

@@ -9,18 +9,18 @@ from c_library import OK, Runtime, load, make
 
 from mobnet.core.estimator import Estimate
 from mobnet.detection.detector import ALARM_RATIO, GateSignal, LegDetector, LegGate, run_over
-from mobnet.detection.numbers import gate_numbers, watched_signals
 from mobnet.detection.signals import Watched
-from mobnet.estimation.kinds.residual import ResidualEstimator
 from mobnet.estimation.observer import RobotObserver
+from mobnet.estimation.residual import ResidualEstimator
 from mobnet.export.model_file import RuntimeDetector, write_model_file
-from mobnet.kernel.detecting import WatchedSignals
+from mobnet.formats.parts import FrictionRow
+from mobnet.formats.plain import as_plain
+from mobnet.kernel.detecting import GateNumbers, WatchedSignals
 from mobnet.learning.deployed.limbs import LimbNetworks
 from mobnet.learning.deployed.loading import deployed
-from mobnet.learning.deployed.weights import GRU_TENSORS
+from mobnet.learning.deployed.tensors import GRU_TENSORS
 from mobnet.reaction.watchers import LimbWatcher
 from mobnet.robot.nominal import NominalModel
-from mobnet.settings.parts import FrictionRow
 
 from .conftest import GAIN_HZ, GRAVITY, RATE_HZ, chain_of, changed, moving, network_of
 
@@ -98,7 +98,7 @@ def test_the_stored_push(runtime, push, published, felt):
     agree(tau[:, columns], felt.tau_ext, SINGLE)
     np.testing.assert_allclose(std[:, columns], felt.std, rtol=SINGLE)
     agree(mean[:, columns], residual[:, columns] - felt.tau_ext, SINGLE)
-    flags = detected(LegDetector(Watched(watched_signals(row)), gate, chain), sensed, felt)
+    flags = detected(LegDetector(Watched(as_plain(row, WatchedSignals)), gate, chain), sensed, felt)
     np.testing.assert_array_equal(alarms[:, 0, 0] > ALARM_RATIO, flags[:, 0] > ALARM_RATIO)
     assert np.any(flags[:, 0] > ALARM_RATIO)
     np.testing.assert_array_equal(alarms[:, 0, 1:], flags[:, 1:])
@@ -115,7 +115,8 @@ def test_gate_of_both_legs_on_a_walk(runtime, push, settings, foot):
         sensed = changed(sensed, swing=told, landing=0.14 * told)
     residual, found = observer.residual(sensed), []
     gates = {
-        limb: LegGate.of(gate_numbers(settings.detection.gate), push.robot, limb, RATE_HZ) for limb in ("LL", "RL")
+        limb: LegGate.of(as_plain(settings.detection.gate, GateNumbers), push.robot, limb, RATE_HZ)
+        for limb in ("LL", "RL")
     }
     row, chain = (
         WatchedSignals(signals=("mean",), phases=4),

@@ -16,18 +16,19 @@ from mobnet.core.errors import ConfigError, DataError
 from mobnet.core.files import RUN, WEIGHTS
 from mobnet.detection.detector import LegGate
 from mobnet.detection.leg import make_leg
-from mobnet.detection.numbers import gate_numbers
 from mobnet.estimation.observer import RobotObserver
 from mobnet.export import model_file
 from mobnet.export.contract import ObserverContract
 from mobnet.export.export import MODEL, main, model_of
 from mobnet.export.model_file import RuntimeDetector, leg_record, write_model_file
 from mobnet.export.trained import contract_of, read_trained
+from mobnet.formats import base
+from mobnet.formats.limb_thresholds import LimbThresholds
+from mobnet.formats.parts import FrictionRow
+from mobnet.formats.plain import as_plain
+from mobnet.kernel.detecting import GateNumbers
 from mobnet.robot.description import describe
 from mobnet.robot.nominal import NominalModel
-from mobnet.settings import base
-from mobnet.settings.limb_thresholds import LimbThresholds
-from mobnet.settings.parts import FrictionRow
 
 from .conftest import GRAVITY, RATE_HZ, chain_of, moving, network_of, watching
 
@@ -235,7 +236,7 @@ def _thresholds(robot, limb, method, signal, watched):
 def test_from_exported_networks_and_their_contract(library, push, settings):
     """What `./reproduce export` passes on, for a leg in its swing and for arms that are always watched."""
     robot, folder = describe(push.settings.robot), push.folder / "networks" / "MOB-Net-pushed-LL"
-    trained, gate = read_trained(folder, robot.layout), gate_numbers(settings.detection.gate)
+    trained, gate = read_trained(folder, robot.layout), as_plain(settings.detection.gate, GateNumbers)
     rows = {"LL": ("MOB-Net", "ratio", "swing"), "RL": ("MOB", "mean", "swing"), "RA": ("MOB", "mean", "always")}
     thresholds = [_thresholds(robot, limb, *row) for limb, row in rows.items()]
     observing = ObserverContract(gain_hz=100.0, torque="mean", gravity_m_s2=GRAVITY)
@@ -263,7 +264,7 @@ def test_the_command_writes_a_model_that_runs(library, push, felt, tmp_path):
 
 def test_soles_stay_where_the_robot_has_them(robot, settings, observer_of):
     """In any pose the foot and the corners of its sole are the link's place and the points of the file, turned."""
-    leg, gate = make_leg(robot, "LL"), LegGate.of(gate_numbers(settings.detection.gate), robot, "LL", RATE_HZ)
+    leg, gate = make_leg(robot, "LL"), LegGate.of(as_plain(settings.detection.gate, GateNumbers), robot, "LL", RATE_HZ)
     record, link = leg_record(observer_of("robot").nominal, gate), robot.layout.actuated.index("LL6") + 1
     update(leg.tree, np.random.default_rng(0).normal(size=robot.layout.nq), leg.still, 0.0, leg.pose)
     for foot, place in ((leg.foot, 72), (leg.other, 72 + 8 + 15 * 8)):

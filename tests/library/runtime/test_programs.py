@@ -10,10 +10,11 @@ import pytest
 from c_library import ROOT, SOURCES, make, program
 
 from mobnet.detection.detector import ALARM_RATIO, LegDetector, LegGate
-from mobnet.detection.numbers import gate_numbers, watched_signals
 from mobnet.detection.signals import Watched
 from mobnet.export.export import main as export
 from mobnet.export.model_file import RuntimeDetector, write_model_file
+from mobnet.formats.plain import as_plain
+from mobnet.kernel.detecting import GateNumbers, WatchedSignals
 
 from .conftest import network_of, watching
 
@@ -34,7 +35,7 @@ def model(observer_of, settings, tmp_path):
         robot = observer.nominal.robot
         networks = [network_of(robot.layout, limb, cell, seed) for seed, limb in enumerate(LIMBS[machine])]
         gates = {
-            limb: LegGate.of(gate_numbers(settings.detection.gate), robot, limb, 1000.0)
+            limb: LegGate.of(as_plain(settings.detection.gate, GateNumbers), robot, limb, 1000.0)
             for limb in robot.layout.legs.values()
         }
         detectors = [watching(robot.layout, limb, ("ratio",), gate=gates.get(limb)) for limb in LIMBS[machine]]
@@ -54,10 +55,11 @@ def test_the_example_prints_the_flags_of_the_project(built, push, published, fel
     csv = tmp_path / "recording.csv"
     pd.read_parquet(push.folder / "recording.parquet").astype("float64").to_csv(csv, index=False)
     header, *lines = program(make("example", built), tmp_path / "model.bin", csv)
-    alarm = LegDetector(Watched(watched_signals(row)), gate, chain).run(gate.run(push.recording.sensed, felt.tau_ext),
-                                                       push.recording.sensed, felt)  # fmt: skip
+    watched = Watched(as_plain(row, WatchedSignals))
+    gated = gate.run(push.recording.sensed, felt.tau_ext)
+    alarm = LegDetector(watched, gate, chain).run(gated, push.recording.sensed, felt)
     rows = np.flatnonzero(alarm.ratio > ALARM_RATIO)
-    names = Watched(watched_signals(row)).names(push.joints)
+    names = watched.names(push.joints)
     assert header == "row,time_s,detector,signal,ratio"
     assert [line.split(",")[0] for line in lines] == [str(k) for k in rows]
     assert [line.split(",")[2:4] for line in lines] == [["LL", names[k]] for k in alarm.signal[rows]]

@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 
 from mobnet.control.kinematics import update
-from mobnet.control.parameters import DURATION, STEP_X, STEP_Y, TURN
+from mobnet.control.steps import DURATION, STEP_X, STEP_Y, TURN
 from mobnet.control.walker import foot_yaw
 from mobnet.core.columns import FEET
 from mobnet.core.errors import SimulationError
-from mobnet.core.recording import read_recording
+from mobnet.core.recording_file import read_recording
 from mobnet.settings.data import RecordingSettings
 from mobnet.settings.walking import WalkSettings
 from mobnet.simulation.record import collect, record

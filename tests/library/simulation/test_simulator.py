@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from scipy.stats import kstest
 
-from mobnet.control.parameters import DURATION, FOOT_HEIGHT
+from mobnet.control.steps import DURATION, FOOT_HEIGHT
 from mobnet.control.upper_body import UpperBody, follow
 from mobnet.robot.description import SIDES
 from mobnet.robot.plant import sole_name

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from mobnet.control.kinematics import update
-from mobnet.control.parameters import DURATION
+from mobnet.control.steps import DURATION
 from mobnet.simulation.start import CLEARANCE_M, place, raise_start, start_standing, start_walking, turn
 
 

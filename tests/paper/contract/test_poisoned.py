@@ -16,7 +16,8 @@ from experiments.jobs.observing import observe
 from experiments.plan.parts import MethodRun
 from experiments.settings.catalogue import Catalogue
 from mobnet.core.columns import EXTERNAL_LP, FEET, SWING, named, recording_columns
-from mobnet.core.recording import Truth, write_recording
+from mobnet.core.recording import Truth
+from mobnet.core.recording_file import write_recording
 from mobnet.core.store import footer_hash, read_array
 from mobnet.estimation.kinds import kind_names
 

@@ -11,9 +11,11 @@ from mobnet.core.columns import COMMAND, FEET, recording_width
 from mobnet.core.recording import Sensed
 from mobnet.detection.detector import LegGate
 from mobnet.detection.gate import advance_held, gate_state
-from mobnet.detection.numbers import gate_numbers
 from mobnet.estimation.kinds.dahl import bent
 from mobnet.estimation.observe import observer_of
+from mobnet.formats.network import NetworkCell
+from mobnet.formats.plain import as_plain
+from mobnet.kernel.detecting import GateNumbers
 from mobnet.kernel.first_order import decay, follow
 from mobnet.kernel.momentum import sweep
 from mobnet.learning.deployed import tick
@@ -21,7 +23,6 @@ from mobnet.learning.deployed.limbs import LimbNetworks
 from mobnet.learning.deployed.loading import deployed
 from mobnet.learning.features import signal_names
 from mobnet.robot.description import describe
-from mobnet.settings.networks import NetworkCell
 from mobnet.simulation import engine
 from mobnet.simulation.simulator import Simulator
 
@@ -43,7 +44,7 @@ def test_the_jobs_find_everything_compiled(settings):
     sensed = Sensed(*np.split(rows, np.cumsum(widths)[:-1], axis=1))
     observer_of(simulator.robot, settings.levels["robot_1"].nominal_mass_ratio, 9.81, 50.0, 500.0).residual(sensed)
     bent(np.zeros(layout.nu), sensed.v[:, -layout.nu :], np.ones(layout.nu), 500.0)
-    gate = LegGate.of(gate_numbers(settings.detection.gate), robot, "LL", 500.0)
+    gate = LegGate.of(as_plain(settings.detection.gate, GateNumbers), robot, "LL", 500.0)
     gate.step(gate_state(), np.zeros(layout.nq), np.zeros(6), 0.0, 0.0)
     tensors, note = weights(NetworkCell(cell="GRU", hidden=8), 3, 2, seed=0)
     network = deployed(tensors, note.model_copy(update={"inputs": signal_names(layout)[:3]}))

@@ -12,7 +12,8 @@ from experiments.plan.detection import Walk
 from experiments.records.collisions import FILES, READINGS
 from mobnet.core.columns import residual_columns, torque_columns
 from mobnet.core.errors import DataError
-from mobnet.core.recording import Recording, write_recording
+from mobnet.core.recording import Recording
+from mobnet.core.recording_file import write_recording
 from mobnet.core.store import write_array
 from mobnet.detection.leg import make_leg, unit_torques
 from mobnet.detection.watch import LegSetup

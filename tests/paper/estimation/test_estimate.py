@@ -18,7 +18,8 @@ from mobnet.core.files import WEIGHTS
 from mobnet.core.store import read_array, write_array
 from mobnet.estimation.estimate import ObservedRecording, rate_of, read_observed, run_segments, table_of
 from mobnet.estimation.kinds import build_estimator
-from mobnet.learning.deployed.weights import NOTE, STD_SCALE, Z_SCORES, std_scales
+from mobnet.learning.deployed.tensors import STD_SCALE, Z_SCORES
+from mobnet.learning.deployed.weights import NOTE, std_scales
 
 
 @pytest.fixture

@@ -10,9 +10,9 @@ from experiments.jobs.method_problems import method_problems
 from mobnet.core.code import SOURCE, part_of, reached
 from mobnet.core.errors import DataError
 from mobnet.estimation.kinds import build_estimator, kind_names
-from mobnet.estimation.kinds.residual import ResidualEstimator
+from mobnet.estimation.residual import ResidualEstimator
+from mobnet.formats.reading import dotted
 from mobnet.settings.methods import Method
-from mobnet.settings.reading import dotted
 
 HEAVY = {"torch", "pinocchio", "numba", "scipy.signal", "scipy.optimize"}
 FRICTION = {"terms": ["coulomb"], "smoothing_rad_s": 0.02, "stribeck_rad_s": [0.1]}

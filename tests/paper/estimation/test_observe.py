@@ -9,7 +9,8 @@ from made_swings import unseen
 
 from experiments.jobs.observing import observe
 from mobnet.core.columns import residual_columns
-from mobnet.core.recording import Recording, write_recording
+from mobnet.core.recording import Recording
+from mobnet.core.recording_file import write_recording
 from mobnet.core.store import read_array
 from mobnet.estimation.label import foot_label
 from mobnet.estimation.observe import observer_of

@@ -37,7 +37,8 @@ from experiments.settings.settings import Settings
 from mobnet.core.epochs import Epoch
 from mobnet.core.files import write_json
 from mobnet.core.joints import JointLayout
-from mobnet.core.recording import Recording, read_recording, write_recording
+from mobnet.core.recording import Recording
+from mobnet.core.recording_file import read_recording, write_recording
 
 OFF = {"all_uncertainty": 1.0, "exact_model": 0.8, "no_friction": 0.5, "no_load_friction": 1.0, "no_noise": 1.1}
 

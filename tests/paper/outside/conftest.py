@@ -17,7 +17,7 @@ from experiments.records.scores import Score
 from mobnet.core.columns import torque_columns
 from mobnet.core.epochs import Epoch
 from mobnet.core.errors import MobnetError
-from mobnet.core.recording import write_recording
+from mobnet.core.recording_file import write_recording
 from mobnet.core.store import write_array
 
 RATE_HZ = 1000.0

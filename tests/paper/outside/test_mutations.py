@@ -14,7 +14,7 @@ from tests.paper.outside.conftest import told
 from experiments.evaluation.measure.learning.trainings import read_training
 from experiments.evaluation.number.rows import read_scores
 from mobnet.core.errors import DataError
-from mobnet.core.recording import read_recording
+from mobnet.core.recording_file import read_recording
 
 FEW = settings(max_examples=60, deadline=None, suppress_health_check=list(HealthCheck))
 JUNK = st.one_of(

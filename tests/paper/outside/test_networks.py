@@ -12,13 +12,12 @@ from tests.paper.outside.conftest import AGAINST, refusal_of, refusals
 from experiments.check import check
 from mobnet.core.errors import DataError
 from mobnet.core.files import WEIGHTS
+from mobnet.formats.network import SIZES, NetworkCell
 from mobnet.learning.cells import build_cell
-from mobnet.learning.deployed.limbs import load_limb_networks
-from mobnet.learning.deployed.loading import load_network
+from mobnet.learning.deployed.loading import load_limb_networks, load_network
 from mobnet.learning.deployed.weights import NOTE, shapes
 from mobnet.learning.features import limb_inputs
 from mobnet.learning.model import build_network
-from mobnet.settings.networks import SIZES, NetworkCell
 
 CELLS = {
     "GRU": {"hidden": 5},

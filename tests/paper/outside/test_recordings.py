@@ -26,7 +26,8 @@ from experiments.plan.parts import MethodRun
 from experiments.settings.catalogue import Catalogue
 from mobnet.core.columns import recording_columns, recording_width
 from mobnet.core.errors import DataError
-from mobnet.core.recording import Truth, read_sensed
+from mobnet.core.recording import Truth
+from mobnet.core.recording_file import read_sensed
 from mobnet.core.store import read_array, write_array
 from mobnet.learning.dataset import load_limb_data
 

@@ -34,7 +34,7 @@ def test_no_product_needs_it_and_it_needs_none(plan: Plan, product: Product) -> 
 def test_it_is_made_again_when_a_document_a_caption_a_result_or_a_docstring_changes(product: Product) -> None:
     wanted = (
         "README.md", "docs/README.md", "docs/conf.py", "docs/notes/observer.md", "docs/results/figure_06.png",
-        "docs/results/claims.csv", "workflow/report/tables/table_05.rst", "src/mobnet/settings/base.py",
+        "docs/results/claims.csv", "workflow/report/tables/table_05.rst", "src/mobnet/formats/base.py",
     )  # fmt: skip
     assert [name for name in wanted if name not in product.inputs] == []
     assert [name for name in product.inputs if not (ROOT / name).is_file()] == []

@@ -8,6 +8,8 @@ import pytest
 from experiments.jobs.calm import calm_parts, first_part, limb_thresholds, watched_of, window_heights
 from mobnet.core.errors import DataError
 from mobnet.core.estimator import Estimate
+from mobnet.formats.plain import as_plain
+from mobnet.reaction.numbers import WrenchDamping
 from mobnet.reaction.watchers import BaseForce
 
 RATE_HZ, HOUR_S = 10.0, 3600.0
@@ -59,7 +61,9 @@ def test_the_base_is_watched_by_the_force_on_it_and_a_limb_by_its_own_joints(set
     joints = tuple(joint for limb in ("LL", "RL", "V", "W") for joint in layout.limb(limb))
     sensed, rng = made_up(6, 0.05).sensed, np.random.default_rng(6)
     known = rng.normal(size=(len(sensed), len(joints)))
-    base = BaseForce.of(robot, settings.reaction.identification, settings.detection.gate.contact_height_m)
+    base = BaseForce.of(
+        robot, as_plain(settings.reaction.identification, WrenchDamping), settings.detection.gate.contact_height_m
+    )
     walker = SimpleNamespace(description=robot, base=base)
     tau, std = np.zeros((2, len(sensed), layout.nv))
     tau[:, layout.columns(joints)], std[:, layout.columns(joints)] = known, 2.0

@@ -14,8 +14,8 @@ from experiments.settings.catalogue import Catalogue
 from mobnet.core.detections import Threshold
 from mobnet.core.estimator import Estimate
 from mobnet.estimation.kinds import build_estimator
-from mobnet.estimation.kinds.residual import ResidualEstimator
 from mobnet.estimation.observer import RobotObserver
+from mobnet.estimation.residual import ResidualEstimator
 from mobnet.reaction.loop import columns_of
 from mobnet.settings.reaction import Watch
 

@@ -17,18 +17,18 @@ from made_arm import arm_log
 
 from experiments.commands.main import MODULES
 from experiments.commands.words import parse
-from mobnet.core.recording import read_sensed
+from mobnet.core.recording_file import read_sensed
 from mobnet.core.store import read_array
 from mobnet.detection.calibrate import main as calibrate
 from mobnet.detection.threshold_file import read_thresholds
 from mobnet.export.export import main as export
+from mobnet.formats.loading import load_section
+from mobnet.formats.log_map import LogMap
 from mobnet.robotlog.detect import main as detect
 from mobnet.robotlog.flags import stretches
 from mobnet.robotlog.learn import main as learn
 from mobnet.robotlog.observe import converted_log
 from mobnet.robotlog.observe import main as observe
-from mobnet.settings.lab import load_section
-from mobnet.settings.robotlog import LogMap
 
 pytestmark = pytest.mark.slow
 FOUR = {"observe": observe, "learn": learn, "calibrate": calibrate, "detect": detect}

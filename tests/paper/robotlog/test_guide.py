@@ -7,10 +7,12 @@ import numpy as np
 import yaml
 
 from experiments.check import main as check
+from mobnet.formats.loading import load_section
+from mobnet.formats.log_map import LogMap, Signal, Tool
+from mobnet.formats.plain import as_plain
+from mobnet.robotlog.clocks import ClockBounds
 from mobnet.robotlog.convert import convert
 from mobnet.robotlog.formats import FORMATS, read_log
-from mobnet.settings.lab import load_section
-from mobnet.settings.robotlog import LogMap, Signal, Tool
 
 PAGE, FORMATS_PAGE = Path("docs/logs.md"), Path("docs/log_formats.md")
 
@@ -26,7 +28,7 @@ def test_the_map_of_the_page_reads_the_log_that_it_describes(clean, arm, setting
         foreign[f"current_{k}"] = table[f"tau_motor.J{k}"] / constant[k]
     type(table)(foreign).to_csv(tmp_path / "log.csv", index=False)
     path, meaning = tmp_path / "log.csv", load_section(tmp_path / "map.yaml", LogMap)
-    found = convert(path, read_log(path), meaning, arm.layout, settings.robotlog).recording
+    found = convert(path, read_log(path), meaning, arm.layout, as_plain(settings.robotlog, ClockBounds)).recording
     assert found.rate_hz == 1000.0
     assert len(found.sensed) == len(table) - 2  # the torque is brought forward by two samples
     np.testing.assert_allclose(found.sensed.q[:, 1], table["q.J2"][:-2], atol=1e-9)

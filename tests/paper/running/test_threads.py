@@ -31,7 +31,7 @@ TRAINED = """
 import numpy as np
 import torch
 from mobnet.learning.model import build_network
-from mobnet.settings.networks import NetworkCell
+from mobnet.formats.network import NetworkCell
 cell = NetworkCell.model_construct(cell="RNN", hidden=400, spectral=False, input_gain=1.0)
 network = build_network(cell, 30, 4, 0.01, seed=0)
 x, matrix = torch.zeros(10, 64, 30), np.ones((400, 400), np.float32)

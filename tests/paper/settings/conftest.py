@@ -8,7 +8,7 @@ import pytest
 from experiments.jobs.method_problems import method_problems
 from experiments.settings import load
 from experiments.settings.load import load_settings
-from mobnet.settings.reading import Document
+from mobnet.formats.reading import Document
 
 from .mutations import FILES, Load
 

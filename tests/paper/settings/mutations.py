@@ -11,8 +11,8 @@ import yaml
 
 from experiments.settings.load import NAMED_FILES, PARTS
 from mobnet.core.errors import ConfigError
+from mobnet.formats.reading import Place
 from mobnet.settings.lab import CONFIGS
-from mobnet.settings.reading import Place
 
 FILES = {name: CONFIGS / f"{name}.yaml" for name in (*PARTS, *NAMED_FILES) if name != "robot"}
 FILES["robot"] = CONFIGS / "robots" / "tocabi.yaml"

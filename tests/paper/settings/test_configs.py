@@ -16,7 +16,7 @@ from experiments.settings.metrics import unit_of_metric
 from experiments.settings.published import ARCHITECTURE
 from experiments.settings.tables import ErrorTable
 from mobnet.core.joints import right_of
-from mobnet.settings.robot import WORLD
+from mobnet.formats.robot import WORLD
 
 SETTINGS = settings_at()
 RESULTS = Results(Catalogue(SETTINGS))

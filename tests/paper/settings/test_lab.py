@@ -10,7 +10,7 @@ from experiments.settings.load import load_settings
 from mobnet.core.errors import ConfigError
 from mobnet.settings.lab import CONFIGS, Lab, load_lab
 
-MOST_MODULES = 16  # of settings, that a command of a lab loads; packages are not counted
+MOST_MODULES = 7  # of settings, that a command of a lab loads; packages are not counted
 LOADED = """import sys
 import mobnet.{}
 own = [module for name, module in sys.modules.items() if name.partition(".")[0] in ("mobnet", "experiments")]

@@ -10,8 +10,8 @@ import yaml
 from experiments.settings.load import PARTS, load_settings
 from experiments.settings.settings import Settings
 from mobnet.core.errors import ConfigError
+from mobnet.formats.reading import read_yaml
 from mobnet.settings.lab import CONFIGS
-from mobnet.settings.reading import read_yaml
 
 ACCEPTED = "is not accepted; accepted: "
 EXPECTED = "(key is missing; accepted: |None is not accepted; accepted: the path of a YAML file)"

@@ -11,7 +11,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from mobnet.core.errors import ConfigError
-from mobnet.settings.reading import read_yaml
+from mobnet.formats.reading import read_yaml
 
 from .mutations import FILES, REFUSED, VALUES, Load, Mutation, changes, dumped, places, refusal, written_twice
 

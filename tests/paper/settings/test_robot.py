@@ -8,9 +8,9 @@ import pytest
 import yaml
 
 from mobnet.core.errors import ConfigError
-from mobnet.settings.lab import load_section
-from mobnet.settings.reading import read_yaml
-from mobnet.settings.robot import RobotTable
+from mobnet.formats.loading import load_section
+from mobnet.formats.reading import read_yaml
+from mobnet.formats.robot import RobotTable
 
 ROOT = Path(__file__).parents[3]
 TOCABI, ARM = ROOT / "configs" / "robots" / "tocabi.yaml", ROOT / "tests" / "data" / "arm.yaml"

@@ -14,10 +14,10 @@ from experiments.settings.load import load_settings
 from experiments.settings.settings import Settings
 from mobnet.core.errors import ConfigError
 from mobnet.core.notes import Note
-from mobnet.settings import reading
-from mobnet.settings.base import Section
-from mobnet.settings.names import uses
-from mobnet.settings.reading import dotted
+from mobnet.formats import reading
+from mobnet.formats.base import Section
+from mobnet.formats.names import uses
+from mobnet.formats.reading import dotted
 
 FOLDERS = (Path(evaluation.__file__).parent, Path(reading.__file__).parent)  # of the experiments, and of the library
 # with properties that follow from the values and are never called by a job, or without sections

@@ -11,7 +11,7 @@ from links import broken, outside
 
 from experiments.site.docs import SEARCHED, accessible, build, modules_of, relinked, with_words
 from mobnet.core.errors import DataError
-from mobnet.settings.reading import read_yaml
+from mobnet.formats.reading import read_yaml
 
 ROOT = Path(__file__).parents[3]
 

@@ -167,7 +167,7 @@ WORDS = {  # file -> what is replaced in it by what: none of these can change a 
     "src/mobnet/core/store.py": ("}: file is missing", "}: there is no file"),
     "src/mobnet/learning/train.py": ("done after epoch", "ended after epoch"),
     f"{SIMULATION}/friction.py": (DECORATED, f"\n# a comment{DECORATED}"),
-    "src/mobnet/settings/names.py": ("if name not in", "if name and name not in"),
+    "src/mobnet/formats/names.py": ("if name not in", "if name and name not in"),
 }
 LAW = {f"{SIMULATION}/friction.py": (DECORATED, f"\nADDED = 1\n\n{DECORATED}")}
 PRODUCTS = {

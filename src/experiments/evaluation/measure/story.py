@@ -25,14 +25,16 @@ from mobnet.core.columns import EXTERNAL, PUSH, PUSH_TORQUE, named
 from mobnet.core.detections import Threshold
 from mobnet.core.errors import ConfigError, DataError, not_accepted, refuse
 from mobnet.core.estimator import Estimate, TorqueEstimator
-from mobnet.core.recording import SensedRecording, read_sensed
+from mobnet.core.recording import SensedRecording
+from mobnet.core.recording_file import read_sensed
 from mobnet.core.store import check_rate, read_array
 from mobnet.detection.detector import ALARM_RATIO, LegDetector
-from mobnet.detection.numbers import watched_signals
 from mobnet.detection.signals import Watched
 from mobnet.detection.watch import LegSetup
 from mobnet.estimation.kinds import build_estimator
 from mobnet.estimation.recipe import Recipe
+from mobnet.formats.plain import as_plain
+from mobnet.kernel.detecting import WatchedSignals
 from mobnet.kernel.low_pass import low_pass
 from mobnet.robot.description import RobotDescription, describe
 from mobnet.settings.detection import DetectorSettings
@@ -152,7 +154,7 @@ class StoredPush:
         """
         setup = self._setup
         row = self.settings.detection.detectors[self.story.detector]
-        detector = LegDetector(Watched(watched_signals(row)), setup.gate, setup.chain(self._thresholds(row)))
+        detector = LegDetector(Watched(as_plain(row, WatchedSignals)), setup.gate, setup.chain(self._thresholds(row)))
         gate = setup.gate.run(self.recording.sensed, estimates[setup.detection.gate.method].tau_ext)
         ratio = detector.run(gate, self.recording.sensed, estimates[row.method]).ratio
         start = round(self.story.before_s * setup.rate_hz)
@@ -167,7 +169,7 @@ class StoredPush:
     def _thresholds(self, row: DetectorSettings) -> Array:
         """Return the thresholds of a detector, (phases, signals) [N m], of a ratio [-]."""
         path = self.folder / "thresholds.csv"
-        names = Watched(watched_signals(row)).names(self.joints)
+        names = Watched(as_plain(row, WatchedSignals)).names(self.joints)
         stored: list[Threshold] = read_detections(path, "thresholds")
         values = {(each.phase, each.signal): each.value for each in stored}
         wanted = list(product(range(1, row.phases + 1), names))

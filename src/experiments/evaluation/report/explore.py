@@ -28,10 +28,10 @@ from mobnet.core.detections import COLLISION
 from mobnet.core.errors import DataError
 from mobnet.core.files import write_text
 from mobnet.core.joints import JointLayout
+from mobnet.formats.parts import Looks
+from mobnet.formats.robot import RobotTable
 from mobnet.robot.description import RobotDescription, describe, dressed
 from mobnet.settings.detection import Detection
-from mobnet.settings.parts import Looks
-from mobnet.settings.robot import RobotTable
 
 LARGEST = 2**15 - 1  # of a whole number of 16 bits
 OBSERVER = "MOB"

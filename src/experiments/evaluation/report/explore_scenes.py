@@ -16,10 +16,11 @@ from experiments.settings.pages import Explore, Story
 from mobnet.control.kinematics import empty_pose, tree_of, update
 from mobnet.core.arrays import Array
 from mobnet.core.columns import FEET, PUSH, PUSHED
-from mobnet.core.recording import read_sensed
+from mobnet.core.recording_file import read_sensed
 from mobnet.core.store import read_array
 from mobnet.detection.detector import LegGate
-from mobnet.detection.numbers import gate_numbers
+from mobnet.formats.plain import as_plain
+from mobnet.kernel.detecting import GateNumbers
 from mobnet.robot.description import RobotDescription
 from mobnet.settings.detection import Detection
 
@@ -108,7 +109,7 @@ def watched_rows(scene: PageScene, detection: Detection, robot: RobotDescription
     gating = next(run for run in scene.runs if run.method == scene.gate)
     pair = read_pair(gating, layout)
     read = read_sensed(scene.runs[0].recording, layout)
-    gate = LegGate.of(gate_numbers(detection.gate), robot, limb, read.rate_hz)
+    gate = LegGate.of(as_plain(detection.gate, GateNumbers), robot, limb, read.rate_hz)
     return gate.watch(read, pair.estimate[:, pair.places(layout.limb(limb))]).watched
 
 

@@ -12,7 +12,7 @@ from experiments.settings.checks.results import Results
 from experiments.settings.claims import Cell, TrainingMetric
 from experiments.settings.settings import Settings
 from mobnet.core.errors import misfit, not_accepted
-from mobnet.settings.reading import Place, Problem
+from mobnet.formats.reading import Place, Problem
 
 MACROS = re.compile(
     r"\\(?:claimed|claimedshare|found|foundshare|foundspan|verdict|cause|holds)\{([\w-]+)\}"

@@ -7,9 +7,9 @@ from typing import cast
 
 from experiments.settings.settings import Settings
 from mobnet.core.errors import misfit, not_accepted
+from mobnet.formats.faults import as_many, at_least, at_most, below, within
+from mobnet.formats.reading import Place, Problem
 from mobnet.settings.data import FixedCommand, Motion, Push, Scenario
-from mobnet.settings.faults import as_many, at_least, at_most, below, within
-from mobnet.settings.reading import Place, Problem
 
 PACKED = 0.5  # share of the ground that plates drawn one by one can cover
 

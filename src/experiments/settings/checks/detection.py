@@ -7,8 +7,8 @@ from experiments.records.collisions import READINGS
 from experiments.settings.checks.results import Results
 from mobnet.core.detections import COLLISION
 from mobnet.core.errors import misfit, not_accepted
-from mobnet.settings.faults import below
-from mobnet.settings.reading import Place, Problem
+from mobnet.formats.faults import below
+from mobnet.formats.reading import Place, Problem
 
 POINT = re.compile(r"(left|right)_[a-z]+_[a-z]+")  # side, link and direction of what a collision meets
 ROOT: Place = ("detection",)

@@ -16,8 +16,8 @@ from experiments.settings.figures import (
     WhyShare,
 )
 from mobnet.core.errors import misfit, not_accepted
-from mobnet.settings.base import Section
-from mobnet.settings.reading import Place, Problem
+from mobnet.formats.base import Section
+from mobnet.formats.reading import Place, Problem
 
 
 def figure_05_problems(section: Figure05, results: Results, place: Place) -> Iterator[Problem]:

@@ -7,10 +7,11 @@ from experiments.settings.catalogue import Catalogue
 from experiments.settings.settings import Settings
 from experiments.settings.trials import Factors, factors_of
 from mobnet.core.errors import misfit, not_accepted
-from mobnet.settings.faults import at_most
+from mobnet.formats.faults import at_most
+from mobnet.formats.network import NetworkCell
+from mobnet.formats.reading import Place, Problem
 from mobnet.settings.methods import Method, swept_names
-from mobnet.settings.networks import Learning, Network, NetworkCell
-from mobnet.settings.reading import Place, Problem
+from mobnet.settings.networks import Learning, Network
 
 
 def learning_problems(catalogue: Catalogue) -> Iterator[Problem]:

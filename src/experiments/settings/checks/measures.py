@@ -5,9 +5,9 @@ from collections.abc import Iterator, Mapping, Sequence
 from experiments.settings.checks.results import Check, Results
 from experiments.settings.measures import MS, Bode, CalibrationTest, Changed, Coverage, CoverageTest, Drift, Sigma
 from mobnet.core.errors import misfit, not_accepted
-from mobnet.settings.base import Section
-from mobnet.settings.faults import at_most
-from mobnet.settings.reading import Place, Problem
+from mobnet.formats.base import Section
+from mobnet.formats.faults import at_most
+from mobnet.formats.reading import Place, Problem
 
 
 def coverage_test_problems(section: CoverageTest, results: Results, place: Place) -> Iterator[Problem]:

@@ -17,7 +17,7 @@ from experiments.settings.evaluation import CLAIMED_TABLES
 from experiments.settings.runs import Statistics
 from experiments.settings.settings import Settings
 from mobnet.core.errors import misfit
-from mobnet.settings.reading import Problem
+from mobnet.formats.reading import Problem
 
 DIVERGED = "diverged"  # metric of trainings of which a share is claimed
 

@@ -6,8 +6,8 @@ from itertools import chain
 from experiments.settings.checks.results import Check, Results
 from experiments.settings.pages import ExploreScene, ExploreStory
 from mobnet.core.errors import misfit
-from mobnet.settings.base import Section
-from mobnet.settings.reading import Place, Problem
+from mobnet.formats.base import Section
+from mobnet.formats.reading import Place, Problem
 
 
 def explore_story_problems(section: ExploreStory, results: Results, place: Place) -> Iterator[Problem]:

@@ -5,8 +5,8 @@ from collections.abc import Iterator, Mapping
 from experiments.settings.checks import figures, measures, pages, reaction_tables, tables
 from experiments.settings.checks.results import Check, Results
 from experiments.settings.products import items_of
-from mobnet.settings.base import Section
-from mobnet.settings.reading import Place, Problem
+from mobnet.formats.base import Section
+from mobnet.formats.reading import Place, Problem
 
 CHECKS: Mapping[type[Section], Check] = {
     **figures.CHECKS,

@@ -4,8 +4,8 @@ from collections.abc import Iterator, Mapping
 
 from experiments.settings.checks.results import Check, Results
 from experiments.settings.reaction_tables import Figure22, Safety, Sensorless
-from mobnet.settings.base import Section
-from mobnet.settings.reading import Place, Problem
+from mobnet.formats.base import Section
+from mobnet.formats.reading import Place, Problem
 
 
 def safety_problems(section: Safety, results: Results, place: Place) -> Iterator[Problem]:

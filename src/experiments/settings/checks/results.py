@@ -15,9 +15,9 @@ from experiments.settings.settings import Settings
 from experiments.settings.table_columns import ERRORS
 from mobnet.core.errors import misfit, not_accepted
 from mobnet.core.joints import JointLayout, right_of, with_image
-from mobnet.settings.checks.robot import joints_above
+from mobnet.formats.checks.robot import joints_above
+from mobnet.formats.reading import Place, Problem
 from mobnet.settings.methods import swept_names
-from mobnet.settings.reading import Place, Problem
 
 PUSHED, PUSH, RAW = "rmse_pushed", "rmse_push_", "_raw"  # metrics of windows around pushes, against the raw truth
 

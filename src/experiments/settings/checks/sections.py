@@ -23,10 +23,10 @@ from experiments.settings.checks.surrogate import surrogate_problems
 from experiments.settings.checks.walking import walking_problems
 from experiments.settings.settings import Settings
 from mobnet.core.errors import misfit
+from mobnet.formats.names import Use, kind_of, unknown, uses
+from mobnet.formats.reading import Place, Problem
 from mobnet.settings.methods import swept_names
-from mobnet.settings.names import Use, kind_of, unknown, uses
 from mobnet.settings.networks import Learning, Network
-from mobnet.settings.reading import Place, Problem
 
 Refused = tuple[Place, type[BaseModel], Mapping[str, Any], ValidationError]
 

@@ -11,8 +11,8 @@ from experiments.settings.fleet import FIRST_SEED
 from experiments.settings.scales import Scale
 from experiments.settings.settings import Settings
 from mobnet.core.errors import misfit, not_accepted
-from mobnet.settings.faults import at_most, below
-from mobnet.settings.reading import Place, Problem
+from mobnet.formats.faults import at_most, below
+from mobnet.formats.reading import Place, Problem
 
 RESULTS_MAX = 50_000  # of one scale: its files are twice as many, and each has a place in Snakemake's plan
 PASSES_MAX = 20  # of an epoch through a training set

@@ -7,9 +7,9 @@ from pydantic import ValidationError
 
 from experiments.settings.settings import Settings
 from mobnet.core.errors import misfit
-from mobnet.settings.base import Change
-from mobnet.settings.faults import as_many, problems
-from mobnet.settings.reading import Place, Problem
+from mobnet.formats.base import Change
+from mobnet.formats.faults import as_many, problems
+from mobnet.formats.reading import Place, Problem
 from mobnet.settings.surrogate import Surrogate
 
 

@@ -16,8 +16,8 @@ from experiments.settings.tables import (
     Uncertainty,
 )
 from mobnet.core.errors import misfit, not_accepted
-from mobnet.settings.base import Section
-from mobnet.settings.reading import Place, Problem
+from mobnet.formats.base import Section
+from mobnet.formats.reading import Place, Problem
 
 
 def column_problems(results: Results, columns: Sequence[str | Mean], place: Place) -> Iterator[Problem]:

@@ -6,8 +6,8 @@ from math import isclose
 
 from experiments.settings.settings import Settings
 from mobnet.core.errors import misfit
-from mobnet.settings.faults import as_many, at_least, at_most, below, within
-from mobnet.settings.reading import Problem
+from mobnet.formats.faults import as_many, at_least, at_most, below, within
+from mobnet.formats.reading import Problem
 
 LEG_JOINTS = 6
 WALKS = "a floating base, two feet with six joints each, first in `order`, leg, hands, imu, posture of all other joints"

@@ -16,9 +16,9 @@ from mobnet.core.errors import ConfigError, misfit
 from mobnet.estimation.filter import FilteredEstimator
 from mobnet.estimation.kinds import build_estimator
 from mobnet.estimation.recipe import Recipe
-from mobnet.settings.base import Positive, Section, Span, Whole
+from mobnet.formats.base import Positive, Section, Span, Whole
+from mobnet.formats.reading import Place
 from mobnet.settings.methods import Method
-from mobnet.settings.reading import Place
 
 
 class Options(Section):

@@ -20,11 +20,11 @@ from mobnet.core.joints import JointLayout
 from mobnet.core.notes import Note, NotNegative, Text, read_note
 from mobnet.core.notes import Positive as AboveZero
 from mobnet.estimation.kinds.friction import LARGEST, check, fitted_joints, friction_model
-from mobnet.estimation.kinds.residual import ResidualEstimator
 from mobnet.estimation.recipe import Recipe
 from mobnet.estimation.regression import Pair, logged, non_negative, square_sums
+from mobnet.estimation.residual import ResidualEstimator
+from mobnet.formats.base import Positive, Rising, Section
 from mobnet.kernel.drive import bent
-from mobnet.settings.base import Positive, Rising, Section
 from mobnet.settings.methods import ObserverSettings
 from mobnet.settings.networks import Network
 

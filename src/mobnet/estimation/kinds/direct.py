@@ -6,10 +6,10 @@ from mobnet.core.errors import ConfigError, misfit
 from mobnet.core.estimator import Estimate, Stretch
 from mobnet.core.recording import Sensed
 from mobnet.estimation.recipe import Recipe
+from mobnet.formats.base import Section
+from mobnet.formats.reading import Place
 from mobnet.learning.deployed.limbs import LimbNetworks, State
-from mobnet.settings.base import Section
 from mobnet.settings.methods import Method
-from mobnet.settings.reading import Place
 
 
 class DirectEstimator:

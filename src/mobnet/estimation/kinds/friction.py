@@ -18,15 +18,16 @@ from mobnet.core.joints import JointLayout
 from mobnet.core.notes import Note, NotNegative, Text, read_note
 from mobnet.core.notes import Positive as AboveZero
 from mobnet.core.recording import Sensed
-from mobnet.estimation.kinds.residual import ResidualEstimator
 from mobnet.estimation.recipe import Recipe
 from mobnet.estimation.regression import TERMS, Law, Pair, regress, regressors
+from mobnet.estimation.residual import ResidualEstimator
+from mobnet.formats.base import Distinct, Positive, Rising, Section
+from mobnet.formats.network import Limb
+from mobnet.formats.reading import Place
 from mobnet.kernel.low_pass import exact_pole, low_pass
 from mobnet.learning.deployed.networks import Prediction
-from mobnet.settings.base import Distinct, Positive, Rising, Section
 from mobnet.settings.methods import Method, ObserverSettings
-from mobnet.settings.networks import Limb, Network
-from mobnet.settings.reading import Place
+from mobnet.settings.networks import Network
 
 Velocity = Annotated[Positive, Field(ge=0.0001, le=20)]
 Term = Literal["coulomb", "static", "viscous", "load"]

@@ -7,13 +7,13 @@ from mobnet.core.errors import ConfigError, misfit
 from mobnet.core.joints import JointLayout
 from mobnet.core.recording import Sensed
 from mobnet.estimation.kinds.friction import FrictionModel, friction_model, read_friction
-from mobnet.estimation.kinds.residual import ResidualEstimator
 from mobnet.estimation.recipe import Recipe
+from mobnet.estimation.residual import ResidualEstimator
+from mobnet.formats.base import Section
+from mobnet.formats.reading import Place
 from mobnet.learning.deployed.limbs import LimbNetworks
 from mobnet.learning.deployed.networks import Prediction
-from mobnet.settings.base import Section
 from mobnet.settings.methods import Method
-from mobnet.settings.reading import Place
 
 State = tuple[Any, Any]  # of the friction model and of the networks
 

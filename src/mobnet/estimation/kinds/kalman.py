@@ -14,10 +14,10 @@ from mobnet.core.errors import ConfigError, misfit
 from mobnet.estimation.filter import FilteredEstimator
 from mobnet.estimation.kinds import build_estimator
 from mobnet.estimation.recipe import Recipe
+from mobnet.formats.base import Positive, Section
+from mobnet.formats.reading import Place
 from mobnet.kernel.low_pass import exact_pole
-from mobnet.settings.base import Positive, Section
 from mobnet.settings.methods import Method
-from mobnet.settings.reading import Place
 
 
 class Options(Section):

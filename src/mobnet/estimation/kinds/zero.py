@@ -8,9 +8,9 @@ from mobnet.core.errors import misfit
 from mobnet.core.estimator import Estimate
 from mobnet.core.recording import Sensed
 from mobnet.estimation.recipe import Recipe
-from mobnet.settings.base import Section
+from mobnet.formats.base import Section
+from mobnet.formats.reading import Place
 from mobnet.settings.methods import Method
-from mobnet.settings.reading import Place
 
 
 class ZeroEstimator:

@@ -1,18 +1,15 @@
 """Several limb networks run as one: the six independent networks of section 4.1 with their outputs concatenated."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import chain
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mobnet.core.errors import DataError, not_accepted
 from mobnet.core.joints import JointLayout
 from mobnet.core.recording import Sensed
-from mobnet.learning.deployed.loading import load_network
 from mobnet.learning.deployed.networks import Array, GruNetwork, GruNetworks, Prediction, Runnable
 from mobnet.learning.features import signal_names, signals
 
@@ -74,36 +71,6 @@ class _Alone:
     def step(self, state: Any, x: Array) -> tuple[Any, Prediction]:
         """Advance by one sample of the signals; return the new state and the prediction (n,) [N, N m]."""
         return self.network.step(state, x[self.columns])
-
-
-def load_limb_networks(folders: Mapping[str, Path], layout: JointLayout) -> LimbNetworks:
-    """Read the networks of some limbs, each from its folder.
-
-    Raises:
-        DataError: weights are missing or damaged, or belong to another limb or robot.
-    """
-    networks = [load_network(folder) for folder in folders.values()]
-    for network, (limb, folder) in zip(networks, folders.items(), strict=True):
-        check_limb(network, limb, folder, layout)
-    return LimbNetworks(networks, layout)
-
-
-def check_limb(network: Runnable, limb: str, folder: Path, layout: JointLayout) -> None:
-    """Raise unless a network is of a limb, with the limb's joints, or, over several limbs, with joints of the robot.
-
-    Its inputs must be signals of the robot.
-    """
-    known = set(network.joints) <= set(layout.names)
-    expected = layout.groups.get(limb, network.joints if known else layout.names)
-    known_inputs = signal_names(layout)
-    for name in network.input_names:
-        if name not in known_inputs:
-            raise DataError(f"{folder}: {not_accepted('input', name, [*known_inputs[:3], '...'])}")
-    if (network.limb, network.joints) != (limb, expected):
-        raise DataError(
-            f"{folder}: network of limb {network.limb!r} with joints {', '.join(network.joints)}; "
-            f"accepted: {limb!r} with {', '.join(expected)}"
-        )
 
 
 def _columns(network: Runnable, layout: JointLayout) -> NDArray[np.intp]:

@@ -7,10 +7,10 @@ import numpy as np
 import torch
 from torch import Tensor
 
+from mobnet.formats.network import NetworkCell
 from mobnet.learning.deployed.lanes import side_by_side
 from mobnet.learning.deployed.networks import Array, Deployed, Prediction
 from mobnet.learning.model import build_network
-from mobnet.settings.networks import NetworkCell
 
 
 class ModuleNetwork(Deployed):

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mobnet.core.machine import one_thread
-from mobnet.learning.deployed.weights import GRU_TENSORS, Z_SCORES, std_scale_of
+from mobnet.learning.deployed.tensors import GRU_TENSORS, Z_SCORES, std_scale_of
 
 Array = NDArray[np.float32]
 

@@ -13,16 +13,11 @@ from safetensors import SafetensorError, safe_open
 from mobnet.core.errors import DataError, not_accepted, refuse
 from mobnet.core.files import parse_json
 from mobnet.core.notes import Names, Note, Positive, Text, checked, fault_of
-from mobnet.settings.networks import NetworkCell
-from mobnet.settings.robot import GroupName
+from mobnet.formats.network import NetworkCell
+from mobnet.formats.robot import GroupName
+from mobnet.learning.deployed.tensors import STD_SCALE, std_scale_of
 
 NOTE = "note"  # the only entry of the file's metadata: several would be written in an order that changes
-GRU_TENSORS = (
-    *("cell.weight_ih_l0", "cell.weight_hh_l0", "cell.bias_ih_l0", "cell.bias_hh_l0"),
-    *("head.weight", "head.bias"),
-)
-Z_SCORES = ("input.mean", "input.std", "target.mean", "target.std")
-STD_SCALE = "std.scale"  # factors on the standard deviations, learned after the training; absent means 1
 ABOVE_ZERO = ("input.std", "target.std", STD_SCALE)
 GATES = {"GRU": 3, "LSTM": 4, "RNN": 1}  # recurrent cells: rows of a weight for each hidden unit
 Array = NDArray[np.float32]
@@ -70,11 +65,6 @@ def read_weights(path: Path) -> tuple[dict[str, Array], WeightsNote]:
     note = checked(path, parse_json(metadata[NOTE], f"{path}: {NOTE}"), WeightsNote)
     refuse(path, _faults(tensors, note))
     return tensors, note
-
-
-def std_scale_of(tensors: Mapping[str, Array]) -> Array:
-    """Return the factors in a network's standard deviations (n,), learned after its training."""
-    return tensors.get(STD_SCALE, np.ones_like(tensors["target.std"]))
 
 
 def std_scales(paths: Iterable[Path]) -> dict[str, float]:

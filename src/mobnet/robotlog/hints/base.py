@@ -9,15 +9,15 @@ from mobnet.core.motion import turn, turned
 from mobnet.core.recording import Sensed
 from mobnet.robot.nominal import NominalModel
 from mobnet.robot.wrench import feet_torque
+from mobnet.robotlog.hints.bounds import HintBounds
 from mobnet.robotlog.pieces import pieces
-from mobnet.settings.robotlog import RobotLog
 
 G = 9.80665  # standard gravity [m/s^2], the unit in which accelerometers are sold
 ALIKE = 0.9  # correlation from which two turns are one
 UPRIGHT = 0.9  # cosine between the mean specific force in world axes and the vertical
 
 
-def base_hints(sensed: Sensed, spans: Sequence[slice], rate_hz: float, bounds: RobotLog) -> Iterator[str]:
+def base_hints(sensed: Sensed, spans: Sequence[slice], rate_hz: float, bounds: HintBounds) -> Iterator[str]:
     """Yield hints on the inertial sensor and the orientation of a floating base."""
     quat = _copied(sensed.q[:, 3:7])
     omega = _copied(sensed.v[:, 3:6])
@@ -54,7 +54,7 @@ def _upward(quat: Array, acc: Array, size: float) -> float:
 
 
 def weight_hints(
-    nominal: NominalModel, sensed: Sensed, wrenches: Mapping[str, Array], gravity_m_s2: float, bounds: RobotLog
+    nominal: NominalModel, sensed: Sensed, wrenches: Mapping[str, Array], gravity_m_s2: float, bounds: HintBounds
 ) -> Iterator[str]:
     """Yield hints on the feet's sensors, side -> (T, 6) [N], [N m]: their mean vertical force must carry the weight."""
     # A foot without a sensor may carry any share of the weight.
@@ -81,7 +81,7 @@ def _orders(quat: Array) -> dict[str, Array]:
     return {"w x y z": quat, "x y z w": shifted, "world to base": back * quat, "world to base, x y z w": back * shifted}
 
 
-def _turning(quat: Array, omega: Array, spans: Sequence[slice], rate_hz: float, bounds: RobotLog) -> float | None:
+def _turning(quat: Array, omega: Array, spans: Sequence[slice], rate_hz: float, bounds: HintBounds) -> float | None:
     """Return the integral of omega over the turn of quaternions (largest axis), None where noise hides it."""
     steps = max(1, round(bounds.window_s * rate_hz))
     turns = [np.zeros((3, 0))]

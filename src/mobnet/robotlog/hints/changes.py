@@ -10,11 +10,11 @@ from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array
 from mobnet.robot.nominal import NominalModel
+from mobnet.robotlog.hints.bounds import HintBounds
 from mobnet.robotlog.hints.fits import TINY, friction_fit, unexplained
 from mobnet.robotlog.hints.mounting import mounting_of
 from mobnet.robotlog.hints.payload import payloads
 from mobnet.robotlog.hints.windows import MotionWindows, MotorDemand, repeated, size_of
-from mobnet.settings.robotlog import RobotLog
 
 ALIKE = 3.0  # factor that a wrong model may make of a torque
 ANY = np.array(np.inf)  # offset of a torque [N m]
@@ -66,7 +66,7 @@ class Seen(NamedTuple):
     """
 
     nominal: NominalModel
-    bounds: RobotLog
+    bounds: HintBounds
     windows: MotionWindows
     asked: MotorDemand
     left: Array
@@ -338,12 +338,12 @@ def feet_changes(seen: Seen) -> Iterator[Moved]:
         yield _with_feet_exchanged, (Change(text, joints_of_legs, 1, _unchanged),)
 
 
-def _improves(left: float, before: float, bounds: RobotLog) -> bool:
+def _improves(left: float, before: float, bounds: HintBounds) -> bool:
     """Return whether a share that is left is little, and much less than before."""
     return left < min(bounds.good, (1 - bounds.explained) * before)
 
 
-def _logs(left: Array, bounds: RobotLog) -> Array:
+def _logs(left: Array, bounds: HintBounds) -> Array:
     """Return the logarithms of shares that are left, of which the smallest count alike."""
     return np.log(np.maximum(left, bounds.floor))
 
@@ -406,7 +406,7 @@ def _shifted(nu: int, i: int, shift: float) -> Changed:
     return apply
 
 
-def _meaning(needed: Sequence[float], bounds: RobotLog) -> str:
+def _meaning(needed: Sequence[float], bounds: HintBounds) -> str:
     """Return what it means that torques are so many times what the motion needs, nothing where friction may be it."""
     sizes = sorted(map(abs, needed))
     turned = {factor < 0 for factor in needed}

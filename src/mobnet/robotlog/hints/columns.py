@@ -10,8 +10,8 @@ from mobnet.core.arrays import Array
 from mobnet.core.contract import Rule, rule_of
 from mobnet.core.joints import JointLayout
 from mobnet.core.recording import Sensed
+from mobnet.robotlog.hints.bounds import HintBounds
 from mobnet.robotlog.pieces import pieces, ranges
-from mobnet.settings.robotlog import RobotLog
 
 TURN = 2 * np.pi  # beyond which an angle of a joint may be in degrees
 FEW = 5  # of a list of joints that are named
@@ -22,7 +22,7 @@ LOOKED = 1000  # samples of two columns that are compared first
 LEAST_CLIPPED = 20  # samples at a torque's largest value, below which nothing is said
 
 
-def column_hints(sensed: Sensed, joints: Sequence[str], bounds: RobotLog) -> Iterator[str]:
+def column_hints(sensed: Sensed, joints: Sequence[str], bounds: HintBounds) -> Iterator[str]:
     """Yield hints on the columns of motors, (T, nu) each."""
     first = sensed.q.shape[1] - len(joints), sensed.v.shape[1] - len(joints)
     signals = {"q": sensed.q[:, first[0] :], "v": sensed.v[:, first[1] :], "tau_motor": sensed.tau_motor}
@@ -53,7 +53,7 @@ def column_hints(sensed: Sensed, joints: Sequence[str], bounds: RobotLog) -> Ite
         )
 
 
-def base_column_hints(sensed: Sensed, bounds: RobotLog) -> Iterator[str]:
+def base_column_hints(sensed: Sensed, bounds: HintBounds) -> Iterator[str]:
     """Yield hints on the columns of a floating base that repeat the sample before."""
     for name, values in (("omega", sensed.v[:, 3:6]), ("acc", sensed.acc_base_in_base), ("velocity", sensed.v[:, :3])):
         if (share := float(held_share(values).max())) > bounds.held:
@@ -105,7 +105,7 @@ def unit_hints(clocks: Mapping[str, Array]) -> Iterator[str]:
             yield f"clock of {names}: {median:.3g} s between samples" + f": in {' or '.join(units)}?" * bool(units)
 
 
-def clock_hints(clocks: Mapping[str, Array], bounds: RobotLog) -> Iterator[str]:
+def clock_hints(clocks: Mapping[str, Array], bounds: HintBounds) -> Iterator[str]:
     """Yield hints on the clocks (T,) [s] of signals."""
     for names, clock in _together(clocks):
         steps = np.diff(clock)

@@ -12,10 +12,10 @@ from mobnet.kernel.drive import TorqueKind
 from mobnet.robot.dynamics import momentum_and_beta
 from mobnet.robot.nominal import NominalModel
 from mobnet.robot.wrench import feet_torque
+from mobnet.robotlog.hints.bounds import HintBounds
 from mobnet.robotlog.hints.columns import held_share, listed
 from mobnet.robotlog.hints.fits import dissipation, positive_fit, quotient
 from mobnet.robotlog.long_arrays import give_back
-from mobnet.settings.robotlog import RobotLog
 
 LEAST = 0.75  # samples below which a delay is none
 STRETCH_S, STRETCHES = 2.0, 30  # of contiguous samples that are looked at, and how many
@@ -44,7 +44,7 @@ def torque_delay(
     wrenches: Mapping[str, Array],
     joints: NDArray[np.bool_],
     kind: TorqueKind,
-    bounds: RobotLog,
+    bounds: HintBounds,
 ) -> Delay | None:
     """Return the delay of torques of a kind, if those of some joints (nu,) fit the motion better when moved in time."""
     step = max(1, round(STEP_S * rate_hz))
@@ -84,7 +84,7 @@ def torque_delay(
 
 
 def speed_delay_hints(
-    q: Array, v: Array, spans: Sequence[slice], rate_hz: float, joints: Sequence[str], bounds: RobotLog
+    q: Array, v: Array, spans: Sequence[slice], rate_hz: float, joints: Sequence[str], bounds: HintBounds
 ) -> Iterator[str]:
     """Yield a hint if velocities (T, n) [rad/s] fit the changes of positions (T, n) [rad] better when moved in time."""
     most = round(bounds.delay_s * rate_hz)

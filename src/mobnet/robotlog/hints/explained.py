@@ -7,13 +7,13 @@ import numpy as np
 
 from mobnet.core.arrays import Array
 from mobnet.robot.nominal import NominalModel
+from mobnet.robotlog.hints.bounds import HintBounds
 from mobnet.robotlog.hints.changes import LEAST_CONSTANT, Seen, constant_changes
 from mobnet.robotlog.hints.fits import friction_fit, quotient
 from mobnet.robotlog.hints.mounting import mounting_of
 from mobnet.robotlog.hints.payload import payloads
 from mobnet.robotlog.hints.torque import for_small_mistakes, score_of, seen_in
 from mobnet.robotlog.hints.windows import MotionWindows, left_of, size_of
-from mobnet.settings.robotlog import RobotLog
 
 HALF = 0.5  # share of a residual that must be explained for a word
 TINY_SHARE = 1e-9  # of a torque, below which shares are alike
@@ -29,7 +29,7 @@ class Explained(NamedTuple):
 
 
 def explanation(
-    nominal: NominalModel, windows: MotionWindows, bounds: RobotLog, with_friction: bool = True
+    nominal: NominalModel, windows: MotionWindows, bounds: HintBounds, with_friction: bool = True
 ) -> Iterator[str]:
     """Yield what friction explains of the residual of each joint that tells of itself, if wanted, and what else does.
 

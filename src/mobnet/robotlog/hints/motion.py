@@ -8,11 +8,11 @@ from numpy.typing import NDArray
 from mobnet.core.arrays import Array
 from mobnet.core.contract import BEYOND_SPEED
 from mobnet.core.joints import JointLayout
+from mobnet.robotlog.hints.bounds import HintBounds
 from mobnet.robotlog.hints.columns import listed
 from mobnet.robotlog.hints.fits import quotient
 from mobnet.robotlog.long_arrays import give_back
 from mobnet.robotlog.pieces import PIECE_ROWS, pieces
-from mobnet.settings.robotlog import RobotLog
 
 MOVES_RAD = 0.005  # mean turn in a window below which a joint tells nothing
 ALIKE = 0.95  # correlation above which a column is what another one should be
@@ -31,7 +31,7 @@ FACTORS = {  # of the change of q over the integral of v -> what it means
 
 
 def motion_hints(
-    q: Array, v: Array, spans: Sequence[slice], rate_hz: float, joints: Sequence[str], bounds: RobotLog
+    q: Array, v: Array, spans: Sequence[slice], rate_hz: float, joints: Sequence[str], bounds: HintBounds
 ) -> Iterator[str]:
     """Yield hints on positions and velocities of joints (T, nu) [rad], [rad/s] within contiguous spans."""
     change, integral = turns(q, v, spans, rate_hz, bounds.window_s)
@@ -111,7 +111,7 @@ def jump_hints(q: Array, spans: Sequence[slice], rate_hz: float, layout: JointLa
 
 
 def _are_exchanged(
-    change: Array, integral: Array, other: tuple[Array, Array], moves: NDArray[np.bool_], bounds: RobotLog
+    change: Array, integral: Array, other: tuple[Array, Array], moves: NDArray[np.bool_], bounds: HintBounds
 ) -> bool:
     """Return whether all joints that move follow the other signal, whose changes and integrals (W, nu) are `other`."""
 
@@ -122,7 +122,7 @@ def _are_exchanged(
     return bool((fits(*other)[moves] & ~fits(change, integral)[moves]).all())
 
 
-def _meaning(slope: float, rate_hz: float, bounds: RobotLog) -> str:
+def _meaning(slope: float, rate_hz: float, bounds: HintBounds) -> str:
     """Return what a factor may mean, if it is a known one."""
     known = [*FACTORS.items(), (rate_hz, "v in rad from one sample to the next")]
     texts = [text for factor, text in known if abs(slope / factor - 1) < bounds.factor]

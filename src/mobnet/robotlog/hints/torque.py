@@ -7,6 +7,7 @@ than the best one is told beside it.
 """
 
 from collections.abc import Iterable, Iterator
+from dataclasses import replace
 from itertools import chain
 from typing import NamedTuple
 
@@ -14,6 +15,7 @@ import numpy as np
 
 from mobnet.core.arrays import Array
 from mobnet.robot.nominal import NominalModel
+from mobnet.robotlog.hints.bounds import HintBounds
 from mobnet.robotlog.hints.changes import (
     SURE_CONSTANT,
     Change,
@@ -32,7 +34,6 @@ from mobnet.robotlog.hints.changes import (
 )
 from mobnet.robotlog.hints.columns import listed
 from mobnet.robotlog.hints.windows import MotionWindows, MotorDemand, known_joints, left_of
-from mobnet.settings.robotlog import RobotLog
 
 MANY = 2  # joints up to which each of them must be explained
 MOST = 8  # mistakes that are looked for, one after another
@@ -49,7 +50,7 @@ class Mistake(NamedTuple):
     score: float
 
 
-def torque_hints(nominal: NominalModel, windows: MotionWindows, bounds: RobotLog) -> Iterator[str]:
+def torque_hints(nominal: NominalModel, windows: MotionWindows, bounds: HintBounds) -> Iterator[str]:
     """Yield what looks wrong with torques, or with joints as a whole, of those that tell of themselves."""
     asked = windows.asked(nominal)
     small = for_small_mistakes(bounds)
@@ -72,12 +73,12 @@ def torque_hints(nominal: NominalModel, windows: MotionWindows, bounds: RobotLog
         yield f"{', '.join(joints)}: {text}"
 
 
-def for_small_mistakes(bounds: RobotLog) -> RobotLog:
+def for_small_mistakes(bounds: HintBounds) -> HintBounds:
     """Return the bounds with which mistakes are looked for that leave most of the torque explained."""
-    return bounds.model_copy(update={"suspect": bounds.small, "floor": bounds.small})
+    return replace(bounds, suspect=bounds.small, floor=bounds.small)
 
 
-def seen_in(nominal: NominalModel, windows: MotionWindows, asked: MotorDemand, bounds: RobotLog) -> Seen:
+def seen_in(nominal: NominalModel, windows: MotionWindows, asked: MotorDemand, bounds: HintBounds) -> Seen:
     """Return windows with what is not explained in them."""
     known = np.flatnonzero(known_joints(nominal, windows, asked, bounds)).tolist()
     left = left_of(asked, windows.torque, nominal, bounds, range(windows.torque.shape[1]))
@@ -153,7 +154,7 @@ def score_of(left: Array, seen: Seen) -> float:
     return float(np.log(np.maximum(left[list(seen.known)], seen.bounds.floor)).sum())
 
 
-def _clears(left: Array, before: Array, bounds: RobotLog) -> bool:
+def _clears(left: Array, before: Array, bounds: HintBounds) -> bool:
     """Return whether a change takes most of the error of its joints away, and leaves little; shares (n,).
 
     Of many joints the mean counts, as friction may be the larger part of the torque of some.

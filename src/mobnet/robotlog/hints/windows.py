@@ -17,9 +17,9 @@ from mobnet.kernel.drive import TorqueKind
 from mobnet.robot.dynamics import momentum_and_beta
 from mobnet.robot.nominal import NominalModel
 from mobnet.robot.wrench import feet_torque
+from mobnet.robotlog.hints.bounds import HintBounds
 from mobnet.robotlog.hints.fits import dry, unexplained
 from mobnet.robotlog.long_arrays import give_back
-from mobnet.settings.robotlog import RobotLog
 
 NODES = 11  # samples of a window at which beta is taken
 
@@ -87,7 +87,7 @@ def windows_of(
     wrenches: Mapping[str, Array],
     kind: TorqueKind,
     late: float,
-    bounds: RobotLog,
+    bounds: HintBounds,
 ) -> MotionWindows | None:
     """Return windows spread evenly over the spans, None where no span is long enough.
 
@@ -129,7 +129,7 @@ def _mean(nodes: Array) -> Array:
 
 
 def known_joints(
-    nominal: NominalModel, windows: MotionWindows, asked: MotorDemand, bounds: RobotLog
+    nominal: NominalModel, windows: MotionWindows, asked: MotorDemand, bounds: HintBounds
 ) -> NDArray[np.bool_]:
     """Return of which joints a log tells (nu,): those with a torque, but on no leg whose contact is not measured."""
     robot = nominal.robot
@@ -141,7 +141,9 @@ def known_joints(
     return sees & (largest > bounds.least_torque * robot.torque_limits)
 
 
-def left_of(asked: MotorDemand, torque: Array, nominal: NominalModel, bounds: RobotLog, joints: Sequence[int]) -> Array:
+def left_of(
+    asked: MotorDemand, torque: Array, nominal: NominalModel, bounds: HintBounds, joints: Sequence[int]
+) -> Array:
     """Return the share of the square torque of some joints that motion and friction leave unexplained (n,)."""
     columns = list(joints)
     offsets = bounds.offset * nominal.robot.torque_limits[columns]

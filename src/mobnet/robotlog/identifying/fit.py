@@ -22,13 +22,33 @@ from scipy.stats import t
 from mobnet.core.arrays import Array
 from mobnet.robotlog.identifying.payload import NUMBERS, START, Payload, linearised, parameters, payload_of
 from mobnet.robotlog.identifying.regressors import LINK, Columns, RegressorWindows, together
-from mobnet.settings.robotlog import Identification
 
 FREE = ("offset", "scale")  # of either sign: errors of a sensor, which dissipate nothing
 DAHL = "breakaway"
 OPEN = 1e3  # standard deviation of what has no prior, a payload's mass [kg] and first moment [kg m]
 ROUNDS = 4  # of fitting all joints, and choosing the signs by what the links do not explain
 LEAST = 1e-9  # root mean square below which a column did not vary, and the share that keeps a solution unique
+
+
+@dataclass(frozen=True)
+class FitNumbers:
+    """How windows become the numbers of joints.
+
+    Attributes:
+        folds: parts of the windows, each of which is held out once to choose the smooth sign of a joint.
+        gain: share by which Dahl's law must lower the error on the parts held out.
+        mass_share: standard deviation of the share by which a link's mass and inertia differ from those of the table.
+        com_m: the same of its centre of mass, along each axis [m].
+        payload_kg_m3: density of a payload, which is taken for a ball [kg/m^3].
+        confidence: nominal one of the intervals.
+    """
+
+    folds: int
+    gain: float
+    mass_share: float
+    com_m: float
+    payload_kg_m3: float
+    confidence: float
 
 
 @dataclass(frozen=True)
@@ -87,21 +107,21 @@ def fit_joints(
     held_out: RegressorWindows,
     columns: Columns,
     terms: Sequence[str],
-    settings: Identification,
+    numbers: FitNumbers,
 ) -> tuple[list[JointFit], Payload | None]:
     """Fit all joints: what is not held out chooses the signs, and its fit is tried on what is held out.
 
     The numbers are those of all windows. Errors of the links are fitted to keep them right; the table does not get
     them, and so they do not count where the fit is tried.
     """
-    problem, tried = solved(known, columns, terms, settings)
+    problem, tried = solved(known, columns, terms, numbers)
     windows = together([known, held_out])
-    density = settings.payload_kg_m3
+    density = numbers.payload_kg_m3
     loaded = known.payload.shape[-1] > 0
     carried = parameters(tried.links[-NUMBERS:], density) if loaded else np.zeros(0)
     windows = linearised(windows, tried.links[-NUMBERS:], density) if loaded else windows
     final = solution(windows, problem)
-    halves = half_widths(windows, problem, final, settings.confidence)
+    halves = half_widths(windows, problem, final, numbers.confidence)
     half = halves[: final.joints.size].reshape(final.joints.shape)
     payload = payload_of(final.links[-NUMBERS:], halves[-NUMBERS:], density) if loaded else None
     unseen = held_out.joints[..., -1]
@@ -116,11 +136,11 @@ def fit_joints(
 
 
 def solved(
-    windows: RegressorWindows, columns: Columns, terms: Sequence[str], settings: Identification
+    windows: RegressorWindows, columns: Columns, terms: Sequence[str], numbers: FitNumbers
 ) -> tuple[Problem, Solution]:
     """Return the signs of the joints, the weights of their errors, and the numbers with them."""
     nu = windows.joints.shape[2]
-    prior = np.tile([settings.mass_share, *(settings.com_m,) * (len(LINK) - 1)], nu)
+    prior = np.tile([numbers.mass_share, *(numbers.com_m,) * (len(LINK) - 1)], nu)
     # All torques times a factor are those of links and friction times that factor: a scale takes the links as they are.
     prior *= LEAST if "scale" in terms else 1.0
     loaded = windows.payload.shape[-1] > 0
@@ -131,10 +151,10 @@ def solved(
     problem = Problem(columns, tuple(terms), (0,) * nu, np.ones(nu), prior)
     solution_so_far = None
     for _ in range(ROUNDS):
-        windows = linearised(given, near, settings.payload_kg_m3) if loaded else given
+        windows = linearised(given, near, numbers.payload_kg_m3) if loaded else given
         targets = windows.joints[..., -1] - by_links
         signs = [
-            chosen_sign(windows.joints[:, :, j, :-1], targets[:, :, j], columns, terms, settings) for j in range(nu)
+            chosen_sign(windows.joints[:, :, j, :-1], targets[:, :, j], columns, terms, numbers) for j in range(nu)
         ]
         problem = replace(problem, signs=tuple(signs))
         problem = replace(problem, weights=_weights(windows, problem, by_links))
@@ -158,13 +178,13 @@ def _weights(windows: RegressorWindows, problem: Problem, by_links: Array) -> Ar
     return weights
 
 
-def chosen_sign(joint: Array, target: Array, columns: Columns, terms: Sequence[str], settings: Identification) -> int:
+def chosen_sign(joint: Array, target: Array, columns: Columns, terms: Sequence[str], numbers: FitNumbers) -> int:
     """Return the smooth sign with the least error on parts of the windows that are held out one after another.
 
     Columns of a joint are (windows, rows, m), its target is (windows, rows). Dahl's law, which has a state, must pay.
     """
     products = _products(joint, target)
-    parts = np.array_split(products, settings.folds)
+    parts = np.array_split(products, numbers.folds)
     sums = [part.sum(axis=0) for part in parts]
     whole = np.sum(sums, axis=0)
     scores = list[float]()
@@ -174,7 +194,7 @@ def chosen_sign(joint: Array, target: Array, columns: Columns, terms: Sequence[s
         for unseen in sums:
             rest = np.append(-joint_numbers((whole - unseen)[chosen], terms), 1.0)
             left += float(rest @ unseen[chosen] @ rest)
-        scores.append(left / (1.0 - settings.gain if kind == DAHL else 1.0) ** 2)
+        scores.append(left / (1.0 - numbers.gain if kind == DAHL else 1.0) ** 2)
     return int(np.argmin(scores))
 
 

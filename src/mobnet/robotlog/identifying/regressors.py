@@ -26,12 +26,28 @@ from mobnet.estimation.observer import RobotObserver
 from mobnet.kernel.drive import TorqueKind, bent
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.nominal import NominalModel
-from mobnet.settings.robotlog import Identification
 
 OVERSAMPLED = 4.0  # samples of what is fitted, over the corner of the low-pass
 ORDER = 2  # of that low-pass, which runs forwards and backwards
 PLAIN = ("viscous", "offset", "armature", "scale")  # columns that have no smooth sign in them
 LINK = ("mass", "x", "y", "z")  # directions of a link's error: share of mass and inertia, place of the centre of mass
+
+
+@dataclass(frozen=True)
+class WindowNumbers:
+    """How a log becomes windows, and the smooth signs that are tried.
+
+    Attributes:
+        low_pass_hz: corner of the low-pass without delay behind which everything is fitted [Hz].
+        window_s: length of the windows [s].
+        smoothing_rad_s: widths of the smooth sign of which a joint takes the best [rad/s].
+        breakaway_rad: angles of Dahl's law, the same [rad].
+    """
+
+    low_pass_hz: float
+    window_s: float
+    smoothing_rad_s: tuple[float, ...]
+    breakaway_rad: tuple[float, ...]
 
 
 @dataclass(frozen=True)
@@ -80,10 +96,10 @@ def together(windows: Sequence[RegressorWindows]) -> RegressorWindows:
     return RegressorWindows(joints, links, payload)
 
 
-def columns_of(settings: Identification) -> Columns:
+def columns_of(numbers: WindowNumbers) -> Columns:
     """Return the columns that are tried."""
-    smooth = [("smoothing", width) for width in settings.smoothing_rad_s]
-    return Columns((*smooth, *(("breakaway", angle) for angle in settings.breakaway_rad)))
+    smooth = [("smoothing", width) for width in numbers.smoothing_rad_s]
+    return Columns((*smooth, *(("breakaway", angle) for angle in numbers.breakaway_rad)))
 
 
 def bare(robot: RobotDescription) -> RobotDescription:
@@ -97,7 +113,7 @@ def windows_of(
     read: SensedRecording,
     torque: TorqueKind,
     gravity_m_s2: float,
-    settings: Identification,
+    numbers: WindowNumbers,
     carrier: int | None = None,
 ) -> RegressorWindows:
     """Return the windows of a recording; the end of a segment behind its last whole window is not used.
@@ -107,15 +123,15 @@ def windows_of(
     nominal = NominalModel(bare(robot), gravity_m_s2=gravity_m_s2)
     # A gain this large has no low-pass: r is s of (O1).
     observer = RobotObserver(nominal, 1e3 * read.rate_hz, read.rate_hz, torque)
-    columns = columns_of(settings)
-    every = max(1, int(read.rate_hz / (OVERSAMPLED * settings.low_pass_hz)))
-    rows = round(settings.window_s * read.rate_hz / every)
+    columns = columns_of(numbers)
+    every = max(1, int(read.rate_hz / (OVERSAMPLED * numbers.low_pass_hz)))
+    rows = round(numbers.window_s * read.rate_hz / every)
     pieces = list[RegressorWindows]()
     for span in read.spans():
         sensed = read.sensed[span]
         if len(sensed) <= rows * every:
             continue
-        parts = _Filter(settings.low_pass_hz, read.rate_hz, every), rows
+        parts = _Filter(numbers.low_pass_hz, read.rate_hz, every), rows
         regressor = _links(nominal, sensed, *parts)
         links = regressor @ link_directions(nominal.model, robot.layout.nu)
         payload = regressor[..., 10 * carrier : 10 * carrier + 10] if carrier is not None else regressor[..., :0]

@@ -10,7 +10,7 @@ from library_settings import network_of
 from mobnet.core.columns import residual_columns
 from mobnet.core.errors import DataError
 from mobnet.core.joints import N_VIRTUAL
-from mobnet.core.recording import write_recording
+from mobnet.core.recording_file import write_recording
 from mobnet.core.store import write_array
 from mobnet.estimation.kinds.dahl import TERMS, DahlFriction, Options, bent, build, fit, read_dahl
 from mobnet.estimation.kinds.friction import FrictionModel, read_friction

@@ -6,12 +6,12 @@ import pytest
 from mobnet.core.errors import ConfigError
 from mobnet.estimation.kinds import build_estimator
 from mobnet.estimation.kinds.direct import DirectEstimator
+from mobnet.formats.network import Limb
 from mobnet.learning.deployed.limbs import LimbNetworks
 from mobnet.learning.deployed.networks import GruNetwork
-from mobnet.learning.deployed.weights import GRU_TENSORS, Z_SCORES
+from mobnet.learning.deployed.tensors import GRU_TENSORS, Z_SCORES
 from mobnet.learning.features import limb_inputs
 from mobnet.settings.methods import Method
-from mobnet.settings.networks import Limb
 
 HIDDEN = 5
 

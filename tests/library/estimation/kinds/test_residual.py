@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mobnet.estimation.kinds.residual import ResidualEstimator
+from mobnet.estimation.residual import ResidualEstimator
 from mobnet.learning.deployed.networks import Prediction
 
 LIMB = ("LL3", "LL1")  # not in the robot's order

@@ -2,7 +2,7 @@
 
 from mobnet.estimation.kinds import build_estimator
 from mobnet.estimation.kinds.zero import check
-from mobnet.settings.base import Section
+from mobnet.formats.base import Section
 from mobnet.settings.methods import Method
 
 

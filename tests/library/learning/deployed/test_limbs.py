@@ -9,11 +9,11 @@ from safetensors.numpy import save_file
 
 from mobnet.core.errors import DataError
 from mobnet.core.files import WEIGHTS
-from mobnet.learning.deployed.limbs import LimbNetworks, load_limb_networks
-from mobnet.learning.deployed.loading import load_network
+from mobnet.formats.network import Limb
+from mobnet.learning.deployed.limbs import LimbNetworks
+from mobnet.learning.deployed.loading import load_limb_networks, load_network
 from mobnet.learning.deployed.weights import NOTE
 from mobnet.learning.features import limb_inputs
-from mobnet.settings.networks import Limb
 
 
 @pytest.fixture

@@ -9,15 +9,16 @@ from made_notes import network_note
 from safetensors.torch import save_file
 
 from mobnet.core.files import WEIGHTS
+from mobnet.formats.network import SIZES, NetworkCell
 from mobnet.learning.deployed import lanes
 from mobnet.learning.deployed.lanes import CHUNK
 from mobnet.learning.deployed.loading import load_network
 from mobnet.learning.deployed.module_network import ModuleNetwork
 from mobnet.learning.deployed.networks import ConstantNetwork, GruNetwork
-from mobnet.learning.deployed.weights import NOTE, STD_SCALE
+from mobnet.learning.deployed.tensors import STD_SCALE
+from mobnet.learning.deployed.weights import NOTE
 from mobnet.learning.model import build_network
 from mobnet.learning.streams import split
-from mobnet.settings.networks import SIZES, NetworkCell
 
 INPUTS, JOINTS, STEPS, STD_MIN = 30, 6, 400, 1e-6
 WINDOW = {"window_steps": 10, "kernel_steps": 3, "dilations": (2, 4), "dropout": 0.2, "head": 12}

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 from made_weights import weights
 
+from mobnet.formats.network import NetworkCell
 from mobnet.learning.deployed.limbs import LimbNetworks
 from mobnet.learning.deployed.loading import deployed
 from mobnet.learning.features import signal_names, signals
-from mobnet.settings.networks import NetworkCell
 
 SAMPLES = 2000
 # cell, inputs, joints: numbers of units and inputs that no vector register divides, as those of Table 1

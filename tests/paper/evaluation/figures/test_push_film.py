@@ -21,7 +21,8 @@ from experiments.settings.settings import Settings
 from mobnet.core.columns import residual_columns, torque_columns
 from mobnet.core.detections import COLLISION
 from mobnet.core.errors import DataError
-from mobnet.core.recording import Recording, write_recording
+from mobnet.core.recording import Recording
+from mobnet.core.recording_file import write_recording
 from mobnet.core.store import write_array
 from mobnet.kernel.low_pass import low_pass
 

@@ -9,8 +9,8 @@ from experiments.evaluation.figures.drawing.ground import draw_shadow
 from experiments.evaluation.figures.drawing.robot import draw_robot, lowest, projection, solids_of
 from experiments.evaluation.figures.drawing.solids import Solid, ellipse_of, lit, outline_of, polygons_of
 from experiments.settings.settings import Settings
+from mobnet.formats.parts import ShapeRow
 from mobnet.robot.description import WalkingRobot, dressed
-from mobnet.settings.parts import ShapeRow
 
 VIEW = projection(35.0, 20.0)
 TURN = projection(-70.0, 50.0)  # any orientation

@@ -13,7 +13,8 @@ from experiments.settings.measures import Bode, Changed, Drift, Peaks, Phases, S
 from experiments.settings.runs import HeldRuns, LearnedRuns, LegRuns, LimbRuns, PushedLimbRuns, PushWindow
 from mobnet.core.columns import residual_columns, torque_columns
 from mobnet.core.joints import JointLayout
-from mobnet.core.recording import Recording, Sensed, write_recording
+from mobnet.core.recording import Recording, Sensed
+from mobnet.core.recording_file import write_recording
 from mobnet.core.store import write_array
 from mobnet.kernel.low_pass import low_pass
 

@@ -27,7 +27,8 @@ from experiments.settings.measures import Peaks, Scoring
 from experiments.settings.runs import PushedLimbRuns
 from mobnet.core.columns import torque_columns
 from mobnet.core.joints import JointLayout
-from mobnet.core.recording import Recording, Sensed, write_recording
+from mobnet.core.recording import Recording, Sensed
+from mobnet.core.recording_file import write_recording
 from mobnet.core.store import write_array
 from mobnet.kernel.low_pass import low_pass
 

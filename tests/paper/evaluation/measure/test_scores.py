@@ -21,7 +21,7 @@ from experiments.settings.verdicts import SHUFFLED
 from mobnet.core.columns import residual_columns, torque_columns
 from mobnet.core.errors import DataError
 from mobnet.core.joints import JointLayout
-from mobnet.core.recording import read_recording, write_recording
+from mobnet.core.recording_file import read_recording, write_recording
 from mobnet.core.rows import read_rows
 from mobnet.core.store import read_array, write_array
 

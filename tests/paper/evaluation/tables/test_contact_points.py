@@ -21,10 +21,12 @@ from experiments.records.collisions import Detected
 from experiments.settings.settings import Settings
 from mobnet.core.columns import torque_columns
 from mobnet.core.errors import DataError
-from mobnet.core.recording import Recording, write_recording
+from mobnet.core.recording import Recording
+from mobnet.core.recording_file import write_recording
 from mobnet.core.store import write_array
 from mobnet.detection.contact import ContactLocator
-from mobnet.detection.numbers import contact_numbers
+from mobnet.formats.plain import as_plain
+from mobnet.kernel.detecting import ContactNumbers
 from mobnet.kernel.low_pass import low_pass
 from mobnet.robot.description import RobotDescription
 
@@ -40,7 +42,7 @@ def write_files(settings: Settings, robot: RobotDescription, folder: Path) -> tu
     force = np.zeros(len(sensed))
     force[START : START + LENGTH] = PEAK_N * np.sin(np.pi * np.arange(LENGTH) / LENGTH)
     q, point = sensed.q[START], next(row for row in robot.points if row.name == "left_knee_front")
-    axes, _ = ContactLocator.of(contact_numbers(settings.contact_point), robot, "LL", layout.limb("LL")).place(
+    axes, _ = ContactLocator.of(as_plain(settings.contact_point, ContactNumbers), robot, "LL", layout.limb("LL")).place(
         q, point.body
     )
     push = np.zeros((len(sensed), 4))

@@ -24,7 +24,8 @@ from experiments.settings.settings import Settings
 from experiments.settings.trials import Factors
 from mobnet.core.columns import residual_columns
 from mobnet.core.joints import JointLayout
-from mobnet.core.recording import Recording, write_recording
+from mobnet.core.recording import Recording
+from mobnet.core.recording_file import write_recording
 from mobnet.core.rows import read_texts
 from mobnet.core.store import write_array
 from mobnet.kernel.low_pass import low_pass

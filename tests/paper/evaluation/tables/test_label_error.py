@@ -10,7 +10,7 @@ from csv_files import check_golden, markdown_cells, read_table
 from experiments.settings.settings import Settings
 from mobnet.core.columns import residual_columns
 from mobnet.core.joints import JointLayout
-from mobnet.core.recording import read_sensed
+from mobnet.core.recording_file import read_sensed
 from mobnet.core.store import write_array
 from mobnet.estimation.label import foot_label
 from mobnet.estimation.observe import read_wrenches

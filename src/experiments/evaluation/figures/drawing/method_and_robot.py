@@ -17,10 +17,10 @@ from experiments.settings.pages import Drawings
 from mobnet.core.arrays import Array
 from mobnet.core.joints import JointLayout
 from mobnet.core.style import COLUMN_INCH, PAGE_INCH, styled
+from mobnet.formats.parts import Looks
+from mobnet.formats.robot import RobotTable
 from mobnet.robot.description import RobotDescription, describe, dressed
 from mobnet.settings.data import Push
-from mobnet.settings.parts import Looks
-from mobnet.settings.robot import RobotTable
 
 METHOD_COLUMNS = ("from", "to", "signal")
 ROBOT_COLUMNS = ("part", "kind", "x_m", "y_m", "z_m")

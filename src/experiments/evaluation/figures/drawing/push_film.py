@@ -22,9 +22,9 @@ from experiments.settings.pages import PushFilm, Story
 from mobnet.core.arrays import Array
 from mobnet.core.files import atomic_path
 from mobnet.core.joints import JointLayout
+from mobnet.formats.parts import Looks
+from mobnet.formats.robot import RobotTable
 from mobnet.robot.description import RobotDescription, describe, dressed
-from mobnet.settings.parts import Looks
-from mobnet.settings.robot import RobotTable
 from mobnet.simulation.render import Pixels
 
 NEAR_WHITE = 251  # of 255

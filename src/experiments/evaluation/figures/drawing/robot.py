@@ -12,9 +12,9 @@ from experiments.records.course import StoredCourse
 from mobnet.control.kinematics import empty_pose, tree_of, update
 from mobnet.core.arrays import Array
 from mobnet.core.joints import N_VIRTUAL
+from mobnet.formats.parts import ShapeRow
 from mobnet.robot.description import RobotDescription
 from mobnet.settings.data import Obstacle, ObstaclePart
-from mobnet.settings.parts import ShapeRow
 
 PAD, OPACITY = "#E3B7A0", 0.55  # of obstacles, through which a leg that touches them is seen
 FORCE = "#D55E00"

@@ -16,7 +16,7 @@ from matplotlib.colors import to_rgb
 
 from mobnet.core.arrays import Array
 from mobnet.detection.solids import across
-from mobnet.settings.parts import ShapeRow
+from mobnet.formats.parts import ShapeRow
 
 LIGHT = np.array([-0.5, 0.65, 0.57])  # towards the light: right, up and towards the eye of a picture
 AMBIENT, DIFFUSE = 0.62, 0.46  # brightness of a flat face without light, and what light adds at most

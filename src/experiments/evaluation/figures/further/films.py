@@ -16,10 +16,10 @@ from mobnet.core.arrays import Array
 from mobnet.core.columns import EXTERNAL, STD
 from mobnet.core.store import read_array
 from mobnet.core.style import styled
+from mobnet.formats.parts import Looks
+from mobnet.formats.robot import RobotTable
 from mobnet.robot.description import RobotDescription, describe, dressed
 from mobnet.settings.data import Obstacle
-from mobnet.settings.parts import Looks
-from mobnet.settings.robot import RobotTable
 from mobnet.simulation.clip import save_clip
 from mobnet.simulation.render import Pixels
 

@@ -10,9 +10,9 @@ from experiments.plan.runs import Run
 from experiments.settings.measures import Peaks
 from experiments.settings.pages import Drawings, PushFilm, Story
 from mobnet.core.joints import JointLayout
+from mobnet.formats.parts import Looks
+from mobnet.formats.robot import RobotTable
 from mobnet.settings.data import Push
-from mobnet.settings.parts import Looks
-from mobnet.settings.robot import RobotTable
 
 
 def pictures(

@@ -14,13 +14,13 @@ from experiments.records.collisions import Collision
 from experiments.settings.detection_tables import Figure13
 from mobnet.core.columns import PUSH, named
 from mobnet.core.errors import DataError, not_accepted
-from mobnet.core.recording import read_sensed
+from mobnet.core.recording_file import read_sensed
 from mobnet.core.store import read_array
 from mobnet.core.style import styled
+from mobnet.formats.parts import Looks
+from mobnet.formats.robot import RobotTable
 from mobnet.robot.description import RobotDescription, describe, dressed
 from mobnet.settings.detection import Detection
-from mobnet.settings.parts import Looks
-from mobnet.settings.robot import RobotTable
 
 COLUMNS = (
     "panel",

@@ -19,9 +19,9 @@ from mobnet.control.kinematics import empty_pose, tree_of, update
 from mobnet.core.arrays import Array
 from mobnet.core.joints import N_VIRTUAL
 from mobnet.core.style import COLUMN_INCH, styled
+from mobnet.formats.robot import RobotTable
 from mobnet.robot.description import SIDES, RobotDescription, describe
 from mobnet.settings.data import Obstacle
-from mobnet.settings.robot import RobotTable
 
 COLUMNS = ("foot", "step", "reacting", "time_s", "x_m", "y_m", "yaw_rad", "until_s")
 HEIGHT_INCH = 2.9

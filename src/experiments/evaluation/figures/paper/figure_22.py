@@ -22,11 +22,11 @@ from experiments.settings.reaction_tables import Figure22
 from mobnet.core.arrays import Array
 from mobnet.core.joints import JointLayout
 from mobnet.core.style import PAGE_INCH, styled
+from mobnet.formats.parts import Looks
+from mobnet.formats.robot import RobotTable
 from mobnet.robot.description import RobotDescription, describe, dressed
 from mobnet.settings.data import Obstacle
-from mobnet.settings.parts import Looks
 from mobnet.settings.reaction import Reaction
-from mobnet.settings.robot import RobotTable
 
 COLUMNS = (
     "case",

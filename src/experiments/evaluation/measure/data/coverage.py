@@ -25,8 +25,8 @@ from experiments.settings.measures import Coverage, CoverageTest
 from experiments.settings.runs import Statistics
 from mobnet.core.columns import DESIRED, FEET, VELOCITY, foot_of
 from mobnet.core.joints import JointLayout
+from mobnet.formats.network import Limb
 from mobnet.learning.features import limb_inputs
-from mobnet.settings.networks import Limb
 
 log = logging.getLogger(__name__)
 

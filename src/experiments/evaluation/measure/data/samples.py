@@ -15,7 +15,7 @@ from experiments.settings.measures import Coverage
 from mobnet.core.arrays import Array
 from mobnet.core.columns import FEET, foot_of
 from mobnet.core.joints import JointLayout
-from mobnet.core.recording import read_sensed
+from mobnet.core.recording_file import read_sensed
 from mobnet.learning.features import LimbInputs
 
 Blocks = Sequence[NDArray[Any]]  # one array (n, ...) for each block of samples

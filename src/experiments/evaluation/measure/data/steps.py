@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from experiments.evaluation.compare.rmse import Spans
 from experiments.evaluation.compare.windows import FLAG
-from mobnet.control.parameters import DURATION, STEP_Y, TURN
+from mobnet.control.steps import DURATION, STEP_Y, TURN
 from mobnet.core.arrays import Array
 from mobnet.core.columns import FEET, recording_columns
 from mobnet.core.errors import DataError

@@ -25,11 +25,12 @@ from mobnet.core.arrays import Array
 from mobnet.core.columns import EXTERNAL_LP, PUSH, named
 from mobnet.core.errors import DataError
 from mobnet.core.estimator import Estimate
-from mobnet.core.recording import read_sensed
+from mobnet.core.recording_file import read_sensed
 from mobnet.core.store import read_array
 from mobnet.detection.contact import ContactLocator
-from mobnet.detection.numbers import contact_numbers
 from mobnet.detection.watch import read_estimate
+from mobnet.formats.plain import as_plain
+from mobnet.kernel.detecting import ContactNumbers
 from mobnet.kernel.low_pass import low_pass
 from mobnet.robot.description import RobotDescription
 from mobnet.settings.data import Push
@@ -75,10 +76,10 @@ def contacts_of(
     joints = robot.layout.limbs(settings.limbs)
     finders: dict[tuple[str, bool], ContactLocator] = {}
     for leg in settings.legs:
-        finders[leg, False] = ContactLocator.of(contact_numbers(numbers), robot, leg, joints)
+        finders[leg, False] = ContactLocator.of(as_plain(numbers, ContactNumbers), robot, leg, joints)
         # The hit leg alone, too: its torques are fewer than the unknowns of a hit above the foot
         # (docs/notes/contact.md).
-        finders[leg, True] = ContactLocator.of(contact_numbers(numbers), robot, leg, robot.layout.limb(leg))
+        finders[leg, True] = ContactLocator.of(as_plain(numbers, ContactNumbers), robot, leg, robot.layout.limb(leg))
     rows: list[dict[str, object]] = []
     for recording in dict.fromkeys(run.recording for run in runs):
         walked = _walked(robot, joints, gain_hz, [run for run in runs if run.recording == recording])

@@ -24,9 +24,9 @@ from experiments.settings.settings import Settings
 from experiments.settings.verdicts import MOB_NET, SHUFFLED
 from mobnet.core.errors import not_accepted
 from mobnet.core.joints import JointLayout
-from mobnet.settings.base import Section
-from mobnet.settings.faults import problems
-from mobnet.settings.reading import Place
+from mobnet.formats.base import Section
+from mobnet.formats.faults import problems
+from mobnet.formats.reading import Place
 
 ESTIMATES = "experiments.evaluation.measure.estimates"
 log = logging.getLogger(__name__)

@@ -16,7 +16,8 @@ from experiments.plan.runs import Tried
 from mobnet.core.arrays import Array
 from mobnet.core.errors import DataError
 from mobnet.core.joints import N_VIRTUAL, NQ_BASE
-from mobnet.core.recording import Sensed, SensedRecording, read_sensed
+from mobnet.core.recording import Sensed, SensedRecording
+from mobnet.core.recording_file import read_sensed
 from mobnet.estimation.estimate import ObservedRecording, run_segments
 from mobnet.robot.description import describe
 

@@ -24,8 +24,8 @@ from mobnet.core.epochs import Epoch, read_epochs
 from mobnet.core.errors import not_accepted, refuse
 from mobnet.core.files import METRICS, RUN, TIME, read_json
 from mobnet.core.notes import Count, FileName, Index, Names, Note, NotNegative, Positive, Text, read_note
-from mobnet.settings.networks import CellKind
-from mobnet.settings.robot import GroupName
+from mobnet.formats.network import CellKind
+from mobnet.formats.robot import GroupName
 
 MEASURES: Mapping[str, tuple[str, str]] = {  # name -> column of `NETWORKS` and unit
     "validation loss": ("validation_loss", "-"),

@@ -14,9 +14,9 @@ from mobnet.core.store import read_array
 from mobnet.estimation.estimate import ObservedRecording, rate_of, read_observed, run_segments
 from mobnet.estimation.kinds import build_estimator
 from mobnet.estimation.recipe import Recipe
+from mobnet.formats.robot import RobotTable
 from mobnet.robot.description import describe
 from mobnet.settings.methods import ObserverSettings
-from mobnet.settings.robot import RobotTable
 from mobnet.settings.surrogate import Level
 
 

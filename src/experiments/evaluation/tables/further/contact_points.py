@@ -21,11 +21,11 @@ from experiments.plan.runs import Run
 from experiments.settings.detection_tables import ContactPoints
 from experiments.settings.runs import Statistics
 from experiments.settings.table_columns import DETECTION
+from mobnet.formats.robot import RobotTable
 from mobnet.robot.description import describe
 from mobnet.settings.data import Push
 from mobnet.settings.detection import ContactPoint
 from mobnet.settings.methods import ObserverSettings
-from mobnet.settings.robot import RobotTable
 
 CM = 100.0
 PERCENT = 100.0

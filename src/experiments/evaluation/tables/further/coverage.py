@@ -16,7 +16,7 @@ from experiments.settings.measures import Coverage
 from experiments.settings.runs import Statistics
 from experiments.settings.table_columns import COVERAGE
 from mobnet.core.joints import JointLayout
-from mobnet.settings.networks import Limb
+from mobnet.formats.network import Limb
 
 
 def coverage(

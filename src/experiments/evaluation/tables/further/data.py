@@ -19,15 +19,15 @@ from experiments.evaluation.tables.look import Row, ShownColumn, TableLook, writ
 from experiments.settings.published import PublishedData
 from experiments.settings.table_columns import DATA
 from experiments.settings.tables import DataTable
-from mobnet.control.parameters import DURATION
+from mobnet.control.steps import DURATION
 from mobnet.core.columns import COMMAND, recording_columns
 from mobnet.core.errors import refuse_lines
 from mobnet.core.notes import read_array_note
 from mobnet.core.store import NOTE, file_of, read_array
+from mobnet.formats.robot import RobotTable
 from mobnet.robot.description import describe
 from mobnet.robot.nominal import NominalModel
 from mobnet.settings.data import Commands, RecordingSettings, Terrain
-from mobnet.settings.robot import RobotTable
 from mobnet.settings.walking import Walking
 
 Fact = tuple[str, str, float, str]  # quantity, part (empty: the whole set's), value, unit

@@ -30,8 +30,8 @@ from experiments.settings.runs import Statistics
 from experiments.settings.table_columns import FACTORIAL
 from experiments.settings.trials import DATA, Factorial, Factors
 from mobnet.core.arrays import Array
+from mobnet.formats.robot import RobotTable
 from mobnet.settings.methods import ObserverSettings
-from mobnet.settings.robot import RobotTable
 
 UNITS = {WALKING: "N m", HITS: "N m", SHARE_OF_HIT: "-"}  # of the measures
 ERRORS = (WALKING, HITS)  # measures of which effects are ratios

@@ -12,14 +12,14 @@ from experiments.settings.tables import LabelError
 from mobnet.core.arrays import Array
 from mobnet.core.columns import EXTERNAL_LP, FEET, foot_of, named
 from mobnet.core.joints import JointLayout
-from mobnet.core.recording import read_sensed
+from mobnet.core.recording_file import read_sensed
 from mobnet.core.store import read_array
 from mobnet.estimation.label import foot_label
 from mobnet.estimation.observe import read_wrenches
+from mobnet.formats.robot import RobotTable
 from mobnet.robot.description import describe
 from mobnet.robot.nominal import NominalModel
 from mobnet.settings.methods import ObserverSettings
-from mobnet.settings.robot import RobotTable
 
 LABELS = {"as read": False, "without the plate": True}  # label -> whether the plate's inertia is taken off
 WALK, SWING, GROUND = PHASES = ("walk", "swing", "ground")

@@ -25,7 +25,8 @@ from experiments.settings.tables import Latency
 from mobnet.core.columns import COMMAND, FEET
 from mobnet.core.joints import NQ_BASE, JointLayout
 from mobnet.core.recording import Sensed
-from mobnet.learning.deployed.limbs import LimbNetworks, load_limb_networks
+from mobnet.learning.deployed.limbs import LimbNetworks
+from mobnet.learning.deployed.loading import load_limb_networks
 from mobnet.settings.plant import Rates
 
 MET = "stretches within a tick"

@@ -17,10 +17,10 @@ from experiments.evaluation.tables.layout import Table, in_blocks, write_table
 from experiments.settings.table_columns import STEPS
 from experiments.settings.tables import Steps as StepsTable
 from mobnet.core.columns import COMMAND
+from mobnet.formats.robot import RobotTable
 from mobnet.robot.description import describe
 from mobnet.robot.nominal import NominalModel
 from mobnet.settings.data import Commands
-from mobnet.settings.robot import RobotTable
 from mobnet.settings.walking import Walking
 
 HEADER = ["Set", "Command", "from", "to", "Steps", "Commanded", "Measured", "Ratio", "Within"]

@@ -20,8 +20,8 @@ from experiments.plan.runs import Tried, TriedTask
 from experiments.records.trial_errors import TRIALS
 from experiments.settings.trials import EXPERIMENT, RECIPE
 from mobnet.core.arrays import Array
+from mobnet.formats.robot import RobotTable
 from mobnet.settings.methods import ObserverSettings
-from mobnet.settings.robot import RobotTable
 
 BEST = "best"
 DIVERGED = "diverged"

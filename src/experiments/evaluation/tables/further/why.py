@@ -23,8 +23,8 @@ from experiments.settings.measures import Peaks
 from experiments.settings.runs import Statistics
 from experiments.settings.table_columns import WHY
 from experiments.settings.trials import WAY, Why
+from mobnet.formats.robot import RobotTable
 from mobnet.settings.methods import ObserverSettings
-from mobnet.settings.robot import RobotTable
 
 UNITS = {WALKING: "N m", HITS: "N m", SHARE_OF_HIT: "-", ROUGHNESS: "-"}
 log = logging.getLogger(__name__)

@@ -7,8 +7,8 @@ from typing import Annotated, Literal
 import numpy as np
 from pydantic import AfterValidator, Field, model_validator
 
-from mobnet.settings import base
-from mobnet.settings.base import Section
+from mobnet.formats import base
+from mobnet.formats.base import Section
 
 UNIT_TOLERANCE = 1e-5  # figures are published with six digits
 INERTIA_TOLERANCE = 1e-3  # share by which rounded figures may miss the triangle inequality

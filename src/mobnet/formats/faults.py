@@ -7,7 +7,7 @@ from typing import Any, TypeVar, cast
 from pydantic import BaseModel, ValidationError
 
 from mobnet.core.errors import ConfigError, misfit, not_accepted
-from mobnet.settings.reading import Place, Problem
+from mobnet.formats.reading import Place, Problem
 
 Schema = dict[str, Any]
 Fault = tuple[Place, str, Mapping[str, Any]]  # place, tag of a union, what pydantic found

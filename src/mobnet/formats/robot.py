@@ -10,9 +10,9 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from mobnet.core.joints import JointLayout, Limits, with_image
-from mobnet.settings.base import BodyName, JointName, LimbName, MotorName, PartName, Section, Some, Text
-from mobnet.settings.networks import Limb
-from mobnet.settings.parts import (
+from mobnet.formats.base import BodyName, JointName, LimbName, MotorName, PartName, Section, Some, Text
+from mobnet.formats.network import Limb
+from mobnet.formats.parts import (
     BodyRow,
     Colour,
     FootRow,

@@ -9,8 +9,8 @@ from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
 from mobnet.core.errors import not_accepted
-from mobnet.settings.base import Named
-from mobnet.settings.reading import Place
+from mobnet.formats.base import Named
+from mobnet.formats.reading import Place
 
 Use = tuple[Place, str, str]  # place, kind of name, name
 

@@ -11,7 +11,7 @@ from typing import Annotated, TypeVar
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, JsonValue
 
-from mobnet.core.options import GAIN_HZ, RATE_HZ
+from mobnet.core.rates import GAIN_HZ, RATE_HZ
 from mobnet.kernel.drive import TorqueKind as TorqueKind
 
 Number = TypeVar("Number", int, float)

@@ -9,11 +9,11 @@ import numpy as np
 
 from mobnet.core.errors import misfit, not_accepted
 from mobnet.core.joints import LEG_AXES, N_VIRTUAL, right_of, with_image
-from mobnet.settings.faults import as_many, within
-from mobnet.settings.names import unknown, uses
-from mobnet.settings.parts import GYRATION_M, PointRow, ShapeRow
-from mobnet.settings.reading import Place, Problem
-from mobnet.settings.robot import WORLD, RobotTable
+from mobnet.formats.faults import as_many, within
+from mobnet.formats.names import unknown, uses
+from mobnet.formats.parts import GYRATION_M, PointRow, ShapeRow
+from mobnet.formats.reading import Place, Problem
+from mobnet.formats.robot import WORLD, RobotTable
 
 MASS_TOLERANCE = 1e-6  # relative, of the total
 LENGTH_TOLERANCE_M = 1e-6

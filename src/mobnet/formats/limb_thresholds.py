@@ -4,7 +4,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from mobnet.settings.base import (
+from mobnet.formats.base import (
     Distinct,
     GainHz,
     LowPassHz,
@@ -19,7 +19,7 @@ from mobnet.settings.base import (
     Threshold,
     TorqueKind,
 )
-from mobnet.settings.detection import Signal
+from mobnet.kernel.detecting import Signal
 
 
 class LimbThresholds(Section):
