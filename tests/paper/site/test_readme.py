@@ -176,6 +176,12 @@ def test_sentences_have_the_numbers_of_tables_and_the_falls_of_reactions_that_do
     assert "1 of 20 end in a fall if the robot steps back after an alarm, 20 of 20 if not" in text
 
 
+def test_the_templates_guard_the_claims_of_which_they_tell() -> None:
+    assert {"rte-walk", "rte-swing", "model-right-arm"} <= SAID.keys()
+    arms_and_waist = {"model-waist", "model-right-arm", "model-left-arm", "fric-load-hand", "zero-load-10"}
+    assert {"mob-net-cut", "model-walk", "gray-walk-net", *arms_and_waist} <= SAID_FOUND.keys()
+
+
 @pytest.mark.parametrize("claim", SAID)
 def test_a_claim_that_is_gone_or_whose_verdict_turned_is_told(results: Path, claim: str) -> None:
     rows = [claim_of(name, "sign at least" if name == claim else None) for name in CLAIMS]
