@@ -57,14 +57,21 @@ def placed(named: Any, files: Iterable[str]) -> Any:
 
 
 def place_of(name: Path, files: Iterable[str]) -> Path:
-    """Return where a job has a file, an array without its ending, a file of a set, or the folder of these."""
+    """Return where a job has a file, an array without its ending, a file of a set, or the folder of these.
+
+    The end of a longer path may be the same name: `results/default/captions/tables` is not the folder `tables`. The
+    shortest of them belongs to the folder of the project.
+    """
     known = list(files)
     for part in (name, Path(f"{name}{ARRAY}"), name / WEIGHTS, *name.parents[:-1]):
-        for file in known:
-            if file == str(part) or file.endswith(f"/{part}"):
-                return Path(file.removesuffix(str(part)) + str(name))
-    for file in known:
-        folder = str(Path(file).parent)
-        if folder.endswith(f"/{name}"):
-            return Path(folder)
-    return name
+        file = _shortest(known, part)
+        if file:
+            return Path(file.removesuffix(str(part)) + str(name))
+    folders = {str(Path(file).parent) for file in known}
+    return Path(_shortest(folders, name) or name)
+
+
+def _shortest(paths: Iterable[str], end: Path) -> str | None:
+    """Return the shortest of the paths that are a name or end with it."""
+    ending = [path for path in paths if path == str(end) or path.endswith(f"/{end}")]
+    return min(ending, key=len, default=None)

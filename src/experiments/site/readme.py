@@ -1,12 +1,13 @@
 """README and the page of findings: templates with the numbers of the published results, so that none is typed.
 
-`python -m experiments.site readme` writes both; a test fails when one is out of date.
+`python -m experiments.site readme` writes both; a test fails when one is out of date. Sentences that depend on results
+have guards in the template: `holds("claim", "verdict", ...)` and `needs(truth, "what it says")`. They print nothing.
 """
 
 import re
 from collections.abc import Mapping, Sequence
+from functools import partial
 from pathlib import Path
-from typing import Any
 
 from jinja2 import UndefinedError
 
@@ -16,7 +17,7 @@ from experiments.evaluation.report.headline import AVERAGE, FILMED, best_formula
 from experiments.evaluation.report.html import filled
 from experiments.plan.prices import RATES, RatesNote
 from experiments.settings.table_columns import CLAIMED
-from experiments.settings.verdicts import JUDGED_WITH, NOT_REPRODUCED, OPEN, PAPER, REPRODUCED, SHUFFLED, SIGN_ONLY
+from experiments.settings.verdicts import JUDGED_WITH, NOT_REPRODUCED, PAPER, REPRODUCED, SHUFFLED, SIGN_ONLY
 from experiments.site.blocks import with_block
 from mobnet.core.errors import DataError
 from mobnet.core.files import read_text, write_text
@@ -43,8 +44,6 @@ CONTROL = (
     " In a network's place no estimate reproduces {n[reproduced with zero]}, the observer "
     "{n[reproduced with MOB]}, MOB-Net half a walk late {n[reproduced with MOB-Net-shuffled]}."
 )
-# Claims whose verdict a sentence names.
-SAID = {"rte-walk": SIGN_ONLY, "rte-swing": NOT_REPRODUCED, "model-right-arm": OPEN}
 # What the data of networks teach, a trial that is kept: the effect of pushes over all levels of the others.
 TAUGHT = Path("docs/trials/factorial.csv")
 PUSHES = {
@@ -59,12 +58,7 @@ HIT = {"scenario": "knee_swing", "level": "robots", "limb": "LL", "joint": "avg"
 SHOWN = ("MOB-Net", FILMED)  # networks of which the README says how much of a hit they show
 RATED = ("MOB-Net-pushed-ratio", "MOB-fric-load")
 REACTION = "MOB-Net-pushed-ratio"  # detector after whose alarm the robot steps back
-# What the page of findings tells beside the README: claims whose verdict a sentence names, methods, and their rows.
-SAID_FOUND = {
-    "mob-net-cut": REPRODUCED, "model-walk": REPRODUCED, "model-waist": REPRODUCED,
-    "model-right-arm": OPEN, "model-left-arm": OPEN, "gray-walk-net": OPEN,
-    "fric-load-hand": NOT_REPRODUCED, "zero-load-10": NOT_REPRODUCED,
-}  # fmt: skip
+# What the page of findings tells beside the README: methods, and their rows.
 MEMORY = "MOB-fric-dahl"  # the formula that is the best one on robots with unknown gears
 UNDER_HITS = (MOB_NET, FILMED, MEMORY)
 HIT_ERROR = {
@@ -104,14 +98,15 @@ def found(results: Path, template: Path = FOUND_TEMPLATE) -> str:
     Raises:
         DataError: a table or a row is missing, or is not as a sentence says.
     """
-    own = found_values(results)
-    return _told(results, template, values(results) | own)
+    return _told(results, template, values(results) | found_values(results))
 
 
 def _told(results: Path, template: Path, told: Mapping[str, object]) -> str:
-    """Return a filled template; a DataError where it tells of what is not there."""
+    """Return a filled template; a DataError where it tells of what is not there, or a guard does not hold."""
+    verdicts = {row["claim"]: row["verdict"] for row in read_texts(results / "claims.csv")}
+    guards = {"holds": partial(_holds, template, verdicts), "needs": partial(_needs, template)}
     try:
-        return filled(template, told)
+        return filled(template, {**told, **guards})
     except UndefinedError as missing:
         raise DataError(f"{results}: {missing}, of which {template} tells") from missing
 
@@ -124,8 +119,6 @@ def values(results: Path) -> dict[str, object]:
     """
     claims = {row["claim"]: row for row in read_texts(results / "claims.csv")}
     falls = falls_of(results)
-    trial = shown_in_trial()
-    check_sentences(results, claims, falls, trial)
     summary = read_texts(results / "claims_summary.csv", CLAIMED)
     counts = {row["outcome"]: int(row["statements"]) for row in summary if row["score"] == PAPER}
     refuted = counts[NOT_REPRODUCED] + counts[SIGN_ONLY]
@@ -141,7 +134,8 @@ def values(results: Path) -> dict[str, object]:
         "best_formulas": best_formulas(results),
         "c": {claim: float(row["value"] or "nan") for claim, row in claims.items()},
         "share": {name: _value(peaks, {**HIT, "method": name}) for name in SHOWN},
-        "trial": trial,
+        "trial": shown_in_trial(),
+        "taught": _value(read_texts(TAUGHT), PUSHES),
         "found": {name: _value(detectors, {"row": name, "quantity": "found at rate"}) for name in RATED},
         "alarms": {name: _value(detectors, {"row": name, "quantity": "alarms at rate"}) for name in RATED},
         "fell": {case: fell for case, (fell, _) in falls.items()},
@@ -155,8 +149,6 @@ def found_values(results: Path) -> dict[str, object]:
     Raises:
         DataError: a table or a row is missing, or is not as a sentence says.
     """
-    claims = {row["claim"]: row for row in read_texts(results / "claims.csv")}
-    _check_verdicts(SAID_FOUND, claims, "the page of findings")
     peaks = read_texts(results / "peaks.csv")
     hits = read_texts(results / "table_11.csv")
     changed = read_texts(results / "changed.csv")
@@ -165,7 +157,7 @@ def found_values(results: Path) -> dict[str, object]:
     part: dict[str, dict[str, float]] = {}
     for limb, name in LIMBS.items():
         part[limb] = {method: _value(limbs, {"row": name, "quantity": method}) for method in COMPARED}
-    told = {
+    return {
         "shown": {name: _value(peaks, {**HIT, "method": name}) for name in UNDER_HITS},
         "late": {name: _value(peaks, {**HIT, "metric": "rise_delay", "method": name}) for name in UNDER_HITS},
         "hit": {name: _value(hits, {**HIT_ERROR, "method": name}) for name in ("zero", *UNDER_HITS)},
@@ -173,25 +165,6 @@ def found_values(results: Path) -> dict[str, object]:
         "part": part,
         "least": float(_row(detectors, {"row": RATED[0], "quantity": "found at rate"})["low"]),
     }
-    _check_found(results, told, detectors)
-    return told
-
-
-def _check_found(results: Path, told: Mapping[str, Mapping[str, Any]], detectors: Sequence[Row]) -> None:
-    """Raise a DataError where a sentence of the page of findings says something that the results do not."""
-    hit, late, changed, part = told["hit"], told["late"], told["changed"], told["part"]
-    is_best = [cells[MOB_NET] == min(cells.values()) for cells in part.values()]
-    ratio, formula = (_value(detectors, {"row": name, "quantity": "found at rate"}) for name in RATED)
-    fewer, more = (_value(detectors, {"row": name, "quantity": "alarms at rate"}) for name in RATED)
-    said = {
-        "more pushes in training give the smallest error under a hit": hit[FILMED] == min(hit.values()),
-        "a formula shows a hit earlier than networks": late[MEMORY] < min(late[FILMED], late[MOB_NET]),
-        "a network errs more on changed robots": changed["known"] < min(changed["friction"], changed["other robot"]),
-        "the ratio finds more hits with fewer false alarms": ratio > formula and fewer < more,
-        "on the waist no method is better than no estimate": min(part["waist"].values()) >= 1.0,
-        "MOB-Net has the smallest error of every part": all(is_best),
-    }
-    _check_sentences(said, results, "the page of findings")
 
 
 def shown_in_trial() -> dict[str, float]:
@@ -205,35 +178,20 @@ def shown_in_trial() -> dict[str, float]:
     return shown
 
 
-def check_sentences(
-    results: Path, claims: Mapping[str, Row], falls: Mapping[str, tuple[int, int]], trial: Mapping[str, float]
-) -> None:
-    """Raise a DataError where a sentence of the template says something that the results do not."""
-    _check_verdicts(SAID, claims, "the README")
-    said = {
-        "random torque helps in walking": float(claims["rte-walk"]["value"]) > 1.0,
-        "random torque does not help under a hit": float(claims["rte-swing"]["value"]) < 1.0,
-        "pushes help under a hit": _value(read_texts(TAUGHT), PUSHES) > 1.0,
-        "networks without the inertial sensor show more of a hit": trial[NO_SENSOR] > trial[MOB_NET],
-        "a bar at the knee makes no robot fall": not any(falls[f"knee {name}"][0] for name in (REACTION, "none")),
-    }
-    _check_sentences(said, results, "the README")
+def _holds(template: Path, verdicts: Mapping[str, str], claim: str, *said: str) -> str:
+    """Return no text; a DataError where a claim is gone, or has none of the verdicts that a sentence says."""
+    if claim not in verdicts:
+        raise DataError(f"claim {claim} is missing, of which {template} tells")
+    if verdicts[claim] not in said:
+        raise DataError(f"claim {claim}: {template} says {' or '.join(map(repr, said))}, and it is {verdicts[claim]!r}")
+    return ""
 
 
-def _check_verdicts(said: Mapping[str, str], claims: Mapping[str, Row], page: str) -> None:
-    """Raise a DataError where a claim is gone, or its verdict is not the one that a page says."""
-    for claim, verdict in said.items():
-        if claim not in claims:
-            raise DataError(f"claim {claim} is missing, of which {page} tells")
-        if claims[claim]["verdict"] != verdict:
-            raise DataError(f"claim {claim}: {page} says {verdict!r}, and it is {claims[claim]['verdict']!r}")
-
-
-def _check_sentences(said: Mapping[str, bool], results: Path, page: str) -> None:
-    """Raise a DataError where a sentence of a page does not hold."""
-    for sentence, holds in said.items():
-        if not holds:
-            raise DataError(f"{results}: {page} says that {sentence}, and it is otherwise")
+def _needs(template: Path, truth: bool, sentence: str) -> str:
+    """Return no text; a DataError where a sentence does not hold."""
+    if not truth:
+        raise DataError(f"{template} says that {sentence}, and it is otherwise")
+    return ""
 
 
 def falls_of(results: Path) -> dict[str, tuple[int, int]]:

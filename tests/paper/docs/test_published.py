@@ -19,7 +19,7 @@ ROOT = Path(__file__).parents[3]
 RESULTS = ROOT / "docs" / "results"
 MAIN = (ROOT / "paper" / "main.tex").read_text()
 TEMPLATES = ("README.md.j2", "docs/found.md.j2")
-FIELD = re.compile(r"\{\{.*?\}\}|\{%.*?%\}")
+FIELD = re.compile(r"\{\{.*?\}\}|\{%.*?%\}", re.DOTALL)
 # Numbers that the templates' own sentences may have: no results. Years, versions and names are none either.
 SAID = {
     "3": "GB that the packages take", "30": "% more friction of changed robots",

@@ -34,6 +34,16 @@ def test_a_name_stands_for_the_job_s_own_file(name: str, file: str) -> None:
     assert place_of(RESULTS / name, others) == RESULTS / name
 
 
+@pytest.mark.parametrize("root", ["", "/scratch/7/"])
+def test_the_end_of_a_longer_path_is_not_the_name(root: str) -> None:
+    """The tables of the main scale stand in `tables`, their captions in a folder of this name, too."""
+    captions = f"{root}results/default/captions/tables/claims.rst"
+    for files in ([captions, f"{root}tables/claims.csv"], [f"{root}tables/claims.csv", captions]):
+        assert place_of(Path("tables"), files) == Path(f"{root}tables")
+        assert place_of(Path("tables/claims.csv"), files) == Path(f"{root}tables/claims.csv")
+        assert place_of(Path("results/default/captions/tables"), files) == Path(captions).parent
+
+
 def test_names_are_replaced_at_any_depth() -> None:
     run = MethodRun("A", {}, {"LL": RESULTS / "networks/A-LL-s0"}, None, 0, ("LL1",))
     given = {"runs": [run], "pairs": ((RESULTS / "recordings/walk/a/s1", 3),), "text": "results"}

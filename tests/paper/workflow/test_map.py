@@ -118,7 +118,7 @@ def test_no_numbered_table_or_figure_is_an_orphan(outputs):
 
 
 def test_every_table_and_figure_of_ours_has_a_caption_that_begins_with_a_sentence(outputs):
-    """What is not the paper's has to say what follows from it; that no caption asks is a test of captions."""
+    """Ours say what is drawn before how to read it; that no caption asks is a test of captions."""
     places = {".md": "tables", ".png": "figures"}
     ours = {
         f"{folder}/{Path(file).stem}"

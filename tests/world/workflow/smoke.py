@@ -12,6 +12,7 @@ LOST = (  # walks of a test and walks that a network learns from: jobs of most k
     "results/smoke/scores/foot_hold",
     *FIGURES,
 )
+LIVE = "wandb_live"  # folder of trainings that are under way, beside that of all runs
 MADE = ("results", "tables", "figures", "paper", ".snakemake")
 
 
@@ -39,9 +40,13 @@ def manifest_of(folder):
 
 
 def names(folder):
-    """Return the names of all files but those that only some runs have: Snakemake's own, reports, caches."""
+    """Return the names of all files but those that only some runs have: Snakemake's own, reports, caches, live logs.
+
+    A training of the smoke scale takes a second or two: whether it is logged while it goes on is a matter of time.
+    """
     places = ("results", "tables", "figures", "paper", ".snakemake/scripts", ".cache/tmp")
-    return {str(path.relative_to(folder)) for place in places for path in (folder / place).rglob("*")}
+    paths = [path.relative_to(folder) for place in places for path in (folder / place).rglob("*")]
+    return {str(path) for path in paths if LIVE not in path.parts[:-1]}
 
 
 def accounts(folder):
