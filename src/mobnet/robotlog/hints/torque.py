@@ -37,7 +37,7 @@ from mobnet.robotlog.hints.windows import MotionWindows, MotorDemand, known_join
 
 MANY = 2  # joints up to which each of them must be explained
 MOST = 8  # mistakes that are looked for, one after another
-THIN = 5  # every so manieth window is looked at before a change of motion is tried on all of them
+THIN = 5  # every n-th window is looked at before a change of motion is tried on all of them
 LOOSE = 1.5  # factor on what may be left in those
 
 

@@ -45,5 +45,5 @@ def figure_08(
 
 def entitled(pair: Compared, method: str, error: Number) -> Compared:
     """Return a pair with its errors [N m] in the title: RMSE of the cycle, and over all walks."""
-    title = f"{pair.torque.title}: cycle {pair.rmse[method]:.2f}, all {error.text()} N m"
+    title = f"{pair.torque.title}\ncycle {pair.rmse[method]:.2f}, all {error.text()} N m"
     return replace(pair, torque=replace(pair.torque, title=title))

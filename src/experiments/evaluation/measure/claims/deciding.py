@@ -115,10 +115,10 @@ def least_times(ends: Callable[[float], Ends], bounds: Bounds) -> float:
 
 
 def shrinking(
-    made: MadeNumber, ends_of: tuple[float, float, float], number: Number, statistics: Statistics
+    made: MadeNumber, interval: tuple[float, float, float], number: Number, statistics: Statistics
 ) -> Shrinking:  # fmt: skip
-    """Return the interval of a number, held with its ends [its unit], by how many runs it is made of."""
-    value, low, high = ends_of
+    """Return how the interval of a number, (value, low, high) [its unit], depends on how many runs it is made of."""
+    value, low, high = interval
     table = made.cells[0].table or "" if made.quantity == "value" else ""
     if table in counts.HOURS:
         hours = size_of(lambda size: rate_ends(value, size, statistics)[1], high)
