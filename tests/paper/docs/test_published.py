@@ -178,7 +178,7 @@ def test_the_note_on_training_has_the_numbers_of_the_trial_of_training_data() ->
 def test_a_publication_makes_the_repository_little_larger() -> None:
     """SVG and PDF of figures are drawn from the numbers here; the film of a walk belongs to the guide.
 
-    The paper is there to be read without a run, and is as large as all tables and figures together.
+    The paper, which is there to be read without a run, has a bound of its own.
     """
     packed = 0
     paper = RESULTS / "paper.pdf"
