@@ -17,7 +17,7 @@ from experiments.evaluation.report.headline import AVERAGE, FILMED, best_formula
 from experiments.evaluation.report.html import filled
 from experiments.plan.prices import RATES, RatesNote
 from experiments.settings.table_columns import CLAIMED
-from experiments.settings.verdicts import JUDGED_WITH, NOT_REPRODUCED, PAPER, REPRODUCED, SHUFFLED, SIGN_ONLY
+from experiments.settings.verdicts import NOT_REPRODUCED, PAPER, REPRODUCED, SIGN_ONLY
 from experiments.site.blocks import with_block
 from mobnet.core.errors import DataError
 from mobnet.core.files import read_text, write_text
@@ -40,11 +40,6 @@ SCALES = (
 CORES = 2
 # Wall time [h] of the whole run in compute.md, and the share of the cores' time that it had [%].
 ELAPSED = re.compile(r"^\| elapsed [^|]*\|[^|]*\|[^|]*\| (?P<hours>[\d.]+) \| (?P<load>\d+) \|", re.MULTILINE)
-# Of a run that judged methods which know nothing as if they were MOB-Net; runs before 0.7.0 did not.
-CONTROL = (
-    " In a network's place no estimate reproduces {n[reproduced with zero]}, the observer "
-    "{n[reproduced with MOB]}, MOB-Net half a walk late {n[reproduced with MOB-Net-shuffled]}."
-)
 # What the data of networks teach, a trial that is kept: the effect of pushes over all levels of the others.
 TAUGHT = Path("docs/trials/factorial.csv")
 PUSHES = {
@@ -152,7 +147,6 @@ def values(results: Path, claims: Sequence[Row], rates: RatesNote) -> dict[str, 
         "n": counts,
         "refuted": refuted,
         "undecided": counts["all"] - counts[REPRODUCED] - refuted,
-        "control": CONTROL.format(n=counts) if counts[JUDGED_WITH.format(SHUFFLED)] else "",
         "idle_h": rates.core_h / CORES,
         "headline": headline(results),
         "best_formulas": best_formulas(results),

@@ -47,9 +47,11 @@ def test_flags_come_at_the_same_samples(demo, push):
     sensed, wanted = push.recording.sensed, push.estimate("MOB-Net-pushed")
     found = _stepped(push, load_exported(demo, push.robot.layout))
     gate = push.gate.run(sensed, push.estimate(setup.detection.gate.method).tau_ext)
-    flags = [detector.run(gate, sensed, estimate).ratio > ALARM_RATIO for estimate in (wanted, found)]
-    np.testing.assert_array_equal(*flags)
-    assert flags[0].sum() > 10
+    ratios = [detector.run(gate, sensed, estimate).ratio for estimate in (wanted, found)]
+    level = ratios[0].max() / 2  # the push of the demo may raise no alarm
+    assert (ratios[0] > level).sum() > 10
+    np.testing.assert_array_equal(ratios[0] > level, ratios[1] > level)
+    np.testing.assert_array_equal(ratios[0] > ALARM_RATIO, ratios[1] > ALARM_RATIO)
 
 
 def _stepped(push, networks):

@@ -24,7 +24,7 @@ SAID = {
     "mimic_gripper": r"^after half a second: \[ ?-?0\. +5\. ?\]",
     "ball_and_screw": r"^while it is pushed: \[ ?2\. ",
     "g1_table": r"^largest difference of the two residuals: \d\.\de-1\d N m$",
-    "with_a_network": r"^observer and network: error in the air 4\.\d N m$",
+    "with_a_network": r"^observer and network: error in the air 2\.\d N m$",
 }
 
 

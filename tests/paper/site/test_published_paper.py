@@ -116,7 +116,10 @@ def numbers_in(table: Path) -> tuple[set[str], set[str]]:
 @pytest.mark.parametrize("table", sorted(PUBLISHED.glob("*.tex")), ids=lambda path: path.stem)
 def test_a_published_table_as_tex_has_the_numbers_of_its_markdown(table: Path) -> None:
     markdown, tex = numbers_in(table)
-    if table.stem == "claims":  # in TeX it has no rows of single joints
+    if table.stem == "ten_first":  # in TeX it has no column of what would decide
+        assert len(tex) > 20
+        assert tex - markdown == set()
+    elif table.stem == "claims":  # in TeX it has no rows of single joints
         assert len(tex) > 300
         assert len(tex - markdown) <= 3  # widths
     else:

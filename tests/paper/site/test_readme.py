@@ -15,7 +15,6 @@ from experiments.settings.verdicts import (
     OURS,
     PAPER,
     REPRODUCED_WITH,
-    SHUFFLED,
     STAND_INS,
     VERDICTS,
 )
@@ -69,7 +68,7 @@ def results(tmp_path: Path) -> Path:
         for detector, wait_s, share in (
             ("MOB-Net-pushed-ratio", 0.0, 0.05 if case == "foot" else 0.0),
             ("MOB-Net-pushed-ratio", 0.4, 0.9),
-            ("none", 0.0, 1.0 if case == "foot" else 0.0),
+            ("none", 0.0, 0.5 if case == "door" else 1.0),
         )
     ]
     write_csv(tmp_path / "safety.csv", ("case", "detector", "wait_s", "measure", "value", "walks"), falls)
@@ -150,7 +149,7 @@ def test_the_first_sentence_counts_statements_of_the_original_and_the_others_are
     rest = counted["all"] - counted["reproduced"] - refuted
     said = (
         f"judged {counted['all']} of their statements: {counted['reproduced']} are reproduced (sizes within a factor "
-        f"of two), {refuted} are refuted in size or sign, {rest} are undecided. In a network's place no estimate"
+        f"of two), {refuted} are refuted in size or sign, {rest} are undecided."
     )
     assert said in made(results)
 
@@ -160,26 +159,18 @@ def rows_of(results: Path) -> list[dict[str, str]]:
     return read_texts(results / "claims_summary.csv")
 
 
-def test_a_run_without_a_control_tells_of_none(results: Path) -> None:
-    counted = rows_of(results)
-    for row in counted:
-        if row["outcome"] == JUDGED_WITH.format(SHUFFLED):
-            row["statements"] = "0"
-    write_csv(results / "claims_summary.csv", CLAIMED, [tuple(row.values()) for row in counted])
-    assert "no estimate reproduces" not in made(results)
-
-
 def test_sentences_have_the_numbers_of_tables_and_the_falls_of_reactions_that_do_not_wait(results: Path) -> None:
     text = made(results)
-    assert "MOB-Net-pushed shows 75 % of such hits; MOB-Net, trained with few pushes as the original, 40 %" in text
-    assert "finds 50 % of the hits on a swinging leg (2.5 counted false alarms an hour)" in text
+    assert "MOB-Net-pushed shows 75 % of the torque of such hits; MOB-Net, trained with few pushes, 40 %" in text
+    assert "finds 50 % of hits on a swinging leg (2.5 counted), a friction formula 50 % (2.5)" in text
     assert "1 of 20 end in a fall if the robot steps back after an alarm, 20 of 20 if not" in text
 
 
 def test_the_templates_guard_the_claims_of_which_they_tell() -> None:
-    assert {"rte-walk", "rte-swing", "model-right-arm"} <= SAID.keys()
+    arms = {"model-right-arm", "model-left-arm"}
+    assert {"mob-net-cut", "model-walk", "model-swing", "rte-walk", "rte-swing", *arms} <= SAID.keys()
     arms_and_waist = {"model-waist", "model-right-arm", "model-left-arm", "fric-load-hand", "zero-load-10"}
-    assert {"mob-net-cut", "model-walk", "gray-walk-net", *arms_and_waist} <= SAID_FOUND.keys()
+    assert {"mob-net-cut", "model-walk", "model-swing", "gray-walk-net", *arms_and_waist} <= SAID_FOUND.keys()
 
 
 @pytest.mark.parametrize("claim", SAID)
@@ -195,29 +186,19 @@ def test_a_claim_that_is_gone_or_whose_verdict_turned_is_told(results: Path, cla
 
 
 def test_a_claim_of_a_field_that_is_gone_is_told(results: Path) -> None:
-    rows = [claim_of(name) for name in CLAIMS if name in SAID]
-    write_csv(results / "claims.csv", ("claim", "value", "published", "verdict"), rows)
-    with pytest.raises(DataError, match="has no attribute 'model-walk', of which"):
-        readme(results, ROOT / TEMPLATE)
+    template = results / "README.md.j2"
+    template.write_text("{{ '%.1f' % c['model-run'] }} times MOB-Net's error")
+    with pytest.raises(DataError, match="has no attribute 'model-run', of which"):
+        readme(results, template)
 
 
 @pytest.mark.parametrize(("claim", "value", "sentence"), [
-    ("rte-walk", 0.9, "random torque helps in walking"),
     ("rte-swing", 1.1, "random torque does not help under a hit"),
 ])  # fmt: skip
 def test_a_sentence_that_numbers_do_not_bear_is_told(results: Path, claim: str, value: float, sentence: str) -> None:
     rows = [(name, value, None, SAID[name]) if name == claim else claim_of(name) for name in CLAIMS]
     write_csv(results / "claims.csv", ("claim", "value", "published", "verdict"), rows)
     with pytest.raises(DataError, match=f"README.md.j2 says that {sentence}, and it is otherwise"):
-        readme(results, ROOT / TEMPLATE)
-
-
-def test_a_robot_that_falls_at_the_knee_is_told(results: Path) -> None:
-    text = (results / "safety.csv").read_text()
-    fallen = text.replace("knee,none,0,falls,0,", "knee,none,0,falls,0.5,")
-    assert fallen != text
-    (results / "safety.csv").write_text(fallen)
-    with pytest.raises(DataError, match=r"README\.md\.j2 says that a bar at the knee makes no robot fall"):
         readme(results, ROOT / TEMPLATE)
 
 
@@ -254,7 +235,7 @@ def test_every_word_that_a_stranger_does_not_know_is_explained_before_or_in_the_
     text = " ".join(README.read_text().split())
     for word, told in (
         ("MOB-Net-pushed, as torque", "MOB-Net-pushed, trained with a push in nearly every swing"),
-        ("best friction formula has", "Our best formula was chosen"),
+        ("best friction formula has", "Our best formula, chosen"),
         ("the residual,", "What it cannot explain"),
     ):
         assert told in text
@@ -279,14 +260,20 @@ def findings(results: Path) -> Path:
     write_csv(results / "table_11.csv", (*HIT_ERROR, "method", "value"), hits)
     changed = [(level, *CHANGED_WALK.values(), 3.0 + k) for k, level in enumerate(CHANGED.values())]
     write_csv(results / "changed.csv", ("level", *CHANGED_WALK, "value"), changed)
-    parts = [(row, name, 2.0 - 0.25 * k) for row in LIMBS.values() for k, name in enumerate(COMPARED)]
+    parts: list[tuple[str, str, float]] = []
+    for limb, row in LIMBS.items():
+        best = MEMORY if limb in ("arm", "waist") else MOB_NET
+        parts += [(row, name, 1.25 if name == best else 1.5) for name in COMPARED]
     write_csv(results / "limbs.csv", ("row", "quantity", "value"), parts)
-    write_detectors(results, share=0.9)
+    write_detectors(results, share=0.55)
     return results
 
 
 def write_detectors(results: Path, share: float) -> None:
-    """Write what detectors find at a rate of false alarms: the first of them a share, the second half of the hits."""
+    """Write what detectors find at a rate of false alarms: the first of them a share, the second half of the hits.
+
+    The interval of the first begins a tenth below its share.
+    """
     detected: list[tuple[str, str, float, float]] = []
     for name, value, alarms in zip(RATED, (share, 0.5), (3.0, 4.0), strict=True):
         detected += [(name, "found at rate", value, value - 0.1), (name, "alarms at rate", alarms, 1.0)]
@@ -300,13 +287,11 @@ def page_of(results: Path) -> str:
 
 def test_the_page_of_findings_has_the_numbers_of_tables(findings: Path) -> None:
     text = page_of(findings)
-    assert (
-        "it shows 50 % of the peak, 12 ms late. MOB-Net-pushed, trained with a push in nearly every swing, shows 70 %"
-        in text
-    )
+    assert "it shows 50 % of the peak, at least 12 ms late" in text
+    assert "MOB-Net-pushed, trained with a push in nearly every swing, shows 70 %" in text
     assert "MOB-Net's error rises from 3.0 to 4.0 N m, on another robot to 5.0" in text
-    assert "finds 90 % of the hits, a formula 50 % | 3.0 false alarms an hour were counted" in text
-    assert "asked for; the share may be as low as 80 % |" in text
+    assert "they find 55 and 50 % of the hits and cannot be told apart | 3.0 and 4.0 false alarms an hour were" in text
+    assert "asked for; the network's share may be as low as 45 % |" in text
 
 
 @pytest.mark.parametrize("claim", SAID_FOUND)
@@ -319,9 +304,22 @@ def test_a_verdict_that_the_page_of_findings_does_not_say_is_told(findings: Path
         page_of(findings)
 
 
-def test_a_finding_that_numbers_do_not_bear_is_told(findings: Path) -> None:
-    write_detectors(findings, share=0.4)
-    with pytest.raises(DataError, match=r"found\.md\.j2 says that the ratio finds more hits, and it is otherwise"):
+@pytest.mark.parametrize(("share", "sentence"), [
+    (0.4, "the ratio finds more hits"),
+    (0.7, "the ratio and the best formula cannot be told apart"),
+])  # fmt: skip
+def test_a_finding_that_numbers_do_not_bear_is_told(findings: Path, share: float, sentence: str) -> None:
+    write_detectors(findings, share)
+    with pytest.raises(DataError, match=rf"found\.md\.j2 says that {sentence}, and it is otherwise"):
+        page_of(findings)
+
+
+def test_robots_that_react_and_fall_at_the_knee_are_told(findings: Path) -> None:
+    text = (findings / "safety.csv").read_text()
+    fallen = text.replace("knee,MOB-Net-pushed-ratio,0,falls,0,", "knee,MOB-Net-pushed-ratio,0,falls,1,")
+    assert fallen != text
+    (findings / "safety.csv").write_text(fallen)
+    with pytest.raises(DataError, match=r"found\.md\.j2 says that robots that react fall less at the knee"):
         page_of(findings)
 
 

@@ -61,7 +61,7 @@ def test_the_legs_are_those_of_their_tables(made: Path, settings: Settings) -> N
 def test_a_delay_is_a_bound_where_one_ends_with_the_window(made: Path) -> None:
     (delay,) = rows(made / "legs.csv", row="FTS-e2e", quantity="hip_pitch_step@all_uncertainty@rise_delay")
     assert cells(made / "legs.md", "FTS-e2e")[5] == f">{float(delay['value']):.0f}"
-    assert not any(cell.startswith(">") for cell in cells(made / "legs.md", "MOB-Net"))
+    assert not any(cell.startswith(">") for cell in cells(made / "legs.md", "MOB-Net-gray"))
 
 
 def test_halves_of_a_table_have_titles_and_a_gap(made: Path) -> None:
