@@ -73,7 +73,7 @@ def turns(q: Array, v: Array, spans: Sequence[slice], rate_hz: float, window_s: 
 
 
 def _travelled(speed: Array, steps: int, rate_hz: float) -> Array:
-    """Return the integral of speeds (T, nu) [rad/s] from the first row to each multiple of `steps`, (W + 1, nu) [rad]."""
+    """Return the integral of speeds (T, nu) [rad/s] from the first row to multiples of `steps`, (W + 1, nu) [rad]."""
     last = (len(speed) - 1) // steps * steps
     travelled = np.zeros(speed.shape[1])
     parts = [np.zeros((1, speed.shape[1]))]
