@@ -10,6 +10,7 @@ import pytest
 from experiments.evaluation.report.compute import HOUR_S, WHOLE
 from experiments.evaluation.report.cost import costs
 from experiments.evaluation.report.paper import missing_packages
+from experiments.jobs.inputs import placed
 from experiments.plan.dry_run import dry_run
 from experiments.plan.files import made_by_jobs
 from experiments.plan.gpu import GPU_RATES, GpuNote, fitted
@@ -64,6 +65,20 @@ def test_no_job_gets_the_name_of_a_file_that_its_rule_does_not_read(planned, sid
         assert read <= set(job.inputs), job.name
         checked.add(job.rule)
     assert {"train", "estimate", "score", "detect", "react", "table", "figure", "claims", "pages"} <= checked
+
+
+@pytest.mark.parametrize("scale", SCALES)
+def test_a_job_in_the_folder_of_the_project_gets_the_names_of_its_files_as_they_are(planned, scale):
+    """A folder of results may be named as the end of another one: the tables of the main scale, and their captions."""
+    plan = make_plan(load_settings(overrides={"scale": scale}), with_pdf=not missing_packages())
+    checked = set()
+    for job in planned(scale):
+        if hasattr(plan.jobs, job.rule) or job.rule == "walk_freely" or not job.outputs[0]:
+            continue
+        given = plan.product(Path(job.name).name).arguments
+        assert placed(given, [*job.inputs, *job.outputs]) == given, job.name
+        checked.add(job.rule)
+    assert {"table", "figure", "claims", "pages", "paper", "manifest"} <= checked
 
 
 def test_what_no_product_reads_is_not_made(planned):
