@@ -25,6 +25,7 @@ from mobnet.core.notes import read_note
 from mobnet.core.rows import read_texts
 
 RESULTS = Path("docs/results")
+CLAIMS = "claims.csv"  # in a folder of results
 README, GUIDE = Path("README.md"), Path("docs/guide.md")
 TEMPLATE = Path("README.md.j2")
 FOUND, FOUND_TEMPLATE = Path("docs/found.md"), Path("docs/found.md.j2")
@@ -84,7 +85,8 @@ def readme(results: Path, template: Path = TEMPLATE) -> str:
     Raises:
         DataError: a table or a row is missing, or is not as a sentence says.
     """
-    return _told(results, template, values(results))
+    claims = read_texts(results / CLAIMS)
+    return _told(results, template, claims, values(results, claims, _rates(results)))
 
 
 def found(results: Path, template: Path = FOUND_TEMPLATE) -> str:
@@ -93,12 +95,30 @@ def found(results: Path, template: Path = FOUND_TEMPLATE) -> str:
     Raises:
         DataError: a table or a row is missing, or is not as a sentence says.
     """
-    return _told(results, template, values(results) | found_values(results))
+    claims = read_texts(results / CLAIMS)
+    return _told(results, template, claims, values(results, claims, _rates(results)) | found_values(results))
 
 
-def _told(results: Path, template: Path, told: Mapping[str, object]) -> str:
+def check_told(tables: Path) -> None:
+    """Check that README and page of findings tell what the tables of a run say, before these are published.
+
+    Raises:
+        DataError: a table or a row is missing, or is not as a sentence says.
+    """
+    claims = read_texts(tables / CLAIMS)
+    told = values(tables, claims, _rates(RESULTS))  # no sentence depends on how long the run took
+    _told(tables, TEMPLATE, claims, told)
+    _told(tables, FOUND_TEMPLATE, claims, told | found_values(tables))
+
+
+def _rates(results: Path) -> RatesNote:
+    """Return what the jobs of the published run took."""
+    return read_note(results / RATES.name, RatesNote)
+
+
+def _told(results: Path, template: Path, claims: Sequence[Row], told: Mapping[str, object]) -> str:
     """Return a filled template; a DataError where it tells of what is not there, or a guard does not hold."""
-    verdicts = {row["claim"]: row["verdict"] for row in read_texts(results / "claims.csv")}
+    verdicts = {row["claim"]: row["verdict"] for row in claims}
     guards = {"holds": partial(_holds, template, verdicts), "needs": partial(_needs, template)}
     try:
         return filled(template, {**told, **guards})
@@ -106,13 +126,17 @@ def _told(results: Path, template: Path, told: Mapping[str, object]) -> str:
         raise DataError(f"{results}: {missing}, of which {template} tells") from missing
 
 
-def values(results: Path) -> dict[str, object]:
+def values(results: Path, claims: Sequence[Row], rates: RatesNote) -> dict[str, object]:
     """Return what the template takes its numbers from, by name.
+
+    Args:
+        results: folder of tables.
+        claims: rows of their table of claims.
+        rates: what the jobs of the run took.
 
     Raises:
         DataError: a table or a row is missing, or is not as a sentence says.
     """
-    claims = {row["claim"]: row for row in read_texts(results / "claims.csv")}
     falls = falls_of(results)
     summary = read_texts(results / "claims_summary.csv", CLAIMED)
     counts = {row["outcome"]: int(row["statements"]) for row in summary if row["score"] == PAPER}
@@ -123,10 +147,10 @@ def values(results: Path) -> dict[str, object]:
         "n": counts,
         "refuted": refuted,
         "undecided": counts["all"] - counts[REPRODUCED] - refuted,
-        "idle_h": read_note(results / RATES.name, RatesNote).core_h / CORES,
+        "idle_h": rates.core_h / CORES,
         "headline": headline(results),
         "best_formulas": best_formulas(results),
-        "c": {claim: float(row["value"] or "nan") for claim, row in claims.items()},
+        "c": {row["claim"]: float(row["value"] or "nan") for row in claims},
         "share": {name: _value(peaks, {**HIT, "method": name}) for name in SHOWN},
         "trial": shown_in_trial(),
         "taught": _value(read_texts(TAUGHT), PUSHES),
@@ -205,7 +229,7 @@ def scales(results: Path) -> str:
     Raises:
         DataError: the account of the run, or the note of its rates, is missing or damaged.
     """
-    rates = read_note(results / RATES.name, RatesNote)
+    rates = _rates(results)
     account = results / "compute.md"
     elapsed = ELAPSED.search(read_text(account))
     if elapsed is None:

@@ -38,7 +38,7 @@ from experiments.site.blocks import with_block
 from experiments.site.folder_page import write_page
 from experiments.site.model_card import CARD, card
 from experiments.site.rates import measured
-from experiments.site.readme import tell_readme
+from experiments.site.readme import check_told, tell_readme
 from experiments.site.registered import check_registered, registration
 from experiments.site.single_rows import write_single_rows
 from experiments.site.walked import SEEDS, check_seeds, read_history, walked, write_history
@@ -329,6 +329,7 @@ def store(manifest: Path) -> None:
     published = read_history(SEEDS)
     run = walked(plan.files, ran)
     check_seeds(run, published)
+    check_told(TABLES)
     write_snapshot(settings, TABLES, FIGURES, FURTHER, SNAPSHOT)
     note_entry(SNAPSHOT, "registered", registration())
     if ran != commit():
