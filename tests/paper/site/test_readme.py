@@ -33,6 +33,7 @@ from experiments.site.readme import (
     SHOWN,
     TEMPLATE,
     UNDER_HITS,
+    check_told,
     found,
     readme,
     scales,
@@ -321,6 +322,14 @@ def test_robots_that_react_and_fall_at_the_knee_are_told(findings: Path) -> None
     (findings / "safety.csv").write_text(fallen)
     with pytest.raises(DataError, match=r"found\.md\.j2 says that robots that react fall less at the knee"):
         page_of(findings)
+
+
+def test_tables_of_a_run_are_checked_before_they_are_published(findings: Path) -> None:
+    write_detectors(findings, share=0.53)
+    check_told(findings)
+    write_detectors(findings, share=0.4)
+    with pytest.raises(DataError, match="it is otherwise"):
+        check_told(findings)
 
 
 def test_the_page_of_findings_is_one_page_with_four_pictures() -> None:

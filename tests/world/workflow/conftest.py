@@ -72,7 +72,7 @@ def copy_project(origin, folder):
     """Copy the project, or a copy, into a folder, without its environment and without what it has compiled."""
     for part in PARTS:
         source = origin / part
-        ignored = shutil.ignore_patterns("__pycache__", "*.pdf", "build.json", ".*")
+        ignored = shutil.ignore_patterns("__pycache__", "main.pdf", "build.json", ".*")
         if source.is_dir():
             shutil.copytree(source, folder / part, symlinks=True, ignore=ignored)
         else:

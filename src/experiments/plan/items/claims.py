@@ -1,4 +1,4 @@
-"""The statements of the paper with their verdicts: they read tables, scores and trainings."""
+"""The statements of the original with their verdicts: they read tables, scores and trainings."""
 
 from collections.abc import Callable, Mapping
 from pathlib import Path
