@@ -14,7 +14,6 @@ import pandas as pd
 
 from experiments.evaluation.measure.learning.explained import (
     ALL,
-    FEW,
     PATH,
     Learned,
     by_network,
@@ -24,9 +23,9 @@ from experiments.evaluation.measure.learning.explained import (
     spread_of,
 )
 from experiments.evaluation.measure.learning.paths import EVERY, INPUTS
-from experiments.evaluation.measure.learning.taught import HITS, ROUGHNESS, SHARE_OF_HIT, WALKING
+from experiments.evaluation.measure.learning.taught import HITS, SHARE_OF_HIT, WALKING
 from experiments.evaluation.number.frames import rows_of
-from experiments.evaluation.number.number import Number, number_text, shown_name
+from experiments.evaluation.number.number import Number, number_text
 from experiments.evaluation.tables.layout import markdown_table
 from experiments.intervals.bounds import Bounds, apart, range_text, within
 from experiments.settings.claim_ranges import ranges_of, shown_range
@@ -52,8 +51,7 @@ LEAST_RATIO = "imu-fts-e2e"  # the claim below whose range the same ratio lies w
 WITH_TORQUE, WITHOUT_TORQUE, PLAIN = "why_walk", "why_plain", "-plain"  # sets; ending of a method that has the latter
 SHOWN = "push_share"  # metric of a claim on shares of a hit
 MISSED, OUTSIDE, UNDECIDED, HELD = "missed", "open, outside", "open", "held"  # in the order of the table
-MOB_NET, NO_SENSOR, END_TO_END = "MOB-Net", "MOB-Net-noimu", "FTS-e2e"
-KINDS = (MOB_NET, NO_SENSOR, END_TO_END)
+MOB_NET, END_TO_END = "MOB-Net", "FTS-e2e"
 SPREAD = {WALKING: ("walking", "N m"), HITS: ("hits, LL3", "N m"), SHARE_OF_HIT: ("share of a hit", "-")}
 Values = Mapping[str, Mapping[Learned, Mapping[str, float]]]  # measure -> networks -> robot -> number
 
@@ -78,17 +76,15 @@ def renew() -> None:
 
 
 def why_blocks(settings: Settings, kept: Path) -> dict[str, str]:
-    """Return block of the note -> its text: predictions, numbers on all robots, those on a few, and inputs.
+    """Return block of the note -> its text: predictions, ways in of a hit, what seeds and robots change.
 
     Raises:
         DataError: the table is missing or damaged, or has not the networks of a prediction.
     """
     rows = read_why(kept)
-    values: Values = {measure: by_robot(rows, measure) for measure in (WALKING, HITS, SHARE_OF_HIT, ROUGHNESS)}
+    values: Values = {measure: by_robot(rows, measure) for measure in (WALKING, HITS, SHARE_OF_HIT)}
     return {
         "why_predicted": predicted(settings, values),
-        "why_found": found(settings, values),
-        "why_kinds": robots_and_ways(settings, values),
         "why_inputs": inputs(rows),
         "why_seeds": seeds(rows),
     }
@@ -128,9 +124,10 @@ def predicted(settings: Settings, values: Values) -> str:
     for each in predictions_of(settings):
         number = _number(settings, [_of(values, each.measure, cell) for cell in each.cells])
         verdict = verdict_of(number, each.bounds)
-        judged.append((verdict, [each.says, each.name, range_text(each.bounds), _text(number), verdict]))
+        result = f"{number.text()} {number.interval()}"
+        judged.append((verdict, [each.says, each.name, range_text(each.bounds), result, verdict]))
     judged.sort(key=lambda row: (MISSED, OUTSIDE, UNDECIDED, HELD).index(row[0]))
-    return markdown_table(["prediction", "claim", "range", "found", ""], [row for _, row in judged], left=3)
+    return markdown_table(["prediction", "claim", "range", "result", ""], [row for _, row in judged], left=3)
 
 
 def verdict_of(number: Number, bounds: Bounds) -> str:
@@ -143,48 +140,6 @@ def verdict_of(number: Number, bounds: Bounds) -> str:
     if within((low, high), bounds):
         return HELD
     return UNDECIDED if within((value, value), bounds) else OUTSIDE
-
-
-def found(settings: Settings, values: Values) -> str:
-    """Return the table of networks that differ in what they see, over all robots."""
-    rows: list[list[str]] = []
-    for cell in values[WALKING]:
-        data, _, learning = cell
-        if data in (WITH_TORQUE, WITHOUT_TORQUE) and len(values[WALKING][cell]) > FEW:
-            name = _name(settings, cell)
-            measures = (WALKING, HITS, SHARE_OF_HIT, ROUGHNESS)
-            numbers = [_number(settings, [values[measure][cell]]) for measure in measures]
-            torque = "yes" if data == WITH_TORQUE else "no"
-            rows.append([name, torque if learning else "", *map(_text, numbers[:3]), numbers[3].text()])
-    # Methods that do not learn are the same beside both sets.
-    rows = [row for k, row in enumerate(rows) if row not in rows[:k]]
-    head = ["networks", "random torque", "walking [N m]", "hits, LL3 [N m]", "share of a hit", "roughness"]
-    return markdown_table(head, rows, left=2)
-
-
-def robots_and_ways(settings: Settings, values: Values) -> str:
-    """Return the table of robots and ways of learning on a few robots: shares of a hit, and what the sensor saves."""
-    shown = settings.evaluation.why_share
-    way = _first(settings)
-    changed: dict[Learned, str] = {(WITH_TORQUE, MOB_NET, way): "robots and learning of the run"}
-    for data, learned_from in shown.sets.items():
-        if learned_from.over == data != WITH_TORQUE:
-            changed[data, MOB_NET, way] = learned_from.says
-    for name, says in shown.ways.items():
-        changed[WITH_TORQUE, MOB_NET, name] = says
-    robots = settings.trials.why.path_robots
-    rows: list[list[str]] = []
-    for (data, _, learning), says in changed.items():
-        cells = [(data, method, learning) for method in KINDS]
-        shares = [values[SHARE_OF_HIT].get(cell) for cell in cells]
-        walking = [values[WALKING].get(cell) for cell in cells[1::-1]]
-        if any(shares):
-            row = [_text(_number(settings, [each], robots)) if each else "" for each in shares]
-            both = [each for each in walking if each]
-            row.append(_text(_number(settings, both, robots)) if len(both) == len(walking) else "")
-            rows.append([says, *row])
-    head = ["", *(f"share, {method}" for method in KINDS), f"walking, {NO_SENSOR} over {MOB_NET}"]
-    return markdown_table(head, rows, left=1)
 
 
 def inputs(rows: pd.DataFrame) -> str:
@@ -214,15 +169,6 @@ def _first(settings: Settings) -> str:
     return next(iter(settings.trials.why.ways))
 
 
-def _name(settings: Settings, cell: Learned) -> str:
-    """Return what networks, or a method without any, are called."""
-    _, method, way = cell
-    for name, network in settings.evaluation.why_share.networks.items():
-        if network.method == method and way in network.ways:
-            return name
-    return shown_name(method)
-
-
 def _of(values: Values, measure: str, cell: Learned) -> Mapping[str, float]:
     """Return robot -> number of networks; a DataError where the trial has none."""
     if cell not in values[measure]:
@@ -230,16 +176,7 @@ def _of(values: Values, measure: str, cell: Learned) -> Mapping[str, float]:
     return values[measure][cell]
 
 
-def _number(settings: Settings, values: Sequence[Mapping[str, float]], robots: Sequence[str] = ()) -> Number:
-    """Return the mean of a measure, or the ratio of two, over the robots that both have, or over some of them."""
+def _number(settings: Settings, values: Sequence[Mapping[str, float]]) -> Number:
+    """Return the mean of a measure, or the ratio of two, over the robots that both have."""
     common = set[str].intersection(*map(set, values))
-    chosen = [robot for robot in sorted(common) if not robots or robot in robots]
-    return over_shown_robots(values, chosen, settings.evaluation.statistics)
-
-
-def _text(number: Number) -> str:
-    """Return a number with its interval in brackets, or with the numbers of a few robots in parentheses."""
-    ends = number.interval()
-    if max(number.networks, default=0) <= FEW:
-        ends = ends.replace("[", "(").replace("]", ")")
-    return f"{number.text()} {ends}"
+    return over_shown_robots(values, sorted(common), settings.evaluation.statistics)

@@ -94,6 +94,6 @@ def test_an_estimate_does_not_depend_on_how_networks_are_trained(settings):
     starts = frozenset(part_of(name) for name in ("mobnet.estimation.estimate", *kinds))
     files = {file.relative_to(SOURCE) for source in reached(starts) for file, *_ in source.parts}
     learning = {file.stem for file in files if "learning" in file.parts} - {"__init__"}
-    run = {"features", "limbs", "lanes", "loading", "networks", "weights", "module_network", "tick"}
+    run = {"features", "limbs", "lanes", "loading", "networks", "tensors", "weights", "module_network", "tick"}
     assert learning == run | {"model", "cells", "gru", "gates", "tiles"}
     assert not {file.stem for file in files} & {"friction", "dahl", "band_pass", "regression"}

@@ -28,7 +28,7 @@ def test_another_number_in_the_table_is_another_note(settings: Settings, tmp_pat
     rows.loc[rows["measure"] == "share", "value"] *= 1.1
     write_csv(tmp_path / "why.csv", WHY, records_of(rows, WHY))
     now, then = (why_blocks(settings, path / "why.csv") for path in (ROOT / "docs/trials", tmp_path))
-    assert {name for name in now if now[name] != then[name]} >= {"why_predicted", "why_found", "why_kinds"}
+    assert {name for name in now if now[name] != then[name]} >= {"why_predicted"}
 
 
 def test_a_table_without_the_networks_of_a_prediction_is_refused(settings: Settings, tmp_path: Path) -> None:
