@@ -114,6 +114,19 @@ def block_of(page: str, path: Path = PAGE) -> str:
     return found[0]
 
 
+def hours_of(page: str, scale: str, path: Path = PAGE) -> tuple[float, float]:
+    """Return what the table of a page says of a scale [h]: core-hours without a GPU, and the time on two cores.
+
+    Raises:
+        DataError: it says nothing of it.
+    """
+    for line in block_of(page, path).splitlines():
+        name, core_h, _, two_cores_h, *_ = (cell.strip() for cell in line.strip("|").split("|"))
+        if name == Asked(scale).name:
+            return float(core_h), float(two_cores_h)
+    raise DataError(f"{path}: a row of the scale {scale} is missing; python -m experiments.site machines makes it")
+
+
 def renew() -> None:
     """Renew the table of the page."""
     page = read_text(PAGE)

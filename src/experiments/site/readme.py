@@ -18,6 +18,7 @@ from experiments.evaluation.report.html import filled
 from experiments.plan.prices import RATES, RatesNote
 from experiments.settings.table_columns import CLAIMED
 from experiments.settings.verdicts import NOT_REPRODUCED, PAPER, REPRODUCED, SIGN_ONLY
+from experiments.site import machines
 from experiments.site.blocks import with_block
 from mobnet.core.errors import DataError
 from mobnet.core.files import read_text, write_text
@@ -30,14 +31,15 @@ README, GUIDE = Path("README.md"), Path("docs/guide.md")
 TEMPLATE = Path("README.md.j2")
 FOUND, FOUND_TEMPLATE = Path("docs/found.md"), Path("docs/found.md.j2")
 # What each scale takes: scale, what it is, time on two cores, core-hours, memory, disk. The published run says what its
-# own took.
+# own took, and prices what has not run yet.
 SCALES = (
     ("smoke", "seconds of walking; its numbers mean nothing", "12 to 17 min", "0.6", "0.5 GiB", "1.1 GiB"),
     ("quick", "every item once, shorter walks", "50 min", "1.6", "4.2 GiB", "13 GiB"),
     ("default", "the published sizes", "", "", "5.6 GiB", "50 GiB"),
-    ("paper", "3.6 million samples, 200 epochs", "12 days", "580", "21 GiB", "340 GiB"),
+    ("paper", "3.6 million samples, 200 epochs", "", "", "21 GiB", "340 GiB"),
 )
 CORES = 2
+HOURS_OF_A_DAY = 24
 # Wall time [h] of the whole run in compute.md, and the share of the cores' time that it had [%].
 ELAPSED = re.compile(r"^\| elapsed [^|]*\|[^|]*\|[^|]*\| (?P<hours>[\d.]+) \| (?P<load>\d+) \|", re.MULTILINE)
 # What the data of networks teach, a trial that is kept: the effect of pushes over all levels of the others.
@@ -239,6 +241,9 @@ def scales(results: Path) -> str:
         if scale == rates.scale:
             took = f"{float(elapsed['hours']):.1f} h in the published run, which had {elapsed['load']} % of two cores"
             time, core_hours = f"{rates.core_h / CORES:.1f} h on idle cores; {took}", f"{rates.core_h:.1f}"
+        elif not time:
+            core_h, two_cores_h = machines.hours_of(read_text(machines.PAGE), scale)
+            time, core_hours = f"{two_cores_h / HOURS_OF_A_DAY:.0f} days", f"{core_h:.0f}"
         lines.append([f"`{scale}`", text, time, core_hours, memory, disk])
     return "".join(f"| {' | '.join(line)} |\n" for line in lines)
 

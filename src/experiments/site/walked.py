@@ -64,12 +64,15 @@ class WalkedSeeds(Note):
     Attributes:
         commit: of the run.
         methods: hash of the methods' code and configuration; None of runs from before it was noted.
+        same: hashes of code that was only ordered anew since then, with every result of the smoke scale equal to the
+            byte. A person adds them.
         tests: scenario -> seeds, of the plant or the robot that walks most.
         reactions: case of the reactions -> seeds.
     """
 
     commit: Text
     methods: Text | None
+    same: list[Text] = []
     tests: dict[str, Span]
     reactions: dict[str, Span]
 
@@ -137,7 +140,7 @@ def check_seeds(run: WalkedSeeds, published: Iterable[WalkedSeeds]) -> None:
     """
     published = list(published)
     # Nobody knows the methods of runs from before these were noted: they count as others.
-    others = [other for other in published if other.methods is None or other.methods != run.methods]
+    others = [other for other in published if other.methods is None or run.methods not in (other.methods, *other.same)]
     seen = [other for other in others if other.seeds & run.seeds]
     if seen:
         used: set[int] = set()

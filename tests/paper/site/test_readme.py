@@ -18,6 +18,7 @@ from experiments.settings.verdicts import (
     STAND_INS,
     VERDICTS,
 )
+from experiments.site.machines import PAGE, hours_of
 from experiments.site.readme import (
     CHANGED,
     CHANGED_WALK,
@@ -109,6 +110,14 @@ def test_the_row_of_the_published_scale_has_what_its_run_took(results: Path) -> 
     assert "| 3.0 h on idle cores; 4.1 h in the published run, which had 73 % of two cores | 6.0 |" in rows["default"]
     assert all("published run" not in row for scale, row in rows.items() if scale != "default")
     assert "3.0 hours on two idle cores" in made(results)
+
+
+def test_a_scale_that_never_ran_has_the_price_that_the_page_on_clusters_has(results: Path) -> None:
+    core_h, two_cores_h = hours_of(PAGE.read_text(), "paper")
+    row = next(line for line in scales(results).splitlines() if line.startswith("| `paper`"))
+    assert f"| {two_cores_h / 24:.0f} days | {core_h:.0f} |" in row
+    with pytest.raises(DataError, match=r"a row of the scale huge is missing"):
+        hours_of(PAGE.read_text(), "huge")
 
 
 def test_an_account_without_the_time_of_the_run_is_told(results: Path) -> None:

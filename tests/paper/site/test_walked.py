@@ -45,6 +45,13 @@ def test_the_present_configuration_walks_no_seed_that_another_method_was_publish
     check_seeds(run_of(published_scale), PUBLISHED)
 
 
+def test_code_that_was_only_ordered_anew_may_walk_the_same_seeds() -> None:
+    published = made("a", "methods", 201).model_copy(update={"same": ["ordered anew"]})
+    check_seeds(made("b", "ordered anew", 201), [published])
+    with pytest.raises(DataError, match="201 to 203 were published by a"):
+        check_seeds(made("b", "another method", 201), [published])
+
+
 def test_the_newest_published_run_is_that_of_the_published_results_and_of_its_tests() -> None:
     commit = read_json(REPO / "docs/results/provenance.json")["commit"]
     assert PUBLISHED[-1].commit == commit
