@@ -10,6 +10,8 @@ from collections.abc import Iterable, Sequence
 from itertools import chain
 from pathlib import Path
 
+from pydantic import Field
+
 from experiments.plan.detection import level_of_detectors
 from experiments.plan.files import Files
 from experiments.plan.reactions import sizes_of
@@ -72,7 +74,7 @@ class WalkedSeeds(Note):
 
     commit: Text
     methods: Text | None
-    same: list[Text] = []
+    same: list[Text] = Field(default_factory=list)
     tests: dict[str, Span]
     reactions: dict[str, Span]
 
