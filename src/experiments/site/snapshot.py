@@ -107,6 +107,7 @@ KEYS = (  # columns that name a row; the others are results
     "phase",
     "row",
 )
+CLAIMS_TABLE = "claims.csv: "  # before what differs in the table of claims
 KEYS_OF = {"hourly": ("walks",)}  # a number in other tables
 Rows = dict[tuple[str, ...], dict[str, str]]
 
@@ -391,6 +392,9 @@ def main(words: list[str]) -> int:
         return 1
     for line in found:
         log.info("%s", line)
+    if compares and found:
+        turned = sum(" verdict " in line for line in found if line.startswith(CLAIMS_TABLE))
+        log.info("%sverdicts that differ: %d", CLAIMS_TABLE, turned)
     listed = SNAPSHOT if compares else f"{manifest} ({file_hash(manifest)})"
     log.info("%s: %s", listed, f"{len(found)} differences" if found else "no difference")
     return 1 if found or output.is_cut else 0

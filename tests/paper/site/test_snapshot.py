@@ -123,6 +123,16 @@ def test_a_missing_file_is_named_and_nothing_is_copied() -> None:
 
 
 @pytest.mark.usefixtures("stored")
+def test_verdicts_that_turned_are_counted(caplog: pytest.LogCaptureFixture) -> None:
+    head = "claim,quantity,value,verdict\n"
+    (STORED / "claims.csv").write_text(f"{head}a,ratio,1.0,reproduced\nb,ratio,1.0,open\nc,ratio,2.0,open\n")
+    (TABLES / "claims.csv").write_text(f"{head}a,ratio,1.1,reproduced\nb,ratio,1.2,reproduced\nc,ratio,2.0,open\n")
+    with caplog.at_level("INFO"):
+        assert main(["compare"]) == 1
+    assert caplog.messages[-2:] == ["claims.csv: verdicts that differ: 1", "docs/results: 3 differences"]
+
+
+@pytest.mark.usefixtures("stored")
 def test_a_changed_figure_is_told_by_its_rows() -> None:
     drawn = FIGURES / "figure_05.csv"
     drawn.write_text("x,y\n1,2\n3,5\n6,7\n")
