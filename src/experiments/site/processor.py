@@ -9,8 +9,9 @@ writes what the note on number format says of it. `python -m experiments.site pr
 
 import logging
 import sys
-from collections.abc import Sequence
+from collections.abc import Hashable, Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 import pandas as pd
 
@@ -61,7 +62,7 @@ def told(rows: pd.DataFrame) -> str:
     return f"{text}\n\n{markdown_table(head, lines, left=1)}"
 
 
-def _judged(row: dict[str, object], ending: str) -> list[str]:
+def _judged(row: Mapping[Hashable, Any], ending: str) -> list[str]:
     """Return number with interval, and verdict, of one of the runs."""
     value, low, high, verdict = (row[name + ending] for name in JUDGED)
     return [f"{number_text(value)} {interval_text(low, high)}", str(verdict)]
