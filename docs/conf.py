@@ -25,7 +25,7 @@ napoleon_google_docstring, napoleon_numpy_docstring = True, False
 nitpicky = True  # every reference must lead somewhere, but for
 nitpick_ignore_regex = [
     (r"py:.*", r"(?!mobnet\.).*"),  # types of Python and of packages: their documentation is on no disk
-    (r"py:.*", r"(mobnet\.(settings|control)|experiments)\..*"),  # they have no page of modules
+    (r"py:.*", r"(mobnet\.(settings|formats|control)|experiments)\..*"),  # they have no page of modules
     (r"py:.*", r"mobnet\..*\.(_\w+|Kind|Made|Named|Robot|Row|State|Stepped|Value)"),  # private names, names of types
 ]
 ARRAY = re.compile(r"~?numpy\.ndarray\[tuple\[[^][]*\], ~?numpy\.dtype\[[^][]*\]\]")
