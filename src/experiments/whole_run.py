@@ -16,7 +16,7 @@ from snakemake.cli import get_argument_parser
 from snakemake.logging import logger
 
 from experiments.evaluation.measure.estimates.scores import measure_problems
-from experiments.evaluation.report.paper import missing_packages
+from experiments.evaluation.report.paper import missing_packages, unfit_words
 from experiments.jobs.method_problems import method_problems
 from experiments.plan.dry_run import PlannedJob
 from experiments.plan.limits import limits
@@ -31,7 +31,7 @@ from experiments.plan.plan import (
 from experiments.plan.project import in_project
 from experiments.plan.room import check_room, share_at_once
 from experiments.plan.schedule import TimedJob
-from experiments.plan.targets import faults_of_words, made_line
+from experiments.plan.targets import asks_for_all, faults_of_words, made_line
 from experiments.running.begun import BEGUN, lost, record_begun, record_end
 from experiments.running.cluster import LIMITED, failed_jobs, warm_cache
 from experiments.running.environment import sweep_project
@@ -209,7 +209,11 @@ class WorkflowRun:
         if self._interrupts:
             self._interrupts.jobs_ended()
         record_end(self._begun)
-        made = made_line(self._targets, list(self._workflow.rules), self.plan.folders)
+        folders = self.plan.folders
+        if asks_for_all(self._targets) and (unfit := unfit_words(folders.paper / "build.json")):
+            told = f"{folders.results / 'logs' / 'paper.log'} names them"
+            _say(f"{folders.paper / 'main.pdf'}: {len(unfit)} places of its text do not fit these results; {told}")
+        made = made_line(self._targets, list(self._workflow.rules), folders)
         if self._words and self._words.report:
             made = f"{self._words.report} follows; {made}"
         _say(f"{made}, in {in_time(time.time() - self._started_s)}")

@@ -77,9 +77,14 @@ def is_made(target: str, rules: Rules) -> bool:
     return any(rule.is_producer(target.rstrip("/")) for rule in rules)
 
 
+def asks_for_all(targets: Sequence[str]) -> bool:
+    """Return whether a call asks for all that the workflow makes, as it does without a target."""
+    return not targets or list(targets) == ["all"]
+
+
 def made_line(targets: Sequence[str], rules: Rules, folders: Folders) -> str:
     """Return the line that says what a run has made: what was asked for, or the folders of all and where to begin."""
-    if targets and targets != ["all"]:
+    if not asks_for_all(targets):
         files = [file_of(target, rules) for target in targets]
         return f"{', '.join(files)} {'is' if len(files) == 1 else 'are'} made"
     page = folders.results / "pages" / "index.html"

@@ -20,7 +20,7 @@ from experiments.evaluation.measure.story import StoredPush
 from experiments.evaluation.report.demo import lines_of, title_of
 from experiments.evaluation.report.demo_data import copy_demo
 from experiments.evaluation.report.manifest import differences, file_hash
-from experiments.evaluation.report.paper import missing_packages
+from experiments.evaluation.report.paper import missing_packages, unfit_words
 from experiments.plan.demo import FOLDER
 from experiments.plan.detection import all_detections
 from experiments.plan.dry_run import dry_run
@@ -231,6 +231,17 @@ def save_small(source: Path, out: Path) -> None:
         few.save(temporary, "png", optimize=True)
 
 
+def check_paper(pdf: Path) -> None:
+    """Check that the text of a run's paper fits its results, where TeX set it.
+
+    Raises:
+        DataError: it does not; one line with what is to be mended.
+    """
+    if unfit := unfit_words(pdf.with_name("build.json")):
+        remedy = f"mend the words of {pdf.with_suffix('.tex')}, and call ./reproduce all"
+        raise DataError(f"{pdf}: the text does not fit its results: {'; '.join(unfit)}; {remedy}")
+
+
 def store_paper(pdf: Path, out: Path) -> None:
     """Store the paper of a run; where it made none, as TeX was missing, an older one goes."""
     stored = out / "paper.pdf"
@@ -331,6 +342,7 @@ def store(manifest: Path) -> None:
     run = walked(plan.files, ran)
     check_seeds(run, published)
     check_told(TABLES)
+    check_paper(PAPER)
     write_snapshot(settings, TABLES, FIGURES, FURTHER, SNAPSHOT)
     note_entry(SNAPSHOT, "registered", registration())
     if ran != commit():

@@ -15,6 +15,7 @@ from experiments.running.words import MANIFEST
 from experiments.site.blocks import with_block
 from experiments.site.snapshot import (
     RESULTS,
+    check_paper,
     check_run,
     compare_snapshot,
     is_words,
@@ -141,6 +142,15 @@ def test_a_changed_figure_is_told_by_its_rows() -> None:
     assert compare_snapshot(STORED, TABLES, FIGURES) == [
         "figures/figure_05.csv: file is missing; ./reproduce all makes it"
     ]
+
+
+def test_a_paper_whose_text_does_not_fit_its_results_is_not_published(tmp_path: Path) -> None:
+    note = tmp_path / "build.json"
+    write_json(note, {"pdf": "main.pdf", "unfit": []})
+    check_paper(tmp_path / "main.pdf")
+    write_json(note, {"pdf": "main.pdf", "unfit": ["claim 'a' is 'open', and the text needs 'reproduced'"]})
+    with pytest.raises(DataError, match=r"claim 'a' is 'open'.*; mend the words of .*main\.tex, and call"):
+        check_paper(tmp_path / "main.pdf")
 
 
 def note_of(name: str, made_by: str, start_s: float) -> None:

@@ -12,7 +12,7 @@ from pathlib import Path
 from experiments.evaluation.report.type_sizes import printed_types, type_faults
 from experiments.settings.pages import PaperText
 from mobnet.core.errors import DataError, MobnetError
-from mobnet.core.files import atomic_path, check_room, read_text, write_json
+from mobnet.core.files import atomic_path, check_room, read_json, read_text, write_json
 
 LABEL = re.compile(r"\\newlabel\{(?P<name>[^{}]+)\}\{\{(?:[^{}]|\{[^{}]*\})*\}\{(?P<page>\d+)\}")
 END = "end:main"  # label of the end of the main text
@@ -41,6 +41,7 @@ TABLES, FIGURES = "tables", "figures"  # folders beside the copy of the paper th
 NUMBERS, CAPTIONS = "numbers.tex", "captions.tex"  # of the tables: what the text's macros are, and captions with some
 PLACES = rf"\def\tables{{{TABLES}}}\def\figures{{{FIGURES}}}\def\results{{{TABLES}}}"
 LATEXMK = ("latexmk", "-pdf", "-norc", "-interaction=nonstopmode", "-halt-on-error", f"-usepretex={PLACES}")
+UNFIT = "unfit"  # key of the note: what of the text does not fit
 LOG_LINES = 15
 LINE = "10000"  # characters after which TeX breaks a line of its log
 EPOCH = "0"  # date of the PDF unless SOURCE_DATE_EPOCH says another: equal input gives equal bytes
@@ -124,28 +125,36 @@ def paper(
 ) -> None:
     """Set the paper with latexmk, and write a note of it (JSON) also where TeX is missing.
 
-    The note holds the scale, the name of the PDF beside it or null, and the missing packages. Tables are TeX files that
-    the paper inputs, figures PDF files. The text's words were chosen for the results of one scale, that of `settings`:
-    there its guards and its number of pages have to hold. At another scale they cannot be expected to (the verdicts of
-    `smoke` mean nothing), so that a guard that turned is only logged, and marked in the text by a dagger. The type of
-    the figures has to be large enough at each.
+    The note holds the scale, the name of the PDF beside it or null, the missing packages, and what of the text does not
+    fit. Tables are TeX files that the paper inputs, figures PDF files. The text's words were chosen for the published
+    results of one scale, that of `settings`: results of another seed or processor may turn a guard there, and lengthen
+    the main text. That stops no run: a dagger marks the sentence, and `snapshot` refuses such a paper. At another scale
+    nothing else can be expected (the verdicts of `smoke` mean nothing). The type of the figures has to be large enough
+    at each.
 
     Raises:
         PaperError: TeX failed, and the message holds the end of its log; or something runs off its page or column, a
-            label is defined twice or not at all, a guard turned, the main text is too long or the type of a figure is
-            too small in print, and the message names each.
+            label is defined twice or not at all, or the type of a figure is too small in print, and the message names
+            each.
     """
     pdf = out.with_name(f"{main.stem}.pdf")
     missing = missing_packages()
     # A PDF of an earlier run must not pass for one of these tables where TeX fails.
     pdf.unlink(missing_ok=True)
+    unfit: list[str] = []
     if missing:
         log.warning("%s: no PDF, TeX is not complete; install: apt-get install %s", pdf, " ".join(PACKAGES))
     else:
         with tempfile.TemporaryDirectory() as folder:
             copy_sources({".": [main, references], TABLES: tables, FIGURES: figures}, Path(folder))
-            set_paper(Path(folder) / main.name, pdf, settings, judged=scale == settings.scale)
-    write_json(out, {"scale": scale, "pdf": None if missing else pdf.name, "missing_packages": missing})
+            unfit = set_paper(Path(folder) / main.name, pdf, settings, judged=False)
+    note = {"scale": scale, "pdf": None if missing else pdf.name, "missing_packages": missing}
+    write_json(out, {**note, UNFIT: unfit if scale == settings.scale else []})
+
+
+def unfit_words(note: Path) -> list[str]:
+    """Return what of the text does not fit its results, as the note of a paper says, if there is one."""
+    return list(read_json(note).get(UNFIT, ())) if note.exists() else []
 
 
 def missing_packages() -> list[str]:
@@ -174,9 +183,12 @@ def copy_sources(sources: Mapping[str, Sequence[Path]], folder: Path) -> None:
             shutil.copy(path, folder / name)
 
 
-def set_paper(source: Path, out: Path, settings: PaperText, judged: bool) -> None:
-    """Set a copied paper and write its PDF if all is in its place; its guards need to hold where it is `judged`."""
-    # The words were chosen for the results of one scale: at another one a guard that turned is no fault.
+def set_paper(source: Path, out: Path, settings: PaperText, judged: bool) -> list[str]:
+    """Set a copied paper, write its PDF, and return what of its text does not fit its results and its pages.
+
+    Raises:
+        PaperError: as of `paper`; where it is `judged`, also for what would be returned.
+    """
     text = read_text(source) + read_text(source.parent / TABLES / CAPTIONS)
     turned = turned_guards(text, defined_texts(read_text(source.parent / TABLES / NUMBERS)))
     if judged and turned:
@@ -184,21 +196,21 @@ def set_paper(source: Path, out: Path, settings: PaperText, judged: bool) -> Non
     for line in turned:
         log.info("%s: marked by a dagger: %s", out, line)
     if turned:
-        log.warning(
-            "%s: %d guarded sentences do not fit the results of this scale, a dagger marks each", out, len(turned)
-        )
+        log.warning("%s: %d guarded sentences do not fit these results, a dagger marks each", out, len(turned))
     compile_pdf(source)
     told = _read(source.with_suffix(".log"))
     types = printed_types(told, source.parent)
     for one in types:
         log.info("%s: smallest type in print %.2f pt, drawn at %g pt", one.name, one.printed_pt, one.native_pt)
     faults = [*page_faults(told), *type_faults(types, settings.type_pt)]
+    misplaced = place_faults(label_pages(_read(source.with_suffix(".aux"))), settings.pages)
     if judged:
-        faults += place_faults(label_pages(_read(source.with_suffix(".aux"))), settings.pages)
+        faults += misplaced
     if faults:
         raise PaperError(f"{out}: the paper does not fit its pages: {'; '.join(faults)}")
     with atomic_path(out) as temporary:
         shutil.copy(source.with_suffix(".pdf"), temporary)
+    return [*turned, *misplaced]
 
 
 def compile_pdf(source: Path) -> None:

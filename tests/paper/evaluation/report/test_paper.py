@@ -27,6 +27,7 @@ from experiments.evaluation.report.paper import (
     defined_texts,
     missing_packages,
     paper,
+    unfit_words,
 )
 from experiments.evaluation.tables.further import claims_table, methods, ten_first
 from experiments.evaluation.tables.further.uncertainty import PLANT, look_at
@@ -143,7 +144,7 @@ def test_without_tex_the_note_names_the_packages_and_no_old_pdf_is_left(
     stale.parent.mkdir()
     stale.write_text("old")
     monkeypatch.setattr("shutil.which", lambda name: None)
-    assert build(source) == {"scale": "smoke", "pdf": None, "missing_packages": list(PACKAGES)}
+    assert build(source) == {"scale": "smoke", "pdf": None, "missing_packages": list(PACKAGES), "unfit": []}
     assert "apt-get install texlive-latex-recommended texlive-publishers" in caplog.text
     assert not stale.exists()
 
@@ -151,7 +152,7 @@ def test_without_tex_the_note_names_the_packages_and_no_old_pdf_is_left(
 @with_tex
 def test_with_tex_equal_input_gives_equal_bytes(source: Path) -> None:
     pdf = source.parents[1] / "out/main.pdf"
-    assert build(source) == {"scale": "smoke", "pdf": "main.pdf", "missing_packages": []}
+    assert build(source) == {"scale": "smoke", "pdf": "main.pdf", "missing_packages": [], "unfit": []}
     once = pdf.read_bytes()
     build(source)
     assert pdf.read_bytes() == once
@@ -244,6 +245,7 @@ def test_the_paper_itself_builds_from_the_published_tables(
     tables.append(REPO / KEPT_TABLE.with_suffix(".tex"))
     paper(settings.scale, settings.evaluation.paper, main, references, tables, figures, built / "build.json")
     assert (built / "main.pdf").stat().st_size > 50_000
+    assert unfit_words(built / "build.json") == []
 
 
 @with_tex
@@ -279,32 +281,34 @@ def test_what_runs_off_its_page_or_has_a_label_twice_is_named_and_leaves_no_pdf(
 
 
 @with_tex
-def test_words_that_do_not_fit_the_results_stop_the_text_s_own_scale_only(
+def test_words_that_do_not_fit_the_results_stop_no_run_and_are_noted_of_the_text_s_own_scale(
     source: Path, caplog: pytest.LogCaptureFixture
 ) -> None:
-    r"""Elsewhere they are logged; `smoke`'s verdicts mean nothing."""
+    r"""Another processor or seed turns verdicts; `smoke`'s mean nothing."""
     (source.parents[1] / "tables/numbers.tex").write_text(
         GUARDS + "\\expandafter\\def\\csname verdict@a-claim\\endcsname{inconclusive}\n"
     )
-    guarded = r"\begin{document}\input{\tables/numbers}it holds\holds{a-claim}{reproduced,direction}\end{document}"
+    guarded = r"\begin{document}\input{\tables/numbers}it holds\holds{a-claim}{reproduced,direction}"
+    guarded += r"\label{end:main}\end{document}"
     source.write_text(re.sub(r"\\begin\{doc.*", lambda _: guarded, SOURCE))
     told = "claim 'a-claim' is 'inconclusive', and the text needs 'reproduced' or 'direction'"
     with caplog.at_level("INFO"):
-        assert build(source)["pdf"] == "main.pdf"
+        note = build(source)
+    assert note["pdf"] == "main.pdf"
+    assert note["unfit"] == []
     assert told in caplog.text
     assert "1 guarded sentences do not fit" in caplog.text
-    with pytest.raises(PaperError, match=told):
-        build(source, "default")
-    assert not (source.parents[1] / "out/main.pdf").exists()
+    note = build(source, "default")
+    assert note["pdf"] == "main.pdf"
+    assert note["unfit"] == [told]
 
 
 @with_tex
-def test_a_main_text_that_is_too_long_stops_the_text_s_own_scale_only(source: Path) -> None:
+def test_a_main_text_that_is_too_long_stops_no_run_and_is_noted_of_the_text_s_own_scale(source: Path) -> None:
     long = r"\begin{document}a%s\label{end:main}\end{document}" % (r"\newpage b" * TEXT.pages)
     source.write_text(re.sub(r"\\begin\{doc.*", lambda _: long, SOURCE))
-    assert build(source)["pdf"] == "main.pdf"
-    with pytest.raises(PaperError, match="the main text ends on page 9; accepted: 8"):
-        build(source, "default")
+    assert build(source)["unfit"] == []
+    assert build(source, "default")["unfit"] == ["the main text ends on page 9; accepted: 8"]
 
 
 @with_tex
