@@ -11,6 +11,7 @@ RUN apt-get update \
  && rm -rf /var/lib/apt/lists/*
 WORKDIR /mobnet
 COPY . .
-RUN ./reproduce setup --cpu
+# Takes the CPU build of torch where an index offers it, 3.4 GB less.
+RUN ./reproduce setup
 ENTRYPOINT ["./reproduce"]
 CMD ["--help"]

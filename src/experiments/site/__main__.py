@@ -15,6 +15,7 @@ from experiments.site import (
     machines,
     model_card,
     paper_map,
+    processor,
     readme,
     why_note,
 )
@@ -27,6 +28,7 @@ DOCUMENTS: Mapping[str, Callable[[], None]] = {
     "frames": frames_card.renew,
     "map": paper_map.renew,
     "model": model_card.renew,
+    "processor": processor.renew,
     "readme": readme.tell_readme,
     "results": folder_page.write_page,
     "why": why_note.renew,

@@ -124,7 +124,7 @@ def hours_of(page: str, scale: str, path: Path = PAGE) -> tuple[float, float]:
         name, core_h, _, two_cores_h, *_ = (cell.strip() for cell in line.strip("|").split("|"))
         if name == Asked(scale).name:
             return float(core_h), float(two_cores_h)
-    raise DataError(f"{path}: a row of the scale {scale} is missing; python -m experiments.site machines makes it")
+    raise DataError(f"{path}: a row of the scale {scale} is missing; `python -m experiments.site machines` makes it")
 
 
 def renew() -> None:
