@@ -28,6 +28,7 @@ from experiments.plan.plan import (
     with_precision,
     with_stacks,
 )
+from experiments.plan.product import PAPER_NOTE
 from experiments.plan.project import in_project
 from experiments.plan.room import check_room, share_at_once
 from experiments.plan.schedule import TimedJob
@@ -210,7 +211,7 @@ class WorkflowRun:
             self._interrupts.jobs_ended()
         record_end(self._begun)
         folders = self.plan.folders
-        if asks_for_all(self._targets) and (unfit := unfit_words(folders.paper / "build.json")):
+        if asks_for_all(self._targets) and (unfit := unfit_words(folders.paper / PAPER_NOTE)):
             told = f"{folders.results / 'logs' / 'paper.log'} names them"
             _say(f"{folders.paper / 'main.pdf'}: {len(unfit)} places of its text do not fit these results; {told}")
         made = made_line(self._targets, list(self._workflow.rules), folders)

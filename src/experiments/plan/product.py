@@ -16,6 +16,7 @@ from mobnet.core.code import ROOT, code_hash
 from mobnet.core.joints import JointLayout
 
 SCRIPT = ROOT / "workflow" / "scripts" / "product.py"  # that makes any product
+PAPER_NOTE = "build.json"  # beside the paper: how it was set
 TABLE, FIGURE = ("csv", "tex", "md"), ("pdf", "svg", "png", "csv")  # endings of a table's and of a figure's files
 Arguments = Mapping[str, object]  # of a function, by the names of its parameters
 # Imports the function that makes a product, and returns it. The plan holds functions of this kind, as the import of

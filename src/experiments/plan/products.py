@@ -12,7 +12,18 @@ from experiments.plan.explore import explore_needs
 from experiments.plan.files import Files, made_by_jobs
 from experiments.plan.heads import caption_of
 from experiments.plan.items import claims, detectors, errors, kept, networks, reactions, recordings, texts, walks
-from experiments.plan.product import FIGURE, TABLE, Arguments, Call, Context, Folders, Late, PaperItem, Product
+from experiments.plan.product import (
+    FIGURE,
+    PAPER_NOTE,
+    TABLE,
+    Arguments,
+    Call,
+    Context,
+    Folders,
+    Late,
+    PaperItem,
+    Product,
+)
 from experiments.plan.project import project_file
 from experiments.settings.evaluation import Evaluation
 from experiments.settings.runs import Runs
@@ -239,7 +250,7 @@ class Products:
         texts_of_tables = [*(tables / f"{name}.tex" for name in names), compute[1], project_file(f"{KEPT_TABLE}.tex")]
         sources = {name: project_file(path) for name, path in PAPER_SOURCES.items()}
         figures = [self.folders.figures / f"{picture}.pdf" for picture in self.drawn]
-        built = [paper / "build.json", *([paper / "main.pdf"] if self.with_pdf else [])]
+        built = [paper / PAPER_NOTE, *([paper / "main.pdf"] if self.with_pdf else [])]
         printed: dict[str, object] = {
             **sources,
             "scale": self.settings.scale,

@@ -10,6 +10,7 @@ writes what the note on number format says of it. `python -m experiments.site pr
 import logging
 import sys
 from collections.abc import Hashable, Mapping, Sequence
+from io import StringIO
 from pathlib import Path
 from typing import Any
 
@@ -19,14 +20,14 @@ from experiments.evaluation.tables.layout import markdown_table
 from experiments.intervals.number import interval_text, number_text
 from experiments.settings.verdicts import OPEN
 from experiments.site.blocks import with_block
-from mobnet.core.errors import DataError, MobnetError, misfit
+from experiments.site.readme import CLAIMS
+from experiments.site.snapshot import SNAPSHOT, run_renewal
+from mobnet.core.errors import DataError, misfit
 from mobnet.core.files import read_text, write_text
 
 log = logging.getLogger(__name__)
 NOTE = Path("docs/notes/precision.md")
 KEPT = Path("docs/trials/processor.csv")
-CLAIMS = "claims.csv"
-PUBLISHED = Path("docs/results") / CLAIMS
 JUDGED = ("value", "low", "high", "verdict")  # of a claim, once of each run
 HERE, THERE = "", "_there"  # endings of the columns of the published run and of the other one
 BLOCK = "processor"
@@ -74,24 +75,27 @@ def renew() -> None:
     Raises:
         DataError: there is none, or the note has no place for it.
     """
-    write_text(NOTE, with_block(read_text(NOTE), BLOCK, told(pd.read_csv(KEPT)), NOTE))
+    write_text(NOTE, with_block(read_text(NOTE), BLOCK, told(_frame(KEPT)), NOTE))
 
 
-def main(words: Sequence[str]) -> int:
-    """Keep the comparison with the tables of a run, and renew the note; return the exit status."""
-    logging.basicConfig(level=logging.INFO, format="%(message)s", stream=sys.stdout)
-    try:
-        if len(words) != 1:
-            raise DataError(misfit(f"{len(words)} words", "the folder of the tables of a run on another processor"))
-        rows = compared(pd.read_csv(PUBLISHED), pd.read_csv(Path(words[0]) / CLAIMS))
-        write_text(KEPT, rows.to_csv(index=False, lineterminator="\n"))
-        renew()
-    except (MobnetError, OSError) as fault:
-        log.error("%s", fault)
-        return 1
+def keep(words: Sequence[str]) -> None:
+    """Keep the comparison with the tables of a run, in the folder that is the only word, and renew the note.
+
+    Raises:
+        DataError: there is another number of words, a file is missing, or the runs judge different claims.
+    """
+    if len(words) != 1:
+        raise DataError(misfit(f"{len(words)} words", "the folder of the tables of a run on another processor"))
+    rows = compared(_frame(SNAPSHOT / CLAIMS), _frame(Path(words[0]) / CLAIMS))
+    write_text(KEPT, rows.to_csv(index=False, lineterminator="\n"))
+    renew()
     log.info("%s: renewed", NOTE)
-    return 0
+
+
+def _frame(path: Path) -> pd.DataFrame:
+    """Return a CSV as a frame; a DataError where it is missing."""
+    return pd.read_csv(StringIO(read_text(path)))
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    sys.exit(run_renewal(lambda: keep(sys.argv[1:]), log))

@@ -26,6 +26,7 @@ from experiments.plan.detection import all_detections
 from experiments.plan.dry_run import dry_run
 from experiments.plan.plan import make_plan
 from experiments.plan.prices import RATES
+from experiments.plan.product import PAPER_NOTE
 from experiments.plan.reactions import all_reactions
 from experiments.plan.work import works_of
 from experiments.running.accounts import read_account
@@ -38,7 +39,7 @@ from experiments.site.blocks import with_block
 from experiments.site.folder_page import write_page
 from experiments.site.model_card import CARD, card
 from experiments.site.rates import measured
-from experiments.site.readme import check_told, tell_readme
+from experiments.site.readme import CLAIMS, check_told, tell_readme
 from experiments.site.registered import check_registered, registration
 from experiments.site.single_rows import write_single_rows
 from experiments.site.walked import SEEDS, check_seeds, read_history, walked, write_history
@@ -107,7 +108,7 @@ KEYS = (  # columns that name a row; the others are results
     "phase",
     "row",
 )
-CLAIMS_TABLE = "claims.csv: "  # before what differs in the table of claims
+CLAIMS_TABLE = f"{CLAIMS}: "  # before what differs in the table of claims
 KEYS_OF = {"hourly": ("walks",)}  # a number in other tables
 Rows = dict[tuple[str, ...], dict[str, str]]
 
@@ -237,7 +238,7 @@ def check_paper(pdf: Path) -> None:
     Raises:
         DataError: it does not; one line with what is to be mended.
     """
-    if unfit := unfit_words(pdf.with_name("build.json")):
+    if unfit := unfit_words(pdf.with_name(PAPER_NOTE)):
         remedy = f"mend the words of {pdf.with_suffix('.tex')}, and call ./reproduce all"
         raise DataError(f"{pdf}: the text does not fit its results: {'; '.join(unfit)}; {remedy}")
 

@@ -5,7 +5,8 @@ from pathlib import Path
 import pandas as pd
 import pytest
 
-from experiments.site.processor import BLOCK, KEPT, NOTE, compared, main, told
+from experiments.site.processor import BLOCK, KEPT, NOTE, compared, keep, log, told
+from experiments.site.snapshot import run_renewal
 from mobnet.core.errors import DataError
 
 ROOT = Path(__file__).parents[3]
@@ -42,7 +43,7 @@ def test_runs_with_other_claims_are_refused() -> None:
 
 
 def test_a_call_without_tables_is_refused(caplog: pytest.LogCaptureFixture) -> None:
-    assert main([]) == 1
+    assert run_renewal(lambda: keep([]), log) == 1
     assert "0 words is not accepted; accepted: the folder of the tables" in caplog.text
 
 
