@@ -194,6 +194,12 @@ def networks_of(layout, scale=1.0):
     return networks
 
 
+def compliant(robot, settings, watchers, *steps):
+    """Return a handler that steps along the force, with the configuration's numbers."""
+    numbers = as_plain(settings.reaction, ReactionNumbers)
+    return Handler(robot, numbers, settings.walking.foot_spacing_m, watchers, "compliant", *steps)
+
+
 def test_a_walk_on_legs_alone_is_that_with_the_base_s_network_to_the_bit(robot, layout, leg_watchers, recipe_of):
     """Without force sensors the controller gets the feet's wrenches, which follow from the legs' torques alone."""
     settings = library_settings()
@@ -204,15 +210,7 @@ def test_a_walk_on_legs_alone_is_that_with_the_base_s_network_to_the_bit(robot, 
         simulator.start()
         observer = recipe_of("MOB", "sensor_noise").observer()
         estimator = ResidualEstimator(observer, layout, LimbNetworks(networks, layout))
-        handler = Handler(
-            robot,
-            as_plain(settings.reaction, ReactionNumbers),
-            settings.walking.foot_spacing_m,
-            leg_watchers,
-            "compliant",
-            0,
-            2000,
-        )
+        handler = compliant(robot, settings, leg_watchers, 0, 2000)
         walked.append(walk_with(simulator, estimator, handler, 3000, 3000, 1.0, 0.03))
     whole, alone = walked
     assert len(whole.rows) > 2000
@@ -231,13 +229,7 @@ def test_networks_in_one_call_change_no_bit_of_a_walk(robot, layout, leg_watcher
         simulator = Simulator(walk_settings(settings, "walk_test", "sensor_noise"), 3)
         simulator.start()
         estimator = ResidualEstimator(recipe_of("MOB", "sensor_noise").observer(), layout, model)
-        handler = Handler(
-            robot,
-            as_plain(settings.reaction, ReactionNumbers),
-            settings.walking.foot_spacing_m,
-            leg_watchers,
-            "compliant",
-        )
+        handler = compliant(robot, settings, leg_watchers)
         walked.append(walk_with(simulator, estimator, handler, 1200, 1200, 1.0, 0.03))
     slow, fast = walked
     assert len(slow.rows) == 1200
